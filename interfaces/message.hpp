@@ -1,0 +1,105 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+/// Values that cross the bus: the generated C structs, given value semantics and room of their own.
+namespace erp {
+
+/// How many elements a bounded IDL sequence holds; the bounds of `interfaces/idl/sizes.idl`.
+template <class Element>
+inline constexpr std::size_t capacity_of = 64;
+
+/// The live elements of an IDL sequence.
+template <class Sequence>
+auto samples(Sequence& sequence) {
+  return std::span(sequence._buffer, sequence._length);
+}
+
+/// Appends an element to an IDL sequence. Throws std::length_error when it is full.
+template <class Sequence, class Element>
+Element& append(Sequence& sequence, const Element& element) {
+  if (sequence._length >= sequence._maximum)
+    throw std::length_error("message full: at most " + std::to_string(sequence._maximum) +
+                            " elements");
+  return sequence._buffer[sequence._length++] = element;
+}
+
+/// Copies text into a bounded IDL string. Throws std::length_error when it does not fit.
+template <std::size_t N>
+void assign(char (&field)[N], std::string_view text) {
+  if (text.size() >= N)
+    throw std::length_error("\"" + std::string(text) + "\" is longer than " +
+                            std::to_string(N - 1) + " characters");
+  std::memcpy(field, text.data(), text.size());
+  std::fill(field + text.size(), field + N, '\0');
+}
+
+/// Copies as much of a text as fits; for notes and reasons, where the end may be lost.
+template <std::size_t N>
+void assign_shortened(char (&field)[N], std::string_view text) {
+  assign(field, text.substr(0, N - 1));
+}
+
+namespace detail {
+template <class>
+struct member_type;
+template <class Struct, class Field>
+struct member_type<Field Struct::*> {
+  using type = Field;
+};
+template <auto Member>
+using sequence_of = typename member_type<decltype(Member)>::type;
+template <auto Member>
+using element_of = std::remove_pointer_t<decltype(sequence_of<Member>::_buffer)>;
+}  // namespace detail
+
+/// A wire struct together with the storage its sequences point at: copyable, no heap.
+/// Copies carry the live elements only.
+template <class WireStruct, auto... Members>
+struct Message : WireStruct {
+  using Wire = WireStruct;
+
+  Message() : Wire{} { lend(); }
+  Message(const Message& other) : Wire(other) { lend(), copy_elements(other); }
+  Message& operator=(const Message& other) {
+    if (this != &other) Wire::operator=(other), lend(), copy_elements(other);
+    return *this;
+  }
+  ~Message() = default;
+
+  /// Points every sequence at this message's own storage; the lengths stay.
+  void lend() {
+    std::apply([this](auto&... storage) { (lend_one<Members>(storage), ...); }, storage_);
+  }
+  void clear() {
+    Wire::operator=(Wire{});
+    lend();
+  }
+
+ private:
+  template <auto Member, class Storage>
+  void lend_one(Storage& storage) {
+    auto& lent = this->*Member;
+    lent._maximum = static_cast<std::uint32_t>(storage.size());
+    lent._buffer = storage.data();
+    lent._release = false;
+  }
+  void copy_elements(const Message& other) {
+    (std::copy_n((other.*Members)._buffer, (other.*Members)._length, (this->*Members)._buffer),
+     ...);
+  }
+
+  std::tuple<
+      std::array<detail::element_of<Members>, capacity_of<detail::element_of<Members>>>...>
+      storage_;
+};
+
+}  // namespace erp

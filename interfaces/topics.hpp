@@ -1,0 +1,79 @@
+#pragma once
+// The map of the bus: every message, its C++ name, its topic. One line a message.
+#include "interfaces/idl/actuator_command.h"
+#include "interfaces/idl/actuator_owner.h"
+#include "interfaces/idl/actuator_target.h"
+#include "interfaces/idl/body_pose.h"
+#include "interfaces/idl/clock.h"
+#include "interfaces/idl/component_state.h"
+#include "interfaces/idl/ecu_command.h"
+#include "interfaces/idl/ecu_frame.h"
+#include "interfaces/idl/ecu_parameter.h"
+#include "interfaces/idl/event.h"
+#include "interfaces/idl/gain_command.h"
+#include "interfaces/idl/joint_state.h"
+#include "interfaces/idl/lifecycle_command.h"
+#include "interfaces/idl/sensor_frame.h"
+#include "interfaces/message.hpp"
+
+namespace erp {
+
+using ActuatorReference = erp_ActuatorReference;
+using ActuatorSample = erp_ActuatorSample;
+using JointSample = erp_JointSample;
+using EcuChannelCommand = erp_EcuChannelCommand;
+using EcuChannelSample = erp_EcuChannelSample;
+using EcuAnalogSample = erp_EcuAnalogSample;
+using EcuParameterValue = erp_EcuParameterValue;
+using GainValue = erp_GainValue;
+using JointStateSample = erp_JointStateSample;
+using BodyPoseSample = erp_BodyPoseSample;
+using ActuatorOwnerSample = erp_ActuatorOwnerSample;
+
+template <> inline constexpr std::size_t capacity_of<JointSample> = 128;
+template <> inline constexpr std::size_t capacity_of<EcuAnalogSample> = 128;
+template <> inline constexpr std::size_t capacity_of<JointStateSample> = 128;
+template <> inline constexpr std::size_t capacity_of<BodyPoseSample> = 128;
+template <> inline constexpr std::size_t capacity_of<EcuParameterValue> = 2048;
+template <> inline constexpr std::size_t capacity_of<GainValue> = 2048;
+
+using ActuatorCommand = Message<erp_ActuatorCommand, &erp_ActuatorCommand::actuators>;
+using ActuatorTarget = Message<erp_ActuatorTarget, &erp_ActuatorTarget::actuators>;
+using SensorFrame =
+    Message<erp_SensorFrame, &erp_SensorFrame::actuators, &erp_SensorFrame::joints>;
+using EcuCommand = Message<erp_EcuCommand, &erp_EcuCommand::channels>;
+using EcuFrame = Message<erp_EcuFrame, &erp_EcuFrame::channels, &erp_EcuFrame::analogs>;
+using EcuParameter = Message<erp_EcuParameter, &erp_EcuParameter::values>;
+using GainCommand = Message<erp_GainCommand, &erp_GainCommand::gains>;
+using JointState = Message<erp_JointState, &erp_JointState::joints>;
+using BodyPose = Message<erp_BodyPose, &erp_BodyPose::bodies>;
+using ActuatorOwner = Message<erp_ActuatorOwner, &erp_ActuatorOwner::actuators>;
+using ComponentState = Message<erp_ComponentState>;
+using LifecycleCommand = Message<erp_LifecycleCommand>;
+using Clock = Message<erp_Clock>;
+using Event = Message<erp_Event>;
+
+/// A message's topic: `name` on the bus, `type` its descriptor.
+template <class M> struct Topic;
+#define ERP_TOPIC(M, topic)                          \
+  template <> struct Topic<M> {                      \
+    static constexpr const char* name = topic;       \
+    static constexpr auto* type = &erp_##M##_desc;   \
+  };
+ERP_TOPIC(ActuatorCommand, "actuator_command")    // controllers -> plant
+ERP_TOPIC(ActuatorTarget, "actuator_target")      // reference -> controllers
+ERP_TOPIC(SensorFrame, "sensor_frame")            // plant -> all
+ERP_TOPIC(EcuCommand, "ecu_command")              // plant -> device
+ERP_TOPIC(EcuFrame, "ecu_frame")                  // device -> plant
+ERP_TOPIC(EcuParameter, "ecu_parameter")          // plant -> device
+ERP_TOPIC(GainCommand, "gain_command")            // controllers -> plant
+ERP_TOPIC(JointState, "joint_state")              // sim (truth), pose_estimator, motion_capture
+ERP_TOPIC(BodyPose, "body_pose")                  // sim, motion_capture
+ERP_TOPIC(ActuatorOwner, "actuator_owner")        // plant -> all
+ERP_TOPIC(ComponentState, "component_state")      // every component
+ERP_TOPIC(LifecycleCommand, "lifecycle_command")  // launcher -> one component
+ERP_TOPIC(Clock, "clock")                         // sim -> all
+ERP_TOPIC(Event, "event")                         // all
+#undef ERP_TOPIC
+
+}  // namespace erp
