@@ -1,0 +1,79 @@
+#include "components/node/bus.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+namespace node {
+namespace {
+
+// Loopback without multicast: participants find each other by unicast to 127.0.0.1, so every
+// process needs a port of its own (index auto) and the highest index must cover a large graph.
+constexpr const char* loopback = R"(<CycloneDDS><Domain Id="any">
+  <General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
+    <AllowMulticast>false</AllowMulticast></General>
+  <Discovery><ParticipantIndex>auto</ParticipantIndex>
+    <MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>
+    <Peers><Peer Address="127.0.0.1"/></Peers>
+    <LeaseDuration>3s</LeaseDuration></Discovery>
+</Domain></CycloneDDS>)";
+
+dds_domainid_t domain_id() {
+  const char* text = std::getenv("ERP_DOMAIN");
+  if (!text || !*text) return 0;
+  char* end = nullptr;
+  const long id = std::strtol(text, &end, 10);
+  if (*end || id < 0 || id > 230)
+    throw std::invalid_argument(std::string("ERP_DOMAIN must be 0 … 230, got \"") + text + "\"");
+  return static_cast<dds_domainid_t>(id);
+}
+
+/// The domain lives as long as the process: created once, with our configuration unless the
+/// person brings one.
+void open_domain(dds_domainid_t id) {
+  if (std::getenv("CYCLONEDDS_URI")) return;
+  static const Entity domain(dds_create_domain(id, loopback), "open DDS domain on loopback");
+}
+
+void on_data(dds_entity_t, void* wake) { static_cast<Wake*>(wake)->raise(); }
+
+}  // namespace
+
+Entity::Entity(dds_entity_t id, const char* operation) : id_(id) {
+  if (id < 0) throw std::runtime_error(std::string(operation) + ": " + dds_strretcode(-id));
+}
+
+Entity join(const std::string& name) {
+  const dds_domainid_t id = domain_id();
+  open_domain(id);
+  const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), dds_delete_qos);
+  dds_qset_userdata(qos.get(), name.data(), name.size());
+  return {dds_create_participant(id, qos.get(), nullptr), "join the bus"};
+}
+
+Qos::Qos(int depth) : qos(dds_create_qos()) {
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+  dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, depth);
+}
+Qos::~Qos() { dds_delete_qos(qos); }
+
+Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type, const char* name) {
+  return {dds_create_topic(participant.id(), &type, name, nullptr, nullptr), name};
+}
+
+Entity make_writer(const Entity& participant, const Entity& topic) {
+  const Qos qos;
+  return {dds_create_writer(participant.id(), topic.id(), qos.qos, nullptr), "create writer"};
+}
+
+Entity make_reader(const Entity& participant, const Entity& topic, int depth, Wake& wake) {
+  const Qos qos(depth);
+  const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
+      dds_create_listener(&wake), dds_delete_listener);
+  dds_lset_data_available(listener.get(), on_data);
+  return {dds_create_reader(participant.id(), topic.id(), qos.qos, listener.get()),
+          "create reader"};
+}
+
+}  // namespace node

@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdint>
+
+#include "interfaces/graph/graph.hpp"
+
+/// Time, for the whole house: no other folder reads a clock.
+namespace node {
+
+std::int64_t wall_ns();       ///< since 1970; stamps
+std::int64_t monotonic_ns();  ///< never steps back; deadlines and ages
+
+/// What "now" means in a component. In lockstep it is the stamp of the frame being answered, so
+/// that ages are counted in simulated time and a repeated run is identical.
+class Clock {
+ public:
+  explicit Clock(erp::Time time) : time_(time) {}
+  bool lockstep() const { return time_ == erp::Time::lockstep; }
+  std::int64_t now_ns() const { return lockstep() ? simulated_ns_ : wall_ns(); }
+  void advance(std::int64_t stamp_ns) { simulated_ns_ = stamp_ns; }
+
+ private:
+  erp::Time time_;
+  std::int64_t simulated_ns_ = 0;
+};
+
+}  // namespace node

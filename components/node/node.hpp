@@ -1,0 +1,106 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "components/node/clock.hpp"
+#include "components/node/histogram.hpp"
+#include "components/node/options.hpp"
+#include "components/node/port.hpp"
+#include "interfaces/values.hpp"
+
+/// One process on the bus: its ports, its life, its heartbeat.
+///
+///   unconfigured --constructor--> inactive --activate--> active --finish--> finalized
+///                                            <-deactivate-        any --throw--> error
+///
+/// Single-threaded: handlers, timers and activation all run inside `spin`.
+namespace node {
+
+class Node {
+ public:
+  Node(Options options, std::string robot_name);
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  const Options& options() const { return options_; }
+  Clock& clock() { return clock_; }
+  bool active() const { return lifecycle_ == erp::Lifecycle::active; }
+
+  template <class M>
+  Publisher<M>& advertise() {
+    return own(std::make_unique<Publisher<M>>(participant_, identity_));
+  }
+  /// Handlers are called only while active; ports are polled in the order they were made.
+  template <class M>
+  Subscription<M>& subscribe(std::function<void(const M&)> use, int depth = 1) {
+    return own(std::make_unique<Subscription<M>>(participant_, wake_, depth, identity_,
+                                                 std::move(use)));
+  }
+  /// Calls `act` each period of real time while active. A tick that is late by more than a period
+  /// counts as an overrun, and the ticks it swallowed are left out.
+  void every(std::int64_t period_ns, std::function<void()> act);
+  /// Calls `act` while active whenever the descriptor has something to read.
+  void watch(int descriptor, std::function<void()> act);
+  void on_activate(std::function<void()> act) { activate_.push_back(std::move(act)); }
+  void on_deactivate(std::function<void()> act) { deactivate_.push_back(std::move(act)); }
+
+  /// Counts one step answering a message stamped `stamp_ns`: rate, age, jitter.
+  void count_step(std::int64_t stamp_ns);
+  /// Says a thing once, to the log and on the `event` topic.
+  void report(erp::Severity severity, const std::string& subject, const std::string& code,
+              const std::string& text);
+  /// Ends `spin` after the current handler.
+  void finish(int exit_code = 0);
+  /// Runs until finished, SIGINT or SIGTERM. Returns the process's exit code.
+  int spin();
+
+ private:
+  struct Timer {
+    std::int64_t period_ns, due_ns;
+    std::function<void()> act;
+  };
+  struct Watch {
+    int descriptor;
+    std::function<void()> act;
+  };
+
+  template <class P>
+  P& own(std::unique_ptr<P> port) {
+    P& lent = *port;
+    ports_.push_back(std::move(port));
+    return lent;
+  }
+  void set_lifecycle(erp::Lifecycle lifecycle);
+  void obey(const erp::LifecycleCommand& command);
+  void run_timers();
+  void wait();
+  void heartbeat();
+  std::uint32_t count_peers();
+
+  Options options_;
+  Identity identity_;
+  Clock clock_;
+  Entity participant_, participants_reader_;
+  Wake wake_;
+  int signals_;
+  std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<Timer> timers_;
+  std::vector<Watch> watches_;
+  std::vector<std::function<void()>> activate_, deactivate_;
+  Publisher<erp::ComponentState>* state_out_;
+  Publisher<erp::Event>* event_out_;
+  Subscription<erp::LifecycleCommand>* lifecycle_in_;
+  erp::Lifecycle lifecycle_ = erp::Lifecycle::unconfigured;
+  erp::ComponentState state_;
+  Histogram age_, jitter_;
+  std::uint64_t steps_at_heartbeat_ = 0;
+  std::int64_t heartbeat_due_ns_ = 0, heartbeat_last_ns_ = 0;
+  std::int64_t last_step_ns_ = 0, last_interval_ns_ = 0;
+  bool finished_ = false;
+  int exit_code_ = 0;
+};
+
+}  // namespace node

@@ -1,0 +1,49 @@
+#include "components/node/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+
+namespace node {
+
+Options parse_options(int argc, char** argv, const std::string& parameters, int& exit_code) {
+  Options options;
+  options.type = std::filesystem::path(argv[0]).filename().string();
+  std::vector<std::string> settings;
+  CLI::App app(options.type + ": a component of a robot's graph", options.type);
+  app.footer(parameters.empty() ? "" : "Parameters, for --config and --set:\n" + parameters);
+  app.add_option("--name", options.name, "its name in the graph (default: the program's)");
+  app.add_option("--robot", options.robot, "robot.xml");
+  app.add_option("--config", options.config, "XML with its parameters");
+  app.add_option("--set", settings, "key=value, overrides one parameter")->allow_extra_args(false);
+  const std::map<std::string, erp::Time> times{{"realtime", erp::Time::realtime},
+                                               {"lockstep", erp::Time::lockstep},
+                                               {"wall", erp::Time::wall}};
+  app.add_option("--time", options.time, "realtime, lockstep or wall")
+      ->transform(CLI::CheckedTransformer(times));
+  app.add_flag("--managed", options.managed, "wait for the launcher before becoming active");
+  app.add_option("--duration", options.duration_s, "devices: end after so many seconds")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--priority", options.priority, "controllers: the higher number drives");
+  app.add_option("--check", options.check, "check a config file and exit");
+  exit_code = -1;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? 0 : 2;
+    return options;
+  }
+  for (const auto& setting : settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      std::fprintf(stderr, "--set %s: expected key=value\n", setting.c_str());
+      exit_code = 2;
+      return options;
+    }
+    options.settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  if (options.name.empty()) options.name = options.type;
+  return options;
+}
+
+}  // namespace node

@@ -1,0 +1,179 @@
+#pragma once
+#include <iostream>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "components/node/node.hpp"
+#include "interfaces/robot/robot.hpp"
+#include "interfaces/xml/xml.hpp"
+
+/// A component's whole main:  int main(int argc, char** argv) { return node::run<MyController>(argc, argv); }
+///
+/// A component is a class with `Params`, a constructor (Params) or (Params, const erp::Robot&) and
+///   Out step(const In& in, double dt_s, const node::Latest<More>&… more)
+/// It is stepped once for each In; Out is a message or std::optional of one. In lockstep the step
+/// waits for the `More` that answer the same frame, so a repeated run is identical.
+/// A class with a constructor (Params, const erp::Robot&, node::Node&) makes its own ports instead.
+namespace node {
+
+/// The newest message of a topic that a component reads beside the one that steps it.
+template <class M>
+struct Latest {
+  M message;
+  bool received = false;
+  double age_s = 0.0;  ///< since it arrived
+  std::int64_t arrived_ns = 0;
+  explicit operator bool() const { return received; }
+  const M* operator->() const { return &message; }
+};
+
+namespace detail {
+
+template <class Out> struct Unwrapped { using type = Out; };
+template <class M> struct Unwrapped<std::optional<M>> { using type = M; };
+
+constexpr std::int64_t answer_patience_ns = 500'000'000;  // chosen: a lost controller in lockstep
+
+template <class T, class Out, class In, class... More>
+class Stepper {
+ public:
+  using OutMessage = typename Unwrapped<Out>::type;
+  using Step = Out (T::*)(const In&, double, const Latest<More>&...);
+
+  Stepper(Node& node, T& component, Step step)
+      : node_(node), component_(component), step_(step), out_(node.advertise<OutMessage>()) {
+    more_ports_ = std::make_tuple(&node.subscribe<More>([this](const More& m) { hear(m); }, 1)...);
+    node.subscribe<In>([this](const In& in) { pending_ = in, waiting_ = true, since_ns_ = monotonic_ns(), try_step(); });
+    if (sizeof...(More) && node.clock().lockstep())
+      node.every(answer_patience_ns / 5, [this] { try_step(); });
+  }
+
+ private:
+  template <class M>
+  void hear(const M& message) {
+    auto& latest = std::get<Latest<M>>(more_);
+    latest.message = message;
+    latest.received = true;
+    latest.arrived_ns = node_.clock().lockstep() ? message.stamp_ns : wall_ns();
+    try_step();
+  }
+
+  /// In lockstep: every other input that somebody writes must answer the frame at hand.
+  template <class M>
+  bool answered() const {
+    if constexpr (requires(M m) { m.answers; }) {
+      const auto& latest = std::get<Latest<M>>(more_);
+      return std::get<Subscription<M>*>(more_ports_)->matched() == 0 ||
+             (latest.received && latest->answers >= pending_.sequence);
+    }
+    return true;
+  }
+
+  void try_step() {
+    if (!waiting_) return;
+    if (node_.clock().lockstep() && !(answered<More>() && ...) &&
+        monotonic_ns() - since_ns_ < answer_patience_ns)
+      return;
+    waiting_ = false;
+    node_.clock().advance(pending_.stamp_ns);
+    const auto now_ns = node_.clock().now_ns();
+    ((std::get<Latest<More>>(more_).age_s =
+          1e-9 * static_cast<double>(now_ns - std::get<Latest<More>>(more_).arrived_ns)), ...);
+    const double dt_s = last_ns_ ? 1e-9 * static_cast<double>(pending_.stamp_ns - *last_ns_) : 0.0;
+    last_ns_ = pending_.stamp_ns;
+    publish((component_.*step_)(pending_, dt_s, std::get<Latest<More>>(more_)...));
+    node_.count_step(pending_.stamp_ns);
+  }
+
+  void publish(Out&& out) {
+    if constexpr (std::same_as<Out, OutMessage>) {
+      send(out);
+    } else if (out) {
+      send(*out);
+    } else if (node_.clock().lockstep()) {
+      OutMessage nothing;  // an empty answer: the others need not wait
+      send(nothing);
+    }
+  }
+  void send(OutMessage& message) {
+    message.stamp_ns = node_.clock().now_ns();
+    if constexpr (requires { message.answers; }) message.answers = pending_.sequence;
+    out_.publish(message);
+  }
+
+  Node& node_;
+  T& component_;
+  Step step_;
+  Publisher<OutMessage>& out_;
+  std::tuple<Latest<More>...> more_;
+  std::tuple<Subscription<More>*...> more_ports_;
+  In pending_;
+  bool waiting_ = false;
+  std::int64_t since_ns_ = 0;
+  std::optional<std::int64_t> last_ns_;
+};
+
+template <class T, class Out, class In, class... More>
+auto make_stepper(Node& node, T& component,
+                  Out (T::*step)(const In&, double, const Latest<More>&...)) {
+  return std::make_unique<Stepper<T, Out, In, More...>>(node, component, step);
+}
+
+template <class Params>
+Params read_params(const Options& options) {
+  Params params;
+  if (!options.config.empty()) xml::read_into(params, options.config, options.type);
+  for (const auto& [key, value] : options.settings) xml::set(params, key, value);
+  return params;
+}
+
+template <class T>
+int run_component(const Options& options) {
+  const auto params = read_params<typename T::Params>(options);
+  erp::Robot robot;
+  if (!options.robot.empty()) robot = erp::read_robot(options.robot);
+  Node node(options, robot.name);
+  if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&, Node&>) {
+    T component(params, robot, node);
+    return node.spin();
+  } else {
+    T component = [&] {
+      if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&>)
+        return T(params, robot);
+      else
+        return T(params);
+    }();
+    const auto stepper = make_stepper(node, component, &T::step);
+    return node.spin();
+  }
+}
+
+}  // namespace detail
+
+/// Exit codes: 0 ended cleanly, 1 failed, 2 bad usage or input.
+template <class T>
+int run(int argc, char** argv) {
+  int exit_code = -1;
+  Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
+  if (exit_code >= 0) return exit_code;
+  try {
+    if (!options.check.empty()) {
+      options.config = options.check;
+      detail::read_params<typename T::Params>(options);
+      return 0;
+    }
+    return detail::run_component<T>(options);
+  } catch (const xml::Errors& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << options.name << ": " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << options.name << ": " << error.what() << '\n';
+    return 1;
+  }
+}
+
+}  // namespace node

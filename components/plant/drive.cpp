@@ -1,0 +1,107 @@
+#include "components/plant/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plant {
+namespace {
+
+/// Line speed of the unloaded motor at full supply, r V / (K_E N): no reference needs more.
+double top_line_speed_m_per_s(const erp::MotorType& motor, double radius_m) {
+  return radius_m * motor.supply_V / (motor.back_emf_V_s_per_rad * motor.gear_ratio);
+}
+
+/// Faults that only say the host was silent: cleared by the host speaking again.
+bool was_silence(std::uint8_t fault) {
+  return fault == ECU_FAULT_COMMAND_TIMEOUT || fault == ECU_FAULT_CORRUPT;
+}
+
+}  // namespace
+
+Drive::Drive(const erp::Actuator& actuator, const erp::MotorType& motor,
+             const erp::SensorType& sensors)
+    : name_(actuator.name),
+      ecu_(actuator.ecu),
+      channel_(actuator.channel),
+      safe_action_(actuator.safe_action),
+      relax_tension_N_(actuator.relax_tension_N),
+      approach_m_per_s_(0.5 * top_line_speed_m_per_s(motor, actuator.spindle.radius_m)),
+      units_(motor, sensors, actuator.spindle),
+      limits_(actuator, motor, sensors) {}
+
+Checked Drive::accept(std::string_view controller, std::int32_t priority, erp::Mode mode,
+                      double reference, std::int64_t now_ns, std::int64_t stale_ns) {
+  Checked checked = limits_.check(mode, reference);
+  if (checked.verdict != Verdict::refused &&
+      !arbiter_.offer(controller, priority, mode, checked.reference, now_ns, stale_ns))
+    checked = {Verdict::refused, 0, "too many controllers"};
+  if (checked.verdict == Verdict::limited) ++limited_;
+  if (checked.verdict != Verdict::refused && arbiter_.outranked(controller))
+    checked = {Verdict::refused, 0, "another controller drives"};
+  if (checked.verdict == Verdict::refused) ++refused_;
+  if (!checked.reason.empty()) reason_ = checked.reason;
+  return checked;
+}
+
+void Drive::observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts,
+                    std::int64_t now_ns) {
+  if (state == ECU_STATE_ARMED && state_ != ECU_STATE_ARMED) {
+    armed_ns_ = now_ns;
+    approaching_ = true;
+    approach_line_m_ = units_.line_m(units_.shaft_rad(encoder_counts));
+  }
+  state_ = state;
+  fault_ = fault;
+  encoder_counts_ = encoder_counts;
+}
+
+void Drive::lose() {
+  state_ = ECU_STATE_BOOT;
+  safe_now_ = erp::SafeAction::none;
+}
+
+Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
+  const Offer* offer = arbiter_.winner(now_ns, stale_ns);
+  priority_ = offer ? offer->priority : 0;
+  const bool wants_off = offer && offer->mode == erp::Mode::off;
+  if (state_ != ECU_STATE_RUNNING || offer) safe_now_ = erp::SafeAction::none;
+  switch (state_) {
+    case ECU_STATE_BOOT: return {};
+    case ECU_STATE_IDLE: return {offer && !wants_off ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
+    case ECU_STATE_ARMED:
+      if (!offer || wants_off) return {};
+      return offer->received_ns > armed_ns_ ? drive(*offer, dt_s) : Demand{ECU_REQUEST_ARM, 0};
+    case ECU_STATE_RUNNING: return wants_off ? Demand{} : offer ? drive(*offer, dt_s) : stay_safe();
+    case ECU_STATE_FAULT:
+      return {was_silence(fault_) || wants_off ? ECU_REQUEST_CLEAR : ECU_REQUEST_OFF, 0};
+  }
+  return {};
+}
+
+/// After arming, a length reference is approached from where the line is, at half the motor's top
+/// speed; once reached it is followed as it comes.
+Demand Drive::drive(const Offer& offer, double dt_s) {
+  double reference = offer.reference;
+  if (offer.mode == erp::Mode::length && approaching_) {
+    const double step_m = approach_m_per_s_ * dt_s;
+    approach_line_m_ += std::clamp(reference - approach_line_m_, -step_m, step_m);
+    approaching_ = approach_line_m_ != reference;
+    reference = approach_line_m_;
+  }
+  return {Units::request(offer.mode), units_.setpoint(offer.mode, reference)};
+}
+
+Demand Drive::stay_safe() {
+  if (safe_now_ == erp::SafeAction::none) hold_counts_ = encoder_counts_;
+  safe_now_ = safe_action_;
+  switch (safe_action_) {
+    case erp::SafeAction::hold: return {ECU_REQUEST_LENGTH, hold_counts_};
+    case erp::SafeAction::relax:
+      return {ECU_REQUEST_FORCE, units_.setpoint(erp::Mode::force, relax_tension_N_)};
+    case erp::SafeAction::damp:
+    case erp::SafeAction::none: break;
+  }
+  return {ECU_REQUEST_VOLTAGE, 0};
+}
+
+}  // namespace plant

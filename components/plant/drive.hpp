@@ -1,0 +1,76 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "components/plant/arbiter.hpp"
+#include "components/plant/limits.hpp"
+#include "components/plant/units.hpp"
+
+/// One actuator as the plant sees it: from what controllers offer and what its ECU says, to what
+/// its ECU is asked next.
+///
+///   ECU state   nobody drives            somebody drives
+///   boot        off                      off (the plant sends the gains)
+///   idle        off                      arm
+///   armed       off                      its mode, once a command came after arming
+///   running     the safe action          its mode
+///   fault       clear when it was the silence of the host, otherwise off until the driver says off
+namespace plant {
+
+struct Demand {
+  ecu_request request = ECU_REQUEST_OFF;
+  std::int32_t setpoint = 0;
+};
+
+class Drive {
+ public:
+  Drive(const erp::Actuator& actuator, const erp::MotorType& motor, const erp::SensorType& sensors);
+
+  const std::string& name() const { return name_; }
+  int ecu() const { return ecu_; }
+  int channel() const { return channel_; }
+  const Units& units() const { return units_; }
+  ecu_state state() const { return state_; }
+
+  /// A controller's command. The reason is empty when it was taken as it is.
+  Checked accept(std::string_view controller, std::int32_t priority, erp::Mode mode,
+                 double reference, std::int64_t now_ns, std::int64_t stale_ns);
+  /// What the ECU reported.
+  void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts, std::int64_t now_ns);
+  /// The device fell silent: nothing is known until it speaks again.
+  void lose();
+  /// What to ask of the ECU now; `dt_s` since the last call.
+  Demand decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s);
+
+  std::string_view owner() const { return arbiter_.owner(); }
+  std::int32_t priority() const { return priority_; }
+  /// The safe action in force; none while a controller drives or the ECU is off.
+  erp::SafeAction safe_action() const { return safe_now_; }
+  std::uint32_t limited() const { return limited_; }
+  std::uint32_t refused() const { return refused_; }
+  std::string_view reason() const { return reason_; }
+
+ private:
+  Demand drive(const Offer& offer, double dt_s);
+  Demand stay_safe();
+
+  std::string name_;
+  int ecu_, channel_;
+  erp::SafeAction safe_action_;
+  double relax_tension_N_, approach_m_per_s_;
+  Units units_;
+  Limits limits_;
+  Arbiter arbiter_;
+  ecu_state state_ = ECU_STATE_BOOT;
+  std::uint8_t fault_ = 0;
+  std::int32_t encoder_counts_ = 0, hold_counts_ = 0;
+  std::int64_t armed_ns_ = 0;
+  double approach_line_m_ = 0;
+  bool approaching_ = false;
+  erp::SafeAction safe_now_ = erp::SafeAction::none;
+  std::int32_t priority_ = 0;
+  std::uint32_t limited_ = 0, refused_ = 0;
+  std::string_view reason_;
+};
+
+}  // namespace plant

@@ -1,0 +1,57 @@
+// What the plant says, once a change: who drives, what was limited or refused, what an ECU reports.
+#include "components/plant/plant.hpp"
+
+namespace plant {
+namespace {
+
+std::string owner_text(const Drive& drive, const std::string& before) {
+  if (!drive.owner().empty()) return "driven by " + std::string(drive.owner());
+  switch (drive.safe_action()) {
+    case erp::SafeAction::hold: return before + " went stale; holding the line";
+    case erp::SafeAction::relax: return before + " went stale; relaxing the tendon";
+    case erp::SafeAction::damp: return before + " went stale; damping";
+    case erp::SafeAction::none: break;
+  }
+  return before + " went stale";
+}
+
+}  // namespace
+
+void Plant::notice_changes() {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Drive& drive = drives_[i];
+    Said& said = said_[i];
+    if (said.owner != drive.owner()) {
+      const bool lost = drive.owner().empty();
+      notices_.push_back({lost ? erp::Severity::warning : erp::Severity::info, drive.name(),
+                          lost ? "stale_command" : "owner", owner_text(drive, said.owner)});
+      said.owner = drive.owner();
+    }
+    if (drive.state() != said.state && drive.state() == ECU_STATE_FAULT)
+      notices_.push_back({erp::Severity::fault, drive.name(), "ecu_fault",
+                          "fault code " + std::to_string(frame_.actuators._buffer[i].ecu_fault)});
+    said.state = drive.state();
+    // The first of a row is said; the counters on actuator_owner carry the rest.
+    const bool first = (drive.limited() && !said.limited) || (drive.refused() && !said.refused);
+    if (first)
+      notices_.push_back({erp::Severity::warning, drive.name(), "reference", std::string(drive.reason())});
+    said.limited = drive.limited(), said.refused = drive.refused();
+  }
+}
+
+const erp::ActuatorOwner& Plant::owners() {
+  owners_.stamp_ns = frame_.stamp_ns;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Drive& drive = drives_[i];
+    auto& sample = owners_.actuators._buffer[i];
+    erp::assign(sample.owner, drive.owner());
+    sample.priority = drive.priority();
+    sample.safe_action = static_cast<std::uint8_t>(drive.safe_action());
+    sample.limited = drive.limited();
+    sample.refused = drive.refused();
+    erp::assign_shortened(sample.reason, drive.reason());
+  }
+  return owners_;
+}
+
+}  // namespace plant

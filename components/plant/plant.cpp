@@ -1,0 +1,126 @@
+#include "components/plant/plant.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace plant {
+
+Plant::Plant(const Params& params, const erp::Robot& robot)
+    : stale_ns_(std::llround(1e9 * params.stale_s)),
+      device_lost_ns_(std::llround(1e9 * params.device_lost_s)),
+      boots_(robot.actuators.size(), false),
+      said_(robot.actuators.size()) {
+  for (auto& ecu : drive_at_) ecu.fill(-1);
+  for (auto& ecu : joint_at_) ecu.fill(-1);
+  drives_.reserve(robot.actuators.size());
+  for (const auto& actuator : robot.actuators) {
+    drive_at_[static_cast<std::size_t>(actuator.ecu)][static_cast<std::size_t>(actuator.channel)] =
+        static_cast<int>(drives_.size());
+    drives_.emplace_back(actuator, robot.motor_of(actuator), robot.sensors_of(actuator));
+    erp::ActuatorSample sample{};
+    erp::assign(sample.name, actuator.name);
+    sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
+    erp::append(frame_.actuators, sample);
+    erp::ActuatorOwnerSample owner{};
+    erp::assign(owner.name, actuator.name);
+    erp::append(owners_.actuators, owner);
+    erp::append(command_.channels, erp::EcuChannelCommand{
+        static_cast<std::uint8_t>(actuator.ecu), static_cast<std::uint8_t>(actuator.channel),
+        ECU_REQUEST_OFF, 0});
+  }
+  for (const auto& sensor : robot.joint_sensors) {
+    joint_at_[static_cast<std::size_t>(sensor.ecu)][static_cast<std::size_t>(sensor.input)] =
+        static_cast<int>(joint_rad_per_count_.size());
+    joint_rad_per_count_.push_back(2 * std::numbers::pi / std::exp2(sensor.bits_per_rev));
+    erp::JointSample sample{};
+    erp::assign(sample.name, sensor.joint);
+    erp::append(frame_.joints, sample);
+  }
+}
+
+void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns) {
+  if (channel.ecu >= drive_at_.size() || channel.channel > 1) return;
+  const int index = drive_at_[channel.ecu][channel.channel];
+  if (index < 0) return;
+  const auto i = static_cast<std::size_t>(index);
+  Drive& drive = drives_[i];
+  auto& sample = frame_.actuators._buffer[i];
+  sample.valid = channel.fresh ? erp::valid::all : 0;
+  boots_[i] = channel.fresh && channel.state == ECU_STATE_BOOT;
+  if (!channel.fresh) return;
+  drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts, now_ns);
+  const Units& units = drive.units();
+  sample.ecu_state = channel.state;
+  sample.ecu_fault = channel.fault;
+  sample.mode = static_cast<std::uint8_t>(Units::mode(channel.request));
+  sample.reference = units.reference(channel.request, channel.setpoint);
+  sample.voltage_V = units.voltage_V(channel.duty_counts);
+  sample.current_A = channel.current_counts * units.current_A_per_count;
+  sample.shaft_rad = units.shaft_rad(channel.encoder_counts);
+  sample.line_m = units.line_m(sample.shaft_rad);
+  sample.tension_N = channel.tension_counts * units.tension_N_per_count;
+}
+
+void Plant::sense_joint(const erp::EcuAnalogSample& analog) {
+  if (analog.ecu >= joint_at_.size() || analog.input > 3) return;
+  const int index = joint_at_[analog.ecu][analog.input];
+  if (index < 0) return;
+  auto& sample = frame_.joints._buffer[index];
+  sample.valid = analog.fresh ? erp::valid::joint_angle : 0;
+  if (analog.fresh)
+    sample.angle_rad = analog.counts * joint_rad_per_count_[static_cast<std::size_t>(index)];
+}
+
+const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t now_ns) {
+  frame_.stamp_ns = frame.stamp_ns;
+  frame_.sequence = frame.sequence;
+  for (auto& sample : samples(frame_.actuators)) sample.valid = 0;
+  for (auto& sample : samples(frame_.joints)) sample.valid = 0;
+  for (const auto& channel : samples(frame.channels)) sense_channel(channel, now_ns);
+  for (const auto& analog : samples(frame.analogs)) sense_joint(analog);
+  last_frame_ns_ = now_ns;
+  device_heard_ = true;
+  return frame_;
+}
+
+void Plant::accept(const erp::ActuatorCommand& command, std::int64_t now_ns) {
+  for (const auto& reference : samples(command.actuators)) {
+    Drive* found = nullptr;
+    for (auto& drive : drives_)
+      if (drive.name() == reference.name) found = &drive;
+    if (found)
+      found->accept(command.controller, command.priority, static_cast<erp::Mode>(reference.mode),
+                    reference.reference, now_ns, stale_ns_);
+    else
+      notices_.push_back({erp::Severity::warning, "", "unknown_actuator",
+                          std::string(command.controller) + " names \"" + reference.name +
+                              "\", which this robot does not have"});
+  }
+}
+
+const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
+  const double dt_s = last_decision_ns_ ? 1e-9 * static_cast<double>(now_ns - last_decision_ns_) : 0;
+  last_decision_ns_ = now_ns;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Demand demand = drives_[i].decide(now_ns, stale_ns_, dt_s);
+    auto& channel = command_.channels._buffer[i];
+    channel.request = static_cast<std::uint8_t>(demand.request);
+    channel.setpoint = demand.setpoint;
+  }
+  command_.stamp_ns = now_ns;
+  command_.answers = frame_.sequence;
+  notice_changes();
+  return command_;
+}
+
+bool Plant::check_device(std::int64_t now_ns) {
+  if (!device_heard_ || now_ns - last_frame_ns_ <= device_lost_ns_) return false;
+  device_heard_ = false;
+  for (auto& drive : drives_) drive.lose();
+  for (auto& sample : samples(frame_.actuators))
+    sample.valid = 0, sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
+  notices_.push_back({erp::Severity::fault, "", "device_lost", "no frame from the device; its ECUs stop by themselves"});
+  return true;
+}
+
+}  // namespace plant

@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "components/plant/drive.hpp"
+#include "interfaces/topics.hpp"
+
+/// The robot-independent layer between controllers and any device: units, limits, arbitration by
+/// priority and freshness, the safe action, re-arming. Pure: time comes in, messages come out.
+namespace plant {
+
+/// Something worth saying once.
+struct Notice {
+  erp::Severity severity;
+  std::string_view subject;  ///< actuator
+  std::string_view code;
+  std::string text;
+};
+
+class Plant {
+ public:
+  struct Params {
+    double stale_s = 0.020;         ///< a command older than this no longer drives
+    double device_lost_s = 0.050;   ///< without a frame for so long nothing is known
+    void visit(auto& v) {
+      v("stale_s", stale_s, xml::positive);
+      v("device_lost_s", device_lost_s, xml::positive);
+    }
+  };
+
+  Plant(const Params& params, const erp::Robot& robot);
+
+  /// ECU counts → SI, in the order of robot.xml. Stamp and sequence are the frame's.
+  const erp::SensorFrame& sense(const erp::EcuFrame& frame, std::int64_t now_ns);
+  void accept(const erp::ActuatorCommand& command, std::int64_t now_ns);
+  /// Arbitration → ECU terms; answers the last frame. Call once a frame or more often.
+  const erp::EcuCommand& command(std::int64_t now_ns);
+  const erp::ActuatorOwner& owners();
+  /// Bits: actuators whose ECU channel waits for its gains (state boot, and heard).
+  bool waits_for_gains(std::size_t actuator) const { return boots_[actuator]; }
+  /// Forgets what the device said, if it has been silent for too long. True when it just happened.
+  bool check_device(std::int64_t now_ns);
+  /// What happened since the last call.
+  std::vector<Notice> take_notices() { return std::exchange(notices_, {}); }
+
+ private:
+  void sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns);
+  void sense_joint(const erp::EcuAnalogSample& analog);
+  void notice_changes();
+
+  struct Said {
+    std::string owner;
+    ecu_state state = ECU_STATE_BOOT;
+    std::uint32_t limited = 0, refused = 0;
+  };
+
+  std::int64_t stale_ns_, device_lost_ns_;
+  std::vector<Drive> drives_;
+  std::vector<double> joint_rad_per_count_;
+  std::array<std::array<int, 2>, 128> drive_at_;  ///< [ecu][channel] → index or −1
+  std::array<std::array<int, 4>, 128> joint_at_;  ///< [ecu][input] → index or −1
+  std::vector<bool> boots_;
+  std::vector<Said> said_;
+  erp::SensorFrame frame_;
+  erp::EcuCommand command_;
+  erp::ActuatorOwner owners_;
+  std::int64_t last_frame_ns_ = 0, last_decision_ns_ = 0;
+  bool device_heard_ = false;
+  std::vector<Notice> notices_;
+};
+
+}  // namespace plant

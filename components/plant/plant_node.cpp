@@ -1,0 +1,133 @@
+#include "components/plant/plant_node.hpp"
+
+#include <algorithm>
+
+#include "sim/actuator/design.hpp"
+
+namespace plant {
+namespace {
+
+constexpr std::int64_t patience_ns = 500'000'000;  // chosen: a controller lost in lockstep
+constexpr std::uint64_t owner_period = 50;         // frames: owners are published at 10 Hz
+constexpr std::uint64_t gains_period = 50;         // frames between attempts to set gains
+
+std::vector<erp::EcuParameterValue> gains_of(const erp::Robot& robot, const erp::Actuator& actuator) {
+  const auto designed = sim::design_parameters(robot, actuator, {});
+  std::vector<erp::EcuParameterValue> values;
+  for (std::size_t i = 0; i < designed.size(); ++i)
+    values.push_back({static_cast<std::uint8_t>(actuator.ecu),
+                      static_cast<std::uint8_t>(actuator.channel), static_cast<std::uint8_t>(i),
+                      i + 1 == designed.size(), designed[i]});
+  return values;
+}
+
+}  // namespace
+
+PlantNode::PlantNode(const Params& params, const erp::Robot& robot, node::Node& node)
+    : node_(node),
+      plant_(params, robot),
+      sensor_out_(node.advertise<erp::SensorFrame>()),
+      ecu_out_(node.advertise<erp::EcuCommand>()),
+      parameter_out_(node.advertise<erp::EcuParameter>()),
+      owner_out_(node.advertise<erp::ActuatorOwner>()) {
+  for (const auto& actuator : robot.actuators) {
+    names_.push_back(actuator.name);
+    gains_.push_back(gains_of(robot, actuator));
+  }
+  command_in_ = &node.subscribe<erp::ActuatorCommand>([this](const auto& m) { on_command(m); });
+  node.subscribe<erp::GainCommand>([this](const auto& m) { on_gains(m); });
+  node.subscribe<erp::EcuFrame>([this](const auto& m) { on_frame(m); });
+  node.every(10'000'000, [this] {
+    if (node_.clock().lockstep() ? owes_answer_ && all_answered()
+                                 : plant_.check_device(node_.clock().now_ns()))
+      answer();
+  });
+}
+
+void PlantNode::on_frame(const erp::EcuFrame& frame) {
+  if (owes_answer_ && !node_.clock().lockstep()) answer();
+  if (heard_ && node_.clock().lockstep() && frame.sequence == frame_) return answer_again();
+  node_.clock().advance(frame.stamp_ns);
+  frame_ = frame.sequence;
+  heard_ = true;
+  owes_answer_ = true;
+  owed_since_ns_ = node::monotonic_ns();
+  auto sensed = plant_.sense(frame, node_.clock().now_ns());
+  sensor_out_.publish_numbered(sensed);
+  if (frames_++ % gains_period == 0) send_gains();
+  if (frames_ % owner_period == 1) publish_owners();
+  node_.count_step(frame.stamp_ns);
+  if (node_.clock().lockstep() && all_answered()) answer();
+}
+
+void PlantNode::on_command(const erp::ActuatorCommand& command) {
+  plant_.accept(command, node_.clock().now_ns());
+  const auto known = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
+    return a.controller == command.controller;
+  });
+  if (known == answers_.end())
+    answers_.push_back({command.controller, command.answers});
+  else
+    known->answers = command.answers;
+  if (!owes_answer_) {
+    if (!node_.clock().lockstep() && heard_) answer();
+    return;
+  }
+  if (!node_.clock().lockstep() || all_answered()) answer();
+}
+
+bool PlantNode::all_answered() const {
+  const auto answered = static_cast<std::size_t>(
+      std::count_if(answers_.begin(), answers_.end(),
+                    [&](const Answer& a) { return a.answers >= frame_; }));
+  return answered >= command_in_->matched() ||
+         node::monotonic_ns() - owed_since_ns_ > patience_ns;
+}
+
+void PlantNode::answer() {
+  auto command = plant_.command(node_.clock().now_ns());
+  ecu_out_.publish(command);
+  owes_answer_ = false;
+  say_notices();
+}
+
+void PlantNode::on_gains(const erp::GainCommand& command) {
+  erp::EcuParameter out;
+  for (const auto& gain : samples(command.gains)) {
+    const auto actuator = std::find(names_.begin(), names_.end(), gain.name);
+    const auto index = sim::parameter_index(gain.parameter);
+    if (actuator == names_.end() || !index) {
+      node_.report(erp::Severity::warning, gain.name, "gain_refused",
+                   std::string("no such gain: ") + gain.parameter);
+      continue;
+    }
+    auto& value = gains_[static_cast<std::size_t>(actuator - names_.begin())][*index];
+    value.value = static_cast<float>(gain.value);
+    auto committed = value;
+    committed.commit = true;
+    erp::append(out.values, committed);
+  }
+  out.stamp_ns = node_.clock().now_ns();
+  if (out.values._length) parameter_out_.publish(out);
+}
+
+void PlantNode::send_gains() {
+  erp::EcuParameter out;
+  for (std::size_t i = 0; i < gains_.size(); ++i)
+    if (plant_.waits_for_gains(i))
+      for (const auto& value : gains_[i]) erp::append(out.values, value);
+  out.stamp_ns = node_.clock().now_ns();
+  if (out.values._length) parameter_out_.publish(out);
+}
+
+void PlantNode::say_notices() {
+  for (const auto& notice : plant_.take_notices())
+    node_.report(notice.severity, std::string(notice.subject), std::string(notice.code), notice.text);
+}
+
+void PlantNode::publish_owners() {
+  auto owners = plant_.owners();
+  owner_out_.publish(owners);
+}
+
+}  // namespace plant

@@ -1,0 +1,49 @@
+#include "components/plant/units.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace plant {
+
+Units::Units(const erp::MotorType& motor, const erp::SensorType& sensors,
+             const erp::Spindle& spindle)
+    : radius_m(spindle.radius_m),
+      shaft_rad_per_count(2 * std::numbers::pi /
+                          (sensors.encoder_counts_per_rev * motor.gear_ratio)),
+      current_A_per_count(sensors.current_range_A / (1 << (sensors.current_bits - 1))),
+      tension_N_per_count(sensors.tension_range_N / ((1 << sensors.tension_bits) - 1)),
+      supply_V(motor.supply_V) {}
+
+ecu_request Units::request(erp::Mode mode) {
+  switch (mode) {
+    case erp::Mode::voltage: return ECU_REQUEST_VOLTAGE;
+    case erp::Mode::length: return ECU_REQUEST_LENGTH;
+    case erp::Mode::current: return ECU_REQUEST_CURRENT;
+    case erp::Mode::force: return ECU_REQUEST_FORCE;
+    case erp::Mode::off: break;
+  }
+  return ECU_REQUEST_OFF;
+}
+
+std::int32_t Units::setpoint(erp::Mode mode, double reference) const {
+  const double counts = mode == erp::Mode::length ? -reference / radius_m / shaft_rad_per_count
+                                                  : 1000.0 * reference;  // mV, mA, mN
+  return static_cast<std::int32_t>(std::lround(counts));
+}
+
+erp::Mode Units::mode(std::uint8_t request) {
+  switch (request) {
+    case ECU_REQUEST_VOLTAGE: return erp::Mode::voltage;
+    case ECU_REQUEST_LENGTH: return erp::Mode::length;
+    case ECU_REQUEST_CURRENT: return erp::Mode::current;
+    case ECU_REQUEST_FORCE: return erp::Mode::force;
+    default: return erp::Mode::off;
+  }
+}
+
+double Units::reference(std::uint8_t request, std::int32_t setpoint) const {
+  if (request == ECU_REQUEST_LENGTH) return line_m(shaft_rad(setpoint));
+  return mode(request) == erp::Mode::off ? 0.0 : 0.001 * setpoint;
+}
+
+}  // namespace plant
