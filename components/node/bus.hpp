@@ -56,9 +56,10 @@ class Writer {
     message.sequence = sequence_++;
     send(message);
   }
-  /// Sends the message with the number it carries.
+  /// Sends the message with the number it carries; its stamp is the DDS source timestamp too.
   void send(const M& message) {
-    const dds_return_t rc = dds_write(writer_.id(), static_cast<const typename M::Wire*>(&message));
+    const dds_return_t rc = dds_write_ts(
+        writer_.id(), static_cast<const typename M::Wire*>(&message), message.stamp_ns);
     if (rc < 0)
       throw std::runtime_error(std::string("write ") + erp::Topic<M>::name + ": " +
                                dds_strretcode(-rc));

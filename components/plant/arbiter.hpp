@@ -28,9 +28,9 @@ class Arbiter {
   /// The driving command, or nullptr when all are stale. Remembers the driver.
   const Offer* winner(std::int64_t now_ns, std::int64_t stale_ns);
   std::string_view owner() const { return owner_ < 0 ? "" : offers_[slot(owner_)].controller; }
-  /// True when another controller drives: it outranks this one, or was there before.
-  bool outranked(std::string_view controller) const {
-    return owner_ >= 0 && owner() != controller;
+  /// True when another controller drives that this one cannot displace.
+  bool outranked(std::string_view controller, std::int32_t priority) const {
+    return owner_ >= 0 && owner() != controller && offers_[slot(owner_)].priority >= priority;
   }
 
  private:

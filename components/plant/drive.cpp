@@ -36,7 +36,7 @@ Checked Drive::accept(std::string_view controller, std::int32_t priority, erp::M
       !arbiter_.offer(controller, priority, mode, checked.reference, now_ns, stale_ns))
     checked = {Verdict::refused, 0, "too many controllers"};
   if (checked.verdict == Verdict::limited) ++limited_;
-  if (checked.verdict != Verdict::refused && arbiter_.outranked(controller))
+  if (checked.verdict != Verdict::refused && arbiter_.outranked(controller, priority))
     checked = {Verdict::refused, 0, "another controller drives"};
   if (checked.verdict == Verdict::refused) ++refused_;
   if (!checked.reason.empty()) reason_ = checked.reason;
@@ -66,7 +66,8 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
   const bool wants_off = offer && offer->mode == erp::Mode::off;
   if (state_ != ECU_STATE_RUNNING || offer) safe_now_ = erp::SafeAction::none;
   switch (state_) {
-    case ECU_STATE_BOOT: return {};
+    case ECU_STATE_BOOT:
+    case ECU_STATE_COUNT: return {};
     case ECU_STATE_IDLE: return {offer && !wants_off ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
     case ECU_STATE_ARMED:
       if (!offer || wants_off) return {};

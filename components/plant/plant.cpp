@@ -74,17 +74,17 @@ void Plant::sense_joint(const erp::EcuAnalogSample& analog) {
 const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t now_ns) {
   frame_.stamp_ns = frame.stamp_ns;
   frame_.sequence = frame.sequence;
-  for (auto& sample : samples(frame_.actuators)) sample.valid = 0;
-  for (auto& sample : samples(frame_.joints)) sample.valid = 0;
-  for (const auto& channel : samples(frame.channels)) sense_channel(channel, now_ns);
-  for (const auto& analog : samples(frame.analogs)) sense_joint(analog);
+  for (auto& sample : erp::samples(frame_.actuators)) sample.valid = 0;
+  for (auto& sample : erp::samples(frame_.joints)) sample.valid = 0;
+  for (const auto& channel : erp::samples(frame.channels)) sense_channel(channel, now_ns);
+  for (const auto& analog : erp::samples(frame.analogs)) sense_joint(analog);
   last_frame_ns_ = now_ns;
   device_heard_ = true;
   return frame_;
 }
 
 void Plant::accept(const erp::ActuatorCommand& command, std::int64_t now_ns) {
-  for (const auto& reference : samples(command.actuators)) {
+  for (const auto& reference : erp::samples(command.actuators)) {
     Drive* found = nullptr;
     for (auto& drive : drives_)
       if (drive.name() == reference.name) found = &drive;
@@ -117,7 +117,7 @@ bool Plant::check_device(std::int64_t now_ns) {
   if (!device_heard_ || now_ns - last_frame_ns_ <= device_lost_ns_) return false;
   device_heard_ = false;
   for (auto& drive : drives_) drive.lose();
-  for (auto& sample : samples(frame_.actuators))
+  for (auto& sample : erp::samples(frame_.actuators))
     sample.valid = 0, sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
   notices_.push_back({erp::Severity::fault, "", "device_lost", "no frame from the device; its ECUs stop by themselves"});
   return true;

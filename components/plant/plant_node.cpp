@@ -46,7 +46,8 @@ PlantNode::PlantNode(const Params& params, const erp::Robot& robot, node::Node& 
 
 void PlantNode::on_frame(const erp::EcuFrame& frame) {
   if (owes_answer_ && !node_.clock().lockstep()) answer();
-  if (heard_ && node_.clock().lockstep() && frame.sequence == frame_) return answer_again();
+  // A lockstep device repeats a frame whose answer it missed.
+  if (heard_ && node_.clock().lockstep() && frame.sequence == frame_) return repeat_answer();
   node_.clock().advance(frame.stamp_ns);
   frame_ = frame.sequence;
   heard_ = true;
@@ -91,9 +92,13 @@ void PlantNode::answer() {
   say_notices();
 }
 
+void PlantNode::repeat_answer() {
+  if (!owes_answer_) answer();
+}
+
 void PlantNode::on_gains(const erp::GainCommand& command) {
   erp::EcuParameter out;
-  for (const auto& gain : samples(command.gains)) {
+  for (const auto& gain : erp::samples(command.gains)) {
     const auto actuator = std::find(names_.begin(), names_.end(), gain.name);
     const auto index = sim::parameter_index(gain.parameter);
     if (actuator == names_.end() || !index) {

@@ -23,6 +23,7 @@ class PlantNode {
   void on_gains(const erp::GainCommand& command);
   bool all_answered() const;
   void answer();
+  void repeat_answer();
   void send_gains();
   void say_notices();
   void publish_owners();
@@ -42,7 +43,6 @@ class PlantNode {
   node::Publisher<erp::ActuatorOwner>& owner_out_;
   node::Subscription<erp::ActuatorCommand>* command_in_;
   std::vector<Answer> answers_;
-  std::size_t excused_ = 0;  ///< controllers that lockstep no longer waits for
   std::uint64_t frame_ = 0, frames_ = 0;
   bool heard_ = false, owes_answer_ = false;
   std::int64_t owed_since_ns_ = 0;

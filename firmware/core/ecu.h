@@ -7,32 +7,39 @@
  * C11, no heap, no OS, no library but <stdint.h>, <stdbool.h>; single-precision arithmetic.
  * The same object code runs on the microcontroller, in the virtual ECU and in the simulator.
  *
- *   boot --gains committed--> idle --arm--> armed --set-point--> running
- *            any --fault--> fault (PWM 0, latched) --clear--> idle
+ *   boot --gains committed--> idle --arm--> armed --set-point--> running --arm--> armed
+ *            idle, armed, running --fault--> fault (PWM 0, latched) --clear--> idle
  *            armed, running --off--> idle
+ *
+ * In boot nothing can fault: there are no gains to judge a reading by, and PWM is 0.
  */
 #ifndef ERP_FIRMWARE_ECU_H
 #define ERP_FIRMWARE_ECU_H
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "firmware/core/laws.h"
 #include "firmware/core/parameters.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define ECU_PERIOD_S 0.002f      /* control period: 500 Hz, paper 5.1 */
-#define ECU_DUTY_MAX 1023        /* PWM counts at full supply, either sign */
-#define ECU_WARN_TICKS 10u       /* 20 ms without a command: warn */
-#define ECU_TIMEOUT_TICKS 25u    /* 50 ms without a command: trip */
+#define ECU_PERIOD_S 0.002f       /* control period: 500 Hz, paper 5.1 */
+#define ECU_DUTY_MAX 1023         /* PWM counts at full supply, either sign; chosen: 11 bits */
+#define ECU_WARN_TICKS 10u        /* 20 ms without a command: warn */
+#define ECU_TIMEOUT_TICKS 25u     /* 50 ms without a command: trip */
+#define ECU_BAD_SETPOINTS_TRIP 5u /* insane set-points in a row */
+#define ECU_OVER_CURRENT_TICKS 2u /* 4 ms over the trip level */
+#define ECU_RAIL_TICKS 3u         /* samples in a row at a converter's rail */
 
 typedef enum {
   ECU_STATE_BOOT = 0,
   ECU_STATE_IDLE = 1,
   ECU_STATE_ARMED = 2,
   ECU_STATE_RUNNING = 3,
-  ECU_STATE_FAULT = 4
+  ECU_STATE_FAULT = 4,
+  ECU_STATE_COUNT
 } ecu_state;
 
 typedef enum {
@@ -40,66 +47,80 @@ typedef enum {
   ECU_FAULT_COMMAND_TIMEOUT = 1,
   ECU_FAULT_OVER_CURRENT = 2,
   ECU_FAULT_OVER_TENSION = 3,
-  ECU_FAULT_SETPOINT = 4,      /* out of range or of an unknown request, several in a row */
-  ECU_FAULT_SENSOR_RANGE = 5,  /* a converter at its rail */
-  ECU_FAULT_CORRUPT = 6        /* several corrupt frames in a row */
+  ECU_FAULT_SETPOINT = 4,     /* out of range or of an unknown request, several in a row */
+  ECU_FAULT_SENSOR_RANGE = 5, /* a converter at its rail */
+  ECU_FAULT_CORRUPT = 6       /* several corrupt frames in a row */
 } ecu_fault;
 
-/* What a command asks; set-points are integers in the quantum given. */
+/* What a command asks; set-points are integers in the quantum given. A request is a level, not an
+ * edge: it is repeated every period, and to repeat it is harmless. */
 typedef enum {
   ECU_REQUEST_OFF = 0,
-  ECU_REQUEST_CLEAR = 1,    /* leave fault */
-  ECU_REQUEST_ARM = 2,      /* ready, PWM 0 */
-  ECU_REQUEST_VOLTAGE = 3,  /* mV */
-  ECU_REQUEST_LENGTH = 4,   /* encoder counts; P law on the motor encoder */
-  ECU_REQUEST_CURRENT = 5,  /* mA; PID */
-  ECU_REQUEST_FORCE = 6     /* mN; state space with prefilter */
+  ECU_REQUEST_CLEAR = 1,   /* leave fault */
+  ECU_REQUEST_ARM = 2,     /* ready, PWM 0 */
+  ECU_REQUEST_VOLTAGE = 3, /* mV */
+  ECU_REQUEST_LENGTH = 4,  /* encoder counts; P law on the motor encoder */
+  ECU_REQUEST_CURRENT = 5, /* mA; PID */
+  ECU_REQUEST_FORCE = 6    /* mN; state space with prefilter */
 } ecu_request;
 
 /* One reading of the converters. */
 typedef struct {
-  int32_t encoder_counts;   /* motor shaft, positive = winding up */
-  int16_t current_counts;   /* signed, positive = winding up */
+  int32_t encoder_counts; /* motor shaft, positive = winding up */
+  int16_t current_counts; /* signed, positive = winding up */
   uint16_t tension_counts;
 } ecu_inputs;
 
 typedef struct {
   ecu_state state;
   ecu_fault fault;
-  ecu_request request;             /* what it follows */
-  int32_t setpoint;
+  ecu_request request; /* what it follows: off in boot, idle and fault, arm when armed */
+  int32_t setpoint;    /* 0 unless running */
   uint32_t ticks_since_command;
-  bool command_seen;
-  uint32_t bad_setpoints;          /* in a row */
-  uint32_t rejected_setpoints;     /* ever */
+  uint32_t bad_setpoints;      /* in a row */
+  uint32_t rejected_setpoints; /* ever */
+  uint32_t rejected_commits;   /* ever */
   float gains[ECU_PARAMETER_COUNT];        /* in force */
   float gains_staged[ECU_PARAMETER_COUNT]; /* written, not yet committed */
-  bool gains_complete;
-  uint32_t written_low, written_high;      /* bits: parameters written since boot */
+  uint32_t written;                        /* bits: parameters staged or in force */
+  bool staged_spoilt;                      /* a value of the staged set was refused or lost */
+  bool gains_complete;                     /* a set is in force */
   /* measured, SI */
   float shaft_rad, speed_rad_per_s, current_A, tension_N;
-  int32_t last_encoder_counts;
-  bool has_last_encoder;
-  /* memory of the laws */
-  float current_integral_V, last_current_error_A;
+  ecu_inputs inputs; /* of the last tick */
+  bool has_inputs;
+  law_current_memory current_memory;
   int16_t duty;
   uint32_t rail_ticks, over_current_ticks;
 } ecu_channel;
 
 void ecu_init(ecu_channel* channel);
 
-/* A fresh, checked command. Returns false when it was rejected (the old one stays, and times out). */
+/* A fresh command. Returns false when it is not followed: a set-point outside the limits or an
+ * unknown request (the old one stays, and times out), or one that this state cannot take
+ * (a mode in boot, idle or fault, arm in boot or fault), which is counted and otherwise ignored. */
 bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint);
 
 /* Stages one parameter; with `commit` the staged set comes into force as a whole, if every
- * parameter has been written once and the set is sane. Returns false when it was rejected. */
+ * parameter has been written once and the set is sane (gains.c lists what that means). Returns
+ * false when it was rejected: then no value of the set comes into force, the rest of the set is
+ * refused up to and with its commit, and the set has to be written again. */
 bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit);
+
+/* Drops the values staged since the last commit: a new set begins. */
+void ecu_discard_parameters(ecu_channel* channel);
+
+/* Tells that a value of the set being staged was lost on its way: its commit will be refused. */
+void ecu_spoil_parameters(ecu_channel* channel);
 
 /* One control period. Returns the PWM duty, -ECU_DUTY_MAX .. ECU_DUTY_MAX. */
 int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs);
 
-/* Forces the fault state from outside (corrupt frames, watchdogs). */
+/* Forces the fault state from outside (corrupt frames, watchdogs). The first cause stays. */
 void ecu_trip(ecu_channel* channel, ecu_fault fault);
+
+/* Armed or running, and 20 ms or more without a command. */
+bool ecu_is_warning(const ecu_channel* channel);
 
 #ifdef __cplusplus
 }

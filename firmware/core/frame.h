@@ -1,25 +1,160 @@
-/* What an ECU says and hears on CAN: classic frames, 11-bit identifiers, 8 bytes.
+/* What an ECU says and hears on CAN: classic frames, 11-bit identifiers, 8 bytes, once and here.
  *
- *   identifier = function (4 bits) << 7 | ecu (7 bits)
+ *   identifier = function (4 bits) << 7 | ecu (7 bits); the lower number wins the bus
  *
- * Bit fields are little endian, packed from bit 0 of byte 0; byte 7 is CRC-8 (polynomial 0x2F,
- * AUTOSAR profile) over the identifier's two bytes and bytes 0..6.
+ * Bit fields are little endian, packed in the order given from bit 0 of byte 0; byte 7 is CRC-8
+ * (polynomial 0x2F, start and final XOR 0xFF: AUTOSAR's CRC8H2F, Hamming distance 4 at this
+ * length) over the identifier's two bytes, low first, and bytes 0..6. A frame of another size or
+ * with another check value is corrupt and says nothing. (s) marks a signed field.
  *
- *   COMMAND    host -> ECU   channel 0: request 3, setpoint 22; channel 1: the same; counter 6
- *   STATUS_0/1 ECU -> host   encoder low 16, current 12, tension 12, duty 11, state 2+fault..., counter
- *   HEALTH     ECU -> host   absolute encoder and what each channel follows, slower
- *   ANALOG     ECU -> host   joint sensors
- *   PARAMETER  host -> ECU   channel, index, commit, float32
+ *   EMERGENCY  1     ECU -> host  kind 1, channel 1, fault 4, reset cause 4, version 6, tick 32
+ *   COMMAND    2     host -> ECU  request 3, set-point 22 (s); the same for channel 1;
+ *                                 answers 3, repeat 3
+ *   STATUS     3, 4  ECU -> host  channel 0, channel 1: encoder 16, current 12 (s), tension 12,
+ *                                 running 1, 11 bits that depend on it, follows 1, counter 3
+ *                                   running:     duty 11 (s)
+ *                                   not running: state 3, fault 4, request 3, warning 1
+ *   ANALOG     5     ECU -> host  page 1, present 2, counts 24 (s), counts 24 (s), counter 3
+ *   HEALTH     6, 7  ECU -> host  channel 0, channel 1: page 1, counter 3, then
+ *                                   page 0:  encoder 32, warning 1, lost 8, corrupt 8
+ *                                   page 1:  request 3, set-point 22 (s), rejected 16,
+ *                                            refused gain sets 8
+ *   PARAMETER  8     host -> ECU  channel 1, index 6, commit 1, position 8, float32
+ *
+ * Counters. Every period an ECU counts one up, modulo 8; all its frames of that period carry the
+ * number. A COMMAND says in `answers` the counter of the newest STATUS it was computed from, and
+ * counts `repeat` up when it answers the same again: so every fresh command differs from the one
+ * before, a stuck sender does not feed the watchdog, and lockstep knows which tick was answered.
+ *
+ * Outside running the duty is 0, so its bits carry the state: boot and fault codes need no frame
+ * of their own. EMERGENCY says the same at once, with the highest priority, and boots are said by
+ * it alone. The encoder's upper half comes in HEALTH; the receiver unwraps the rest, which stays
+ * right while a channel turns less than 32768 counts between two frames heard.
  */
 #ifndef ERP_FIRMWARE_FRAME_H
 #define ERP_FIRMWARE_FRAME_H
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "firmware/core/ecu.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-/* Filled by its room. */
+
+#define FRAME_VERSION 1u
+#define FRAME_ECUS 128
+#define FRAME_SETPOINT_MAX 2097151           /* 22 bits signed; -2097152 is reserved: */
+#define FRAME_SETPOINT_REFUSED INT32_MIN     /* one that did not fit; the ECU rejects it */
+#define FRAME_REQUEST_NONE 7u                /* this channel is not spoken to */
+
+/* One classic frame as it goes over the bus. */
+typedef struct {
+  uint16_t id;
+  uint8_t size;
+  uint8_t data[8];
+} bus_frame;
+
+typedef enum {
+  FRAME_EMERGENCY = 1,
+  FRAME_COMMAND = 2,
+  FRAME_STATUS_0 = 3,
+  FRAME_STATUS_1 = 4,
+  FRAME_ANALOG = 5,
+  FRAME_HEALTH_0 = 6,
+  FRAME_HEALTH_1 = 7,
+  FRAME_PARAMETER = 8
+} frame_function;
+
+typedef enum {
+  FRAME_RESET_POWER = 0,
+  FRAME_RESET_BROWN_OUT = 1,
+  FRAME_RESET_WATCHDOG = 2,
+  FRAME_RESET_SOFTWARE = 3
+} frame_reset_cause;
+
+typedef struct {
+  bool boot;           /* true: it has just booted; false: a channel has tripped */
+  uint8_t channel;     /* of the fault */
+  uint8_t fault;       /* ecu_fault */
+  uint8_t reset_cause; /* frame_reset_cause of the boot */
+  uint8_t version;     /* FRAME_VERSION it speaks */
+  uint32_t tick;       /* periods since boot */
+} frame_emergency;
+
+typedef struct {
+  uint8_t request;  /* ecu_request or FRAME_REQUEST_NONE */
+  int32_t setpoint; /* its quantum is the request's, see ecu.h */
+} frame_channel_command;
+
+typedef struct {
+  frame_channel_command channel[2];
+  uint8_t answers; /* 0..7 */
+  uint8_t repeat;  /* 0..7 */
+} frame_command;
+
+typedef struct {
+  uint16_t encoder_low;
+  int16_t current_counts;  /* -2048..2047, saturated */
+  uint16_t tension_counts; /* 0..4095, saturated */
+  uint8_t state;           /* ecu_state */
+  int16_t duty;            /* 0 unless running */
+  uint8_t fault, request;  /* request: not sent while running, then FRAME_REQUEST_NONE */
+  bool warning;            /* not sent while running, then false */
+  bool follows;            /* the newest command this channel heard was accepted */
+  uint8_t counter;         /* 0..7 */
+} frame_status;
+
+typedef struct {
+  uint8_t page;      /* inputs 2 page, 2 page + 1 */
+  uint8_t present;   /* bit k: counts[k] is a reading */
+  int32_t counts[2]; /* 24 bits signed, saturated */
+  uint8_t counter;
+} frame_analog;
+
+typedef struct {
+  uint8_t page; /* 0: the first line below, 1: the second; the other one is 0 */
+  uint8_t counter;
+  int32_t encoder_counts; /* whole */
+  bool warning;
+  uint8_t lost, corrupt; /* commands since boot, modulo 256 */
+  uint8_t request;
+  int32_t setpoint;          /* what the channel follows */
+  uint16_t rejected;         /* set-points since boot, modulo 65536 */
+  uint8_t refused_gain_sets; /* since boot, modulo 256 */
+} frame_health;
+
+typedef struct {
+  uint8_t channel, index;
+  bool commit;
+  uint8_t position; /* 0 begins a set, then 1, 2 .. 255, 1 ..; a gap spoils the set */
+  float value;
+} frame_parameter;
+
+uint16_t frame_identifier(frame_function function, uint8_t ecu);
+frame_function frame_function_of(const bus_frame* frame);
+uint8_t frame_ecu_of(const bus_frame* frame);
+/* Size and check value are right. */
+bool frame_is_intact(const bus_frame* frame);
+
+/* Packing fills `frame` whole. Unpacking returns false, and leaves the result alone, when the
+ * frame is corrupt, is of another function, or holds a value that no sender means. */
+void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* said);
+bool frame_unpack_emergency(const bus_frame* frame, frame_emergency* said);
+void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* said);
+bool frame_unpack_command(const bus_frame* frame, frame_command* said);
+void frame_pack_status(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_status* said);
+bool frame_unpack_status(const bus_frame* frame, frame_status* said);
+void frame_pack_analog(bus_frame* frame, uint8_t ecu, const frame_analog* said);
+bool frame_unpack_analog(const bus_frame* frame, frame_analog* said);
+void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_health* said);
+bool frame_unpack_health(const bus_frame* frame, frame_health* said);
+void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* said);
+bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* said);
+
+/* The whole count nearest to `last` whose lower half is `low`. */
+int32_t frame_unwrap(int32_t last, uint16_t low);
+
 #ifdef __cplusplus
 }
 #endif

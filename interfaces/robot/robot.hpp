@@ -42,7 +42,7 @@ struct Joint {
   JointType type = JointType::revolute;
   std::string parent, child;
   Vec3 at_m{0, 0, 0};              ///< in the parent's frame
-  Vec3 axis{0, 1, 0};              ///< revolute only
+  Vec3 axis{0, 1, 0};              ///< revolute only; a direction of any length but zero
   double min_rad = -3.14159, max_rad = 3.14159;
   double initial_rad = 0.0;
   double viscous_Nm_s_per_rad = 0.0, coulomb_Nm = 0.0;
@@ -230,7 +230,31 @@ struct Actuator {
   }
 };
 
-/// A robot, whole: includes and mirrors already resolved.
+/// Another robot.xml whose parts belong to this robot; its own name is not used.
+struct Include {
+  static constexpr auto element = "include";
+  xml::Place place;
+  std::string file;  ///< relative to the including file
+  void visit(auto& v) { v.required("file", file); }
+};
+
+/// Another robot.xml, reflected at the plane y = 0: a left arm from a right one. Names that begin
+/// with `from` begin with `to` instead, in references too; the same joint angles are mirror images.
+struct Mirror {
+  static constexpr auto element = "mirror";
+  xml::Place place;
+  std::string file;
+  std::string from, to;  ///< "left_", "right_"
+  int ecu_offset = 0;    ///< added to every ecu
+  void visit(auto& v) {
+    v.required("file", file);
+    v.required("from", from);
+    v.required("to", to);
+    v("ecu_offset", ecu_offset, xml::Range{-127, 127});
+  }
+};
+
+/// A robot. As `read_robot` returns it, it is whole: no includes and mirrors are left.
 struct Robot {
   static constexpr auto element = "robot";
   xml::Place place;
@@ -240,8 +264,12 @@ struct Robot {
   std::vector<SensorType> sensor_types;
   std::vector<Actuator> actuators;
   std::vector<JointSensor> joint_sensors;
+  std::vector<Include> includes;
+  std::vector<Mirror> mirrors;
   void visit(auto& v) {
     v.required("name", name);
+    v.list(includes);
+    v.list(mirrors);
     v.list(skeletons);
     v.list(motor_types);
     v.list(sensor_types);
@@ -249,9 +277,10 @@ struct Robot {
     v.list(joint_sensors);
   }
 
-  std::vector<Body> bodies() const;
+  std::vector<Body> bodies() const;    ///< of all skeletons, in the order of the file
   std::vector<Joint> joints() const;
-  Vec3 gravity_m_per_s2() const;
+  Vec3 gravity_m_per_s2() const;       ///< zero when no part gives it
+  /// Throw std::out_of_range when the robot has no type of that name (read_robot refuses that).
   const MotorType& motor_of(const Actuator& actuator) const;
   const SensorType& sensors_of(const Actuator& actuator) const;
 };
@@ -259,6 +288,9 @@ struct Robot {
 /// Reads robot.xml with its includes and mirrors, and checks every reference.
 /// Throws xml::Errors with every mistake found: place, value, remedy.
 Robot read_robot(const std::string& file);
+
+/// One flat robot.xml; reads back to the same bits.
+std::string write_robot(const Robot& robot);
 
 }  // namespace erp
 

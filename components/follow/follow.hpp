@@ -1,0 +1,112 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "components/node/run.hpp"
+#include "interfaces/topics.hpp"
+#include "sim/actuator/design.hpp"
+
+/// Following actuator targets with one of the firmware's laws: at the ECU, by passing the
+/// reference on, or on the host, by running the same law here and sending voltages.
+///
+///   where="ecu"    target → actuator_command in the law's own mode
+///   where="host"   u = law(target, measured);  actuator_command in mode voltage
+namespace follow {
+
+enum class Where { ecu, host };
+
+struct Params {
+  Where where = Where::ecu;
+  double stale_s = 0.1;  ///< a target older than this is no longer followed; chosen
+  void visit(auto& v) {
+    v("where", where);
+    v("stale_s", stale_s, xml::positive);
+  }
+};
+
+/// One actuator's state on the host: what the ECU would know.
+struct Channel {
+  std::array<float, ECU_PARAMETER_COUNT> gains;
+  double radius_m;
+  std::optional<double> last_shaft_rad;
+  float gain(ecu_parameter_index index) const { return gains[static_cast<std::size_t>(index)]; }
+};
+
+/// `Law` has `static constexpr erp::Mode mode` and
+/// `static float voltage_V(const Channel&, float reference, const erp::ActuatorSample&, float speed_rad_per_s)`.
+template <class Law>
+class Follow {
+ public:
+  using Params = follow::Params;
+
+  Follow(const Params& params, const erp::Robot& robot) : params_(params) {
+    for (const auto& actuator : robot.actuators)
+      channels_.emplace_back(actuator.name,
+                             Channel{sim::design_parameters(robot, actuator, {}),
+                                     actuator.spindle.radius_m, {}});
+  }
+
+  /// Nothing while there is no fresh target: the plant then takes its safe action.
+  std::optional<erp::ActuatorCommand> step(const erp::SensorFrame& frame, double dt_s,
+                                           const node::Latest<erp::ActuatorTarget>& target) {
+    update_speeds(frame, dt_s);
+    if (!target || target.age_s > params_.stale_s) return std::nullopt;
+    erp::ActuatorCommand command;
+    for (const auto& wanted : erp::samples(target->actuators)) {
+      const auto* sample = find(frame, wanted.name);
+      if (!sample || static_cast<erp::Mode>(wanted.mode) != Law::mode) continue;
+      erp::append(command.actuators, answer(wanted, *sample));
+    }
+    return command;
+  }
+
+ private:
+  erp::ActuatorReference answer(erp::ActuatorReference wanted, const erp::ActuatorSample& sample) {
+    if (params_.where == Where::ecu) return wanted;
+    const std::size_t i = index_of(sample.name);
+    const Channel& channel = channels_[i].second;
+    const float voltage = Law::voltage_V(channel, static_cast<float>(wanted.reference), sample, speeds_[i]);
+    wanted.mode = static_cast<std::uint8_t>(erp::Mode::voltage);
+    wanted.reference = law_limit_current_V(
+        voltage, speeds_[i], channel.gain(ECU_PARAMETER_RESISTANCE),
+        channel.gain(ECU_PARAMETER_BACK_EMF), channel.gain(ECU_PARAMETER_CURRENT_LIMIT),
+        channel.gain(ECU_PARAMETER_SUPPLY));
+    return wanted;
+  }
+
+  void update_speeds(const erp::SensorFrame& frame, double dt_s) {
+    for (const auto& sample : erp::samples(frame.actuators)) {
+      const std::size_t i = index_of(sample.name);
+      if (i >= channels_.size() || !(sample.valid & erp::valid::shaft)) continue;
+      auto& last = channels_[i].second.last_shaft_rad;
+      speeds_[i] = last && dt_s > 0 ? static_cast<float>((sample.shaft_rad - *last) / dt_s) : 0.0F;
+      last = sample.shaft_rad;
+    }
+  }
+
+  /// A measured actuator by name; nullptr when it was not measured.
+  static const erp::ActuatorSample* find(const erp::SensorFrame& frame, std::string_view name) {
+    for (const auto& sample : erp::samples(frame.actuators))
+      if (name == sample.name) return sample.valid == erp::valid::all ? &sample : nullptr;
+    return nullptr;
+  }
+  std::size_t index_of(std::string_view name) const {
+    std::size_t i = 0;
+    while (i < channels_.size() && channels_[i].first != name) ++i;
+    return i;
+  }
+
+  Params params_;
+  std::vector<std::pair<std::string, Channel>> channels_;
+  std::array<float, 64> speeds_{};
+};
+
+}  // namespace follow
+
+template <> struct xml::Names<follow::Where> {
+  static constexpr auto list = std::to_array<std::pair<const char*, follow::Where>>(
+      {{"ecu", follow::Where::ecu}, {"host", follow::Where::host}});
+};

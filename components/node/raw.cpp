@@ -1,0 +1,127 @@
+#include "components/node/raw.hpp"
+
+#include <dds/ddsi/ddsi_serdata.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace node {
+namespace {
+
+constexpr std::uint32_t max_samples = 1024;
+constexpr dds_duration_t type_patience = DDS_MSECS(200);
+
+/// Reads every alive instance of a built-in topic without taking it.
+template <class Sample, class Use>
+void for_each_alive(const Entity& reader, Use&& use) {
+  std::vector<void*> samples(max_samples, nullptr);
+  std::vector<dds_sample_info_t> info(max_samples);
+  const auto n = dds_read_mask(reader.id(), samples.data(), info.data(), max_samples, max_samples,
+                               DDS_ALIVE_INSTANCE_STATE);
+  for (int i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (info[k].valid_data) use(*static_cast<Sample*>(samples[k]), info[k]);
+  }
+  if (n > 0) dds_return_loan(reader.id(), samples.data(), n);
+}
+
+Entity builtin(const Entity& participant, dds_entity_t topic, Wake& wake) {
+  dds_listener_t* listener = dds_create_listener(&wake);
+  dds_lset_data_available(listener,
+                          [](dds_entity_t, void* w) { static_cast<Wake*>(w)->raise(); });
+  const dds_entity_t reader = dds_create_reader(participant.id(), topic, nullptr, listener);
+  dds_delete_listener(listener);
+  return {reader, "read a built-in topic"};
+}
+
+std::string user_data(const dds_qos_t* qos) {
+  void* value = nullptr;
+  std::size_t size = 0;
+  if (!qos || !dds_qget_userdata(qos, &value, &size) || !value) return {};
+  std::string text(static_cast<const char*>(value), size);
+  dds_free(value);
+  return text;
+}
+
+}  // namespace
+
+Discovery::Discovery(const Entity& participant, Wake& wake)
+    : participant_(participant),
+      participants_(builtin(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, wake)),
+      writers_(builtin(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, wake)),
+      readers_(builtin(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, wake)) {}
+
+std::string Discovery::participant_name(const dds_guid_t& key) {
+  std::string name;
+  for_each_alive<dds_builtintopic_participant_t>(participants_, [&](const auto& p, const auto&) {
+    if (std::memcmp(&p.key, &key, sizeof key) == 0) name = user_data(p.qos);
+  });
+  return name;
+}
+
+std::vector<std::string> Discovery::participants() {
+  std::vector<std::string> names;
+  for_each_alive<dds_builtintopic_participant_t>(
+      participants_, [&](const auto& p, const auto&) { names.push_back(user_data(p.qos)); });
+  return names;
+}
+
+std::vector<Endpoint> Discovery::endpoints() {
+  std::vector<Endpoint> found;
+  for (const auto* reader : {&writers_, &readers_})
+    for_each_alive<dds_builtintopic_endpoint_t>(*reader, [&](const auto& e, const auto& info) {
+      if (std::strncmp(e.topic_name, "DCPS", 4) == 0) return;
+      found.push_back({e.topic_name, e.type_name, participant_name(e.participant_key),
+                       reader == &writers_, info.instance_handle});
+    });
+  return found;
+}
+
+Descriptor Discovery::type_of(const std::string& topic) {
+  Descriptor found;
+  for (const auto* reader : {&writers_, &readers_})
+    for_each_alive<dds_builtintopic_endpoint_t>(*reader, [&](auto& e, const auto&) {
+      const dds_typeinfo_t* type_info = nullptr;
+      if (found || topic != e.topic_name ||
+          dds_builtintopic_get_endpoint_type_info(&e, &type_info) != DDS_RETCODE_OK || !type_info)
+        return;
+      dds_topic_descriptor_t* descriptor = nullptr;
+      if (dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant_.id(), type_info,
+                                      type_patience, &descriptor) == DDS_RETCODE_OK)
+        found = Descriptor(descriptor, [](const dds_topic_descriptor_t* d) {
+          dds_delete_topic_descriptor(const_cast<dds_topic_descriptor_t*>(d));
+        });
+    });
+  return found;
+}
+
+RawReader::RawReader(const Entity& participant, Wake& wake, const dds_topic_descriptor_t& type,
+                     const std::string& topic, int depth)
+    : topic_(make_topic(participant, type, topic.c_str())),
+      reader_(make_reader(participant, topic_, depth, wake)) {}
+
+std::optional<RawSample> RawReader::next() {
+  ddsi_serdata* data = nullptr;
+  dds_sample_info_t info;
+  while (dds_takecdr(reader_.id(), &data, 1, &info, DDS_ANY_STATE) == 1) {
+    if (info.valid_data) {
+      bytes_.resize(ddsi_serdata_size(data));
+      ddsi_serdata_to_ser(data, 0, bytes_.size(), bytes_.data());
+    }
+    ddsi_serdata_unref(data);
+    if (info.valid_data) return RawSample{bytes_, info.source_timestamp, info.publication_handle};
+  }
+  return std::nullopt;
+}
+
+std::uint32_t RawReader::matched() const {
+  const auto n = dds_get_matched_publications(reader_.id(), nullptr, 0);
+  return n > 0 ? static_cast<std::uint32_t>(n) : 0;
+}
+
+std::uint64_t RawReader::lost() const {
+  dds_sample_lost_status_t status{};
+  return dds_get_sample_lost_status(reader_.id(), &status) == DDS_RETCODE_OK ? status.total_count : 0;
+}
+
+}  // namespace node

@@ -1,0 +1,67 @@
+/* The gains of a channel: written one by one, in force all at once. */
+#include <float.h>
+
+#include "firmware/core/ecu.h"
+#include "firmware/core/state.h"
+
+_Static_assert(ECU_PARAMETER_COUNT <= 32, "`written` has one bit a parameter");
+static const uint32_t all_written =
+    ECU_PARAMETER_COUNT == 32 ? UINT32_MAX : (1u << ECU_PARAMETER_COUNT) - 1u;
+
+static bool is_finite(float x) { return x >= -FLT_MAX && x <= FLT_MAX; } /* false for NaN */
+
+/* What would make a conversion, a limit or a trip level meaningless, or turn a loop's sign. The
+ * state feedback gains may have either sign: Ackermann's formula decides. */
+static bool is_sane(const float* g) {
+  static const uint8_t above_zero[] = {
+      ECU_PARAMETER_SUPPLY,        ECU_PARAMETER_SHAFT_SCALE,        ECU_PARAMETER_CURRENT_SCALE,
+      ECU_PARAMETER_TENSION_SCALE, ECU_PARAMETER_CURRENT_COUNTS_MAX, ECU_PARAMETER_RESISTANCE,
+      ECU_PARAMETER_CURRENT_LIMIT, ECU_PARAMETER_TENSION_COUNTS_MAX, ECU_PARAMETER_TENSION_LIMIT};
+  static const uint8_t not_negative[] = {ECU_PARAMETER_BACK_EMF, ECU_PARAMETER_LENGTH_KP,
+                                         ECU_PARAMETER_CURRENT_KP, ECU_PARAMETER_CURRENT_KI,
+                                         ECU_PARAMETER_CURRENT_KD};
+  for (unsigned i = 0; i < sizeof above_zero; ++i)
+    if (!(g[above_zero[i]] > 0.0f)) return false;
+  for (unsigned i = 0; i < sizeof not_negative; ++i)
+    if (!(g[not_negative[i]] >= 0.0f)) return false;
+  return g[ECU_PARAMETER_CURRENT_TRIP] >= g[ECU_PARAMETER_CURRENT_LIMIT] &&
+         g[ECU_PARAMETER_TENSION_TRIP] >= g[ECU_PARAMETER_TENSION_LIMIT] &&
+         g[ECU_PARAMETER_SHAFT_MIN] < g[ECU_PARAMETER_SHAFT_MAX];
+}
+
+static void copy(float* to, const float* from) {
+  for (unsigned i = 0; i < ECU_PARAMETER_COUNT; ++i) to[i] = from[i];
+}
+
+void ecu_discard_parameters(ecu_channel* channel) {
+  copy(channel->gains_staged, channel->gains);
+  channel->written = channel->gains_complete ? all_written : 0u;
+  channel->staged_spoilt = false;
+}
+
+void ecu_spoil_parameters(ecu_channel* channel) { channel->staged_spoilt = true; }
+
+static bool commit_staged(ecu_channel* channel) {
+  const bool whole = !channel->staged_spoilt && channel->written == all_written;
+  if (!whole || !is_sane(channel->gains_staged)) {
+    ecu_discard_parameters(channel);
+    ++channel->rejected_commits;
+    return false;
+  }
+  copy(channel->gains, channel->gains_staged);
+  channel->gains_complete = true;
+  ecu_apply(channel, ECU_EVENT_COMMIT);
+  return true;
+}
+
+bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit) {
+  const bool readable = index < ECU_PARAMETER_COUNT && is_finite(value);
+  if (readable) {
+    channel->gains_staged[index] = value;
+    channel->written |= 1u << index;
+  } else {
+    ecu_spoil_parameters(channel);
+  }
+  if (commit) return commit_staged(channel);
+  return readable && !channel->staged_spoilt;
+}

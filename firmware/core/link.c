@@ -1,0 +1,182 @@
+#include "firmware/core/link.h"
+
+void ecu_link_init(ecu_link* link, uint8_t ecu, ecu_channel* channel_0, ecu_channel* channel_1,
+                   uint8_t analog_inputs) {
+  *link = (ecu_link){
+      .ecu = ecu, .analog_inputs = analog_inputs, .channel = {channel_0, channel_1}};
+}
+
+void ecu_link_tick(ecu_link* link) {
+  ++link->tick;
+  link->answered = false;
+}
+
+static uint8_t counter(const ecu_link* link) { return (uint8_t)(link->tick & 7u); }
+
+/* ---- hearing ---- */
+
+static bool hear_corrupt(ecu_link* link) {
+  ++link->corrupt;
+  if (++link->corrupt_in_a_row >= ECU_CORRUPT_TRIP)
+    for (int k = 0; k < 2; ++k)
+      if (link->channel[k]) ecu_trip(link->channel[k], ECU_FAULT_CORRUPT);
+  return false;
+}
+
+/* Newer than the last one heard? Counters run modulo 8; one or two behind is late. */
+static bool is_fresh(ecu_link* link, const frame_command* command) {
+  if (!link->has_heard) return true;
+  unsigned ahead = (command->answers - link->last_answers) & 7u;
+  if (ahead == 0) ahead = (command->repeat - link->last_repeat) & 7u;
+  if (ahead == 0) {
+    ++link->repeated;
+    return false;
+  }
+  if (ahead >= 6) {
+    ++link->late;
+    return false;
+  }
+  link->lost += ahead - 1;
+  return true;
+}
+
+static bool hear_command(ecu_link* link, const frame_command* command) {
+  if (!is_fresh(link, command)) return false;
+  link->has_heard = true;
+  link->last_answers = command->answers;
+  link->last_repeat = command->repeat;
+  link->answered = link->answered || command->answers == counter(link);
+  for (int k = 0; k < 2; ++k) {
+    const frame_channel_command* said = &command->channel[k];
+    if (link->channel[k] && said->request != FRAME_REQUEST_NONE)
+      link->follows[k] =
+          ecu_command(link->channel[k], (ecu_request)said->request, said->setpoint);
+  }
+  return true;
+}
+
+static uint8_t position_after(uint8_t position) {
+  return position == 255 ? 1 : (uint8_t)(position + 1);
+}
+
+/* Position 0 begins a set; the same position again is a repeated frame; a gap spoils the set. */
+static bool hear_parameter(ecu_link* link, const frame_parameter* said) {
+  const uint8_t k = said->channel, last = link->last_position[k];
+  ecu_channel* channel = link->channel[k];
+  if (!channel) return false;
+  if (said->position != 0 && said->position == last) {
+    ++link->repeated;
+    return false;
+  }
+  if (said->position == 0)
+    ecu_discard_parameters(channel);
+  else if (!link->set_open[k] || said->position != position_after(last))
+    ecu_spoil_parameters(channel);
+  link->last_position[k] = said->position;
+  link->set_open[k] = !said->commit;
+  return ecu_parameter(channel, said->index, said->value, said->commit);
+}
+
+bool ecu_link_hear(ecu_link* link, const bus_frame* frame) {
+  const frame_function function = frame_function_of(frame);
+  if (frame_ecu_of(frame) != link->ecu) return false;
+  if (function != FRAME_COMMAND && function != FRAME_PARAMETER) return false;
+  frame_command command;
+  frame_parameter parameter;
+  const bool is_command = frame_unpack_command(frame, &command);
+  if (!is_command && !frame_unpack_parameter(frame, &parameter)) return hear_corrupt(link);
+  link->corrupt_in_a_row = 0;
+  return is_command ? hear_command(link, &command) : hear_parameter(link, &parameter);
+}
+
+/* ---- saying ---- */
+
+ecu_reading ecu_reading_of(const ecu_channel* channel) {
+  return (ecu_reading){.state = channel->state,
+                       .fault = channel->fault,
+                       .request = channel->request,
+                       .setpoint = channel->setpoint,
+                       .inputs = channel->inputs,
+                       .duty = channel->duty};
+}
+
+static void say_health(const ecu_link* link, uint8_t k, uint8_t page, const ecu_reading* reading,
+                       bus_frame* frame) {
+  const ecu_channel* channel = link->channel[k];
+  const frame_health said = {.page = page,
+                             .counter = counter(link),
+                             .encoder_counts = reading->inputs.encoder_counts,
+                             .warning = ecu_is_warning(channel),
+                             .lost = (uint8_t)link->lost,
+                             .corrupt = (uint8_t)link->corrupt,
+                             .request = (uint8_t)reading->request,
+                             .setpoint = reading->setpoint,
+                             .rejected = (uint16_t)channel->rejected_setpoints,
+                             .refused_gain_sets = (uint8_t)channel->rejected_commits};
+  frame_pack_health(frame, link->ecu, k, &said);
+}
+
+static void say_status(const ecu_link* link, uint8_t k, const ecu_reading* reading,
+                       bus_frame* frame) {
+  const frame_status said = {.encoder_low = (uint16_t)reading->inputs.encoder_counts,
+                             .current_counts = reading->inputs.current_counts,
+                             .tension_counts = reading->inputs.tension_counts,
+                             .state = (uint8_t)reading->state,
+                             .duty = reading->duty,
+                             .fault = (uint8_t)reading->fault,
+                             .request = (uint8_t)reading->request,
+                             .warning = ecu_is_warning(link->channel[k]),
+                             .follows = link->follows[k],
+                             .counter = counter(link)};
+  frame_pack_status(frame, link->ecu, k, &said);
+}
+
+static void say_analog(const ecu_link* link, uint8_t page, const int32_t* counts,
+                       bus_frame* frame) {
+  const frame_analog said = {.page = page,
+                             .present = link->analog_inputs >> 2 * page & 3,
+                             .counts = {counts[2 * page], counts[2 * page + 1]},
+                             .counter = counter(link)};
+  frame_pack_analog(frame, link->ecu, &said);
+}
+
+/* A fault is said once, when it is new. */
+static bool has_new_fault(ecu_link* link, uint8_t k, const ecu_reading* reading) {
+  const bool said_before = link->said_fault[k];
+  link->said_fault[k] = reading->state == ECU_STATE_FAULT;
+  return link->said_fault[k] && !said_before;
+}
+
+static void say_fault(const ecu_link* link, uint8_t k, ecu_fault fault, bus_frame* frame) {
+  const frame_emergency said = {.channel = k,
+                                .fault = (uint8_t)fault,
+                                .version = FRAME_VERSION,
+                                .tick = link->tick};
+  frame_pack_emergency(frame, link->ecu, &said);
+}
+
+unsigned ecu_link_say(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames) {
+  unsigned count = 0;
+  const bool health_due = (link->tick + link->ecu) % ECU_HEALTH_TICKS == 0;
+  for (uint8_t k = 0; k < 2; ++k) {
+    const ecu_reading* reading = &report->channel[k];
+    if (!link->channel[k]) continue;
+    if (has_new_fault(link, k, reading)) say_fault(link, k, reading->fault, &frames[count++]);
+    for (uint8_t page = 0; page < 2; ++page)
+      if (whole || (health_due && link->health_turn == 2 * page + k))
+        say_health(link, k, page, reading, &frames[count++]);
+  }
+  if (health_due) link->health_turn = (link->health_turn + 1) & 3;
+  for (uint8_t page = 0; page < 2; ++page)
+    if (link->analog_inputs >> 2 * page & 3)
+      say_analog(link, page, report->analog_counts, &frames[count++]);
+  for (uint8_t k = 0; k < 2; ++k)
+    if (link->channel[k]) say_status(link, k, &report->channel[k], &frames[count++]);
+  return count;
+}
+
+void ecu_link_say_boot(const ecu_link* link, frame_reset_cause cause, bus_frame* frame) {
+  const frame_emergency said = {
+      .boot = true, .reset_cause = (uint8_t)cause, .version = FRAME_VERSION, .tick = link->tick};
+  frame_pack_emergency(frame, link->ecu, &said);
+}

@@ -1,0 +1,22 @@
+/* The state machine of a channel as a table; inside firmware/core only. */
+#ifndef ERP_FIRMWARE_STATE_H
+#define ERP_FIRMWARE_STATE_H
+#include "firmware/core/ecu.h"
+
+typedef enum {
+  ECU_EVENT_COMMIT, /* a sane set of gains came into force */
+  ECU_EVENT_OFF,
+  ECU_EVENT_CLEAR,
+  ECU_EVENT_ARM,
+  ECU_EVENT_SETPOINT, /* a sane set-point of one of the four modes */
+  ECU_EVENT_TRIP,
+  ECU_EVENT_COUNT
+} ecu_event;
+
+/* Which state an event leads to. */
+ecu_state ecu_next_state(ecu_state state, ecu_event event);
+
+/* Takes the transition, with what belongs to entering the new state. */
+void ecu_apply(ecu_channel* channel, ecu_event event);
+
+#endif

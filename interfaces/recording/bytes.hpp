@@ -1,0 +1,86 @@
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interfaces/recording/error.hpp"
+
+/// Little-endian bytes, as MCAP lays them out.
+namespace recording {
+
+using Bytes = std::vector<std::byte>;
+using ByteView = std::span<const std::byte>;
+
+inline ByteView view(std::string_view text) { return std::as_bytes(std::span(text)); }
+inline std::string_view text(ByteView bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+inline void put(Bytes& out, ByteView bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); }
+
+template <std::unsigned_integral T>
+void put(Bytes& out, T value) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
+    out.push_back(static_cast<std::byte>(static_cast<std::uint64_t>(value) >> (8 * i)));
+}
+
+/// u32 length, then the characters.
+inline void put(Bytes& out, std::string_view characters) {
+  put(out, static_cast<std::uint32_t>(characters.size()));
+  put(out, view(characters));
+}
+
+/// Reads forward through bytes of a file and never past them.
+class ByteReader {
+ public:
+  /// `origin` is where in the file the bytes stand; in a decompressed chunk (`inside`), where the
+  /// chunk stands. Both views are lent.
+  ByteReader(ByteView bytes, std::string_view path, std::uint64_t origin, bool inside = false)
+      : bytes_(bytes), path_(path), origin_(origin), inside_(inside) {}
+
+  template <std::unsigned_integral T>
+  T integer(const char* what) {
+    std::uint64_t value = 0;
+    const ByteView raw = take(sizeof(T), what);
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      value |= static_cast<std::uint64_t>(std::to_integer<std::uint8_t>(raw[i])) << (8 * i);
+    return static_cast<T>(value);
+  }
+  std::string characters(const char* what) {
+    return std::string(text(take(integer<std::uint32_t>(what), what)));
+  }
+  /// The next `size` bytes. Throws RecordingError when there are fewer.
+  ByteView take(std::uint64_t size, const char* what) {
+    if (size > bytes_.size() - at_)
+      fail(std::string(what) + " needs " + std::to_string(size) + " bytes, its record has " +
+           std::to_string(bytes_.size() - at_) + " left");
+    const ByteView taken = bytes_.subspan(at_, static_cast<std::size_t>(size));
+    at_ += taken.size();
+    return taken;
+  }
+  /// A reader of the next `size` bytes alone.
+  ByteReader part(std::uint64_t size, const char* what) {
+    const std::uint64_t start = place();
+    return {take(size, what), path_, start, inside_};
+  }
+  ByteView rest() { return take(bytes_.size() - at_, "the rest"); }
+  bool empty() const { return at_ == bytes_.size(); }
+  std::size_t at() const { return at_; }
+  std::uint64_t place() const { return inside_ ? origin_ : origin_ + at_; }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw error_at(path_, place(), what + (inside_ ? " (inside this chunk)" : ""), mend(path_));
+  }
+
+ private:
+  ByteView bytes_;
+  std::string_view path_;
+  std::uint64_t origin_;
+  bool inside_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace recording

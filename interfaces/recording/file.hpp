@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "interfaces/recording/bytes.hpp"
+
+namespace recording {
+
+/// A file that only grows, and is whole at every moment: an append that fails is taken back.
+/// Every error throws RecordingError with path and the system's reason.
+class OutputFile {
+ public:
+  /// `replace`: overwrite what stands there; otherwise an existing file is refused.
+  OutputFile(std::string path, bool replace);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void append(ByteView bytes);
+  void sync();   ///< waits until the disk has it
+  void close();  ///< sync, then close
+  std::uint64_t size() const { return size_; }
+  std::uint32_t crc() const { return crc_; }  ///< of everything appended
+  bool is_open() const { return descriptor_ >= 0; }
+  const std::string& path() const { return path_; }
+
+ private:
+  [[noreturn]] void fail(const char* doing, int error) const;
+  std::string path_;
+  int descriptor_;
+  std::uint64_t size_ = 0;
+  std::uint32_t crc_ = 0;
+};
+
+/// A file read by place.
+class InputFile {
+ public:
+  explicit InputFile(std::string path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// `size` bytes from `offset`. Throws RecordingError when the file does not have them.
+  Bytes read(std::uint64_t offset, std::uint64_t size) const;
+  std::uint64_t size() const { return size_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  int descriptor_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace recording

@@ -1,0 +1,100 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interfaces/recording/bytes.hpp"
+
+/// MCAP 0's records, after the specification at mcap.dev: u8 op, u64 length of the body, body.
+/// Times are ns since 1970, or simulated time.
+namespace recording {
+
+inline constexpr std::array<std::uint8_t, 8> magic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+inline constexpr std::size_t record_head_bytes = 9;
+
+enum class Op : std::uint8_t {
+  header = 1, footer, schema, channel, message, chunk, message_index, chunk_index,
+  attachment, attachment_index, statistics, metadata, metadata_index, summary_offset, data_end
+};
+
+using TextMap = std::map<std::string, std::string>;
+
+/// How a channel's messages are to be read; for `ros2msg`, `data` is its text.
+struct Schema {
+  std::uint16_t id = 0;
+  std::string name, encoding, data;
+  bool operator==(const Schema&) const = default;
+};
+
+/// One writer of one topic: the numbers of its messages follow each other.
+struct Channel {
+  std::uint16_t id = 0, schema_id = 0;
+  std::string topic, message_encoding;
+  TextMap metadata;
+  bool operator==(const Channel&) const = default;
+};
+
+struct MessageHead {
+  std::uint16_t channel_id = 0;
+  std::uint32_t sequence = 0;
+  std::uint64_t log_time_ns = 0, publish_time_ns = 0;
+};
+
+struct ChunkHead {
+  std::uint64_t start_ns = 0, end_ns = 0, uncompressed_bytes = 0;
+  std::uint32_t uncompressed_crc = 0;
+  std::string compression;
+};
+
+struct ChunkIndex {
+  ChunkHead head;
+  std::uint64_t offset = 0, length = 0, index_length = 0, compressed_bytes = 0;
+  std::map<std::uint16_t, std::uint64_t> index_offsets;
+};
+
+/// A file that travels with the recording.
+struct Attachment {
+  std::uint64_t log_time_ns = 0, create_time_ns = 0;
+  std::string name, media_type;
+  std::string data;
+};
+
+struct AttachmentIndex {
+  std::uint64_t offset = 0, length = 0, data_bytes = 0;
+};
+
+struct Metadata {
+  std::string name;
+  TextMap values;
+};
+
+using MessageIndex = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  ///< log time, offset
+
+/// Starts a record; `end_record` fills in its length. Returns where the record starts.
+std::size_t begin_record(Bytes& out, Op op);
+void end_record(Bytes& out, std::size_t start);
+
+void put_schema(Bytes& out, const Schema& schema);
+void put_channel(Bytes& out, const Channel& channel);
+void put_message(Bytes& out, const MessageHead& head, ByteView data);
+void put_chunk(Bytes& out, const ChunkHead& head, ByteView records);
+void put_message_index(Bytes& out, std::uint16_t channel, const MessageIndex& index);
+void put_chunk_index(Bytes& out, const ChunkIndex& index);
+void put_attachment(Bytes& out, const Attachment& attachment);
+void put_attachment_index(Bytes& out, const AttachmentIndex& index, const Attachment& attachment);
+void put_metadata(Bytes& out, const Metadata& metadata);
+
+Schema get_schema(ByteReader& in);
+Channel get_channel(ByteReader& in);
+MessageHead get_message(ByteReader& in);  ///< what is left in `in` is the message
+ChunkHead get_chunk(ByteReader& in, ByteView& records);
+Attachment get_attachment(ByteReader& in);  ///< checks its CRC
+Metadata get_metadata(ByteReader& in);
+
+/// zlib's crc32, the checksum of every MCAP record that has one.
+std::uint32_t crc32_of(ByteView bytes, std::uint32_t before = 0);
+
+}  // namespace recording

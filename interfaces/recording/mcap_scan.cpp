@@ -1,0 +1,241 @@
+#include "interfaces/recording/mcap_scan.hpp"
+
+#include <algorithm>
+
+namespace recording {
+namespace {
+
+constexpr std::uint64_t longest_loose_region = 1u << 20;
+
+class Scanner {
+ public:
+  /// `known`: schemas and channels found by an earlier walk, used when their own record is damaged.
+  Scanner(const InputFile& file, bool tolerant, Contents known = {})
+      : file_(file), tolerant_(tolerant) {
+    contents_.schemas = std::move(known.schemas);
+    contents_.channels = std::move(known.channels);
+  }
+
+  Contents run() {
+    check_start();
+    while (step()) {
+    }
+    return std::move(contents_);
+  }
+
+ private:
+  void check_start();
+  bool step();
+  bool take(Op op, ByteReader in, std::uint64_t length);
+  bool end_early(const RecordHead& head);
+  void take_cut_chunk();
+  void take_chunk(ByteReader in, Region region);
+  void take_loose(ByteReader in, Region region);
+  void check_footer(ByteReader in, std::uint64_t length);
+  void add(Schema schema, const ByteReader& in);
+  void add(Channel channel, const ByteReader& in);
+  void require_channel(const MessageHead& head, const ByteReader& in) const;
+  void count(const MessageHead& head);
+  void cut(const std::string& what, std::uint64_t place);
+
+  const InputFile& file_;
+  const bool tolerant_;
+  Contents contents_;
+  std::uint64_t at_ = 0;
+  std::uint32_t crc_ = 0, data_crc_ = 0;
+};
+
+void Scanner::check_start() {
+  const Bytes start = file_.read(0, std::min<std::uint64_t>(magic.size(), file_.size()));
+  const auto expected = std::as_bytes(std::span(magic)).first(start.size());
+  if (start.empty() || !std::ranges::equal(start, expected))
+    throw error_at(file_.path(), 0, "this is not an MCAP file",
+                   "give a recording made by the logger");
+  if (start.size() < magic.size()) cut("the file ends inside its first 8 bytes", start.size());
+  crc_ = crc32_of(start);
+  at_ = start.size();
+}
+
+/// Reads the record at `at_`; false at the end.
+bool Scanner::step() {
+  const std::uint64_t left = file_.size() - at_;
+  if (left < record_head_bytes)
+    return cut(left ? "the file ends inside a record" : "the file ends without a footer", at_), false;
+  const Bytes start = file_.read(at_, record_head_bytes);
+  ByteReader in(start, file_.path(), at_);
+  const RecordHead head = get_record_head(in);
+  if (head.length > left - record_head_bytes) return end_early(head);
+  const Bytes body = file_.read(at_ + record_head_bytes, head.length);
+  data_crc_ = crc_;
+  crc_ = crc32_of(body, crc32_of(start, crc_));
+  const std::uint64_t end = at_ + record_head_bytes + head.length;
+  try {
+    if (!take(head.op, ByteReader(body, file_.path(), at_ + record_head_bytes), head.length))
+      return false;
+    at_ = end;
+  } catch (const RecordingError& error) {
+    if (!tolerant_) throw;
+    contents_.problems.emplace_back(error.what());
+    at_ = std::min(next_sound_record(file_, at_ + 1), std::max(end, at_ + 1));
+  }
+  return true;
+}
+
+bool Scanner::take(Op op, ByteReader in, std::uint64_t length) {
+  const Region here{.offset = at_, .length = record_head_bytes + length};
+  switch (op) {
+    case Op{0}: in.fail("a record has the kind 0");
+    case Op::header:
+      contents_.profile = in.characters("the profile");
+      contents_.library = in.characters("the library");
+      break;
+    case Op::schema: add(get_schema(in), in); break;
+    case Op::channel: add(get_channel(in), in); break;
+    case Op::message: take_loose(in, here); break;
+    case Op::chunk: take_chunk(in, here); break;
+    case Op::attachment: contents_.attachments.push_back(get_attachment(in)); break;
+    case Op::metadata: contents_.metadata.push_back(get_metadata(in)); break;
+    case Op::data_end: {
+      const auto crc = in.integer<std::uint32_t>("the data's checksum");
+      if (crc != 0 && crc != data_crc_) in.fail("the data section's checksum does not match");
+      break;
+    }
+    case Op::footer: return check_footer(in, length), false;
+    default: break;  // indexes, and kinds that are newer than this reader
+  }
+  return true;
+}
+
+void Scanner::add(Schema schema, const ByteReader& in) {
+  const auto [there, fresh] = contents_.schemas.try_emplace(schema.id, schema);
+  if (!fresh && there->second != schema)
+    in.fail("schema " + std::to_string(schema.id) + " is defined twice, differently");
+}
+
+void Scanner::add(Channel channel, const ByteReader& in) {
+  if (channel.schema_id != 0 && !contents_.schemas.contains(channel.schema_id))
+    in.fail("channel " + std::to_string(channel.id) + " needs schema " +
+            std::to_string(channel.schema_id) + ", which was not defined");
+  const auto [there, fresh] = contents_.channels.try_emplace(channel.id, channel);
+  if (!fresh && there->second != channel)
+    in.fail("channel " + std::to_string(channel.id) + " is defined twice, differently");
+}
+
+void Scanner::require_channel(const MessageHead& head, const ByteReader& in) const {
+  if (!contents_.channels.contains(head.channel_id))
+    in.fail("a message is of channel " + std::to_string(head.channel_id) +
+            ", which was not defined");
+}
+
+void Scanner::count(const MessageHead& head) {
+  contents_.statistics[head.channel_id].count(head);
+  ++contents_.messages;
+}
+
+void Scanner::take_loose(ByteReader in, Region region) {
+  const MessageHead head = get_message(in);
+  require_channel(head, in);
+  auto& regions = contents_.regions;
+  const bool extends = !regions.empty() && !regions.back().chunk &&
+                       regions.back().offset + regions.back().length == region.offset &&
+                       regions.back().length < longest_loose_region;
+  if (extends) regions.back().length += region.length;
+  else regions.push_back(region);
+  regions.back().count(head);
+  count(head);
+}
+
+/// Takes a chunk's messages whole or not at all.
+void Scanner::take_chunk(ByteReader in, Region region) {
+  const Bytes records = unpack(in);
+  std::vector<MessageHead> heads;
+  ByteReader inside(records, file_.path(), at_, true);
+  while (!inside.empty()) {
+    const RecordHead head = get_record_head(inside);
+    ByteReader body = inside.part(head.length, "a record in a chunk");
+    if (head.op == Op::schema) add(get_schema(body), body);
+    if (head.op == Op::channel) add(get_channel(body), body);
+    if (head.op != Op::message) continue;
+    heads.push_back(get_message(body));
+    require_channel(heads.back(), body);
+  }
+  region.chunk = true;
+  for (const auto& head : heads) region.count(head), count(head);
+  if (!heads.empty()) contents_.regions.push_back(region);
+  ++contents_.chunks;
+}
+
+void Scanner::check_footer(ByteReader in, std::uint64_t length) {
+  const ByteReader place = in;
+  const auto start = in.integer<std::uint64_t>("the summary's place");
+  in.integer<std::uint64_t>("the summary offsets' place");
+  const auto crc = in.integer<std::uint32_t>("the summary's checksum");
+  const std::uint64_t end = at_ + record_head_bytes + length;
+  if (start > at_) place.fail("the footer says that the summary starts behind it");
+  if (start != 0 && crc != 0 &&
+      crc != crc32_of(file_.read(start, at_ + record_head_bytes + 16 - start)))
+    place.fail("the summary's checksum does not match");
+  const Bytes last = file_.read(end, std::min<std::uint64_t>(file_.size() - end, magic.size() + 1));
+  const auto expected = std::as_bytes(std::span(magic));
+  if (last.size() < magic.size() && std::ranges::equal(last, expected.first(last.size())))
+    return cut("the file ends inside its last 8 bytes", end);
+  if (!std::ranges::equal(last, expected)) place.fail("the file does not end with MCAP's 8 bytes");
+  contents_.complete = true;
+}
+
+void Scanner::cut(const std::string& what, std::uint64_t place) {
+  if (contents_.truncation.empty())
+    contents_.truncation = error_at(file_.path(), place, what, mend(file_.path())).what();
+}
+
+/// A record that reaches beyond the end: the recorder was killed, or the length is wrong.
+bool Scanner::end_early(const RecordHead& head) {
+  cut("the file ends inside a record that says it is " + std::to_string(head.length) +
+          " bytes long", at_);
+  if (!tolerant_) return false;
+  const std::uint64_t next = next_sound_record(file_, at_ + 1);
+  if (next == file_.size() && head.op == Op::chunk) take_cut_chunk();
+  at_ = next;
+  return next < file_.size();
+}
+
+/// The messages at the start of a chunk whose end never reached the disk.
+void Scanner::take_cut_chunk() {
+  Region region{.offset = at_, .length = file_.size() - at_, .chunk = true, .cut = true};
+  std::vector<MessageHead> heads;
+  try {
+    const LoadedRegion loaded = load(file_, region);
+    ByteView data;
+    for (std::size_t i = 0; i < loaded.messages.size(); ++i) {
+      heads.push_back(loaded.message(i, file_.path(), data));
+      require_channel(heads.back(), ByteReader({}, file_.path(), at_));
+    }
+  } catch (const RecordingError&) {
+    return;  // not even the chunk's head is there, or it is no chunk
+  }
+  for (const auto& head : heads) region.count(head), count(head);
+  if (!heads.empty()) contents_.regions.push_back(region);
+}
+
+}  // namespace
+
+Contents scan(const InputFile& file, bool tolerant) {
+  Contents contents = Scanner(file, tolerant).run();
+  // The summary repeats schemas and channels: what was lost in front may be found at the end.
+  if (!contents.problems.empty()) return Scanner(file, true, std::move(contents)).run();
+  return contents;
+}
+
+void ChannelStatistics::count(const MessageHead& head) {
+  first_ns = messages ? std::min(first_ns, head.log_time_ns) : head.log_time_ns;
+  last_ns = std::max(last_ns, head.log_time_ns);
+  if (messages++ > 0) {
+    // MCAP keeps 32 bits of the number: more than half their range ahead is a step back.
+    const std::uint32_t step = head.sequence - last_sequence;
+    if (step > 0x8000'0000u) ++restarts;
+    else if (step > 1) missing += step - 1;
+  }
+  last_sequence = head.sequence;
+}
+
+}  // namespace recording

@@ -1,0 +1,76 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "interfaces/recording/file.hpp"
+#include "interfaces/recording/mcap_records.hpp"
+
+namespace recording {
+
+enum class Compression { none, zstd };
+
+struct McapOptions {
+  Compression compression = Compression::zstd;
+  std::size_t chunk_bytes = 1u << 20;             ///< a chunk is closed when it is this large, chosen
+  std::uint64_t chunk_span_ns = 1'000'000'000;    ///< or spans this much log time
+  bool replace = false;                           ///< overwrite a file that stands there
+};
+
+/// Writes an MCAP file: chunks with indexes, attachments, a summary. What is not in a closed
+/// chunk yet is in memory only; `flush` puts it on the disk.
+/// Every method throws RecordingError (path, the system's reason) when the disk refuses; the file
+/// then ends with its last whole record and takes nothing more.
+class McapWriter {
+ public:
+  explicit McapWriter(std::string path, McapOptions options = {});
+  /// Closes; says on standard error when that fails. Call `close` to know.
+  ~McapWriter();
+  McapWriter(const McapWriter&) = delete;
+  McapWriter& operator=(const McapWriter&) = delete;
+
+  /// Returns the schema's id, from 1.
+  std::uint16_t add_schema(std::string name, std::string encoding, std::string data);
+  /// Returns the channel's id. `schema_id` 0: a channel without schema.
+  /// Throws std::invalid_argument for a schema that was not added.
+  std::uint16_t add_channel(std::string topic, std::string message_encoding,
+                            std::uint16_t schema_id, TextMap metadata = {});
+  /// Throws std::invalid_argument for a channel that was not added.
+  void write(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_time_ns,
+             std::uint64_t publish_time_ns, ByteView data);
+  void attach(const Attachment& attachment);
+  void attach(std::string name, std::string media_type, std::string data);
+  void add_metadata(const Metadata& metadata);
+
+  /// Closes the chunk and waits until the disk has it.
+  void flush();
+  /// Writes the summary and the footer. Nothing can be added afterwards; a second call does nothing.
+  void close();
+
+  std::uint64_t message_count() const { return messages_; }
+  const std::string& path() const { return file_.path(); }
+
+ private:
+  struct Chunk {
+    Bytes records;
+    std::uint64_t start_ns = 0, end_ns = 0;
+    std::map<std::uint16_t, MessageIndex> index;
+  };
+  void append(const Bytes& bytes);
+  void close_chunk();
+  void put_summary(Bytes& out);
+  void put_statistics(Bytes& out) const;
+
+  McapOptions options_;
+  OutputFile file_;
+  bool failed_ = false;
+  Chunk chunk_;
+  Bytes schema_records_, channel_records_, attachment_records_, metadata_records_;
+  std::vector<ChunkIndex> chunks_;
+  std::uint16_t schema_count_ = 0, channel_count_ = 0;
+  std::uint32_t attachment_count_ = 0, metadata_count_ = 0;
+  std::uint64_t messages_ = 0, start_ns_ = 0, end_ns_ = 0;
+  std::map<std::uint16_t, std::uint64_t> channel_messages_;
+};
+
+}  // namespace recording

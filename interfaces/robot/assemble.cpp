@@ -1,0 +1,120 @@
+#include "interfaces/robot/assemble.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "interfaces/xml/xml.hpp"
+
+namespace erp {
+namespace {
+
+using xml::error_in;
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// A type that both sides of a robot use stands in both parts; the same one twice is one.
+template <class Type>
+void append_new(std::vector<Type>& to, const std::vector<Type>& from) {
+  for (const Type& type : from) {
+    const std::string text = xml::write(type);
+    const auto same = [&](const Type& other) { return xml::write(other) == text; };
+    if (std::none_of(to.begin(), to.end(), same)) to.push_back(type);
+  }
+}
+
+void append_part(Robot& robot, const Robot& part) {
+  append(robot.skeletons, part.skeletons);
+  append(robot.actuators, part.actuators);
+  append(robot.joint_sensors, part.joint_sensors);
+}
+
+std::vector<std::string> names_in(const Robot& part) {
+  std::vector<std::string> names;
+  for (const Body& body : part.bodies()) names.push_back(body.name);
+  for (const Joint& joint : part.joints()) names.push_back(joint.name);
+  for (const Actuator& actuator : part.actuators) names.push_back(actuator.name);
+  return names;
+}
+
+/// Reads files depth first. `open_` is the chain of files being read: a file in it must not come
+/// again.
+class Assembler {
+ public:
+  Robot read(const std::string& file) {
+    Robot robot = merged(file);
+    xml::throw_if_any(std::move(errors_));
+    return robot;
+  }
+
+ private:
+  Robot merged(const std::string& file) {
+    open_.push_back(std::filesystem::weakly_canonical(file).string());
+    Robot robot;
+    const xml::Element root = xml::read_document(file);
+    xml::throw_if_any(xml::wrong_root(root, Robot::element));
+    xml::Reader::fill(robot, root, errors_);
+    for (const Include& include : std::exchange(robot.includes, {})) add(robot, include, file);
+    for (const Mirror& mirror : std::exchange(robot.mirrors, {})) add(robot, mirror, file);
+    open_.pop_back();
+    return robot;
+  }
+
+  void add(Robot& robot, const Include& include, const std::string& from_file) {
+    const Robot part = part_of(include, from_file);
+    append_part(robot, part);
+    append(robot.motor_types, part.motor_types);
+    append(robot.sensor_types, part.sensor_types);
+  }
+
+  void add(Robot& robot, const Mirror& mirror, const std::string& from_file) {
+    Robot part = part_of(mirror, from_file);
+    const auto names = names_in(part);
+    const auto renamed = [&](const std::string& name) { return name.starts_with(mirror.from); };
+    if (!names.empty() && std::none_of(names.begin(), names.end(), renamed))
+      errors_.push_back(error_in(Mirror::element, mirror.place,
+                                 "from=\"" + mirror.from + "\" begins no name in " + mirror.file,
+                                 "names there: " + xml::joined(names)));
+    part = mirrored(std::move(part), mirror);
+    append_part(robot, part);
+    append_new(robot.motor_types, part.motor_types);
+    append_new(robot.sensor_types, part.sensor_types);
+  }
+
+  /// The part, or an empty one when it cannot be read; then errors_ says why.
+  template <class Reference>
+  Robot part_of(const Reference& reference, const std::string& from_file) {
+    const std::string file = xml::resolved(reference.file, from_file);
+    if (reference.file.empty()) return {};  // reported as missing already
+    const auto refuse = [&](const std::string& what, const std::string& remedy) {
+      errors_.push_back(error_in(Reference::element, reference.place,
+                                 "file=\"" + reference.file + "\" " + what, remedy));
+    };
+    const auto canonical = std::filesystem::weakly_canonical(file).string();
+    if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+      refuse("includes itself: " + xml::joined(open_, " > ") + " > " + canonical,
+             "take one of these includes out");
+      return {};
+    }
+    const auto depth = open_.size();
+    try {
+      return merged(file);
+    } catch (const xml::Errors& errors) {
+      open_.resize(depth);
+      for (const xml::Error& error : errors.all())
+        error.place.line == 0 ? refuse(error.what, error.remedy) : errors_.push_back(error);
+      return {};
+    }
+  }
+
+  std::vector<std::string> open_;
+  std::vector<xml::Error> errors_;
+};
+
+}  // namespace
+
+Robot assemble_robot(const std::string& file) { return Assembler().read(file); }
+
+}  // namespace erp

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "interfaces/idl/sizes.hpp"
+#include "interfaces/robot/check.hpp"
+
+namespace erp::robot_check {
+namespace {
+
+bool plain(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; }
+
+/// Names become topic keys of bounded length and columns of CSV files.
+template <class Item>
+void check_name(const Item& item, Findings& findings) {
+  const std::string& name = item.name;
+  if (name.size() > longest_name)
+    findings.add(item, "name=" + xml::quoted(name) + " has " + std::to_string(name.size()) +
+                           " characters",
+                 "the bus carries at most " + std::to_string(longest_name));
+  if (!std::all_of(name.begin(), name.end(), plain))
+    findings.add(item, "name=" + xml::quoted(name) + " is not a plain name",
+                 "use letters, digits, _ and -");
+}
+
+template <class Items>
+void check_unique(const Items& items, Findings& findings) {
+  std::map<std::string, xml::Place> seen;
+  for (const auto& item : items) {
+    check_name(item, findings);
+    const auto [first, is_new] = seen.emplace(item.name, item.place);
+    if (!is_new)
+      findings.add(item, "duplicate name " + xml::quoted(item.name),
+                   "rename it; the first stands at " + place_words(first->second));
+  }
+}
+
+template <class Items>
+void check_count(const Robot& robot, const Items& items, std::size_t most, const char* what,
+                 Findings& findings) {
+  if (items.size() > most)
+    findings.add(robot, std::to_string(items.size()) + " " + what,
+                 "the bus carries at most " + std::to_string(most));
+}
+
+template <class Item>
+void check_reference(const Item& item, const char* attribute, const std::string& name,
+                     const std::vector<std::string>& known, const char* kind, Findings& findings) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  findings.add(item, std::string(attribute) + "=" + xml::quoted(name) + " names no " + kind,
+               known.empty() ? std::string("the robot has none: add a ") + kind
+                             : xml::did_you_mean(name, known));
+}
+
+}  // namespace
+
+void check_names(const Robot& robot, Findings& findings) {
+  check_name(robot, findings);
+  check_unique(robot.bodies(), findings);
+  check_unique(robot.joints(), findings);
+  check_unique(robot.actuators, findings);
+  check_unique(robot.motor_types, findings);
+  check_unique(robot.sensor_types, findings);
+  check_count(robot, robot.bodies(), most_bodies, "bodies", findings);
+  check_count(robot, robot.joints(), most_joints, "joints", findings);
+  check_count(robot, robot.actuators, most_actuators, "actuators", findings);
+}
+
+void check_references(const Robot& robot, Findings& findings) {
+  const auto bodies = names_of(robot.bodies()), joints = names_of(robot.joints());
+  const auto motors = names_of(robot.motor_types), sensors = names_of(robot.sensor_types);
+  for (const Joint& joint : robot.joints()) {
+    check_reference(joint, "parent", joint.parent, bodies, "body", findings);
+    check_reference(joint, "child", joint.child, bodies, "body", findings);
+  }
+  for (const Actuator& actuator : robot.actuators) {
+    check_reference(actuator, "motor", actuator.motor, motors, "motor_type", findings);
+    check_reference(actuator, "sensors", actuator.sensors, sensors, "sensor_type", findings);
+    for (const auto& point : actuator.tendon.path)
+      std::visit([&](const auto& p) { check_reference(p, "body", p.body, bodies, "body", findings); },
+                 point);
+  }
+  for (const JointSensor& sensor : robot.joint_sensors)
+    check_reference(sensor, "joint", sensor.joint, joints, "joint", findings);
+}
+
+}  // namespace erp::robot_check

@@ -1,0 +1,66 @@
+#include <variant>
+
+#include "interfaces/robot/assemble.hpp"
+
+namespace erp {
+namespace {
+
+// p → M p, M = diag(1, −1, 1). Zero keeps its sign, so that files do not fill with "-0".
+double negated(double x) { return x == 0.0 ? 0.0 : -x; }
+Vec3 reflected(const Vec3& p) { return {p[0], negated(p[1]), p[2]}; }
+// a → −M a
+Vec3 reflected_axis(const Vec3& a) { return {negated(a[0]), a[1], negated(a[2])}; }
+
+void reflect(Skeleton& skeleton) {
+  if (auto& gravity = skeleton.gravity_m_per_s2) gravity = reflected(*gravity);
+  for (Body& body : skeleton.bodies) body.com_m = reflected(body.com_m);
+  for (Joint& joint : skeleton.joints) {
+    joint.at_m = reflected(joint.at_m);
+    joint.axis = reflected_axis(joint.axis);
+  }
+}
+
+void reflect(Attach& attach) { attach.at_m = reflected(attach.at_m); }
+void reflect(Pulley& pulley) {
+  pulley.center_m = reflected(pulley.center_m);
+  pulley.side = reflected(pulley.side);
+}
+
+/// Replaces the front of names.
+struct Rename {
+  const Mirror& mirror;
+  void operator()(std::string& name) const {
+    if (name.starts_with(mirror.from)) name.replace(0, mirror.from.size(), mirror.to);
+  }
+  template <class... Names>
+  void each(Names&... names) const {
+    ((*this)(names), ...);
+  }
+};
+
+void rename(Skeleton& skeleton, const Rename& rename) {
+  for (Body& body : skeleton.bodies) rename(body.name);
+  for (Joint& joint : skeleton.joints) rename.each(joint.name, joint.parent, joint.child);
+}
+
+}  // namespace
+
+Robot mirrored(Robot part, const Mirror& mirror) {
+  const Rename renamed{mirror};
+  for (Skeleton& skeleton : part.skeletons) reflect(skeleton), rename(skeleton, renamed);
+  for (MotorType& type : part.motor_types) renamed(type.name);
+  for (SensorType& type : part.sensor_types) renamed(type.name);
+  for (Actuator& actuator : part.actuators) {
+    renamed.each(actuator.name, actuator.motor, actuator.sensors);
+    actuator.ecu += mirror.ecu_offset;
+    for (auto& point : actuator.tendon.path)
+      std::visit([&](auto& p) { reflect(p), renamed(p.body); }, point);
+  }
+  for (JointSensor& sensor : part.joint_sensors) {
+    renamed(sensor.joint);
+    sensor.ecu += mirror.ecu_offset;
+  }
+  return part;
+}
+
+}  // namespace erp

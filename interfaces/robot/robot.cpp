@@ -1,0 +1,46 @@
+#include "interfaces/robot/robot.hpp"
+
+#include "interfaces/xml/xml.hpp"
+
+namespace erp {
+
+std::vector<Body> Robot::bodies() const {
+  std::vector<Body> all;
+  for (const Skeleton& part : skeletons)
+    all.insert(all.end(), part.bodies.begin(), part.bodies.end());
+  return all;
+}
+
+std::vector<Joint> Robot::joints() const {
+  std::vector<Joint> all;
+  for (const Skeleton& part : skeletons)
+    all.insert(all.end(), part.joints.begin(), part.joints.end());
+  return all;
+}
+
+Vec3 Robot::gravity_m_per_s2() const {
+  for (const Skeleton& part : skeletons)
+    if (part.gravity_m_per_s2) return *part.gravity_m_per_s2;
+  return {0, 0, 0};
+}
+
+namespace {
+template <class Type>
+const Type& named(const std::vector<Type>& types, const std::string& name) {
+  for (const Type& type : types)
+    if (type.name == name) return type;
+  throw std::out_of_range(std::string("the robot has no ") + Type::element + " \"" + name + "\"");
+}
+}  // namespace
+
+const MotorType& Robot::motor_of(const Actuator& actuator) const {
+  return named(motor_types, actuator.motor);
+}
+
+const SensorType& Robot::sensors_of(const Actuator& actuator) const {
+  return named(sensor_types, actuator.sensors);
+}
+
+Robot read_robot(const std::string& file) { return xml::read<Robot>(file); }
+
+}  // namespace erp

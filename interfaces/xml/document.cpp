@@ -1,0 +1,111 @@
+#include "interfaces/xml/document.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "interfaces/xml/words.hpp"
+
+namespace xml {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+[[noreturn]] void refuse(const Place& place, const std::string& what, const std::string& remedy) {
+  throw Errors({{place, what, remedy}});
+}
+
+/// tinyxml2 knows lines only. But it parses in place: names and texts point into one buffer, a
+/// copy of what it was given. A declaration put in front marks where that buffer begins, so a
+/// pointer becomes an offset in the untouched text, and that a line and a column.
+class Tree {
+ public:
+  Tree(std::string_view text, const std::string& file) : text_(text), file_(file) {
+    const std::string marked = std::string(mark) + std::string(text);
+    document_.Parse(marked.data(), marked.size());
+    if (document_.Error())
+      refuse(place_of_line(document_.ErrorLineNum()), "XML is not well-formed",
+             document_.ErrorName());
+    begin_ = document_.FirstChild()->Value() - std::strlen("<?") + mark.size();
+  }
+
+  Element root() const {
+    const tinyxml2::XMLElement* root = document_.RootElement();
+    if (!root) refuse({file_, 1, 1}, "has no element", "write the root element");
+    return element(*root);
+  }
+
+ private:
+  static constexpr std::string_view mark = "<?xml?>";
+
+  Place place(const char* in_buffer) const {
+    return place_at(text_, static_cast<std::size_t>(in_buffer - begin_), file_);
+  }
+  Place place_of_line(int line) const { return {file_, line, 1}; }
+
+  Element element(const tinyxml2::XMLElement& from) const {
+    Element to{place(from.Name() - 1), from.Name(), {}, {}, {}};
+    for (auto* a = from.FirstAttribute(); a; a = a->Next())
+      to.attributes.push_back({place(a->Name()), a->Name(), a->Value()});
+    for (auto* child = from.FirstChild(); child; child = child->NextSibling()) {
+      if (auto* inner = child->ToElement()) to.children.push_back(element(*inner));
+      if (auto* words = child->ToText()) to.stray_text.push_back(text(*words));
+    }
+    return to;
+  }
+
+  std::pair<Place, std::string> text(const tinyxml2::XMLText& from) const {
+    const std::string_view words = from.Value();
+    const std::size_t blanks = std::min(words.find_first_not_of(" \t\r\n"), words.size());
+    return {place(from.Value() + blanks), std::string(trimmed(words))};
+  }
+
+  tinyxml2::XMLDocument document_;
+  std::string_view text_;
+  const std::string& file_;
+  const char* begin_ = nullptr;
+};
+
+std::string contents(const std::string& file) {
+  const Place whole{file, 0, 0};
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    refuse(whole, "no such file", "check the path, or create the file");
+  if (std::filesystem::is_directory(file, ignored))
+    refuse(whole, "is a folder", "name the XML file in it");
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf()).good()) {
+    if (in && in.peek() == std::ifstream::traits_type::eof()) return "";
+    refuse(whole, std::string("cannot be read: ") + std::strerror(errno), "check its permissions");
+  }
+  return text.str();
+}
+
+}  // namespace
+
+Place place_at(std::string_view text, std::size_t offset, const std::string& file) {
+  const std::string_view before = text.substr(0, offset);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::string_view in_line = before.substr(before.rfind('\n') + 1);
+  const auto characters = std::count_if(in_line.begin(), in_line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;  // not a UTF-8 continuation byte
+  });
+  return {file, static_cast<int>(line), static_cast<int>(characters) + 1};
+}
+
+Element parse_document(std::string_view text, const std::string& file) {
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  if (trimmed(text).empty()) refuse({file, 1, 1}, "is empty", "write the root element");
+  throw_if_any(malformed(text, file));
+  return Tree(text, file).root();
+}
+
+Element read_document(const std::string& file) { return parse_document(contents(file), file); }
+
+}  // namespace xml

@@ -1,0 +1,74 @@
+#include "interfaces/xml/reader.hpp"
+
+#include <algorithm>
+
+namespace xml {
+namespace {
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Attributes with which an editor finds the XSD; allowed everywhere, read nowhere.
+bool belongs_to_editors(const std::string& name) {
+  return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
+}
+
+}  // namespace
+
+const Attribute* Reader::attribute(const std::string& name) const {
+  for (const Attribute& a : element_.attributes)
+    if (a.name == name) return &a;
+  return nullptr;
+}
+
+const Element* Reader::only(const std::string& name) {
+  known_children_.push_back(name);
+  const Element* found = nullptr;
+  for (const Element& child : element_.children) {
+    if (child.name != name) continue;
+    if (found)
+      errors_.push_back(error_in(element_.name, child.place, "a second <" + name + ">",
+                                 "keep one; the first stands in line " +
+                                     std::to_string(found->place.line)));
+    else
+      found = &child;
+  }
+  return found;
+}
+
+void Reader::refuse(const Attribute& attribute, const Refusal& refusal) {
+  errors_.push_back(
+      error_in(element_.name, attribute.place,
+               attribute.name + "=" + quoted(attribute.value) + " " + refusal.what,
+               refusal.remedy));
+}
+
+/// One mistake, one error: a misspelt name is not reported as missing as well.
+void Reader::refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
+                            const std::vector<std::string>& known,
+                            std::vector<std::string>& missing) {
+  std::erase(missing, nearest(name, known));
+  errors_.push_back(error_in(element_.name, place, "unknown " + kind + " " + quoted(name),
+                             did_you_mean(name, known)));
+}
+
+void Reader::finish() {
+  for (const Attribute& a : element_.attributes)
+    if (!has(known_attributes_, a.name) && !belongs_to_editors(a.name))
+      refuse_unknown("attribute", a.place, a.name, known_attributes_, missing_attributes_);
+  for (const Element& child : element_.children)
+    if (!has(known_children_, child.name))
+      refuse_unknown("element", child.place, child.name, known_children_, missing_children_);
+  for (const auto& [place, text] : element_.stray_text)
+    errors_.push_back(error_in(element_.name, place, "stray text " + quoted(text),
+                               "remove it, or put it into a comment"));
+  for (const std::string& name : missing_attributes_)
+    errors_.push_back(error_in(element_.name, element_.place, "attribute " + quoted(name) +
+                                   " is missing", "add " + name + "=\"…\""));
+  for (const std::string& name : missing_children_)
+    errors_.push_back(error_in(element_.name, element_.place, "element <" + name + "> is missing",
+                               "add one"));
+}
+
+}  // namespace xml

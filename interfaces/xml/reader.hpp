@@ -1,0 +1,93 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "interfaces/xml/document.hpp"
+#include "interfaces/xml/values.hpp"
+
+namespace xml {
+
+/// Fills a struct from an element through its `visit`, and collects every mistake.
+/// One element, one Reader; `finish` refuses whatever the struct did not ask for.
+class Reader {
+ public:
+  Reader(const Element& element, std::vector<Error>& errors) : element_(element), errors_(errors) {}
+
+  template <class T>
+  void operator()(const char* name, T& value, const Range& range = any) {
+    known_attributes_.push_back(name);
+    if (const Attribute* found = attribute(name)) read(*found, value, range);
+  }
+
+  template <class T>
+  void required(const char* name, T& value, const Range& range = any) {
+    known_attributes_.push_back(name);
+    const Attribute* found = attribute(name);
+    if (!found) return void(missing_attributes_.push_back(name));
+    if (std::is_same_v<T, std::string> && trimmed(found->value).empty())
+      return refuse(*found, {"is empty", "give a text"});
+    read(*found, value, range);
+  }
+
+  template <class T>
+  void child(T& value) {
+    if (const Element* found = only(T::element)) fill(value, *found, errors_);
+    else missing_children_.push_back(T::element);
+  }
+
+  template <class T>
+  void optional_child(std::optional<T>& value) {
+    if (const Element* found = only(T::element)) fill(value.emplace(), *found, errors_);
+  }
+
+  template <class T>
+  void list(std::vector<T>& values) {
+    known_children_.push_back(T::element);
+    for (const Element& child : element_.children)
+      if (child.name == T::element) fill(values.emplace_back(), child, errors_);
+  }
+
+  template <class... Kinds>
+  void list(std::vector<std::variant<Kinds...>>& values) {
+    (known_children_.push_back(Kinds::element), ...);
+    for (const Element& child : element_.children) (append_if_named<Kinds>(values, child), ...);
+  }
+
+  /// Refuses unknown attributes and children, stray text, and what is missing.
+  void finish();
+
+  template <class T>
+  static void fill(T& value, const Element& element, std::vector<Error>& errors) {
+    if constexpr (requires { value.place = element.place; }) value.place = element.place;
+    Reader reader(element, errors);
+    value.visit(reader);
+    reader.finish();
+  }
+
+ private:
+  const Attribute* attribute(const std::string& name) const;
+  const Element* only(const std::string& name);  ///< the child of that name; a second is refused
+  void refuse(const Attribute& attribute, const Refusal& refusal);
+  void refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
+                      const std::vector<std::string>& known, std::vector<std::string>& missing);
+
+  template <class T>
+  void read(const Attribute& found, T& value, const Range& range) {
+    if (const Refused refused = Codec<T>::read(found.value, value, range)) refuse(found, *refused);
+  }
+  template <class Kind, class Variant>
+  void append_if_named(std::vector<Variant>& values, const Element& child) {
+    if (child.name != Kind::element) return;
+    values.emplace_back(Kind{});
+    fill(std::get<Kind>(values.back()), child, errors_);
+  }
+
+  const Element& element_;
+  std::vector<Error>& errors_;
+  std::vector<std::string> known_attributes_, known_children_;
+  std::vector<std::string> missing_attributes_, missing_children_;
+};
+
+}  // namespace xml

@@ -1,0 +1,99 @@
+#include "interfaces/xml/values.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace xml {
+namespace {
+
+Refusal out_of_range(const char* kind, const Range& range) {
+  return {"is out of range", std::string("give ") + kind + range_words(range)};
+}
+
+/// from_chars takes no leading plus sign.
+std::string_view without_plus(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  return text;
+}
+
+template <class Float>
+std::string shortest(Float value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+std::string range_words(const Range& range) {
+  const bool below = std::isfinite(range.min), above = std::isfinite(range.max);
+  if (below && above && !range.open_min && !range.open_max)
+    return " from " + write_number(range.min) + " to " + write_number(range.max);
+  std::string words;
+  if (below) words += (range.open_min ? " > " : " >= ") + write_number(range.min);
+  if (below && above) words += " and";
+  if (above) words += (range.open_max ? " < " : " <= ") + write_number(range.max);
+  return words;
+}
+
+Refused read_number(std::string_view text, double& value, const Range& range) {
+  text = without_plus(trimmed(text));
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault == std::errc::result_out_of_range)
+    return Refusal{"does not fit a double", "give a number" + range_words(range)};
+  if (fault != std::errc{} || end != text.data() + text.size())
+    return Refusal{"is not a number", "give a number" + range_words(range)};
+  if (!std::isfinite(value))
+    return Refusal{"is not a finite number", "give a number" + range_words(range)};
+  if (!range.contains(value)) return out_of_range("a number", range);
+  return {};
+}
+
+Refused read_integer(std::string_view text, long long& value, Range range) {
+  text = without_plus(trimmed(text));
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault == std::errc::result_out_of_range) return out_of_range("an integer", range);
+  if (fault != std::errc{} || end != text.data() + text.size())
+    return Refusal{"is not an integer", "give an integer" + range_words(range)};
+  if (!range.contains(static_cast<double>(value))) return out_of_range("an integer", range);
+  return {};
+}
+
+Refused read_flag(std::string_view text, bool& value) {
+  text = trimmed(text);
+  if (text != "true" && text != "false")
+    return Refusal{"is neither true nor false", "write true or false"};
+  value = text == "true";
+  return {};
+}
+
+std::string write_number(double value) { return shortest(value); }
+std::string write_number(float value) { return shortest(value); }
+
+std::string xsd_restriction(const std::string& base, const Range& range) {
+  std::string facets;
+  const auto facet = [&](const char* name, double value) {
+    facets += std::string("<xs:") + name + " value=\"" + write_number(value) + "\"/>";
+  };
+  if (std::isfinite(range.min)) facet(range.open_min ? "minExclusive" : "minInclusive", range.min);
+  if (std::isfinite(range.max)) facet(range.open_max ? "maxExclusive" : "maxInclusive", range.max);
+  return "<xs:simpleType><xs:restriction base=\"" + base + "\">" + facets +
+         "</xs:restriction></xs:simpleType>";
+}
+
+std::string xsd_filled_text() { return xsd_restriction("filled_text", any); }
+
+std::string xsd_list(const std::string& item_type, std::size_t length) {
+  const std::string list = "<xs:simpleType><xs:list>" + item_type + "</xs:list></xs:simpleType>";
+  if (length == 0) return list;
+  return "<xs:simpleType><xs:restriction>" + list + "<xs:length value=\"" +
+         std::to_string(length) + "\"/></xs:restriction></xs:simpleType>";
+}
+
+std::string xsd_words(const std::vector<std::string>& words) {
+  std::string facets;
+  for (const std::string& word : words) facets += "<xs:enumeration value=\"" + word + "\"/>";
+  return "<xs:simpleType><xs:restriction base=\"xs:string\">" + facets +
+         "</xs:restriction></xs:simpleType>";
+}
+
+}  // namespace xml

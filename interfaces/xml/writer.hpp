@@ -1,0 +1,82 @@
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "interfaces/xml/values.hpp"
+
+namespace xml {
+
+/// An attribute as it is written: name and unescaped text.
+using WrittenAttribute = std::pair<std::string, std::string>;
+
+/// One element as text, indented; attributes wrap at 100 columns.
+std::string element_text(const std::string& name, const std::vector<WrittenAttribute>& attributes,
+                         const std::string& children, std::size_t depth);
+
+/// Writes a struct through its `visit`. What reads back to the default anyway is left out.
+class Writer {
+ public:
+  explicit Writer(std::size_t depth = 0, std::vector<WrittenAttribute> defaults = {})
+      : depth_(depth), defaults_(std::move(defaults)) {}
+
+  template <class T>
+  void operator()(const char* name, const T& value, const Range& = any) {
+    if (!present(value)) return;
+    WrittenAttribute written{name, Codec<T>::write(value)};
+    const auto end = defaults_.end();
+    if (std::find(defaults_.begin(), end, written) == end)
+      attributes_.push_back(std::move(written));
+  }
+  template <class T>
+  void required(const char* name, const T& value, const Range& = any) {
+    if (present(value)) attributes_.emplace_back(name, Codec<T>::write(value));
+  }
+  template <class T>
+  void child(T& value) {
+    children_ += text_of(value, T::element, depth_ + 1);
+  }
+  template <class T>
+  void optional_child(std::optional<T>& value) {
+    if (value) child(*value);
+  }
+  template <class T>
+  void list(std::vector<T>& values) {
+    for (T& value : values) child(value);
+  }
+  template <class... Kinds>
+  void list(std::vector<std::variant<Kinds...>>& values) {
+    for (auto& value : values) std::visit([this](auto& kind) { child(kind); }, value);
+  }
+
+  /// `value` as the element <name>; it is not changed (`visit` is not const).
+  template <class T>
+  static std::string text_of(T& value, const std::string& name, std::size_t depth) {
+    Writer writer(depth, attributes_of_default<T>());
+    value.visit(writer);
+    return element_text(name, writer.attributes_, writer.children_, depth);
+  }
+
+ private:
+  template <class T>
+  static bool present(const T& value) {
+    if constexpr (is_optional<T>) return value.has_value();
+    else return true;
+  }
+  template <class T>
+  static std::vector<WrittenAttribute> attributes_of_default() {
+    T fresh{};
+    Writer writer;
+    fresh.visit(writer);
+    return writer.attributes_;
+  }
+
+  std::size_t depth_;
+  std::vector<WrittenAttribute> defaults_, attributes_;
+  std::string children_;
+};
+
+}  // namespace xml

@@ -1,0 +1,49 @@
+#pragma once
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// One program, started and watched. Linux: fork, exec, pidfd.
+namespace launch {
+
+/// How a process ended: by its own exit code, or by a signal (`signal` ≠ 0).
+struct Ending {
+  int code = 0;
+  int signal = 0;
+  bool clean() const { return code == 0 && signal == 0; }
+};
+
+/// "exit code 1", "killed by signal 9 (Killed)".
+std::string to_string(const Ending& ending);
+
+/// Owns a running program in a process group of its own.
+///
+/// The program dies with the launcher (PR_SET_PDEATHSIG), inherits no descriptor but its log, reads
+/// nothing, and has no signal blocked. What it leaves behind in its group is killed when it ends.
+/// Must be created on the thread that lives as long as the launcher: the kernel ties the death
+/// signal to that thread.
+class Process {
+ public:
+  /// Appends stdout and stderr to `log_file`. Throws std::system_error when the log cannot be
+  /// opened or the program cannot be executed.
+  Process(const std::vector<std::string>& argv, const std::string& log_file);
+  ~Process();  ///< kills what still runs, and reaps it
+  Process(Process&& other) noexcept;
+  Process& operator=(Process&& other) noexcept;
+
+  pid_t pid() const { return pid_; }
+  int descriptor() const { return descriptor_; }  ///< a pidfd: readable once the program has ended
+  void send(int signal) const;                    ///< to the whole group; nothing once it has ended
+  std::optional<Ending> poll();  ///< reaps the program if it has ended; the same answer ever after
+
+ private:
+  void collect(int wait_options);
+
+  pid_t pid_ = -1;
+  int descriptor_ = -1;
+  std::optional<Ending> ending_;
+};
+
+}  // namespace launch

@@ -1,0 +1,21 @@
+#pragma once
+#include <sys/types.h>
+
+#include <cstdint>
+
+/// How busy a process keeps the processor, from /proc/PID/stat.
+namespace launch {
+
+class ProcessorShare {
+ public:
+  /// Percent of one core since the last call; −1 at the first call, or when the process is gone.
+  double measure(pid_t pid, std::int64_t now_ns);
+
+ private:
+  pid_t pid_ = 0;
+  std::int64_t last_ns_ = 0;
+  double last_busy_s_ = 0;
+  double percent_ = -1;
+};
+
+}  // namespace launch

@@ -1,0 +1,85 @@
+#include "launch/erp/table.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "launch/erp/duration.hpp"
+
+namespace launch {
+namespace {
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(),
+                                                [](char c) { return !continues_character(c); }));
+}
+
+std::string decimal(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string rate(double rate_Hz) { return rate_Hz > 0 ? decimal("%.0f Hz", rate_Hz) : "-"; }
+
+}  // namespace
+
+std::string microseconds(double duration_us) {
+  if (duration_us <= 0) return "-";
+  if (duration_us < 1000) return decimal("%.0f µs", duration_us);
+  if (duration_us < 1e6) return decimal("%.1f ms", duration_us * 1e-3);
+  return decimal("%.1f s", duration_us * 1e-6);
+}
+
+std::string clipped(const std::string& text, std::size_t width) {
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (!continues_character(text[i]) && seen++ == width) return text.substr(0, i);
+  return text;
+}
+
+std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows,
+                               const std::vector<bool>& right_aligned) {
+  std::vector<std::size_t> widths(right_aligned.size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], characters(row[i]));
+  std::vector<std::string> lines;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - characters(row[i]), ' ');
+      line += (i ? "  " : "") + (right_aligned[i] ? padding + row[i] : row[i] + padding);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<std::string> render_rows(const std::vector<Row>& rows) {
+  std::vector<std::vector<std::string>> cells{{"component", "state", "pid", "rate", "age p50",
+                                               "p99", "jitter p99", "overruns", "missed",
+                                               "restarts", "cpu", "note"}};
+  for (const auto& row : rows)
+    cells.push_back({row.name, row.state, row.pid > 0 ? std::to_string(row.pid) : "-",
+                     rate(row.rate_Hz), microseconds(row.age_p50_us),
+                     microseconds(row.age_p99_us), microseconds(row.jitter_p99_us),
+                     std::to_string(row.overruns), std::to_string(row.missed),
+                     std::to_string(row.restarts),
+                     row.cpu_percent < 0 ? "-" : decimal("%.0f %%", row.cpu_percent), row.note});
+  return align(cells, {false, false, true, true, true, true, true, true, true, true, true, false});
+}
+
+std::vector<std::string> render(const Status& status) {
+  std::string head = status.graph + "  " + status.stage + "  device " + status.device + ", " +
+                     status.time + "  " + to_text_s(status.elapsed_s);
+  if (status.simulated_s >= 0) head += ", simulated " + to_text_s(status.simulated_s);
+  if (status.left_s >= 0) head += ", " + to_text_s(status.left_s) + " left";
+  std::vector<std::string> lines{head};
+  for (auto& line : render_rows(status.rows)) lines.push_back(std::move(line));
+  return lines;
+}
+
+}  // namespace launch

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// The status of a run as lines of text. Pure.
+namespace launch {
+
+/// One component. Ages and jitter in µs; 0 and less: not measured.
+struct Row {
+  std::string name, state;
+  long pid = 0;
+  double rate_Hz = 0;
+  double age_p50_us = 0, age_p99_us = 0, jitter_p99_us = 0;
+  std::uint64_t overruns = 0, missed = 0, restarts = 0;
+  double cpu_percent = -1;  ///< of one core; negative: not measured
+  std::string note;         ///< the last thing it said
+};
+
+struct Status {
+  std::string graph, device, time, stage;
+  double elapsed_s = 0;    ///< real time since the start
+  double simulated_s = -1; ///< negative: no simulated clock
+  double left_s = -1;      ///< real time to go; negative: no end is set
+  std::vector<Row> rows;
+};
+
+/// Cells padded to the widest of their column.
+std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows,
+                               const std::vector<bool>& right_aligned);
+
+std::string microseconds(double duration_us);  ///< "85 µs", "1.3 ms", "-" when not measured
+std::vector<std::string> render_rows(const std::vector<Row>& rows);
+std::vector<std::string> render(const Status& status);
+
+/// At most `width` characters of UTF-8 text.
+std::string clipped(const std::string& text, std::size_t width);
+
+}  // namespace launch

@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "components/node/node.hpp"
+#include "sim/world/virtual_ecus.hpp"
+#include "sim/world/world.hpp"
+
+/// The simulator as a device on the bus: the world of robot.xml, and in it the virtual ECUs that
+/// run the firmware. Each 2 ms it measures, publishes an ecu_frame and moves on under the commands
+/// it has.
+///
+///   realtime   ticks by the clock; ticks it cannot keep are left out and counted as overruns
+///   lockstep   a tick follows the command that answers the last frame, as fast as that comes
+namespace sim {
+
+class SimNode {
+ public:
+  struct Lock {
+    static constexpr auto element = "lock";
+    xml::Place place;
+    std::string joint;
+    void visit(auto& v) { v.required("joint", joint); }
+  };
+  struct Params {
+    double physics_Hz = 1000;  ///< a multiple of the ECUs' 500 Hz
+    int seed = 1;              ///< of the sensors' noise
+    std::string bus;           ///< "": ECUs speak DDS; otherwise CAN frames on this bus
+    std::vector<Lock> locks;   ///< joints held still
+    void visit(auto& v) {
+      v("physics_Hz", physics_Hz, xml::Range{500, 20000});
+      v("seed", seed, xml::Range{0, 1e9});
+      v("bus", bus);
+      v.list(locks);
+    }
+  };
+
+  SimNode(const Params& params, const erp::Robot& robot, node::Node& node);
+
+ private:
+  void begin();
+  void tick();
+  void publish_frame();
+  void publish_truth();
+  void publish_clock(bool finished);
+  void on_command(const erp::EcuCommand& command);
+
+  node::Node& node_;
+  World world_;
+  VirtualEcus ecus_;
+  node::Publisher<erp::EcuFrame>& frame_out_;
+  node::Publisher<erp::JointState>& joints_out_;
+  node::Publisher<erp::BodyPose>& bodies_out_;
+  node::Publisher<erp::Clock>& clock_out_;
+  node::Subscription<erp::EcuParameter>* parameter_in_;
+  erp::EcuFrame frame_;
+  erp::JointState joints_;
+  erp::BodyPose bodies_;
+  std::uint64_t ticks_ = 0, end_ticks_;
+  std::int64_t began_ns_ = 0, published_ns_ = 0;
+};
+
+}  // namespace sim
