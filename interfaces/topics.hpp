@@ -1,5 +1,7 @@
 #pragma once
 // The map of the bus: every message, its C++ name, its topic. One line a message.
+#include <tuple>
+
 #include "interfaces/idl/actuator_command.h"
 #include "interfaces/idl/actuator_owner.h"
 #include "interfaces/idl/actuator_target.h"
@@ -75,5 +77,11 @@ ERP_TOPIC(LifecycleCommand, "lifecycle_command")  // launcher -> one component
 ERP_TOPIC(Clock, "clock")                         // sim -> all
 ERP_TOPIC(Event, "event")                         // all
 #undef ERP_TOPIC
+
+/// Every message, for those who look at the bus as a whole.
+using Messages =
+    std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame, EcuParameter,
+               GainCommand, JointState, BodyPose, ActuatorOwner, ComponentState, LifecycleCommand,
+               Clock, Event>;
 
 }  // namespace erp

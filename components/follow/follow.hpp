@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/node/run.hpp"
+#include "firmware/core/laws.h"
 #include "interfaces/topics.hpp"
 #include "sim/actuator/design.hpp"
 

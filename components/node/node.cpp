@@ -129,7 +129,7 @@ std::uint32_t Node::count_peers() {
 void Node::heartbeat() {
   const auto now_ns = monotonic_ns();
   state_.lifecycle = static_cast<std::uint8_t>(lifecycle_);
-  state_.stamp_ns = wall_ns();
+  state_.stamp_ns = clock_.now_ns();
   state_.links = 0, state_.missed = 0;
   for (const auto& port : ports_) state_.links += port->matched(), state_.missed += port->missed();
   state_.peers = count_peers();

@@ -27,6 +27,8 @@ class Node {
 
   const Options& options() const { return options_; }
   Clock& clock() { return clock_; }
+  const Entity& participant() const { return participant_; }  ///< for raw readers and discovery
+  Wake& wake() { return wake_; }
   bool active() const { return lifecycle_ == erp::Lifecycle::active; }
 
   template <class M>

@@ -43,6 +43,15 @@ std::string user_data(const dds_qos_t* qos) {
   return text;
 }
 
+/// The descriptor of one of our own messages, null for any other type. Cyclone 0.10 could not
+/// rebuild these from their type information: their key is a bounded string ("Unsupported").
+template <class... M>
+const dds_topic_descriptor_t* own_type(const std::string& name, std::tuple<M...>*) {
+  const dds_topic_descriptor_t* found = nullptr;
+  ((name == erp::Topic<M>::type->m_typename ? found = erp::Topic<M>::type : nullptr), ...);
+  return found;
+}
+
 }  // namespace
 
 Discovery::Discovery(const Entity& participant, Wake& wake)
@@ -81,9 +90,13 @@ Descriptor Discovery::type_of(const std::string& topic) {
   Descriptor found;
   for (const auto* reader : {&writers_, &readers_})
     for_each_alive<dds_builtintopic_endpoint_t>(*reader, [&](auto& e, const auto&) {
+      if (found || topic != e.topic_name) return;
+      if (const auto* own = own_type(e.type_name, static_cast<erp::Messages*>(nullptr))) {
+        found = Descriptor(own, [](const dds_topic_descriptor_t*) {});
+        return;
+      }
       const dds_typeinfo_t* type_info = nullptr;
-      if (found || topic != e.topic_name ||
-          dds_builtintopic_get_endpoint_type_info(&e, &type_info) != DDS_RETCODE_OK || !type_info)
+      if (dds_builtintopic_get_endpoint_type_info(&e, &type_info) != DDS_RETCODE_OK || !type_info)
         return;
       dds_topic_descriptor_t* descriptor = nullptr;
       if (dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant_.id(), type_info,

@@ -77,7 +77,7 @@ class Stepper {
       return;
     waiting_ = false;
     node_.clock().advance(pending_.stamp_ns);
-    const auto now_ns = node_.clock().now_ns();
+    [[maybe_unused]] const auto now_ns = node_.clock().now_ns();
     ((std::get<Latest<More>>(more_).age_s =
           1e-9 * static_cast<double>(now_ns - std::get<Latest<More>>(more_).arrived_ns)), ...);
     const double dt_s = last_ns_ ? 1e-9 * static_cast<double>(pending_.stamp_ns - *last_ns_) : 0.0;

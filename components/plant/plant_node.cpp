@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/actuator/design.hpp"
+#include "components/plant/gains.hpp"
 
 namespace plant {
 namespace {
@@ -10,16 +10,6 @@ namespace {
 constexpr std::int64_t patience_ns = 500'000'000;  // chosen: a controller lost in lockstep
 constexpr std::uint64_t owner_period = 50;         // frames: owners are published at 10 Hz
 constexpr std::uint64_t gains_period = 50;         // frames between attempts to set gains
-
-std::vector<erp::EcuParameterValue> gains_of(const erp::Robot& robot, const erp::Actuator& actuator) {
-  const auto designed = sim::design_parameters(robot, actuator, {});
-  std::vector<erp::EcuParameterValue> values;
-  for (std::size_t i = 0; i < designed.size(); ++i)
-    values.push_back({static_cast<std::uint8_t>(actuator.ecu),
-                      static_cast<std::uint8_t>(actuator.channel), static_cast<std::uint8_t>(i),
-                      i + 1 == designed.size(), designed[i]});
-  return values;
-}
 
 }  // namespace
 
@@ -32,7 +22,7 @@ PlantNode::PlantNode(const Params& params, const erp::Robot& robot, node::Node& 
       owner_out_(node.advertise<erp::ActuatorOwner>()) {
   for (const auto& actuator : robot.actuators) {
     names_.push_back(actuator.name);
-    gains_.push_back(gains_of(robot, actuator));
+    gains_.push_back(gain_set(robot, actuator));
   }
   command_in_ = &node.subscribe<erp::ActuatorCommand>([this](const auto& m) { on_command(m); });
   node.subscribe<erp::GainCommand>([this](const auto& m) { on_gains(m); });
@@ -100,7 +90,7 @@ void PlantNode::on_gains(const erp::GainCommand& command) {
   erp::EcuParameter out;
   for (const auto& gain : erp::samples(command.gains)) {
     const auto actuator = std::find(names_.begin(), names_.end(), gain.name);
-    const auto index = sim::parameter_index(gain.parameter);
+    const auto index = gain_index(gain.parameter);
     if (actuator == names_.end() || !index) {
       node_.report(erp::Severity::warning, gain.name, "gain_refused",
                    std::string("no such gain: ") + gain.parameter);

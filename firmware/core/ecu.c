@@ -32,13 +32,16 @@ static bool is_sane(const ecu_channel* c, ecu_request request, int32_t setpoint)
   switch (request) {
     case ECU_REQUEST_OFF:
     case ECU_REQUEST_CLEAR:
-    case ECU_REQUEST_ARM: return true;
-    case ECU_REQUEST_VOLTAGE: return within(setpoint, 1e-3f, -GAIN(c, SUPPLY), GAIN(c, SUPPLY));
+    case ECU_REQUEST_ARM:
+      return true;
+    case ECU_REQUEST_VOLTAGE:
+      return within(setpoint, 1e-3f, -GAIN(c, SUPPLY), GAIN(c, SUPPLY));
     case ECU_REQUEST_LENGTH:
       return within(setpoint, GAIN(c, SHAFT_SCALE), GAIN(c, SHAFT_MIN), GAIN(c, SHAFT_MAX));
     case ECU_REQUEST_CURRENT:
       return within(setpoint, 1e-3f, -GAIN(c, CURRENT_LIMIT), GAIN(c, CURRENT_LIMIT));
-    case ECU_REQUEST_FORCE: return within(setpoint, 1e-3f, 0.0f, GAIN(c, TENSION_LIMIT));
+    case ECU_REQUEST_FORCE:
+      return within(setpoint, 1e-3f, 0.0f, GAIN(c, TENSION_LIMIT));
   }
   return false;
 }
@@ -84,10 +87,16 @@ static bool arm(ecu_channel* channel) {
 bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint) {
   if (channel->gains_complete && !is_sane(channel, request, setpoint)) return reject(channel);
   switch (request) {
-    case ECU_REQUEST_OFF: ecu_apply(channel, ECU_EVENT_OFF); return true;
-    case ECU_REQUEST_CLEAR: ecu_apply(channel, ECU_EVENT_CLEAR); return true;
-    case ECU_REQUEST_ARM: return arm(channel);
-    default: return follow(channel, request, setpoint);
+    case ECU_REQUEST_OFF:
+      ecu_apply(channel, ECU_EVENT_OFF);
+      return true;
+    case ECU_REQUEST_CLEAR:
+      ecu_apply(channel, ECU_EVENT_CLEAR);
+      return true;
+    case ECU_REQUEST_ARM:
+      return arm(channel);
+    default:
+      return follow(channel, request, setpoint);
   }
 }
 
@@ -97,9 +106,9 @@ bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint) {
  * third in a row trips. Tension 0 is a slack tendon, not a rail. */
 static void measure(ecu_channel* c, const ecu_inputs* inputs) {
   const float counts_per_period =
-      c->has_inputs ? (float)(int32_t)((uint32_t)inputs->encoder_counts -
-                                       (uint32_t)c->inputs.encoder_counts)
-                    : 0.0f;
+      c->has_inputs
+          ? (float)(int32_t)((uint32_t)inputs->encoder_counts - (uint32_t)c->inputs.encoder_counts)
+          : 0.0f;
   const float current = (float)inputs->current_counts, tension = (float)inputs->tension_counts;
   const float current_max = GAIN(c, CURRENT_COUNTS_MAX);
   const bool current_at_rail = current >= current_max || current <= -current_max;
@@ -127,16 +136,15 @@ static void check_limits(ecu_channel* c) {
 
 static void check_timeout(ecu_channel* c) {
   if (!is_live(c)) return;
-  if (c->ticks_since_command >= ECU_TIMEOUT_TICKS)
-    ecu_trip(c, ECU_FAULT_COMMAND_TIMEOUT);
-  else
-    ++c->ticks_since_command;
+  if (c->ticks_since_command >= ECU_TIMEOUT_TICKS) ecu_trip(c, ECU_FAULT_COMMAND_TIMEOUT);
+  else ++c->ticks_since_command;
 }
 
 static float law_V(ecu_channel* c) {
   const float milli = (float)c->setpoint / 1000.0f;
   switch (c->request) {
-    case ECU_REQUEST_VOLTAGE: return milli;
+    case ECU_REQUEST_VOLTAGE:
+      return milli;
     case ECU_REQUEST_LENGTH:
       return law_length_V(GAIN(c, LENGTH_KP), (float)c->setpoint * GAIN(c, SHAFT_SCALE),
                           c->shaft_rad);
@@ -149,7 +157,8 @@ static float law_V(ecu_channel* c) {
                                      GAIN(c, FORCE_K_TENSION), GAIN(c, FORCE_PREFILTER)};
       return law_force_V(&gains, milli, c->current_A, c->speed_rad_per_s, c->tension_N);
     }
-    default: return 0.0f;
+    default:
+      return 0.0f;
   }
 }
 

@@ -77,9 +77,9 @@ typedef struct {
   ecu_request request; /* what it follows: off in boot, idle and fault, arm when armed */
   int32_t setpoint;    /* 0 unless running */
   uint32_t ticks_since_command;
-  uint32_t bad_setpoints;      /* in a row */
-  uint32_t rejected_setpoints; /* ever */
-  uint32_t rejected_commits;   /* ever */
+  uint32_t bad_setpoints;                  /* in a row */
+  uint32_t rejected_setpoints;             /* ever */
+  uint32_t rejected_commits;               /* ever */
   float gains[ECU_PARAMETER_COUNT];        /* in force */
   float gains_staged[ECU_PARAMETER_COUNT]; /* written, not yet committed */
   uint32_t written;                        /* bits: parameters staged or in force */
@@ -96,9 +96,9 @@ typedef struct {
 
 void ecu_init(ecu_channel* channel);
 
-/* A fresh command. Returns false when it is not followed: a set-point outside the limits or an
- * unknown request (the old one stays, and times out), or one that this state cannot take
- * (a mode in boot, idle or fault, arm in boot or fault), which is counted and otherwise ignored. */
+/* A fresh command. Returns false when it is not followed. A set-point outside the limits or an
+ * unknown request is counted, and the old one stays until it times out; five in a row trip. A mode
+ * in boot, idle or fault is counted and ignored; arm in boot or fault is ignored. */
 bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint);
 
 /* Stages one parameter; with `commit` the staged set comes into force as a whole, if every

@@ -12,19 +12,20 @@ frame_function frame_function_of(const bus_frame* frame) {
 }
 uint8_t frame_ecu_of(const bus_frame* frame) { return frame->id & 0x7Fu; }
 
-static uint8_t crc8(uint8_t crc, uint8_t byte) {
-  crc ^= byte;
-  for (int bit = 0; bit < 8; ++bit)
-    crc = (uint8_t)(crc & 0x80u ? (unsigned)crc << 1 ^ 0x2Fu : (unsigned)crc << 1);
-  return crc;
+uint8_t frame_crc8(const uint8_t* bytes, unsigned count) {
+  uint8_t crc = 0xFF;
+  for (unsigned i = 0; i < count; ++i) {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit)
+      crc = (uint8_t)(crc & 0x80u ? (unsigned)crc << 1 ^ 0x2Fu : (unsigned)crc << 1);
+  }
+  return crc ^ 0xFFu;
 }
 
 static uint8_t check_value(const bus_frame* frame) {
-  uint8_t crc = 0xFF;
-  crc = crc8(crc, (uint8_t)(frame->id & 0xFFu));
-  crc = crc8(crc, (uint8_t)(frame->id >> 8));
-  for (int i = 0; i < 7; ++i) crc = crc8(crc, frame->data[i]);
-  return crc ^ 0xFFu;
+  uint8_t bytes[9] = {(uint8_t)(frame->id & 0xFFu), (uint8_t)(frame->id >> 8)};
+  memcpy(bytes + 2, frame->data, 7);
+  return frame_crc8(bytes, sizeof bytes);
 }
 
 bool frame_is_intact(const bus_frame* frame) {
@@ -256,6 +257,8 @@ bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* said) {
   memcpy(&said->value, &value, sizeof value);
   return true;
 }
+
+uint8_t frame_ahead(uint8_t heard, uint8_t last) { return (uint8_t)(heard - last) & 7u; }
 
 int32_t frame_unwrap(int32_t last, uint16_t low) {
   const int16_t moved = (int16_t)(uint16_t)(low - (uint16_t)last);

@@ -44,9 +44,9 @@ extern "C" {
 
 #define FRAME_VERSION 1u
 #define FRAME_ECUS 128
-#define FRAME_SETPOINT_MAX 2097151           /* 22 bits signed; -2097152 is reserved: */
-#define FRAME_SETPOINT_REFUSED INT32_MIN     /* one that did not fit; the ECU rejects it */
-#define FRAME_REQUEST_NONE 7u                /* this channel is not spoken to */
+#define FRAME_SETPOINT_MAX 2097151       /* 22 bits signed; -2097152 is reserved: */
+#define FRAME_SETPOINT_REFUSED INT32_MIN /* one that did not fit; the ECU rejects it */
+#define FRAME_REQUEST_NONE 7u            /* this channel is not spoken to */
 
 /* One classic frame as it goes over the bus. */
 typedef struct {
@@ -134,6 +134,7 @@ typedef struct {
 uint16_t frame_identifier(frame_function function, uint8_t ecu);
 frame_function frame_function_of(const bus_frame* frame);
 uint8_t frame_ecu_of(const bus_frame* frame);
+uint8_t frame_crc8(const uint8_t* bytes, unsigned count);
 /* Size and check value are right. */
 bool frame_is_intact(const bus_frame* frame);
 
@@ -151,6 +152,10 @@ void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel, const fra
 bool frame_unpack_health(const bus_frame* frame, frame_health* said);
 void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* said);
 bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* said);
+
+/* How many counters of 8 `heard` is ahead of `last`. From FRAME_LATE on it is behind instead. */
+#define FRAME_LATE 6u
+uint8_t frame_ahead(uint8_t heard, uint8_t last);
 
 /* The whole count nearest to `last` whose lower half is `low`. */
 int32_t frame_unwrap(int32_t last, uint16_t low);

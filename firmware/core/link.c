@@ -2,8 +2,7 @@
 
 void ecu_link_init(ecu_link* link, uint8_t ecu, ecu_channel* channel_0, ecu_channel* channel_1,
                    uint8_t analog_inputs) {
-  *link = (ecu_link){
-      .ecu = ecu, .analog_inputs = analog_inputs, .channel = {channel_0, channel_1}};
+  *link = (ecu_link){.ecu = ecu, .analog_inputs = analog_inputs, .channel = {channel_0, channel_1}};
 }
 
 void ecu_link_tick(ecu_link* link) {
@@ -26,13 +25,13 @@ static bool hear_corrupt(ecu_link* link) {
 /* Newer than the last one heard? Counters run modulo 8; one or two behind is late. */
 static bool is_fresh(ecu_link* link, const frame_command* command) {
   if (!link->has_heard) return true;
-  unsigned ahead = (command->answers - link->last_answers) & 7u;
-  if (ahead == 0) ahead = (command->repeat - link->last_repeat) & 7u;
+  unsigned ahead = frame_ahead(command->answers, link->last_answers);
+  if (ahead == 0) ahead = frame_ahead(command->repeat, link->last_repeat);
   if (ahead == 0) {
     ++link->repeated;
     return false;
   }
-  if (ahead >= 6) {
+  if (ahead >= FRAME_LATE) {
     ++link->late;
     return false;
   }
@@ -49,8 +48,7 @@ static bool hear_command(ecu_link* link, const frame_command* command) {
   for (int k = 0; k < 2; ++k) {
     const frame_channel_command* said = &command->channel[k];
     if (link->channel[k] && said->request != FRAME_REQUEST_NONE)
-      link->follows[k] =
-          ecu_command(link->channel[k], (ecu_request)said->request, said->setpoint);
+      link->follows[k] = ecu_command(link->channel[k], (ecu_request)said->request, said->setpoint);
   }
   return true;
 }
@@ -68,8 +66,7 @@ static bool hear_parameter(ecu_link* link, const frame_parameter* said) {
     ++link->repeated;
     return false;
   }
-  if (said->position == 0)
-    ecu_discard_parameters(channel);
+  if (said->position == 0) ecu_discard_parameters(channel);
   else if (!link->set_open[k] || said->position != position_after(last))
     ecu_spoil_parameters(channel);
   link->last_position[k] = said->position;
@@ -148,10 +145,8 @@ static bool has_new_fault(ecu_link* link, uint8_t k, const ecu_reading* reading)
 }
 
 static void say_fault(const ecu_link* link, uint8_t k, ecu_fault fault, bus_frame* frame) {
-  const frame_emergency said = {.channel = k,
-                                .fault = (uint8_t)fault,
-                                .version = FRAME_VERSION,
-                                .tick = link->tick};
+  const frame_emergency said = {
+      .channel = k, .fault = (uint8_t)fault, .version = FRAME_VERSION, .tick = link->tick};
   frame_pack_emergency(frame, link->ecu, &said);
 }
 

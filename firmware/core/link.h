@@ -14,9 +14,9 @@
 extern "C" {
 #endif
 
-#define ECU_CORRUPT_TRIP 5u        /* corrupt frames in a row: ECU_FAULT_CORRUPT */
-#define ECU_HEALTH_TICKS 25u       /* one HEALTH frame every 50 ms; a round takes 200 ms */
-#define ECU_LINK_FRAMES_MAX 10     /* 2 EMERGENCY, 4 HEALTH, 2 ANALOG, 2 STATUS */
+#define ECU_CORRUPT_TRIP 5u    /* corrupt frames in a row: ECU_FAULT_CORRUPT */
+#define ECU_HEALTH_TICKS 25u   /* one HEALTH frame every 50 ms; a round takes 200 ms */
+#define ECU_LINK_FRAMES_MAX 10 /* 2 EMERGENCY, 4 HEALTH, 2 ANALOG, 2 STATUS */
 #define ECU_ANALOG_INPUTS 4
 
 typedef struct {
@@ -56,7 +56,8 @@ void ecu_link_init(ecu_link* link, uint8_t ecu, ecu_channel* channel_0, ecu_chan
                    uint8_t analog_inputs);
 
 /* Takes one frame off the bus. Returns true when it was for this ECU and was used; a repeated or
- * late command, a corrupt frame or another's frame changes no channel (but see ECU_CORRUPT_TRIP). */
+ * late command, a corrupt frame or another's frame changes no channel (but see ECU_CORRUPT_TRIP).
+ */
 bool ecu_link_hear(ecu_link* link, const bus_frame* frame);
 
 /* Begins a period: counts up, nothing answered yet. */

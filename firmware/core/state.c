@@ -6,10 +6,10 @@
 #define RUNNING ECU_STATE_RUNNING
 #define FAULT ECU_STATE_FAULT
 
-/* clang-format off: a table */
+/* clang-format off */
 static const ecu_state table[ECU_STATE_COUNT][ECU_EVENT_COUNT] = {
     /*             commit   off    clear    arm    set-point  trip */
-    [BOOT] =    {  IDLE,    BOOT,  BOOT,    BOOT,  BOOT,      BOOT },
+    [BOOT] =    {  IDLE,    BOOT,  BOOT,    BOOT,  BOOT,      BOOT  },
     [IDLE] =    {  IDLE,    IDLE,  IDLE,    ARMED, IDLE,      FAULT },
     [ARMED] =   {  ARMED,   IDLE,  ARMED,   ARMED, RUNNING,   FAULT },
     [RUNNING] = {  RUNNING, IDLE,  RUNNING, ARMED, RUNNING,   FAULT },

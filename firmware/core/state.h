@@ -3,6 +3,10 @@
 #define ERP_FIRMWARE_STATE_H
 #include "firmware/core/ecu.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum {
   ECU_EVENT_COMMIT, /* a sane set of gains came into force */
   ECU_EVENT_OFF,
@@ -19,4 +23,7 @@ ecu_state ecu_next_state(ecu_state state, ecu_event event);
 /* Takes the transition, with what belongs to entering the new state. */
 void ecu_apply(ecu_channel* channel, ecu_event event);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

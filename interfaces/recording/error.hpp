@@ -12,6 +12,11 @@ struct RecordingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The disk refused what was to be written.
+struct WriteError : RecordingError {
+  using RecordingError::RecordingError;
+};
+
 /// `run.mcap: byte 1234: the chunk's checksum does not match; mend it with …`
 inline RecordingError error_at(std::string_view path, std::uint64_t byte, std::string_view what,
                                std::string_view remedy) {

@@ -26,7 +26,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::fail(const char* doing, int error) const {
-  throw RecordingError(path_ + ": cannot " + doing + ": " + std::strerror(error) +
+  throw WriteError(path_ + ": cannot " + doing + ": " + std::strerror(error) +
                        (error == ENOSPC ? "; free some space or record elsewhere"
                                         : "; check the folder and its permissions"));
 }

@@ -27,6 +27,22 @@ struct Damaged : McapReader {
   explicit Damaged(const std::string& path) : McapReader(path, true) {}
 };
 
+void copy(const McapReader& reader, McapWriter& writer) {
+  std::map<std::uint16_t, std::uint16_t> schema_ids{{0, 0}}, channel_ids;
+  for (const auto& [id, schema] : reader.schemas())
+    schema_ids[id] = writer.add_schema(schema.name, schema.encoding, schema.data);
+  for (const auto& [id, channel] : reader.channels())
+    channel_ids[id] = writer.add_channel(channel.topic, channel.message_encoding,
+                                         schema_ids.at(channel.schema_id), channel.metadata);
+  for (const auto& attachment : reader.attachments()) writer.attach(attachment);
+  for (const auto& metadata : reader.contents().metadata) writer.add_metadata(metadata);
+  reader.for_each([&](const Message& message) {
+    writer.write(channel_ids.at(message.channel.id), message.sequence, message.log_time_ns,
+                 message.publish_time_ns, message.data);
+  });
+  writer.close();
+}
+
 }  // namespace
 
 void McapReader::for_each(const std::function<void(const Message&)>& use) const {
@@ -61,19 +77,12 @@ Recovered recover(const std::string& in, const std::string& out) {
   Recovered recovered{.problems = reader.contents().problems};
   if (!reader.truncation().empty()) recovered.problems.push_back(reader.truncation());
   McapWriter writer(out);
-  std::map<std::uint16_t, std::uint16_t> schema_ids{{0, 0}}, channel_ids;
-  for (const auto& [id, schema] : reader.schemas())
-    schema_ids[id] = writer.add_schema(schema.name, schema.encoding, schema.data);
-  for (const auto& [id, channel] : reader.channels())
-    channel_ids[id] = writer.add_channel(channel.topic, channel.message_encoding,
-                                         schema_ids.at(channel.schema_id), channel.metadata);
-  for (const auto& attachment : reader.attachments()) writer.attach(attachment);
-  for (const auto& metadata : reader.contents().metadata) writer.add_metadata(metadata);
-  reader.for_each([&](const Message& message) {
-    writer.write(channel_ids.at(message.channel.id), message.sequence, message.log_time_ns,
-                 message.publish_time_ns, message.data);
-  });
-  writer.close();
+  try {
+    copy(reader, writer);
+  } catch (...) {
+    std::remove(out.c_str());  // half a recording must not look like a whole one
+    throw;
+  }
   recovered.messages = writer.message_count();
   recovered.attachments = reader.attachments().size();
   return recovered;

@@ -201,6 +201,7 @@ Metadata get_metadata(ByteReader& in) {
 }
 
 std::uint32_t crc32_of(ByteView bytes, std::uint32_t before) {
+  if (bytes.empty()) return before;  // zlib takes a null pointer for a request to start anew
   return static_cast<std::uint32_t>(
       crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }

@@ -83,8 +83,8 @@ bool Scanner::step() {
 
 bool Scanner::take(Op op, ByteReader in, std::uint64_t length) {
   const Region here{.offset = at_, .length = record_head_bytes + length};
+  if (op == Op{0}) in.fail("a record has the kind 0");
   switch (op) {
-    case Op{0}: in.fail("a record has the kind 0");
     case Op::header:
       contents_.profile = in.characters("the profile");
       contents_.library = in.characters("the library");

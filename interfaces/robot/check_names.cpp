@@ -2,7 +2,6 @@
 #include <cctype>
 #include <map>
 
-#include "interfaces/idl/sizes.hpp"
 #include "interfaces/robot/check.hpp"
 
 namespace erp::robot_check {
@@ -15,11 +14,11 @@ template <class Item>
 void check_name(const Item& item, Findings& findings) {
   const std::string& name = item.name;
   if (name.size() > longest_name)
-    findings.add(item, "name=" + xml::quoted(name) + " has " + std::to_string(name.size()) +
-                           " characters",
+    findings.add(item,
+                 "name=" + xml::quote(name) + " has " + std::to_string(name.size()) + " characters",
                  "the bus carries at most " + std::to_string(longest_name));
   if (!std::all_of(name.begin(), name.end(), plain))
-    findings.add(item, "name=" + xml::quoted(name) + " is not a plain name",
+    findings.add(item, "name=" + xml::quote(name) + " is not a plain name",
                  "use letters, digits, _ and -");
 }
 
@@ -30,7 +29,7 @@ void check_unique(const Items& items, Findings& findings) {
     check_name(item, findings);
     const auto [first, is_new] = seen.emplace(item.name, item.place);
     if (!is_new)
-      findings.add(item, "duplicate name " + xml::quoted(item.name),
+      findings.add(item, "duplicate name " + xml::quote(item.name),
                    "rename it; the first stands at " + place_words(first->second));
   }
 }
@@ -47,7 +46,7 @@ template <class Item>
 void check_reference(const Item& item, const char* attribute, const std::string& name,
                      const std::vector<std::string>& known, const char* kind, Findings& findings) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  findings.add(item, std::string(attribute) + "=" + xml::quoted(name) + " names no " + kind,
+  findings.add(item, std::string(attribute) + "=" + xml::quote(name) + " names no " + kind,
                known.empty() ? std::string("the robot has none: add a ") + kind
                              : xml::did_you_mean(name, known));
 }
@@ -77,8 +76,9 @@ void check_references(const Robot& robot, Findings& findings) {
     check_reference(actuator, "motor", actuator.motor, motors, "motor_type", findings);
     check_reference(actuator, "sensors", actuator.sensors, sensors, "sensor_type", findings);
     for (const auto& point : actuator.tendon.path)
-      std::visit([&](const auto& p) { check_reference(p, "body", p.body, bodies, "body", findings); },
-                 point);
+      std::visit(
+          [&](const auto& p) { check_reference(p, "body", p.body, bodies, "body", findings); },
+          point);
   }
   for (const JointSensor& sensor : robot.joint_sensors)
     check_reference(sensor, "joint", sensor.joint, joints, "joint", findings);

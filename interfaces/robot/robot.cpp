@@ -1,5 +1,9 @@
 #include "interfaces/robot/robot.hpp"
 
+#include <stdexcept>
+
+#include "interfaces/robot/assemble.hpp"
+#include "interfaces/robot/check.hpp"
 #include "interfaces/xml/xml.hpp"
 
 namespace erp {
@@ -41,6 +45,22 @@ const SensorType& Robot::sensors_of(const Actuator& actuator) const {
   return named(sensor_types, actuator.sensors);
 }
 
-Robot read_robot(const std::string& file) { return xml::read<Robot>(file); }
+Robot read_robot(const std::string& file) {
+  Robot robot = assemble_robot(file);
+  xml::throw_if_any(check_robot(robot));
+  return robot;
+}
+
+std::string write_robot(const Robot& robot) { return xml::write(robot); }
+
+std::vector<xml::Error> check_robot(const Robot& robot) {
+  robot_check::Findings findings;
+  check_names(robot, findings);
+  check_references(robot, findings);
+  check_ecus(robot, findings);
+  check_skeleton(robot, findings);
+  check_tendons(robot, findings);
+  return std::move(findings.errors);
+}
 
 }  // namespace erp

@@ -19,19 +19,19 @@ std::string tail(const Description& d) {
 
 }  // namespace
 
-std::vector<std::string> to_lines(const std::vector<Description>& all) {
+std::string to_table(const std::vector<Description>& all) {
   std::size_t names = 0, types = 0;
   for (const Description& d : all) {
     names = std::max(names, d.name.size());
     types = std::max(types, d.type.size());
   }
-  std::vector<std::string> lines;
+  std::string table;
   for (const Description& d : all) {
     std::string line = padded(d.name, names) + "  " + padded(d.type, types) + "  " + tail(d);
     line.erase(line.find_last_not_of(' ') + 1);
-    lines.push_back(line);
+    table += line + "\n";
   }
-  return lines;
+  return table;
 }
 
 }  // namespace xml

@@ -14,8 +14,8 @@ struct Description {
   bool required = false;
 };
 
-/// Columns aligned: `gain     number > 0    default 2.5`.
-std::vector<std::string> to_lines(const std::vector<Description>& all);
+/// One a line, columns aligned: `gain     number > 0    default 2.5`.
+std::string to_table(const std::vector<Description>& all);
 
 /// Describes a struct through its `visit`; children are indented below their element.
 class Describer {

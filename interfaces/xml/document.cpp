@@ -43,9 +43,10 @@ class Tree {
  private:
   static constexpr std::string_view mark = "<?xml?>";
 
-  Place place(const char* in_buffer) const {
-    return place_at(text_, static_cast<std::size_t>(in_buffer - begin_), file_);
+  std::size_t offset(const char* in_buffer) const {
+    return static_cast<std::size_t>(in_buffer - begin_);
   }
+  Place place(const char* in_buffer) const { return place_at(text_, offset(in_buffer), file_); }
   Place place_of_line(int line) const { return {file_, line, 1}; }
 
   Element element(const tinyxml2::XMLElement& from) const {
@@ -60,9 +61,9 @@ class Tree {
   }
 
   std::pair<Place, std::string> text(const tinyxml2::XMLText& from) const {
-    const std::string_view words = from.Value();
-    const std::size_t blanks = std::min(words.find_first_not_of(" \t\r\n"), words.size());
-    return {place(from.Value() + blanks), std::string(trimmed(words))};
+    const std::size_t begin = offset(from.Value());  // Value() may have shortened its line ends
+    const std::size_t first = text_.find_first_not_of(" \t\r\n", begin);
+    return {place_at(text_, first, file_), std::string(trimmed(from.Value()))};
   }
 
   tinyxml2::XMLDocument document_;
@@ -104,6 +105,10 @@ Element parse_document(std::string_view text, const std::string& file) {
   if (trimmed(text).empty()) refuse({file, 1, 1}, "is empty", "write the root element");
   throw_if_any(malformed(text, file));
   return Tree(text, file).root();
+}
+
+std::string resolved(const std::string& file, const std::string& from_file) {
+  return (std::filesystem::path(from_file).parent_path() / file).lexically_normal().string();
 }
 
 Element read_document(const std::string& file) { return parse_document(contents(file), file); }

@@ -28,6 +28,9 @@ Element parse_document(std::string_view text, const std::string& file);
 /// The root element of a file. Throws Errors also when it is missing, unreadable or empty.
 Element read_document(const std::string& file);
 
+/// A file name as written in `from_file`: relative to that file's folder.
+std::string resolved(const std::string& file, const std::string& from_file);
+
 /// The first thing in a text that XML 1.0 does not allow, with its place; tinyxml2 forgives some
 /// of it and gives lines only. Covers elements, attributes, entities and comments.
 std::vector<Error> malformed(std::string_view text, const std::string& file);

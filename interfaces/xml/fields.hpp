@@ -10,7 +10,10 @@
 ///     v.required("mass_kg", mass_kg, xml::positive);   // attribute that must stand there
 ///     v("com_m", com_m);                               // attribute with a default
 ///     v.child(spindle);                                // exactly one child element
-///     v.list(bodies);                                  // any number of child elements
+///     v.optional_child(cover);                         // std::optional: one or none
+///     v.list(bodies);                                  // std::vector: any number of children
+///     v.list(path);                                    // std::vector of std::variant: of several
+///     kinds
 ///   }
 namespace xml {
 

@@ -36,8 +36,8 @@ class Scan {
   std::string_view rest() const { return text_.substr(at_); }
   static std::string name_of(const Name& name) { return std::string(name.text); }
   static bool in_name(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_:-.").find(c) != npos ||
-           static_cast<unsigned char>(c) >= 0x80;
+    return std::isalnum(static_cast<unsigned char>(c)) ||
+           std::string_view("_:-.").find(c) != npos || static_cast<unsigned char>(c) >= 0x80;
   }
 
   void characters() const;
@@ -85,8 +85,7 @@ void Scan::entities(std::size_t begin, std::string_view text) const {
     const std::string_view entity = text.substr(i + 1, text.substr(i + 1).find(';'));
     const bool known = entity == "amp" || entity == "lt" || entity == "gt" || entity == "quot" ||
                        entity == "apos" || (entity.size() > 1 && entity.front() == '#');
-    if (!known || text.find(';', i) == npos)
-      throw Fault{begin + i, "a bare \"&\"", "write &amp;"};
+    if (!known || text.find(';', i) == npos) throw Fault{begin + i, "a bare \"&\"", "write &amp;"};
   }
 }
 
@@ -95,7 +94,7 @@ void Scan::plain_text() {
   const std::string_view words = text_.substr(at_, end - at_);
   const std::size_t first = words.find_first_not_of(" \t\r\n");
   if (open_.empty() && first != npos)
-    throw Fault{at_ + first, "text outside the root element: " + quoted(trimmed(words)),
+    throw Fault{at_ + first, "text outside the root element: " + quote(trimmed(words)),
                 "remove it, or put it into a comment"};
   entities(at_, words);
   at_ = end;

@@ -28,20 +28,18 @@ const Element* Reader::only(const std::string& name) {
   for (const Element& child : element_.children) {
     if (child.name != name) continue;
     if (found)
-      errors_.push_back(error_in(element_.name, child.place, "a second <" + name + ">",
-                                 "keep one; the first stands in line " +
-                                     std::to_string(found->place.line)));
-    else
-      found = &child;
+      errors_.push_back(
+          error_in(element_.name, child.place, "a second <" + name + ">",
+                   "keep one; the first stands in line " + std::to_string(found->place.line)));
+    else found = &child;
   }
   return found;
 }
 
 void Reader::refuse(const Attribute& attribute, const Refusal& refusal) {
-  errors_.push_back(
-      error_in(element_.name, attribute.place,
-               attribute.name + "=" + quoted(attribute.value) + " " + refusal.what,
-               refusal.remedy));
+  errors_.push_back(error_in(element_.name, attribute.place,
+                             attribute.name + "=" + quote(attribute.value) + " " + refusal.what,
+                             refusal.remedy));
 }
 
 /// One mistake, one error: a misspelt name is not reported as missing as well.
@@ -49,7 +47,7 @@ void Reader::refuse_unknown(const std::string& kind, const Place& place, const s
                             const std::vector<std::string>& known,
                             std::vector<std::string>& missing) {
   std::erase(missing, nearest(name, known));
-  errors_.push_back(error_in(element_.name, place, "unknown " + kind + " " + quoted(name),
+  errors_.push_back(error_in(element_.name, place, "unknown " + kind + " " + quote(name),
                              did_you_mean(name, known)));
 }
 
@@ -61,14 +59,15 @@ void Reader::finish() {
     if (!has(known_children_, child.name))
       refuse_unknown("element", child.place, child.name, known_children_, missing_children_);
   for (const auto& [place, text] : element_.stray_text)
-    errors_.push_back(error_in(element_.name, place, "stray text " + quoted(text),
+    errors_.push_back(error_in(element_.name, place, "stray text " + quote(text),
                                "remove it, or put it into a comment"));
   for (const std::string& name : missing_attributes_)
-    errors_.push_back(error_in(element_.name, element_.place, "attribute " + quoted(name) +
-                                   " is missing", "add " + name + "=\"…\""));
+    errors_.push_back(error_in(element_.name, element_.place,
+                               "attribute " + quote(name) + " is missing",
+                               "add " + name + "=\"…\""));
   for (const std::string& name : missing_children_)
-    errors_.push_back(error_in(element_.name, element_.place, "element <" + name + "> is missing",
-                               "add one"));
+    errors_.push_back(
+        error_in(element_.name, element_.place, "element <" + name + "> is missing", "add one"));
 }
 
 }  // namespace xml

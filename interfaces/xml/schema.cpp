@@ -58,8 +58,8 @@ std::string indented(const std::string& lines) {
     const std::size_t end = lines.find('\n', begin);
     const std::string line = lines.substr(begin, end - begin);
     const bool closes = line.starts_with("</");
-    const bool opens = !closes && !line.ends_with("/>") && !line.starts_with("<?") &&
-                       !line.starts_with("<!");
+    const bool opens =
+        !closes && !line.ends_with("/>") && !line.starts_with("<?") && !line.starts_with("<!");
     if (closes) --depth;
     text += std::string(2 * depth, ' ') + line + "\n";
     if (opens) ++depth;

@@ -47,9 +47,11 @@ class Setter {
   template <class... Kinds>
   void list(std::vector<std::variant<Kinds...>>& values) {
     for (auto& value : values)
-      std::visit([this](auto& kind) {
-        if constexpr (requires { kind.name; }) enter(kind.name, kind);
-      }, value);
+      std::visit(
+          [this](auto& kind) {
+            if constexpr (requires { kind.name; }) enter(kind.name, kind);
+          },
+          value);
   }
 
   /// Throws Errors when nothing has that path or the text was refused. `path` whole, for the error.

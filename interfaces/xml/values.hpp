@@ -53,8 +53,7 @@ struct Codec<T> {
 };
 
 template <class T>
-  requires(std::integral<T> && !std::same_as<T, bool>)
-struct Codec<T> {
+requires(std::integral<T> && !std::same_as<T, bool>) struct Codec<T> {
   static Range within(Range range) {
     range.min = std::max(range.min, static_cast<double>(std::numeric_limits<T>::min()));
     range.max = std::min(range.max, static_cast<double>(std::numeric_limits<T>::max()));
@@ -126,7 +125,10 @@ struct Codec<std::vector<T>> : ListCodec<std::vector<T>, 0> {};
 template <class T>
 struct Codec<std::optional<T>> {
   static Refused read(std::string_view text, std::optional<T>& value, const Range& range) {
-    return Codec<T>::read(text, value.emplace(), range);
+    T inner{};
+    const Refused refused = Codec<T>::read(text, inner, range);
+    if (!refused) value = inner;
+    return refused;
   }
   static std::string write(const std::optional<T>& value) {
     return value ? Codec<T>::write(*value) : "";
@@ -136,7 +138,7 @@ struct Codec<std::optional<T>> {
 };
 
 template <class Enum>
-  requires std::is_enum_v<Enum>
+requires std::is_enum_v<Enum>
 struct Codec<Enum> {
   static std::vector<std::string> all_words() {
     std::vector<std::string> words;
@@ -148,7 +150,7 @@ struct Codec<Enum> {
       if (text == word) return value = named, Refused{};
     const std::string near = nearest(text, all_words());
     return Refusal{"is not one of " + joined(all_words()),
-                   near.empty() ? "choose one of them" : "did you mean " + quoted(near) + "?"};
+                   near.empty() ? "choose one of them" : "did you mean " + quote(near) + "?"};
   }
   static std::string write(Enum value) {
     for (const auto& [word, named] : Names<Enum>::list)

@@ -51,11 +51,11 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   if (const std::string near = nearest(name, known); !near.empty())
-    return "did you mean " + quoted(near) + "?";
+    return "did you mean " + quote(near) + "?";
   return known.empty() ? "remove it" : "known here: " + joined(known);
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string quote(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::string joined(const std::vector<std::string>& words, std::string_view separator) {
   std::string text;

@@ -16,7 +16,7 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
 /// `did you mean "x"?`, or the whole list of known names when none is close.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
-std::string quoted(std::string_view text);
+std::string quote(std::string_view text);
 std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 std::string_view trimmed(std::string_view text);
 std::vector<std::string_view> split(std::string_view text);  ///< at white space

@@ -66,14 +66,14 @@ std::string schema() {
   return schema<T>(T::element);
 }
 
-/// Names, types, ranges and defaults, one a line.
+/// Names, types, ranges and defaults, one a line; for --help.
 template <class T>
-std::vector<std::string> describe() {
+std::string describe() {
   std::vector<Description> all;
   T fresh{};
   Describer describer(all);
   fresh.visit(describer);
-  return to_lines(all);
+  return to_table(all);
 }
 
 /// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the checks that a

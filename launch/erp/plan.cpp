@@ -64,7 +64,7 @@ std::vector<std::string> settings_of(const erp::Graph& graph, const Wishes& wish
   if (process.role == Role::logger) {
     const auto& stem = process.name == "logger" ? graph.name : process.name;
     settings.push_back("file=" + wishes.folder + "/" + stem + ".mcap");
-    settings.push_back("attach=" + xml::joined(wishes.attach, " "));
+    settings.push_back("attach=" + xml::joined(wishes.attach, ":"));
   }
   // a person's word comes last, and so wins
   for (const auto& setting : wishes.settings) {

@@ -2,8 +2,8 @@
 
 #include <fcntl.h>
 #include <linux/close_range.h>
-#include <sys/pidfd.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -80,7 +80,7 @@ Process::Process(const std::vector<std::string>& argv, const std::string& log_fi
     waitpid(pid_, nullptr, 0);
     fail(error, argv[0]);
   }
-  descriptor_ = pidfd_open(pid_, 0);
+  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
   if (descriptor_ < 0) {
     error = errno;
     send(SIGKILL);

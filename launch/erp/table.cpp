@@ -67,7 +67,7 @@ std::vector<std::string> render_rows(const std::vector<Row>& rows) {
                      rate(row.rate_Hz), microseconds(row.age_p50_us),
                      microseconds(row.age_p99_us), microseconds(row.jitter_p99_us),
                      std::to_string(row.overruns), std::to_string(row.missed),
-                     std::to_string(row.restarts),
+                     row.restarts < 0 ? "-" : std::to_string(row.restarts),
                      row.cpu_percent < 0 ? "-" : decimal("%.0f %%", row.cpu_percent), row.note});
   return align(cells, {false, false, true, true, true, true, true, true, true, true, true, false});
 }

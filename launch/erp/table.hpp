@@ -12,7 +12,8 @@ struct Row {
   long pid = 0;
   double rate_Hz = 0;
   double age_p50_us = 0, age_p99_us = 0, jitter_p99_us = 0;
-  std::uint64_t overruns = 0, missed = 0, restarts = 0;
+  std::uint64_t overruns = 0, missed = 0;
+  long restarts = -1;       ///< negative: not known, for who only looks on
   double cpu_percent = -1;  ///< of one core; negative: not measured
   std::string note;         ///< the last thing it said
 };

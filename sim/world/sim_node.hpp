@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "components/node/node.hpp"
+#include "interfaces/robot/robot.hpp"
+#include "sim/world/bus_front.hpp"
 #include "sim/world/virtual_ecus.hpp"
 #include "sim/world/world.hpp"
 
@@ -14,6 +16,8 @@
 ///
 ///   realtime   ticks by the clock; ticks it cannot keep are left out and counted as overruns
 ///   lockstep   a tick follows the command that answers the last frame, as fast as that comes
+///
+/// With `bus` set it is the robot behind a CAN bus instead, and a gateway is the device.
 namespace sim {
 
 class SimNode {
@@ -40,9 +44,12 @@ class SimNode {
   SimNode(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
-  void begin();
+  void join_bus_as_device();
+  void stand_behind(const std::string& bus, const erp::Robot& robot);
   void tick();
-  void publish_frame();
+  void measure_and_say();
+  void say_frame();
+  void say_again();
   void publish_truth();
   void publish_clock(bool finished);
   void on_command(const erp::EcuCommand& command);
@@ -50,16 +57,17 @@ class SimNode {
   node::Node& node_;
   World world_;
   VirtualEcus ecus_;
-  node::Publisher<erp::EcuFrame>& frame_out_;
+  std::unique_ptr<BusFront> bus_;  ///< null: the ECUs speak DDS
+  node::Publisher<erp::EcuFrame>* frame_out_ = nullptr;
   node::Publisher<erp::JointState>& joints_out_;
   node::Publisher<erp::BodyPose>& bodies_out_;
   node::Publisher<erp::Clock>& clock_out_;
-  node::Subscription<erp::EcuParameter>* parameter_in_;
+  node::Subscription<erp::EcuParameter>* parameter_in_ = nullptr;
   erp::EcuFrame frame_;
   erp::JointState joints_;
   erp::BodyPose bodies_;
   std::uint64_t ticks_ = 0, end_ticks_;
-  std::int64_t began_ns_ = 0, published_ns_ = 0;
+  std::int64_t began_ns_ = 0, said_ns_ = 0;
 };
 
 }  // namespace sim

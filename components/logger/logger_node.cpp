@@ -1,0 +1,133 @@
+#include "components/logger/logger_node.hpp"
+
+#include <charconv>
+#include <fstream>
+#include <sstream>
+
+#include "components/logger/idl_texts.hpp"
+#include "components/node/type_schema.hpp"
+#include "interfaces/recording/cdr.hpp"
+
+namespace logger {
+namespace {
+
+// Deep enough for 0.5 s of the fastest topic (chosen): the disk may stall, the bus does not wait.
+constexpr int depth = 2000;
+constexpr std::int64_t take_ns = 2'000'000;
+constexpr std::int64_t discover_ns = 250'000'000;
+
+std::string content(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::invalid_argument("attach: cannot read " + file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<recording::Attachment> attachments(const std::string& files) {
+  std::vector<recording::Attachment> all;
+  all.push_back({.name = "git_revision.txt", .media_type = "text/plain", .data = ERP_REVISION});
+  std::stringstream list(files);
+  for (std::string file; std::getline(list, file, ':');)
+    if (!file.empty())
+      all.push_back({.name = file, .media_type = "application/xml", .data = content(file)});
+  return all;
+}
+
+}  // namespace
+
+LoggerNode::LoggerNode(const Params& params, const erp::Robot&, node::Node& node)
+    : node_(node),
+      recorder_(params.file, attachments(params.attach)),
+      discovery_(node.participant(), node.wake()) {
+  add_known<erp::ActuatorCommand>();
+  add_known<erp::ActuatorTarget>();
+  add_known<erp::SensorFrame>();
+  add_known<erp::EcuCommand>();
+  add_known<erp::EcuFrame>();
+  add_known<erp::EcuParameter>();
+  add_known<erp::GainCommand>();
+  add_known<erp::JointState>();
+  add_known<erp::BodyPose>();
+  add_known<erp::ActuatorOwner>();
+  add_known<erp::ComponentState>();
+  add_known<erp::Clock>();
+  add_known<erp::Event>();
+  node.every(take_ns, [this] { take_all(); });
+  node.every(discover_ns, [this] { discover(); });
+  node.on_deactivate([this] { close(); });
+}
+
+LoggerNode::~LoggerNode() {
+  try {
+    close();
+  } catch (const std::exception& error) {
+    node_.report(erp::Severity::fault, "", "recording", error.what());
+  }
+}
+
+template <class M>
+void LoggerNode::add_known() {
+  add(erp::Topic<M>::name, *erp::Topic<M>::type, nullptr);
+}
+
+void LoggerNode::add(const std::string& name, const dds_topic_descriptor_t& type,
+                     node::Descriptor owner) {
+  Topic topic{0, node::describe(type), nullptr, std::move(owner)};
+  topic.handle = recorder_.add_topic(
+      name, {topic.type.name(), recording::ros2msg_text(topic.type), idl_text(topic.type.name())});
+  topic.reader = std::make_unique<node::RawReader>(node_.participant(), node_.wake(), type, name, depth);
+  topics_.emplace(name, std::move(topic));
+}
+
+void LoggerNode::discover() {
+  for (const auto& endpoint : discovery_.endpoints()) {
+    if (!endpoint.writer || topics_.contains(endpoint.topic) || refused_.contains(endpoint.topic))
+      continue;
+    if (endpoint.topic == erp::Topic<erp::LifecycleCommand>::name) continue;
+    const auto type = discovery_.type_of(endpoint.topic);
+    if (!type) continue;
+    try {
+      add(endpoint.topic, *type, type);
+    } catch (const std::invalid_argument& error) {
+      refused_[endpoint.topic] = 1;
+      node_.report(erp::Severity::warning, "", "not_recorded", error.what());
+    }
+  }
+}
+
+void LoggerNode::take_all() {
+  for (auto& [name, topic] : topics_)
+    topic.reader->take([&](const node::RawSample& sample) { write(topic, sample); });
+  recorder_.tick(node::monotonic_ns());
+  if (const auto missing = recorder_.missing(); missing > missing_said_) {
+    if (!missing_said_)
+      node_.report(erp::Severity::warning, "", "dropped",
+                   std::to_string(missing) + " messages never came; erp log info counts them by topic");
+    missing_said_ = missing;
+  }
+}
+
+void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
+  char writer[20];
+  const auto end = std::to_chars(writer, writer + sizeof writer, raw.writer, 16).ptr;
+  const auto stamp = recording::stamp_of(topic.type, raw.cdr);
+  recording::Sample sample;
+  sample.writer = {writer, static_cast<std::size_t>(end - writer)};
+  sample.publish_time_ns = static_cast<std::uint64_t>(stamp.stamp_ns.value_or(raw.source_ns));
+  sample.log_time_ns = sample.publish_time_ns;
+  sample.sequence = stamp.sequence;
+  sample.cdr = raw.cdr;
+  recorder_.write(topic.handle, sample);
+  node_.clock().advance(raw.source_ns);
+  node_.count_step(raw.source_ns);
+}
+
+void LoggerNode::close() {
+  if (closed_) return;
+  closed_ = true;
+  take_all();
+  recorder_.close();
+}
+
+}  // namespace logger

@@ -1,0 +1,52 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+
+#include "components/node/node.hpp"
+#include "components/node/raw.hpp"
+#include "interfaces/recording/recorder.hpp"
+#include "interfaces/recording/type_description.hpp"
+#include "interfaces/robot/robot.hpp"
+
+/// Records every topic of the bus to one MCAP file.
+namespace logger {
+
+class LoggerNode {
+ public:
+  struct Params {
+    std::string file = "recording.mcap";
+    std::string attach;  ///< XML files to keep with the recording, separated by `:`
+    void visit(auto& v) {
+      v("file", file);
+      v("attach", attach);
+    }
+  };
+  LoggerNode(const Params& params, const erp::Robot& robot, node::Node& node);
+  ~LoggerNode();
+
+ private:
+  struct Topic {
+    std::size_t handle;
+    recording::TypeDescription type;
+    std::unique_ptr<node::RawReader> reader;
+    node::Descriptor descriptor;  ///< of a type met on the bus; null for our own
+  };
+  void add(const std::string& topic, const dds_topic_descriptor_t& type, node::Descriptor owner);
+  template <class M>
+  void add_known();
+  void discover();
+  void take_all();
+  void write(Topic& topic, const node::RawSample& sample);
+  void close();
+
+  node::Node& node_;
+  recording::Recorder recorder_;
+  node::Discovery discovery_;
+  std::map<std::string, Topic> topics_;
+  std::map<std::string, int> refused_;  ///< topics whose type cannot be recorded: said once
+  std::uint64_t missing_said_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace logger

@@ -1,0 +1,79 @@
+#include "components/replay/frames.hpp"
+
+#include <stdexcept>
+
+#include "interfaces/recording/mcap_reader.hpp"
+#include "interfaces/recording/ros2msg.hpp"
+
+namespace replay {
+namespace {
+
+/// A field's number; 0 when a recording of another version lacks it.
+template <class T>
+T number(const recording::Members& members, const char* name) {
+  const auto* value = members.find(name);
+  return value && value->number() ? static_cast<T>(*value->number()) : T{};
+}
+
+bool truth(const recording::Members& members, const char* name) {
+  const auto* value = members.find(name);
+  const bool* held = value ? std::get_if<bool>(&value->data) : nullptr;
+  return held && *held;
+}
+
+erp::EcuChannelSample channel_of(const recording::Members& m) {
+  erp::EcuChannelSample channel{};
+  channel.ecu = number<std::uint8_t>(m, "ecu");
+  channel.channel = number<std::uint8_t>(m, "channel");
+  channel.fresh = truth(m, "fresh");
+  channel.state = number<std::uint8_t>(m, "state");
+  channel.fault = number<std::uint8_t>(m, "fault");
+  channel.request = number<std::uint8_t>(m, "request");
+  channel.setpoint = number<std::int32_t>(m, "setpoint");
+  channel.encoder_counts = number<std::int32_t>(m, "encoder_counts");
+  channel.duty_counts = number<std::int16_t>(m, "duty_counts");
+  channel.current_counts = number<std::int16_t>(m, "current_counts");
+  channel.tension_counts = number<std::uint16_t>(m, "tension_counts");
+  return channel;
+}
+
+erp::EcuAnalogSample analog_of(const recording::Members& m) {
+  erp::EcuAnalogSample analog{};
+  analog.ecu = number<std::uint8_t>(m, "ecu");
+  analog.input = number<std::uint8_t>(m, "input");
+  analog.fresh = truth(m, "fresh");
+  analog.counts = number<std::int32_t>(m, "counts");
+  return analog;
+}
+
+}  // namespace
+
+Frames::Frames(const std::string& file) {
+  const recording::McapReader reader(file);
+  reader.for_each([&](const recording::Message& message) {
+    if (message.channel.topic != erp::Topic<erp::EcuFrame>::name) return;
+    if (messages_.empty()) {
+      const auto& schema = reader.schemas().at(message.channel.schema_id);
+      type_ = recording::parse_ros2msg(schema.name, schema.data);
+    }
+    messages_.emplace_back(message.data.begin(), message.data.end());
+  });
+  if (messages_.empty())
+    throw std::invalid_argument(file + ": holds no ecu_frame; record one with the logger");
+}
+
+erp::EcuFrame Frames::at(std::size_t k) const {
+  const auto members = recording::decode_cdr(type_, messages_[k]);
+  erp::EcuFrame frame;
+  frame.stamp_ns = number<std::int64_t>(members, "stamp_ns");
+  frame.sequence = number<std::uint64_t>(members, "sequence");
+  if (const auto* channels = members.find("channels"))
+    for (const auto& value : *channels->elements())
+      erp::append(frame.channels, channel_of(*value.members()));
+  if (const auto* analogs = members.find("analogs"))
+    for (const auto& value : *analogs->elements())
+      erp::append(frame.analogs, analog_of(*value.members()));
+  return frame;
+}
+
+}  // namespace replay

@@ -1,0 +1,71 @@
+#include "components/replay/replay_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace replay {
+namespace {
+
+constexpr std::int64_t poll_ns = 1'000'000;
+constexpr std::int64_t repeat_ns = 200'000'000;  // chosen: lockstep, for an answer that got lost
+
+/// How many frames fit into a run of `duration_s`; 0 means all.
+std::size_t end_of(const Frames& frames, double duration_s) {
+  if (duration_s <= 0) return frames.size();
+  const auto limit = frames.at(0).stamp_ns + std::llround(1e9 * duration_s);
+  std::size_t k = 0;
+  while (k < frames.size() && frames.at(k).stamp_ns < limit) ++k;
+  return k;
+}
+
+}  // namespace
+
+ReplayNode::ReplayNode(const Params& params, const erp::Robot&, node::Node& node)
+    : node_(node),
+      frames_(params.file),
+      frame_out_(node.advertise<erp::EcuFrame>()),
+      clock_out_(node.advertise<erp::Clock>()),
+      end_(end_of(frames_, node.options().duration_s)),
+      recorded_start_ns_(frames_.at(0).stamp_ns) {
+  node.on_activate([this] {
+    began_ns_ = node::monotonic_ns();
+    if (node_.clock().lockstep()) play_next();
+  });
+  node.subscribe<erp::EcuCommand>([this](const erp::EcuCommand& command) {
+    node_.count_step(frame_.stamp_ns);
+    if (node_.clock().lockstep() && next_ > 0 && command.answers == frame_.sequence) play_next();
+  });
+  if (node.clock().lockstep())
+    node.every(repeat_ns, [this] { if (next_ > 0) frame_out_.publish_numbered(frame_); });
+  else
+    node.every(poll_ns, [this] { play_due(); });
+}
+
+void ReplayNode::play_due() {
+  while (next_ <= end_) {
+    if (next_ < end_ && frames_.at(next_).stamp_ns - recorded_start_ns_ > node::monotonic_ns() - began_ns_) return;
+    play_next();
+  }
+}
+
+void ReplayNode::play_next() {
+  const bool finished = next_ >= end_;
+  if (!finished) {
+    frame_ = frames_.at(next_);
+    if (node_.clock().lockstep())
+      frame_.stamp_ns -= recorded_start_ns_, node_.clock().advance(frame_.stamp_ns);
+    else
+      frame_.stamp_ns = node_.clock().now_ns();
+    frame_out_.publish_numbered(frame_);
+  }
+  ++next_;
+  if (finished || next_ % 50 == 0) {
+    erp::Clock clock;
+    clock.stamp_ns = frame_.stamp_ns;
+    clock.finished = finished;
+    clock_out_.publish(clock);
+  }
+  if (finished) node_.finish();
+}
+
+}  // namespace replay

@@ -1,0 +1,44 @@
+#pragma once
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+#include <utility>
+
+#include "hal/can/bus.hpp"
+
+/// The back ends of `open_bus`, and what they share; inside hal/can only.
+namespace erp::can {
+
+std::unique_ptr<CanBus> open_socketcan(const std::string& interface);
+std::unique_ptr<CanBus> open_udp(const std::string& group, int port);
+
+/// An open file descriptor, closed once.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// Waits until `fd` is readable; false after the timeout or a signal.
+inline bool wait_readable(int fd, double timeout_s) {
+  if (timeout_s <= 0) return true;
+  pollfd waiting{fd, POLLIN, 0};
+  const double whole_s = std::floor(timeout_s);
+  const timespec timeout{static_cast<std::time_t>(whole_s),
+                         static_cast<long>((timeout_s - whole_s) * 1e9)};
+  return ::ppoll(&waiting, 1, &timeout, nullptr) > 0;
+}
+
+}  // namespace erp::can

@@ -1,0 +1,154 @@
+#include "hal/can/gateway.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace erp {
+namespace {
+
+static_assert(ECU_PARAMETER_COUNT < 63, "a parameter's index has 6 bits on the bus");
+constexpr std::uint8_t no_parameter = 63;
+
+/// As it goes over the bus. What no ECU knows becomes a set-point that every ECU refuses.
+frame_channel_command on_the_bus(const EcuChannelCommand& asked) {
+  if (asked.request > ECU_REQUEST_FORCE) return {ECU_REQUEST_VOLTAGE, FRAME_SETPOINT_REFUSED};
+  return {asked.request, asked.setpoint};
+}
+
+}  // namespace
+
+// ---- construction ----
+
+Gateway::Gateway(const Robot& robot) {
+  for (std::size_t i = 0; i < ecus_.size(); ++i) ecus_[i].address = static_cast<std::uint8_t>(i);
+  for (const Actuator& actuator : robot.actuators) add(actuator);
+  for (const JointSensor& sensor : robot.joint_sensors) add(sensor);
+  missing_ = channels_.size() + analogs_.size();
+  assign(tick_.robot, robot.name);
+  frame_ = tick_;
+  commands_.reserve(FRAME_ECUS);
+  parameters_.reserve(capacity_of<EcuParameterValue>);
+  emergencies_.reserve(emergencies_kept);
+}
+
+void Gateway::add(const Actuator& actuator) {
+  Ecu& ecu = ecus_.at(static_cast<std::size_t>(actuator.ecu));
+  int& index = ecu.channel.at(static_cast<std::size_t>(actuator.channel));
+  if (index >= 0)
+    throw std::invalid_argument("actuator \"" + actuator.name + "\": ECU " +
+                                std::to_string(actuator.ecu) + " channel " +
+                                std::to_string(actuator.channel) + " is another's already");
+  index = static_cast<int>(channels_.size());
+  ecu.in_use = true;
+  Channel& channel = channels_.emplace_back();
+  channel.ecu = ecu.address;
+  channel.channel = static_cast<std::uint8_t>(actuator.channel);
+  EcuChannelSample sample{};
+  sample.ecu = channel.ecu;
+  sample.channel = channel.channel;
+  sample.state = static_cast<std::uint8_t>(EcuState::unknown);
+  append(tick_.channels, sample);
+}
+
+void Gateway::add(const JointSensor& sensor) {
+  Ecu& ecu = ecus_.at(static_cast<std::size_t>(sensor.ecu));
+  int& index = ecu.analog.at(static_cast<std::size_t>(sensor.input));
+  if (index >= 0)
+    throw std::invalid_argument("sensor of joint \"" + sensor.joint + "\": ECU " +
+                                std::to_string(sensor.ecu) + " input " +
+                                std::to_string(sensor.input) + " is another's already");
+  index = static_cast<int>(analogs_.size());
+  ecu.in_use = true;
+  analogs_.push_back({ecu.address, static_cast<std::uint8_t>(sensor.input), false});
+  append(tick_.analogs,
+         EcuAnalogSample{.ecu = ecu.address, .input = static_cast<std::uint8_t>(sensor.input)});
+}
+
+// ---- to the ECUs ----
+
+std::span<const CanFrame> Gateway::commands(const EcuCommand& message) {
+  commands_.clear();
+  for (Ecu& ecu : ecus_) ecu.has_command = false;
+  for (const EcuChannelCommand& asked : samples(message.channels)) {
+    const bool known =
+        asked.ecu < FRAME_ECUS && asked.channel < 2 && ecus_[asked.ecu].channel[asked.channel] >= 0;
+    if (known) fill_in(ecus_[asked.ecu], asked);
+    else ++counters_.unknown_channels;
+  }
+  for (Ecu& ecu : ecus_) {
+    if (!ecu.has_command) continue;
+    number(ecu, message.answers);
+    frame_pack_command(&commands_.emplace_back(), ecu.address, &ecu.command);
+  }
+  return commands_;
+}
+
+void Gateway::fill_in(Ecu& ecu, const EcuChannelCommand& asked) {
+  if (!ecu.has_command) ecu.command = {{{FRAME_REQUEST_NONE, 0}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+  ecu.has_command = true;
+  ecu.command.channel[asked.channel] = on_the_bus(asked);
+  channels_[static_cast<std::size_t>(ecu.channel[asked.channel])].sent =
+      ecu.command.channel[asked.channel];
+}
+
+/// `answers` never goes back; `repeat` tells two answers to the same tick apart.
+void Gateway::number(Ecu& ecu, std::uint64_t answered_sequence) {
+  const Past& past = past_[answered_sequence % past_.size()];
+  const bool known = past.sequence == answered_sequence && answered_sequence != 0;
+  const std::uint8_t answers = known ? past.counter[ecu.address] : ecu.answers;
+  const std::uint8_t ahead = frame_ahead(answers, ecu.answers);
+  if (ecu.commanded && (ahead == 0 || ahead >= FRAME_LATE)) {
+    ecu.repeat = static_cast<std::uint8_t>((ecu.repeat + 1) & 7);
+  } else {
+    ecu.answers = answers;
+    ecu.repeat = 0;
+  }
+  ecu.commanded = true;
+  ecu.command.answers = ecu.answers;
+  ecu.command.repeat = ecu.repeat;
+}
+
+std::span<const CanFrame> Gateway::parameters(const EcuParameter& message) {
+  parameters_.clear();
+  for (const EcuParameterValue& asked : samples(message.values)) {
+    const bool known =
+        asked.ecu < FRAME_ECUS && asked.channel < 2 && ecus_[asked.ecu].channel[asked.channel] >= 0;
+    if (!known) {
+      ++counters_.unknown_channels;
+      continue;
+    }
+    Channel& channel = channels_[static_cast<std::size_t>(ecus_[asked.ecu].channel[asked.channel])];
+    const frame_parameter said{asked.channel, std::min(asked.index, no_parameter), asked.commit,
+                               channel.next_position, asked.value};
+    frame_pack_parameter(&parameters_.emplace_back(), asked.ecu, &said);
+    const int next = said.position == 255 ? 1 : said.position + 1;
+    channel.next_position = static_cast<std::uint8_t>(asked.commit ? 0 : next);
+  }
+  return parameters_;
+}
+
+// ---- ticks ----
+
+Heard Gateway::finish(bool closed_early) {
+  if (missing_ == 0) {
+    close_tick();
+    return Heard::tick;
+  }
+  return closed_early ? Heard::tick : Heard::nothing;
+}
+
+void Gateway::close_tick() {
+  if (missing_ > 0) ++counters_.incomplete_ticks;
+  ++tick_.sequence;
+  frame_ = tick_;
+  Past& past = past_[tick_.sequence % past_.size()];
+  past.sequence = tick_.sequence;
+  for (const Ecu& ecu : ecus_) past.counter[ecu.address] = ecu.counter;
+  for (EcuChannelSample& sample : samples(tick_.channels)) sample.fresh = false;
+  for (EcuAnalogSample& sample : samples(tick_.analogs)) sample.fresh = false;
+  for (Channel& channel : channels_) channel.fresh = false;
+  for (Analog& analog : analogs_) analog.fresh = false;
+  missing_ = channels_.size() + analogs_.size();
+}
+
+}  // namespace erp

@@ -1,0 +1,48 @@
+#include <charconv>
+
+#include "hal/can/backends.hpp"
+
+namespace erp {
+namespace {
+
+constexpr auto usage =
+    "write socketcan:INTERFACE (e.g. socketcan:can0) or udp:GROUP:PORT (e.g. "
+    "udp:239.255.42.1:20000)";
+
+int port_of(const std::string& text) {
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  if (!whole || port < 1 || port > 65535)
+    throw std::runtime_error("port \"" + text + "\" is not a number from 1 to 65535; " + usage);
+  return port;
+}
+
+std::unique_ptr<CanBus> open_by_name(const std::string& specification) {
+  const auto colon = specification.find(':');
+  const std::string backend = specification.substr(0, colon);
+  const std::string rest = colon == std::string::npos ? "" : specification.substr(colon + 1);
+  if (backend == "socketcan") {
+    if (rest.empty()) throw std::runtime_error(std::string("names no interface; ") + usage);
+    return can::open_socketcan(rest);
+  }
+  if (backend == "udp") {
+    const auto last = rest.rfind(':');
+    if (last == std::string::npos)
+      throw std::runtime_error(std::string("names no group and port; ") + usage);
+    return can::open_udp(rest.substr(0, last), port_of(rest.substr(last + 1)));
+  }
+  throw std::runtime_error("unknown back end \"" + backend + "\"; " + usage);
+}
+
+}  // namespace
+
+std::unique_ptr<CanBus> open_bus(const std::string& specification) {
+  try {
+    return open_by_name(specification);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("CAN bus \"" + specification + "\": " + error.what());
+  }
+}
+
+}  // namespace erp

@@ -1,0 +1,166 @@
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "hal/can/backends.hpp"
+
+// Frames on a multicast group of the loopback interface, several to a datagram:
+//   "erpc"  then per frame: identifier u16 little endian, size u8, 8 bytes of data.
+namespace erp::can {
+namespace {
+
+constexpr std::size_t frames_per_datagram = 64, header_bytes = 4, frame_bytes = 11;
+constexpr std::size_t datagram_bytes = header_bytes + frames_per_datagram * frame_bytes;
+constexpr char magic[header_bytes + 1] = "erpc";
+
+[[noreturn]] void fail(const std::string& what) {
+  throw std::runtime_error(what + ": " + std::strerror(errno));
+}
+
+Descriptor udp_socket() {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd < 0) fail("no UDP socket");
+  return Descriptor(fd);
+}
+
+template <class Value>
+void set(const Descriptor& socket, int level, int option, const Value& value, const char* what) {
+  if (::setsockopt(socket.get(), level, option, &value, sizeof value) != 0) fail(what);
+}
+
+sockaddr_in address(in_addr host, int port) {
+  sockaddr_in result{};
+  result.sin_family = AF_INET;
+  result.sin_addr = host;
+  result.sin_port = htons(static_cast<std::uint16_t>(port));
+  return result;
+}
+
+void bind_to(const Descriptor& socket, const sockaddr_in& where) {
+  if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0)
+    fail("cannot listen on this group and port");
+}
+
+in_addr loopback() { return in_addr{htonl(INADDR_LOOPBACK)}; }
+
+class UdpBus final : public CanBus {
+ public:
+  UdpBus(in_addr group, int port)
+      : receiver_(udp_socket()), sender_(udp_socket()), group_(address(group, port)) {
+    set(receiver_, SOL_SOCKET, SO_REUSEADDR, 1, "cannot share the port");
+    set(receiver_, SOL_SOCKET, SO_RCVBUF, 1 << 20, "cannot set the receive buffer");
+    bind_to(receiver_, group_);
+    set(receiver_, IPPROTO_IP, IP_ADD_MEMBERSHIP, ip_mreq{group, loopback()},
+        "cannot join the group on loopback");
+    set(sender_, IPPROTO_IP, IP_MULTICAST_IF, loopback(), "cannot send on loopback");
+    set(sender_, IPPROTO_IP, IP_MULTICAST_LOOP, 1, "cannot be heard on this machine");
+    set(sender_, IPPROTO_IP, IP_MULTICAST_TTL, 0, "cannot keep to this machine");
+    bind_to(sender_, address(loopback(), 0));
+    socklen_t size = sizeof own_;
+    if (::getsockname(sender_.get(), reinterpret_cast<sockaddr*>(&own_), &size) != 0)
+      fail("cannot know its own port");
+  }
+
+  std::size_t send(std::span<const CanFrame> frames) override {
+    std::size_t taken = 0;
+    while (taken < frames.size()) {
+      const auto some = frames.subspan(taken, std::min(frames_per_datagram, frames.size() - taken));
+      if (!send_datagram(some)) break;
+      taken += some.size();
+    }
+    counters_.sent += taken;
+    counters_.refused += frames.size() - taken;
+    return taken;
+  }
+
+  std::size_t receive(std::span<CanFrame> frames, double timeout_s) override {
+    if (waiting_.empty() && !wait_readable(receiver_.get(), timeout_s)) return 0;
+    std::size_t filled = take_waiting(frames);
+    while (filled < frames.size() && receive_datagram())
+      filled += take_waiting(frames.subspan(filled));
+    return filled;
+  }
+
+  int fd() const override { return receiver_.get(); }
+  BusCounters counters() const override { return counters_; }
+
+ private:
+  bool send_datagram(std::span<const CanFrame> frames) {
+    std::array<std::uint8_t, datagram_bytes> datagram;
+    std::memcpy(datagram.data(), magic, header_bytes);
+    std::uint8_t* at = datagram.data() + header_bytes;
+    for (const CanFrame& frame : frames) {
+      at[0] = static_cast<std::uint8_t>(frame.id & 0xFF);
+      at[1] = static_cast<std::uint8_t>(frame.id >> 8);
+      at[2] = frame.size;
+      std::memcpy(at + 3, frame.data, 8);
+      at += frame_bytes;
+    }
+    const auto size = static_cast<std::size_t>(at - datagram.data());
+    return ::sendto(sender_.get(), datagram.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL,
+                    reinterpret_cast<const sockaddr*>(&group_),
+                    sizeof group_) == static_cast<ssize_t>(size);
+  }
+
+  /// Takes one datagram off the socket; false when none is there. Own ones are passed over.
+  bool receive_datagram() {
+    std::array<std::uint8_t, datagram_bytes + 1> datagram;
+    sockaddr_in from{};
+    socklen_t from_size = sizeof from;
+    const ssize_t size = ::recvfrom(receiver_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT,
+                                    reinterpret_cast<sockaddr*>(&from), &from_size);
+    if (size < 0) return false;
+    const bool own = from.sin_port == own_.sin_port && from.sin_addr.s_addr == own_.sin_addr.s_addr;
+    if (!own) unpack(std::span(datagram).first(static_cast<std::size_t>(size)));
+    return true;
+  }
+
+  void unpack(std::span<const std::uint8_t> datagram) {
+    const bool ours = datagram.size() > header_bytes && datagram.size() <= datagram_bytes &&
+                      (datagram.size() - header_bytes) % frame_bytes == 0 &&
+                      std::memcmp(datagram.data(), magic, header_bytes) == 0;
+    if (!ours) {
+      ++counters_.unreadable;
+      return;
+    }
+    const std::size_t count = (datagram.size() - header_bytes) / frame_bytes;
+    const std::uint8_t* at = datagram.data() + header_bytes;
+    for (std::size_t i = 0; i < count; ++i, at += frame_bytes) {
+      storage_[i].id = static_cast<std::uint16_t>(at[0] | at[1] << 8);
+      storage_[i].size = at[2];
+      std::memcpy(storage_[i].data, at + 3, 8);
+    }
+    counters_.received += count;
+    waiting_ = std::span(storage_).first(count);
+  }
+
+  std::size_t take_waiting(std::span<CanFrame> frames) {
+    const std::size_t count = std::min(frames.size(), waiting_.size());
+    std::copy_n(waiting_.begin(), count, frames.begin());
+    waiting_ = waiting_.subspan(count);
+    return count;
+  }
+
+  Descriptor receiver_, sender_;
+  sockaddr_in group_, own_{};
+  std::array<CanFrame, frames_per_datagram> storage_;  ///< of the last datagram
+  std::span<CanFrame> waiting_;                        ///< its frames not yet taken
+  BusCounters counters_;
+};
+
+}  // namespace
+
+std::unique_ptr<CanBus> open_udp(const std::string& group, int port) {
+  in_addr host{};
+  if (::inet_pton(AF_INET, group.c_str(), &host) != 1 || !IN_MULTICAST(ntohl(host.s_addr)))
+    throw std::runtime_error("\"" + group +
+                             "\" is not a multicast address; write one from 239.0.0.0 to "
+                             "239.255.255.255, e.g. udp:239.255.42.1:20000");
+  return std::make_unique<UdpBus>(host, port);
+}
+
+}  // namespace erp::can

@@ -1,0 +1,62 @@
+#pragma once
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// A recording as a table to compute with: one row a cycle, one column a signal.
+///
+///   time_s                    since the first row
+///   <a>.mode                  what the ECU followed (erp::Mode as a number; a word in CSV)
+///   <a>.reference             V, m (change of line length since the start), A or N, by mode
+///   <a>.voltage_V             as the ECU commanded it
+///   <a>.current_A
+///   <a>.shaft_rad             gearbox output, positive = winding up
+///   <a>.tension_N
+///   <a>.line_m                change of line length since the start (on request)
+///   <a>.target_mode, .target  what was asked for in answer to this row's frame (on request)
+///   <j>.angle_rad             a revolute joint
+///   <j>.qw … <j>.qz           a spherical joint
+namespace recording {
+
+inline constexpr double not_taken = std::numeric_limits<double>::quiet_NaN();
+
+struct Column {
+  std::string name;
+  std::vector<double> values;  ///< NaN: the sample was not taken
+};
+
+struct Table {
+  std::vector<Column> columns;
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
+  const Column* find(std::string_view name) const;  ///< nullptr: no such column
+  /// The names that have a column `<name>.<signal>`, in the order of the columns.
+  std::vector<std::string> owners(std::string_view signal) const;
+};
+
+/// The signals that a column's name may end in, "mode" first.
+const std::vector<std::string_view>& known_signals();
+/// "flexor.tension_N" → "tension_N"; the whole name when it has no dot.
+std::string_view signal_of(std::string_view column);
+bool holds_mode(std::string_view column);
+
+struct TableOptions {
+  std::string robot;       ///< empty: the only one in the recording
+  bool lines = false;      ///< with <a>.line_m
+  bool targets = false;    ///< with <a>.target_mode and <a>.target
+  /// Where spherical joints come from; empty: motion_capture if recorded, else sim.
+  std::string pose_source;
+};
+
+/// Reads a recording (MCAP) or a table (CSV), by its first bytes. Throws RecordingError with place,
+/// value, remedy.
+Table read_table(const std::string& path, const TableOptions& options = {});
+
+class McapReader;
+/// One row per sensor_frame, in the order of stamps. A joint that sensor_frame does not carry and
+/// that is spherical comes from joint_state: its last sample stamped after the row before and not
+/// after this row. Targets are joined where `answers` is the frame's sequence; actuator_target
+/// before actuator_command, among commands the highest priority.
+Table table_of(const McapReader& recording, const TableOptions& options = {});
+
+}  // namespace recording

@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "interfaces/recording/cdr.hpp"
+#include "interfaces/recording/mcap_reader.hpp"
+#include "interfaces/recording/ros2msg.hpp"
+#include "interfaces/recording/table.hpp"
+#include "interfaces/values.hpp"
+
+namespace recording {
+namespace {
+
+/// A signal and where its sample and its valid bit stand in a message.
+struct Source {
+  const char* signal;
+  const char* field;
+  unsigned valid;  ///< 0: always there
+};
+constexpr Source actuator_sources[] = {
+    {"mode", "mode", 0},
+    {"reference", "reference", 0},
+    {"voltage_V", "voltage_V", erp::valid::voltage},
+    {"current_A", "current_A", erp::valid::current},
+    {"shaft_rad", "shaft_rad", erp::valid::shaft},
+    {"tension_N", "tension_N", erp::valid::tension}};
+constexpr Source line_source{"line_m", "line_m", erp::valid::line};
+constexpr Source joint_source{"angle_rad", "angle_rad", erp::valid::joint_angle};
+
+double number_in(const Members& members, std::string_view field) {
+  const Value* value = members.find(field);
+  return value ? value->number().value_or(not_taken) : not_taken;
+}
+std::string text_in(const Members& members, std::string_view field) {
+  const Value* value = members.find(field);
+  return value && value->text() ? *value->text() : std::string();
+}
+template <class Use>
+void each_in(const Members& members, std::string_view field, Use&& use) {
+  const Value* value = members.find(field);
+  if (!value || !value->elements()) return;
+  for (const Value& element : *value->elements())
+    if (element.members()) use(*element.members());
+}
+template <class Integer>
+Integer integer_in(const Members& members, std::string_view field) {
+  const Value* value = members.find(field);
+  const Integer* number = value ? std::get_if<Integer>(&value->data) : nullptr;
+  return number ? *number : Integer{0};
+}
+
+/// The columns of one actuator or joint, found by name and signal, all as long as the table.
+class Group {
+ public:
+  void set(const std::string& owner, const char* signal, std::size_t row, double value) {
+    auto& columns = by_owner_[owner];
+    if (columns.empty()) order_.push_back(owner);
+    auto column = std::ranges::find(columns, signal, &Column::name);
+    if (column == columns.end()) column = columns.insert(columns.end(), Column{signal, {}});
+    column->values.resize(std::max(column->values.size(), row + 1), not_taken);
+    column->values[row] = value;
+  }
+  bool has(const std::string& owner) const { return by_owner_.contains(owner); }
+  void move_into(Table& table, std::size_t rows) {
+    for (const std::string& owner : order_)
+      for (Column& column : by_owner_[owner]) {
+        column.values.resize(rows, not_taken);
+        table.columns.push_back({owner + "." + column.name, std::move(column.values)});
+      }
+  }
+
+ private:
+  std::map<std::string, std::vector<Column>> by_owner_;
+  std::vector<std::string> order_;
+};
+
+struct Row {
+  std::int64_t stamp_ns;
+  std::uint64_t sequence, log_time_ns;
+};
+
+struct Target {
+  std::string actuator;
+  double mode, reference, rank;
+  std::uint64_t answers, log_time_ns;
+};
+
+struct Pose {
+  std::int64_t stamp_ns;
+  double q[4];
+};
+
+class Builder {
+ public:
+  Builder(const McapReader& recording, const TableOptions& options)
+      : recording_(recording), options_(options) {
+    for (const auto& [id, channel] : recording.channels()) {
+      const auto schema = recording.schemas().find(channel.schema_id);
+      if (schema == recording.schemas().end() || schema->second.encoding != "ros2msg") continue;
+      if (!wanted(channel.topic) || types_.contains(channel.schema_id)) continue;
+      types_[channel.schema_id] = parse_ros2msg(schema->second.name, schema->second.data);
+    }
+  }
+
+  Table run() {
+    recording_.for_each([&](const Message& message) { take(message); });
+    if (rows_.empty())
+      throw RecordingError(recording_.path() + ": holds no sensor_frame" +
+                           (options_.robot.empty() ? "" : " of robot \"" + options_.robot + "\"") +
+                           "; see what it holds with: erp log info " + recording_.path());
+    join_targets();
+    join_poses();
+    return assemble();
+  }
+
+ private:
+  bool wanted(const std::string& topic) const {
+    return topic == "sensor_frame" || topic == "joint_state" ||
+           (options_.targets && (topic == "actuator_target" || topic == "actuator_command"));
+  }
+
+  void take(const Message& message) {
+    const std::string& topic = message.channel.topic;
+    const auto type = types_.find(message.channel.schema_id);
+    if (type == types_.end() || !wanted(topic)) return;
+    const Members members = decode_cdr(type->second, message.data);
+    if (!of_our_robot(text_in(members, "robot"), topic)) return;
+    if (topic == "sensor_frame") take_frame(members, message.log_time_ns);
+    else if (topic == "joint_state") take_joints(members);
+    else take_targets(members, topic, message.log_time_ns);
+  }
+
+  bool of_our_robot(const std::string& robot, const std::string& topic) {
+    if (!options_.robot.empty()) return robot == options_.robot;
+    if (topic == "sensor_frame") robots_.insert(robot);
+    if (robots_.size() > 1)
+      throw RecordingError(recording_.path() + ": holds the robots " + *robots_.begin() + " and " +
+                           *robots_.rbegin() + "; say which one");
+    return robots_.empty() || robots_.contains(robot);
+  }
+
+  void take_frame(const Members& frame, std::uint64_t log_time_ns) {
+    const std::size_t row = rows_.size();
+    rows_.push_back({integer_in<std::int64_t>(frame, "stamp_ns"),
+                     integer_in<std::uint64_t>(frame, "sequence"), log_time_ns});
+    each_in(frame, "actuators", [&](const Members& sample) {
+      const std::string name = text_in(sample, "name");
+      const auto valid = static_cast<unsigned>(number_in(sample, "valid"));
+      const bool driven = number_in(sample, "mode") != 0;
+      for (const Source& source : actuator_sources)
+        set(actuators_, name, source, row, sample, source.valid ? valid & source.valid : driven);
+      if (options_.lines) set(actuators_, name, line_source, row, sample, valid & line_source.valid);
+    });
+    each_in(frame, "joints", [&](const Members& sample) {
+      const auto valid = static_cast<unsigned>(number_in(sample, "valid"));
+      set(joints_, text_in(sample, "name"), joint_source, row, sample, valid & joint_source.valid);
+    });
+  }
+
+  static void set(Group& group, const std::string& owner, const Source& source, std::size_t row,
+                  const Members& sample, bool taken) {
+    group.set(owner, source.signal, row, taken ? number_in(sample, source.field) : not_taken);
+  }
+
+  void take_targets(const Members& command, const std::string& topic, std::uint64_t log_time_ns) {
+    const bool target = topic == "actuator_target";
+    const double rank = target ? 1e12 : number_in(command, "priority");
+    const auto answers = integer_in<std::uint64_t>(command, "answers");
+    each_in(command, "actuators", [&](const Members& sample) {
+      targets_.push_back({text_in(sample, "name"), number_in(sample, "mode"),
+                          number_in(sample, "reference"), rank, answers, log_time_ns});
+    });
+  }
+
+  void take_joints(const Members& state) {
+    const std::string source = text_in(state, "source");
+    each_in(state, "joints", [&](const Members& sample) {
+      const Value* position = sample.find("position");
+      if (number_in(sample, "dof") != 3 || !position || !position->elements() ||
+          position->elements()->size() != 4)
+        return;
+      Pose pose{integer_in<std::int64_t>(state, "stamp_ns"), {}};
+      for (std::size_t i = 0; i < 4; ++i)
+        pose.q[i] = (*position->elements())[i].number().value_or(not_taken);
+      poses_[source][text_in(sample, "name")].push_back(pose);
+    });
+  }
+
+  /// Each target goes to the row it answers; a sequence that came twice (the plant restarted) to
+  /// the row nearest in log time.
+  void join_targets() {
+    std::multimap<std::uint64_t, std::size_t> by_sequence;
+    for (std::size_t i = 0; i < rows_.size(); ++i) by_sequence.emplace(rows_[i].sequence, i);
+    std::ranges::stable_sort(targets_, {}, &Target::rank);
+    for (const Target& target : targets_) {
+      if (!actuators_.has(target.actuator)) continue;
+      const auto [first, last] = by_sequence.equal_range(target.answers);
+      const auto apart = [&](std::size_t row) {
+        const std::uint64_t t = rows_[row].log_time_ns;
+        return t > target.log_time_ns ? t - target.log_time_ns : target.log_time_ns - t;
+      };
+      const auto row = std::min_element(
+          first, last, [&](const auto& a, const auto& b) { return apart(a.second) < apart(b.second); });
+      if (row == last) continue;
+      actuators_.set(target.actuator, "target_mode", row->second, target.mode ? target.mode : not_taken);
+      actuators_.set(target.actuator, "target", row->second, target.mode ? target.reference : not_taken);
+    }
+  }
+
+  std::string pose_source() const {
+    if (!options_.pose_source.empty()) return options_.pose_source;
+    return poses_.contains("motion_capture") ? "motion_capture" : "sim";
+  }
+
+  void join_poses() {
+    const auto source = poses_.find(pose_source());
+    if (source == poses_.end()) return;
+    const std::vector<std::size_t> order = row_order();
+    for (auto& [joint, poses] : source->second) {
+      if (joints_.has(joint)) continue;
+      std::ranges::stable_sort(poses, {}, &Pose::stamp_ns);
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::int64_t now = rows_[order[i]].stamp_ns;
+        const std::int64_t before = i ? rows_[order[i - 1]].stamp_ns : now - 1;
+        const auto after = std::ranges::upper_bound(poses, now, {}, &Pose::stamp_ns);
+        const bool taken = after != poses.begin() && std::prev(after)->stamp_ns > before;
+        constexpr const char* signals[] = {"qw", "qx", "qy", "qz"};
+        for (std::size_t k = 0; k < 4; ++k)
+          balls_.set(joint, signals[k], order[i], taken ? std::prev(after)->q[k] : not_taken);
+      }
+    }
+  }
+
+  /// Rows by stamp; equal stamps as they came.
+  std::vector<std::size_t> row_order() const {
+    std::vector<std::size_t> order(rows_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rows_[i].stamp_ns; });
+    return order;
+  }
+
+  Table assemble() {
+    Table table{{{"time_s", {}}}};
+    actuators_.move_into(table, rows_.size());
+    joints_.move_into(table, rows_.size());
+    balls_.move_into(table, rows_.size());
+    const std::vector<std::size_t> order = row_order();
+    const std::int64_t start_ns = rows_[order.front()].stamp_ns;
+    for (const Row& row : rows_)
+      table.columns[0].values.push_back(static_cast<double>(row.stamp_ns - start_ns) / 1e9);
+    if (std::ranges::is_sorted(order)) return table;
+    for (Column& column : table.columns) {
+      std::vector<double> sorted;
+      for (const std::size_t row : order) sorted.push_back(column.values[row]);
+      column.values = std::move(sorted);
+    }
+    return table;
+  }
+
+  const McapReader& recording_;
+  const TableOptions& options_;
+  std::map<std::uint16_t, TypeDescription> types_;
+  std::set<std::string> robots_;
+  std::vector<Row> rows_;
+  Group actuators_, joints_, balls_;
+  std::vector<Target> targets_;
+  std::map<std::string, std::map<std::string, std::vector<Pose>>> poses_;
+};
+
+}  // namespace
+
+Table table_of(const McapReader& recording, const TableOptions& options) {
+  return Builder(recording, options).run();
+}
+
+}  // namespace recording

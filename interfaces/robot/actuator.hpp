@@ -1,0 +1,160 @@
+#pragma once
+#include <array>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "interfaces/values.hpp"
+#include "interfaces/xml/fields.hpp"
+
+/// Motors, sensors and tendons of robot.xml.
+namespace erp {
+
+using xml::Vec3;
+
+/// DC motor with gearbox: the constants of eq. 3. Friction of the motor on its own shaft, of the
+/// gearbox on the output shaft.
+struct MotorType {
+  static constexpr auto element = "motor_type";
+  xml::Place place;
+  std::string name;
+  double resistance_ohm = 0, inductance_H = 0;                           ///< R, L
+  double back_emf_V_s_per_rad = 0, torque_Nm_per_A = 0;                  ///< K_E, K_T
+  double gear_ratio = 1, gear_efficiency = 1;                            ///< N, η
+  double rotor_inertia_kg_m2 = 0, gear_inertia_kg_m2 = 0;                ///< J_M, J_G
+  double rotor_viscous_Nm_s_per_rad = 0, gear_viscous_Nm_s_per_rad = 0;  ///< µ_M, µ_G
+  double rotor_coulomb_Nm = 0, gear_coulomb_Nm = 0;                      ///< τ_CM, τ_CG
+  double supply_V = 12, current_limit_A = 0;
+  std::string source;
+  void visit(auto& v) {
+    v.required("name", name);
+    v.required("resistance_ohm", resistance_ohm, xml::positive);
+    v.required("inductance_H", inductance_H, xml::positive);
+    v.required("back_emf_V_s_per_rad", back_emf_V_s_per_rad, xml::positive);
+    v.required("torque_Nm_per_A", torque_Nm_per_A, xml::positive);
+    v.required("gear_ratio", gear_ratio, xml::positive);
+    v.required("gear_efficiency", gear_efficiency, xml::Range{0.0, 1.0, true, false});
+    v.required("rotor_inertia_kg_m2", rotor_inertia_kg_m2, xml::positive);
+    v("gear_inertia_kg_m2", gear_inertia_kg_m2, xml::at_least_zero);
+    v("rotor_viscous_Nm_s_per_rad", rotor_viscous_Nm_s_per_rad, xml::at_least_zero);
+    v("gear_viscous_Nm_s_per_rad", gear_viscous_Nm_s_per_rad, xml::at_least_zero);
+    v("rotor_coulomb_Nm", rotor_coulomb_Nm, xml::at_least_zero);
+    v("gear_coulomb_Nm", gear_coulomb_Nm, xml::at_least_zero);
+    v.required("supply_V", supply_V, xml::positive);
+    v.required("current_limit_A", current_limit_A, xml::positive);
+    v("source", source);
+  }
+};
+
+/// What an ECU's converters read for one actuator. Bits and range fix the quantum.
+struct SensorType {
+  static constexpr auto element = "sensor_type";
+  xml::Place place;
+  std::string name;
+  int encoder_counts_per_rev = 2048;  ///< of the motor shaft
+  int current_bits = 12;
+  double current_range_A = 8, current_noise_A = 0;  ///< −range … +range, rms
+  int tension_bits = 12;
+  double tension_range_N = 200, tension_noise_N = 0;  ///< 0 … range, rms
+  std::string source;
+  void visit(auto& v) {
+    v.required("name", name);
+    v.required("encoder_counts_per_rev", encoder_counts_per_rev, xml::Range{1, 1048576});
+    v.required("current_bits", current_bits, xml::Range{8, 12});
+    v.required("current_range_A", current_range_A, xml::positive);
+    v("current_noise_A", current_noise_A, xml::at_least_zero);
+    v.required("tension_bits", tension_bits, xml::Range{8, 12});
+    v.required("tension_range_N", tension_range_N, xml::positive);
+    v("tension_noise_N", tension_noise_N, xml::at_least_zero);
+    v("source", source);
+  }
+};
+
+/// A tendon's end or a point it passes through, fixed to a body.
+struct Attach {
+  static constexpr auto element = "attach";
+  xml::Place place;
+  std::string body;
+  Vec3 at_m{0, 0, 0};
+  void visit(auto& v) { v.required("body", body), v.required("at_m", at_m); }
+};
+
+/// A sphere the tendon wraps around when it is in the way.
+struct Pulley {
+  static constexpr auto element = "pulley";
+  xml::Place place;
+  std::string body;
+  Vec3 center_m{0, 0, 0};
+  double radius_m = 0;
+  /// Which side the tendon passes: a direction in the body frame from the centre; zero: the shorter
+  /// way.
+  Vec3 side{0, 0, 0};
+  void visit(auto& v) {
+    v.required("body", body);
+    v.required("center_m", center_m);
+    v.required("radius_m", radius_m, xml::positive);
+    v("side", side);
+  }
+};
+
+/// Series elastic tendon, eqs 1 and 2: F = κ Δx + D dΔx/dt, never below zero.
+struct Tendon {
+  static constexpr auto element = "tendon";
+  xml::Place place;
+  double stiffness_N_per_m = 0, damping_N_s_per_m = 0;
+  double pretension_N = 0;  ///< at the initial pose; sets the line length L_K0
+  std::string source;
+  std::vector<std::variant<Attach, Pulley>> path;  ///< from the motor's end to the distal end
+  void visit(auto& v) {
+    v.required("stiffness_N_per_m", stiffness_N_per_m, xml::positive);
+    v("damping_N_s_per_m", damping_N_s_per_m, xml::at_least_zero);
+    v("pretension_N", pretension_N, xml::at_least_zero);
+    v("source", source);
+    v.list(path);
+  }
+};
+
+struct Spindle {
+  static constexpr auto element = "spindle";
+  xml::Place place;
+  double radius_m = 0;
+  void visit(auto& v) { v.required("radius_m", radius_m, xml::positive); }
+};
+
+/// One artificial muscle.
+struct Actuator {
+  static constexpr auto element = "actuator";
+  xml::Place place;
+  std::string name, motor, sensors;
+  int ecu = 0, channel = 0;
+  SafeAction safe_action = SafeAction::relax;
+  double max_tension_N = 0;
+  double relax_tension_N = 2.0;  ///< what `relax` lets the tendon down to
+  std::string source;
+  Spindle spindle;
+  Tendon tendon;
+  void visit(auto& v) {
+    v.required("name", name);
+    v.required("motor", motor);
+    v.required("sensors", sensors);
+    v.required("ecu", ecu, xml::Range{0, 127});
+    v.required("channel", channel, xml::Range{0, 1});
+    v.required("safe_action", safe_action);
+    v.required("max_tension_N", max_tension_N, xml::positive);
+    v("relax_tension_N", relax_tension_N, xml::at_least_zero);
+    v("source", source);
+    v.child(spindle);
+    v.child(tendon);
+  }
+};
+
+}  // namespace erp
+
+template <>
+struct xml::Names<erp::SafeAction> {
+  static constexpr auto list =
+      std::to_array<std::pair<const char*, erp::SafeAction>>({{"hold", erp::SafeAction::hold},
+                                                              {"relax", erp::SafeAction::relax},
+                                                              {"damp", erp::SafeAction::damp}});
+};

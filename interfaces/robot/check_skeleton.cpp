@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <map>
+
+#include "interfaces/robot/check.hpp"
+#include "interfaces/xml/values.hpp"
+
+namespace erp::robot_check {
+namespace {
+
+using xml::quote;
+using xml::write_number;
+
+/// Which joint moves a body; the first, if there are several.
+using MovedBy = std::map<std::string, const Joint*>;
+
+MovedBy check_one_joint_a_body(const std::vector<Joint>& joints, Findings& findings) {
+  MovedBy moved_by;
+  for (const Joint& joint : joints) {
+    const auto [first, is_new] = moved_by.emplace(joint.child, &joint);
+    if (!is_new)
+      findings.add(joint,
+                   "child=" + quote(joint.child) + " is moved by joint " +
+                       quote(first->second->name) + " already",
+                   "a body hangs on one joint: remove one");
+  }
+  return moved_by;
+}
+
+/// The joints from `joint` up to the root, or, when they form a loop, once around.
+std::vector<const Joint*> towards_root(const Joint& joint, const MovedBy& moved_by) {
+  std::vector<const Joint*> chain{&joint};
+  for (auto next = moved_by.find(joint.parent); next != moved_by.end();
+       next = moved_by.find(chain.back()->parent)) {
+    if (std::find(chain.begin(), chain.end(), next->second) != chain.end()) break;
+    chain.push_back(next->second);
+  }
+  return chain;
+}
+
+void check_loops(const std::vector<Joint>& joints, const MovedBy& moved_by, Findings& findings) {
+  std::vector<const Joint*> reported;
+  for (const Joint& joint : joints) {
+    const auto chain = towards_root(joint, moved_by);
+    const bool closed = chain.back()->parent == joint.child;
+    if (!closed || std::find(reported.begin(), reported.end(), &joint) != reported.end()) continue;
+    reported.insert(reported.end(), chain.begin(), chain.end());
+    std::string loop = joint.child;
+    for (const Joint* j : chain) loop += " < " + j->parent;
+    findings.add(joint, "the joints form a loop: " + loop,
+                 "a skeleton is a tree: remove one of its joints");
+  }
+}
+
+void check_joint(const Joint& joint, Findings& findings) {
+  if (joint.type != JointType::revolute) return;
+  if (joint.axis == Vec3{0, 0, 0})
+    findings.add(joint, "axis=\"0 0 0\" has no direction", "give the direction of the hinge");
+  if (joint.min_rad >= joint.max_rad)
+    findings.add(joint,
+                 "min_rad=\"" + write_number(joint.min_rad) + "\" is not below max_rad=\"" +
+                     write_number(joint.max_rad) + "\"",
+                 "swap them, or make the joint fixed");
+  else if (joint.initial_rad < joint.min_rad || joint.initial_rad > joint.max_rad)
+    findings.add(
+        joint, "initial_rad=\"" + write_number(joint.initial_rad) + "\" is outside the limits",
+        "give a number from " + write_number(joint.min_rad) + " to " + write_number(joint.max_rad));
+}
+
+/// I₁ ≤ I₂ + I₃ for each of the three: no mass distribution has other principal inertias.
+bool possible(const Vec3& inertia) {
+  const double sum = inertia[0] + inertia[1] + inertia[2];
+  return *std::max_element(inertia.begin(), inertia.end()) <= sum / 2 * (1 + 1e-9);
+}
+
+void check_body(const Body& body, const MovedBy& moved_by, Findings& findings) {
+  const auto joint = moved_by.find(body.name);
+  if (joint != moved_by.end() && body.mass_kg == 0)
+    findings.add(
+        body,
+        quote(body.name) + " has no mass but joint " + quote(joint->second->name) + " moves it",
+        "add mass_kg");
+  if (!possible(body.inertia_kg_m2))
+    findings.add(
+        body,
+        "inertia_kg_m2=\"" + xml::Codec<Vec3>::write(body.inertia_kg_m2) + "\" belongs to no body",
+        "none of the three may exceed the sum of the other two");
+}
+
+void check_gravity(const Robot& robot, Findings& findings) {
+  const Skeleton* first = nullptr;
+  for (const Skeleton& part : robot.skeletons) {
+    if (!part.gravity_m_per_s2) continue;
+    if (first)
+      findings.add(part, "gravity_m_per_s2 is given twice",
+                   "keep one; the first stands at " + place_words(first->place));
+    else first = &part;
+  }
+}
+
+}  // namespace
+
+void check_skeleton(const Robot& robot, Findings& findings) {
+  const auto joints = robot.joints();
+  const MovedBy moved_by = check_one_joint_a_body(joints, findings);
+  check_loops(joints, moved_by, findings);
+  for (const Joint& joint : joints) check_joint(joint, findings);
+  for (const Body& body : robot.bodies()) check_body(body, moved_by, findings);
+  check_gravity(robot, findings);
+}
+
+}  // namespace erp::robot_check

@@ -1,0 +1,81 @@
+#include <cmath>
+#include <variant>
+
+#include "interfaces/robot/check.hpp"
+#include "interfaces/xml/values.hpp"
+
+namespace erp::robot_check {
+namespace {
+
+using xml::quote;
+using xml::write_number;
+
+double distance_m(const Vec3& a, const Vec3& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+bool is_attach(const std::variant<Attach, Pulley>& point) {
+  return std::holds_alternative<Attach>(point);
+}
+
+void check_ends(const Actuator& actuator, Findings& findings) {
+  const auto& path = actuator.tendon.path;
+  if (path.size() < 2)
+    findings.add(actuator.tendon, "the path has " + std::to_string(path.size()) + " points",
+                 "it needs at least two <attach>: the motor's end and the distal end");
+  else if (!is_attach(path.front()) || !is_attach(path.back()))
+    findings.add(actuator.tendon, "the path begins or ends with a <pulley>",
+                 "begin and end it with an <attach>");
+}
+
+/// Between a point inside a sphere and the sphere there is no tangent. Bodies apart may come
+/// together in some pose; that is the simulator's to notice.
+void check_inside(const Attach& point, const Pulley& pulley, Findings& findings) {
+  const double apart_m = distance_m(point.at_m, pulley.center_m);
+  if (point.body != pulley.body || apart_m >= pulley.radius_m) return;
+  findings.add(point,
+               "at_m=" + quote(xml::Codec<Vec3>::write(point.at_m)) + " lies " +
+                   write_number(apart_m) +
+                   " m from the centre of the pulley beside it, "
+                   "inside its radius_m=" +
+                   quote(write_number(pulley.radius_m)),
+               "move it out, or make the pulley smaller");
+}
+
+void check_neighbours(const Actuator& actuator, Findings& findings) {
+  const auto& path = actuator.tendon.path;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const auto *here = &path[i], *next = &path[i + 1];
+    if (is_attach(*next)) std::swap(here, next);
+    if (is_attach(*here) && !is_attach(*next))
+      check_inside(std::get<Attach>(*here), std::get<Pulley>(*next), findings);
+  }
+}
+
+void check_limits(const Robot& robot, const Actuator& actuator, Findings& findings) {
+  const auto exceeds = [&](const char* name, double value_N, double limit_N, const char* limit) {
+    if (value_N > limit_N)
+      findings.add(actuator,
+                   std::string(name) + "=" + quote(write_number(value_N)) + " exceeds " + limit +
+                       "=" + quote(write_number(limit_N)),
+                   "give at most " + write_number(limit_N));
+  };
+  exceeds("relax_tension_N", actuator.relax_tension_N, actuator.max_tension_N, "max_tension_N");
+  exceeds("pretension_N", actuator.tendon.pretension_N, actuator.max_tension_N, "max_tension_N");
+  for (const SensorType& type : robot.sensor_types)
+    if (type.name == actuator.sensors)
+      exceeds("max_tension_N", actuator.max_tension_N, type.tension_range_N,
+              "the sensor's tension_range_N");
+}
+
+}  // namespace
+
+void check_tendons(const Robot& robot, Findings& findings) {
+  for (const Actuator& actuator : robot.actuators) {
+    check_ends(actuator, findings);
+    check_neighbours(actuator, findings);
+    check_limits(robot, actuator, findings);
+  }
+}
+
+}  // namespace erp::robot_check

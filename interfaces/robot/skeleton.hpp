@@ -1,0 +1,86 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interfaces/xml/fields.hpp"
+
+/// Bodies and joints of robot.xml.
+namespace erp {
+
+using xml::Vec3;
+
+/// A rigid body. Its frame is the frame of the joint that moves it (world for a root body).
+struct Body {
+  static constexpr auto element = "body";
+  xml::Place place;
+  std::string name;
+  double mass_kg = 0.0;         ///< 0: a root body, fixed to the world
+  Vec3 com_m{0, 0, 0};          ///< centre of mass in the body frame
+  Vec3 inertia_kg_m2{0, 0, 0};  ///< principal inertia about the centre of mass, body axes
+  std::string source;
+  void visit(auto& v) {
+    v.required("name", name);
+    v("mass_kg", mass_kg, xml::at_least_zero);
+    v("com_m", com_m);
+    v("inertia_kg_m2", inertia_kg_m2, xml::at_least_zero);
+    v("source", source);
+  }
+};
+
+enum class JointType { revolute, spherical, fixed };
+
+/// A joint; parent and child frames are parallel at zero. Positive angle: right-handed about
+/// `axis`.
+struct Joint {
+  static constexpr auto element = "joint";
+  xml::Place place;
+  std::string name;
+  JointType type = JointType::revolute;
+  std::string parent, child;
+  Vec3 at_m{0, 0, 0};  ///< in the parent's frame
+  Vec3 axis{0, 1, 0};  ///< revolute only; a direction of any length but zero
+  double min_rad = -3.14159, max_rad = 3.14159;
+  double initial_rad = 0.0;
+  double viscous_Nm_s_per_rad = 0.0, coulomb_Nm = 0.0;
+  std::string source;
+  void visit(auto& v) {
+    v.required("name", name);
+    v.required("type", type);
+    v.required("parent", parent);
+    v.required("child", child);
+    v("at_m", at_m);
+    v("axis", axis);
+    v("min_rad", min_rad);
+    v("max_rad", max_rad);
+    v("initial_rad", initial_rad);
+    v("viscous_Nm_s_per_rad", viscous_Nm_s_per_rad, xml::at_least_zero);
+    v("coulomb_Nm", coulomb_Nm, xml::at_least_zero);
+    v("source", source);
+  }
+};
+
+struct Skeleton {
+  static constexpr auto element = "skeleton";
+  xml::Place place;
+  std::optional<Vec3> gravity_m_per_s2;  ///< given once among all parts of a robot; absent: none
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  void visit(auto& v) {
+    v("gravity_m_per_s2", gravity_m_per_s2);
+    v.list(bodies);
+    v.list(joints);
+  }
+};
+
+}  // namespace erp
+
+template <>
+struct xml::Names<erp::JointType> {
+  static constexpr auto list = std::to_array<std::pair<const char*, erp::JointType>>(
+      {{"revolute", erp::JointType::revolute},
+       {"spherical", erp::JointType::spherical},
+       {"fixed", erp::JointType::fixed}});
+};

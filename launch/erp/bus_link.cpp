@@ -1,0 +1,38 @@
+#include "launch/erp/bus_link.hpp"
+
+#include "components/node/clock.hpp"
+
+namespace launch {
+
+constexpr int event_depth = 64;  // chosen: a burst of notices from one component
+
+BusLink::BusLink(std::string robot)
+    : robot_(std::move(robot)),
+      participant_(node::join("erp")),
+      states_(participant_, wake_),
+      events_(participant_, wake_, event_depth),
+      clock_(participant_, wake_),
+      commands_(participant_) {}
+
+void BusLink::poll(const Hearing& hearing) {
+  wake_.clear();
+  const auto only_ours = [this](const auto& use) {
+    return [this, &use](const auto& message) {
+      if (robot_ == message.robot) use(message);
+    };
+  };
+  states_.take(only_ours(hearing.state));
+  events_.take(only_ours(hearing.event));
+  clock_.take(only_ours(hearing.clock));
+}
+
+void BusLink::command(const std::string& component, erp::Lifecycle target) {
+  erp::LifecycleCommand command;
+  erp::assign(command.robot, robot_);
+  erp::assign(command.component, component);
+  command.stamp_ns = node::wall_ns();
+  command.target = static_cast<std::uint8_t>(target);
+  commands_.write(command);
+}
+
+}  // namespace launch

@@ -1,0 +1,71 @@
+#pragma once
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interfaces/graph/graph.hpp"
+#include "launch/erp/bus_link.hpp"
+#include "launch/erp/plan.hpp"
+#include "launch/erp/process.hpp"
+#include "launch/erp/processor_share.hpp"
+#include "launch/erp/screen.hpp"
+#include "launch/erp/signals.hpp"
+#include "launch/erp/supervisor.hpp"
+
+/// One run of a graph: the supervisor's wishes carried out with real processes, the bus, a clock
+/// and a screen.
+namespace launch {
+
+class Run {
+ public:
+  Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std::string& folder);
+
+  /// Until the run has ended. Returns 0 when all ended well, 1 when a component failed for good,
+  /// 2 when one could not use its input.
+  int execute();
+
+ private:
+  /// What belongs to one planned process while it runs.
+  struct Member {
+    std::optional<Process> process;
+    std::optional<erp::ComponentState> heard;
+    std::int64_t heard_ns = 0;
+    ProcessorShare share;
+  };
+
+  void wait();
+  void hear_bus();
+  void hear(const erp::ComponentState& state);
+  void refuse_stranger(const erp::ComponentState& state);
+  void hear(const erp::Event& event);
+  void hear(const erp::Clock& clock);
+  void reap();
+  void obey_signals();
+  void carry_out();
+  void spawn(std::size_t index);
+  void show_log(std::size_t index);
+  void say(const std::string& text);
+  void say_end();
+  Row row(std::size_t index);
+  std::string state_of(std::size_t index) const;
+  Status status();
+  double left_s() const;
+
+  const erp::Graph& graph_;
+  Plan plan_;
+  std::string folder_;
+  std::ofstream log_;
+  Signals signals_;  // before the bus, whose threads inherit the mask
+  BusLink bus_;
+  Supervisor supervisor_;
+  Screen screen_;
+  std::vector<Member> members_;
+  std::map<std::string, std::size_t> index_of_;
+  std::int64_t started_ns_ = 0, now_ns_ = 0, drawn_ns_ = 0;
+  std::optional<std::int64_t> first_clock_ns_;
+  double simulated_s_ = -1, real_time_factor_ = 0;
+};
+
+}  // namespace launch

@@ -1,0 +1,30 @@
+#pragma once
+#include "interfaces/topics.hpp"
+#include "interfaces/values.hpp"
+#include "interfaces/xml/fields.hpp"
+
+/// Pulls every tendon towards one tension:  F_cmd = F_ref + k (F_ref − F).
+class @Class@ {
+ public:
+  struct Params {
+    double tension_N = 5.0;  // F_ref
+    double gain = 0.0;       // k, dimensionless
+    void visit(auto& v) { v("tension_N", tension_N, xml::at_least_zero), v("gain", gain); }
+  };
+
+  explicit @Class@(Params params) : p_(params) {}
+
+  erp::ActuatorCommand step(const erp::SensorFrame& frame, double /*dt_s*/) {
+    erp::ActuatorCommand command;
+    for (const auto& sample : erp::samples(frame.actuators)) {
+      auto& wanted = erp::append(command.actuators, {});
+      erp::assign(wanted.name, sample.name);
+      wanted.mode = static_cast<std::uint8_t>(erp::Mode::force);
+      wanted.reference = p_.tension_N + p_.gain * (p_.tension_N - sample.tension_N);
+    }
+    return command;
+  }
+
+ private:
+  Params p_;
+};

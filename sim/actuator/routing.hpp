@@ -1,0 +1,86 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interfaces/robot/robot.hpp"
+#include "sim/actuator/sphere_wrap.hpp"
+
+/// A tendon's path over the bodies: points it passes and spherical pulleys it may wrap around.
+///
+///   L = Σ free spans + Σ r · wrapped angle
+///   force on the body at element k:  F (û_before + û_after)     (unit vectors along the spans)
+///   dL/dt = − Σ (û_before + û_after) · v_k
+///
+/// Forces act at the points and at the pulleys' centres (a frictionless pulley takes no moment),
+/// sum to zero, and their power is −F dL/dt. Several pulleys between two points are solved one
+/// after the other, in turns, until the path rests.
+namespace sim {
+
+/// Where a body's frame is, in the world.
+struct BodyPose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vec3 position_m = Vec3::Zero();
+};
+
+/// How it moves: angular velocity and the velocity of its frame's origin, world axes.
+struct BodyTwist {
+  Vec3 angular_rad_per_s = Vec3::Zero(), linear_m_per_s = Vec3::Zero();
+};
+
+inline constexpr int max_path_elements = 12;
+
+/// A point (radius 0) or a pulley, fixed to a body.
+struct PathElement {
+  int body = 0;
+  Vec3 at_m = Vec3::Zero();
+  double radius_m = 0;
+  Vec3 side = Vec3::Zero();
+};
+
+/// The pull on one element's body, for 1 N of tension; world axes.
+struct PathPull {
+  int body = 0;
+  Vec3 at_m, direction;  ///< direction = û_before + û_after; zero where the line does not touch
+};
+
+/// A path's shape at one pose.
+struct PathShape {
+  double length_m = 0;
+  int elements = 0;
+  std::array<Vec3, max_path_elements> entry_m, exit_m;  ///< world; equal for a point
+  std::array<double, max_path_elements> wrapped_rad;
+  std::array<bool, max_path_elements> touches;
+  std::array<bool, max_path_elements> inside;  ///< a point is inside this pulley: it is passed by
+  std::array<PathPull, max_path_elements> pulls;
+  std::span<const PathPull> pulled() const { return {pulls.data(), std::size_t(elements)}; }
+};
+
+class Routing {
+ public:
+  /// `body_names` gives the bodies' indices. Throws std::invalid_argument: fewer than two points,
+  /// an end that is no point, an unknown body, too many elements, a pulley without radius.
+  Routing(const erp::Tendon& tendon, std::span<const std::string> body_names);
+
+  PathShape solve(std::span<const BodyPose> poses) const;
+  void solve(std::span<const BodyPose> poses, PathShape& shape) const;
+  /// Throws std::invalid_argument if at this pose a point lies inside a pulley.
+  void require_outside(std::span<const BodyPose> poses) const;
+  std::span<const PathElement> elements() const { return elements_; }
+
+ private:
+  void place(PathShape& shape, std::span<const BodyPose> poses) const;
+  void wrap_between(PathShape& shape, std::span<const BodyPose> poses, int first, int last) const;
+  double wrap_one(PathShape& shape, std::span<const BodyPose> poses, int k) const;
+  void pull(PathShape& shape) const;
+
+  std::vector<PathElement> elements_;
+};
+
+/// dL/dt at this shape.
+double length_rate_m_per_s(const PathShape& shape, std::span<const BodyPose> poses,
+                           std::span<const BodyTwist> twists);
+
+}  // namespace sim

@@ -1,0 +1,52 @@
+#include "sim/actuator/sensors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sim {
+
+namespace {
+/// The nearest count, held at the rails.
+double convert(double value, double per_count, double low, double high) {
+  return std::clamp(std::round(value / per_count), low, high);
+}
+}  // namespace
+
+SensorScale::SensorScale(const erp::MotorType& motor, const erp::SensorType& sensors)
+    : shaft_rad_per_count(2 * std::numbers::pi /
+                          (sensors.encoder_counts_per_rev * motor.gear_ratio)),
+      current_A_per_count(sensors.current_range_A / (1 << (sensors.current_bits - 1))),
+      tension_N_per_count(sensors.tension_range_N / ((1 << sensors.tension_bits) - 1)),
+      current_counts_max((1 << (sensors.current_bits - 1)) - 1),
+      tension_counts_max((1 << sensors.tension_bits) - 1) {}
+
+ActuatorSensors::ActuatorSensors(const erp::MotorType& motor, const erp::SensorType& sensors,
+                                 std::uint64_t seed)
+    : scale_(motor, sensors),
+      current_noise_A_(sensors.current_noise_A),
+      tension_noise_N_(sensors.tension_noise_N),
+      noise_(seed) {}
+
+ActuatorCounts ActuatorSensors::read(double shaft_rad, double current_A, double tension_N) {
+  const double current = current_A + current_noise_A_ * noise_.normal();
+  const double tension = tension_N + tension_noise_N_ * noise_.normal();
+  return {static_cast<std::int32_t>(std::floor(shaft_rad / scale_.shaft_rad_per_count + 0.5)),
+          static_cast<std::int16_t>(convert(current, scale_.current_A_per_count,
+                                            -scale_.current_counts_max - 1,
+                                            scale_.current_counts_max)),
+          static_cast<std::uint16_t>(
+              convert(tension, scale_.tension_N_per_count, 0, scale_.tension_counts_max))};
+}
+
+JointAngleSensor::JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed)
+    : rad_per_count_(2 * std::numbers::pi / (1 << sensor.bits_per_rev)),
+      noise_rad_(sensor.noise_rad),
+      noise_(seed) {}
+
+std::int32_t JointAngleSensor::read(double angle_rad) {
+  return static_cast<std::int32_t>(
+      std::round((angle_rad + noise_rad_ * noise_.normal()) / rad_per_count_));
+}
+
+}  // namespace sim

@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/actuator/routing.hpp"
+#include "sim/world/robot_tree.hpp"
+
+/// The robot's bones and joints in Bullet: one btMultiBody a tree, double precision.
+///
+/// Bullet gives the articulated-body dynamics and the semi-implicit step; ours are the joints'
+/// friction and limits (joint_rows.hpp), solved after Bullet has applied forces and before it
+/// moves the bodies. Bullet's own damping and sleeping are off.
+namespace sim {
+
+/// Position: revolute [0] rad; spherical a unit quaternion w x y z from child to parent.
+/// Velocity: revolute [0]; spherical x y z in the child's frame.
+struct JointReading {
+  erp::JointType type = erp::JointType::fixed;
+  std::array<double, 4> position{};
+  std::array<double, 3> velocity_rad_per_s{};
+};
+
+class BulletSkeleton {
+ public:
+  /// `lock`: joints held at their initial angle. Throws std::invalid_argument for an unknown one.
+  BulletSkeleton(const RobotTree& tree, const Vec3& gravity_m_per_s2,
+                 std::span<const std::string> lock);
+  ~BulletSkeleton();
+
+  std::span<const BodyPose> poses() const;
+  std::span<const BodyTwist> twists() const;
+  std::span<const JointReading> joints() const;
+  /// Puts a joint somewhere; readings follow. Ignored for a locked joint.
+  void set_joint(int joint, const JointReading& reading);
+
+  /// A force at a world point of a body, until the next step.
+  void push(int body, const Vec3& at_m, const Vec3& force_N);
+  void step(double dt_s);
+  /// Kinetic and potential energy.
+  double energy_J() const;
+
+ private:
+  struct Bullet;
+  std::unique_ptr<Bullet> bullet_;
+};
+
+}  // namespace sim

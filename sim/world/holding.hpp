@@ -1,0 +1,36 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/world/world.hpp"
+
+/// Statics: which tensions hold a pose, and how long the lines are then.
+///
+///   Jᵀ f = −∂U/∂q,  J = ∂L/∂q,  f ≥ f_min,  Σ (f − f_rest)² least
+///   line change = L_T(q) − L_T(q0) − (f − f0)/κ
+///
+/// q0, f0: the robot's starting pose and pretensions. With the lines at these lengths the tendons
+/// pull with f at q, so the pose is an equilibrium of length control.
+/// Solved on the dual: f = max(f_min, f_rest + J λ), by damped Newton steps in λ.
+namespace sim {
+
+/// One position a joint, as JointReading has it.
+using Pose = std::vector<std::array<double, 4>>;
+
+struct HoldingOptions {
+  double rest_N = 20;  ///< what each muscle would like to pull; chosen
+  double least_N = 5;  ///< no tendon goes slack; chosen
+};
+
+struct Holding {
+  std::vector<double> tension_N, line_m;  ///< by actuator
+  double unbalanced_Nm = 0;               ///< what no tensions can hold
+};
+
+/// Works on worlds of its own; the robot is not moved.
+Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options = {});
+
+/// The pose a robot starts in.
+Pose starting_pose(const erp::Robot& robot);
+
+}  // namespace sim

@@ -1,0 +1,55 @@
+#include "sim/world/robot_tree.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sim {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+int joint_that_moves(const std::vector<erp::Joint>& joints, const std::string& body) {
+  int found = -1;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].child != body) continue;
+    if (found >= 0) refuse("body \"" + body + "\" is moved by two joints");
+    found = static_cast<int>(j);
+  }
+  return found;
+}
+
+void check(const erp::Body& body, bool moved) {
+  const auto& inertia = body.inertia_kg_m2;
+  const bool has_inertia = std::all_of(inertia.begin(), inertia.end(), [](double i) { return i > 0; });
+  if (moved && !(body.mass_kg > 0 && has_inertia))
+    refuse("body \"" + body.name + "\" is moved by a joint and needs mass and inertia");
+  if (!moved && body.mass_kg > 0)
+    refuse("body \"" + body.name + "\" has mass but no joint moves it");
+}
+
+}  // namespace
+
+RobotTree::RobotTree(const erp::Robot& robot) : joints(robot.joints()) {
+  std::vector<erp::Body> left = robot.bodies();
+  const auto index = [this](const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+  };
+  while (!left.empty()) {
+    // The next body whose parent is already there.
+    const auto next = std::find_if(left.begin(), left.end(), [&](const erp::Body& body) {
+      const int joint = joint_that_moves(joints, body.name);
+      return joint < 0 || index(joints[joint].parent) >= 0;
+    });
+    if (next == left.end())
+      refuse("body \"" + left.front().name + "\" hangs on an unknown body or on itself");
+    const int joint = joint_that_moves(joints, next->name);
+    check(*next, joint >= 0);
+    bodies.push_back({*next, joint < 0 ? -1 : index(joints[joint].parent), joint});
+    names.push_back(next->name);
+    left.erase(next);
+  }
+}
+
+}  // namespace sim

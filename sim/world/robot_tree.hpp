@@ -1,0 +1,27 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interfaces/robot/robot.hpp"
+
+/// A robot's bodies and joints in an order a tree can be built in: parents before children.
+namespace sim {
+
+struct TreeBody {
+  erp::Body body;
+  int parent = -1;  ///< index of the parent body; −1: a root, fixed to the world
+  int joint = -1;   ///< index into the robot's joints; −1: a root
+};
+
+struct RobotTree {
+  std::vector<TreeBody> bodies;    ///< parents first
+  std::vector<erp::Joint> joints;  ///< as in robot.xml
+  std::vector<std::string> names;  ///< of the bodies
+
+  /// Throws std::invalid_argument, naming what: a body moved by two joints, a loop, an unknown
+  /// body, a moved body without mass or inertia, a root with mass (free bodies are not simulated).
+  explicit RobotTree(const erp::Robot& robot);
+};
+
+}  // namespace sim

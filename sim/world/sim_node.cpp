@@ -1,0 +1,142 @@
+#include "sim/world/sim_node.hpp"
+
+#include <cmath>
+
+#include "firmware/core/ecu.h"
+
+namespace sim {
+namespace {
+
+constexpr std::int64_t tick_ns = 2'000'000;     // the ECUs' period
+constexpr std::int64_t repeat_ns = 200'000'000; // chosen: lockstep, for an answer that got lost
+constexpr std::uint64_t pose_period = 10;       // ticks: pictures at 50 Hz
+constexpr std::uint64_t clock_period = 50;      // ticks: 10 Hz
+
+WorldOptions world_options(const SimNode::Params& params) {
+  WorldOptions options;
+  for (const auto& lock : params.locks) options.lock.push_back(lock.joint);
+  return options;
+}
+
+VirtualEcuOptions ecu_options(const SimNode::Params& params) {
+  VirtualEcuOptions options;
+  options.substeps = static_cast<int>(std::lround(params.physics_Hz * 1e-9 * tick_ns));
+  options.seed = static_cast<std::uint64_t>(params.seed);
+  return options;
+}
+
+std::uint64_t ticks_in(double duration_s) {
+  return duration_s > 0 ? static_cast<std::uint64_t>(std::llround(duration_s * 1e9 / tick_ns)) : 0;
+}
+
+}  // namespace
+
+SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node)
+    : node_(node),
+      world_(robot, world_options(params)),
+      ecus_(robot, ecu_options(params)),
+      joints_out_(node.advertise<erp::JointState>()),
+      bodies_out_(node.advertise<erp::BodyPose>()),
+      clock_out_(node.advertise<erp::Clock>()),
+      end_ticks_(ticks_in(node.options().duration_s)) {
+  if (params.bus.empty())
+    join_bus_as_device();
+  else
+    stand_behind(params.bus, robot);
+  node.on_activate([this] {
+    began_ns_ = node::monotonic_ns();
+    ecus_.measure(world_);
+    if (bus_) bus_->say_boot();
+    measure_and_say();
+  });
+  if (node.clock().lockstep())
+    node.every(repeat_ns, [this] {
+      if (node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
+    });
+  else
+    node.every(tick_ns, [this] { tick(); });
+}
+
+void SimNode::join_bus_as_device() {
+  frame_out_ = &node_.advertise<erp::EcuFrame>();
+  parameter_in_ = &node_.subscribe<erp::EcuParameter>([this](const auto& m) { ecus_.accept(m); }, 8);
+  node_.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
+}
+
+void SimNode::stand_behind(const std::string& bus, const erp::Robot& robot) {
+  bus_ = std::make_unique<BusFront>(bus, robot, ecus_);
+  node_.watch(bus_->descriptor(), [this] {
+    const bool answered = bus_->hear();
+    if (answered && node_.clock().lockstep()) tick();
+  });
+}
+
+void SimNode::on_command(const erp::EcuCommand& command) {
+  // Gains sent before this command are waiting already: they come first, in every run alike.
+  parameter_in_->poll(true);
+  if (!node_.clock().lockstep()) return ecus_.accept(command);
+  if (command.answers != frame_.sequence) return;
+  ecus_.accept(command);
+  tick();
+}
+
+void SimNode::tick() {
+  node_.count_step(frame_.stamp_ns);
+  ecus_.tick(world_);
+  ++ticks_;
+  if (end_ticks_ && ticks_ >= end_ticks_) {
+    publish_clock(true);
+    node_.finish();
+    return;
+  }
+  measure_and_say();
+}
+
+void SimNode::measure_and_say() {
+  node_.clock().advance(static_cast<std::int64_t>(ticks_) * tick_ns);
+  ecus_.fill(frame_);
+  frame_.sequence = ticks_;
+  frame_.stamp_ns = node_.clock().now_ns();
+  publish_truth();
+  if (ticks_ % clock_period == 0) publish_clock(false);
+  say_frame();
+}
+
+void SimNode::say_frame() {
+  said_ns_ = node::monotonic_ns();
+  if (bus_)
+    bus_->say(frame_);
+  else
+    frame_out_->publish_numbered(frame_);
+}
+
+void SimNode::say_again() {
+  said_ns_ = node::monotonic_ns();
+  if (bus_)
+    bus_->say_again();
+  else
+    frame_out_->publish_numbered(frame_);
+}
+
+void SimNode::publish_truth() {
+  world_.fill(joints_);
+  joints_.stamp_ns = frame_.stamp_ns;
+  joints_.sequence = frame_.sequence;
+  joints_out_.publish_numbered(joints_);
+  if (ticks_ % pose_period) return;
+  world_.fill(bodies_);
+  bodies_.stamp_ns = frame_.stamp_ns;
+  bodies_out_.publish(bodies_);
+}
+
+void SimNode::publish_clock(bool finished) {
+  erp::Clock clock;
+  clock.stamp_ns = static_cast<std::int64_t>(ticks_) * tick_ns;
+  const auto elapsed_ns = node::monotonic_ns() - began_ns_;
+  clock.real_time_factor =
+      elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
+  clock.finished = finished;
+  clock_out_.publish(clock);
+}
+
+}  // namespace sim

@@ -1,0 +1,83 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interfaces/topics.hpp"
+#include "sim/actuator/motor.hpp"
+#include "sim/actuator/tendon.hpp"
+#include "sim/world/bullet_skeleton.hpp"
+
+/// A robot, simulated: bones in Bullet, tendons over them, motors at their ends.
+///
+/// One step from t to t + dt (paper, 4.2): the tensions F(t) follow from the paths; they pull on
+/// the bodies and load the motors; the motors move exactly with V and F held; Bullet moves the
+/// bones semi-implicitly. First order in dt. Explicit tendons: at 1 ms stable up to about 1e4 N/m.
+///
+/// Same robot, options and voltages: bit-identical readings. No clock, no heap in `step`.
+namespace sim {
+
+struct WorldOptions {
+  std::vector<std::string> lock;  ///< joints held at their initial angle
+  double usual_step_s = 0.001;    ///< other dt work too, more slowly
+};
+
+struct ActuatorReading {
+  double tension_N = 0;
+  double length_m = 0;  ///< of the tendon's path
+  double current_A = 0, speed_rad_per_s = 0, shaft_rad = 0;
+  double line_m = 0;    ///< change since the start; negative: wound up
+};
+
+class World {
+ public:
+  /// Throws std::invalid_argument for a robot that cannot be simulated: see RobotTree, Routing,
+  /// Motor; and for a point inside a pulley, with the actuator's name.
+  explicit World(const erp::Robot& robot, const WorldOptions& options = {});
+  ~World();
+
+  /// One voltage an actuator, in robot.xml's order; std::invalid_argument otherwise.
+  void step(std::span<const double> voltage_V, double dt_s);
+  /// Builds everything anew: the start, exactly.
+  void reset();
+  /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are.
+  void set_joint(int joint, const JointReading& reading);
+
+  /// Joint positions and velocities, and where the bodies are; source "sim". Stamps are not set.
+  void fill(erp::JointState& joints) const;
+  void fill(erp::BodyPose& bodies) const;
+
+  const erp::Robot& robot() const { return robot_; }
+  double time_s() const { return time_s_; }
+  std::span<const ActuatorReading> actuators() const { return readings_; }
+  std::span<const JointReading> joints() const { return skeleton_->joints(); }
+  std::span<const BodyPose> poses() const { return skeleton_->poses(); }
+  std::span<const BodyTwist> twists() const { return skeleton_->twists(); }
+  const std::vector<std::string>& body_names() const { return tree_.names; }
+  const std::vector<erp::Joint>& joint_list() const { return tree_.joints; }
+  const PathShape& path(int actuator) const { return chains_[actuator].shape; }
+  /// Of the bones: kinetic and potential.
+  double energy_J() const { return skeleton_->energy_J(); }
+
+ private:
+  struct Chain {
+    Motor motor;
+    Routing routing;
+    TendonLaw tendon;
+    MotorState state;
+    PathShape shape;
+  };
+  Chain make_chain(const erp::Actuator& actuator) const;
+  void read();
+
+  erp::Robot robot_;
+  WorldOptions options_;
+  RobotTree tree_;
+  std::unique_ptr<BulletSkeleton> skeleton_;
+  std::vector<Chain> chains_;
+  std::vector<ActuatorReading> readings_;
+  double time_s_ = 0;
+};
+
+}  // namespace sim

@@ -1,0 +1,104 @@
+#include "components/node/bus.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <thread>
+
+#include "components/node/clock.hpp"
+#include "components/node/histogram.hpp"
+#include "tests/components/node/domain.hpp"
+
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Two participants of one process, matched.
+struct Pair {
+  node::Entity left = node::join("left"), right = node::join("right");
+  node::Wake wake;
+  node::Writer<erp::SensorFrame> writer{left};
+  node::Reader<erp::SensorFrame> reader;
+  explicit Pair(int depth = 1) : reader(right, wake, depth) {
+    while (!writer.matched() || !reader.matched()) std::this_thread::sleep_for(1ms);
+  }
+  /// Takes until a sample came or patience ends.
+  template <class Use>
+  void take(Use&& use) {
+    for (int i = 0; i < 2000 && !reader.take(use); ++i) std::this_thread::sleep_for(1ms);
+  }
+};
+
+erp::SensorFrame frame_of(int actuators) {
+  erp::SensorFrame frame;
+  erp::assign(frame.robot, "test");
+  for (int i = 0; i < actuators; ++i) {
+    erp::ActuatorSample sample{};
+    erp::assign(sample.name, "muscle_" + std::to_string(i));
+    sample.tension_N = i;
+    erp::append(frame.actuators, sample);
+  }
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("a message crosses the bus with all its samples") {
+  Pair pair;
+  auto sent = frame_of(54);
+  pair.writer.write(sent);
+  int seen = 0;
+  pair.take([&](const erp::SensorFrame& got) {
+    ++seen;
+    REQUIRE(got.actuators._length == 54);
+    CHECK(std::string(got.actuators._buffer[53].name) == "muscle_53");
+    CHECK(got.actuators._buffer[53].tension_N == 53);
+    CHECK(got.joints._length == 0);
+  });
+  CHECK(seen == 1);
+}
+
+TEST_CASE("a shorter message after a longer one keeps nothing of it") {
+  Pair pair;
+  auto longer = frame_of(5), shorter = frame_of(2);
+  pair.writer.write(longer);
+  pair.take([](const auto&) {});
+  pair.writer.write(shorter);
+  std::uint32_t length = 99;
+  pair.take([&](const erp::SensorFrame& got) { length = got.actuators._length; });
+  CHECK(length == 2);
+}
+
+TEST_CASE("a gap in the sequence is counted as missed") {
+  Pair pair(16);
+  auto frame = frame_of(1);
+  pair.writer.write(frame);
+  pair.take([](const auto&) {});
+  frame.sequence = 4;
+  pair.writer.send(frame);
+  pair.take([](const auto&) {});
+  CHECK(pair.reader.missed() == 3);
+}
+
+TEST_CASE("copies of a message own their samples") {
+  auto first = frame_of(3);
+  erp::SensorFrame second = first;
+  second.actuators._buffer[0].tension_N = 42;
+  CHECK(first.actuators._buffer[0].tension_N == 0);
+  first = second;
+  CHECK(first.actuators._buffer[0].tension_N == 42);
+  CHECK(first.actuators._buffer != second.actuators._buffer);
+}
+
+TEST_CASE("a full message refuses another sample") {
+  auto frame = frame_of(64);
+  CHECK_THROWS_AS(erp::append(frame.actuators, erp::ActuatorSample{}), std::length_error);
+  CHECK_THROWS_AS(erp::assign(frame.robot, std::string(33, 'x')), std::length_error);
+}
+
+TEST_CASE("a histogram's quantile is the upper edge of its bin") {
+  node::Histogram histogram;
+  for (int i = 0; i < 99; ++i) histogram.add_ns(20'000);
+  histogram.add_ns(1'000'000);
+  CHECK(node::quantile_us(histogram.counts(), 0.5) == 32);
+  CHECK(node::quantile_us(histogram.counts(), 0.995) == 1024);
+}

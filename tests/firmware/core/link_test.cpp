@@ -1,0 +1,222 @@
+#include "firmware/core/link.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <random>
+#include <vector>
+
+#include "tests/firmware/core/channel.hpp"
+
+using namespace firmware;
+
+namespace {
+
+/// One ECU of two channels and the host's words to it.
+struct Ecu {
+  std::array<ecu_channel, 2> channel{in_state(ECU_STATE_RUNNING), in_state(ECU_STATE_RUNNING)};
+  ecu_link link;
+
+  Ecu() { ecu_link_init(&link, 12, &channel[0], &channel[1], 0b0101); }
+
+  bool command(std::uint8_t answers, std::uint8_t repeat, std::int32_t setpoint_mV) {
+    return hear(packed(answers, repeat, setpoint_mV));
+  }
+  static bus_frame packed(std::uint8_t answers, std::uint8_t repeat, std::int32_t setpoint_mV) {
+    const frame_command said{
+        {{ECU_REQUEST_VOLTAGE, setpoint_mV}, {FRAME_REQUEST_NONE, 0}}, answers, repeat};
+    bus_frame frame;
+    frame_pack_command(&frame, 12, &said);
+    return frame;
+  }
+  bool parameter(std::uint8_t position, std::uint8_t index, float value, bool commit) {
+    const frame_parameter said{0, index, commit, position, value};
+    bus_frame frame;
+    frame_pack_parameter(&frame, 12, &said);
+    return hear(frame);
+  }
+  bool hear(const bus_frame& frame) { return ecu_link_hear(&link, &frame); }
+
+  std::vector<bus_frame> say(bool whole = false) {
+    ecu_link_tick(&link);
+    const ecu_report report{{ecu_reading_of(&channel[0]), ecu_reading_of(&channel[1])},
+                            {11, 22, 33, 44}};
+    std::vector<bus_frame> frames(ECU_LINK_FRAMES_MAX);
+    frames.resize(ecu_link_say(&link, &report, whole, frames.data()));
+    return frames;
+  }
+};
+
+int count(const std::vector<bus_frame>& frames, frame_function function) {
+  return int(std::count_if(frames.begin(), frames.end(), [&](const bus_frame& frame) {
+    return frame_function_of(&frame) == function;
+  }));
+}
+
+}  // namespace
+
+TEST_CASE("a command reaches the channels it speaks to, and only them") {
+  Ecu ecu;
+  CHECK(ecu.command(1, 0, 2000));
+  CHECK(ecu.channel[0].setpoint == 2000);
+  CHECK(ecu.channel[1].setpoint == 1000);
+}
+
+TEST_CASE("another ECU's frames, and frames that ECUs say, are not heard") {
+  Ecu ecu;
+  bus_frame frame = Ecu::packed(1, 0, 2000);
+  const frame_command said{{{ECU_REQUEST_OFF, 0}, {ECU_REQUEST_OFF, 0}}, 1, 0};
+  frame_pack_command(&frame, 13, &said);
+  CHECK_FALSE(ecu.hear(frame));
+  for (const bus_frame& own : ecu.say(true)) CHECK_FALSE(ecu.hear(own));
+  CHECK(ecu.link.corrupt == 0);
+  CHECK(ecu.channel[0].state == ECU_STATE_RUNNING);
+}
+
+TEST_CASE("a sender that is stuck on one frame does not feed the watchdog") {
+  Ecu ecu;
+  for (int i = 0; i < 26; ++i) ecu.command(1, 0, 2000), tick(ecu.channel[0]);
+  CHECK(ecu.channel[0].fault == ECU_FAULT_COMMAND_TIMEOUT);
+  CHECK(ecu.link.repeated == 25);
+}
+
+TEST_CASE("a late command is dropped and counted, lost ones are counted") {
+  Ecu ecu;
+  CHECK(ecu.command(5, 0, 2000));
+  CHECK_FALSE(ecu.command(4, 0, 3000));
+  CHECK(ecu.channel[0].setpoint == 2000);
+  CHECK(ecu.link.late == 1);
+  CHECK(ecu.command(0, 0, 4000));  // 6 and 7 lost
+  CHECK(ecu.link.lost == 2);
+  CHECK(ecu.command(0, 1, 5000));  // the same tick answered again
+  CHECK(ecu.channel[0].setpoint == 5000);
+  CHECK(ecu.link.lost == 2);
+}
+
+TEST_CASE("a tick is answered by the command that carries its counter, by no other") {
+  Ecu ecu;
+  ecu.say(true);
+  CHECK_FALSE(ecu.link.answered);
+  ecu.command(0, 0, 1000);
+  CHECK_FALSE(ecu.link.answered);
+  ecu.command(1, 0, 1000);
+  CHECK(ecu.link.answered);
+  ecu.say();
+  CHECK_FALSE(ecu.link.answered);
+}
+
+TEST_CASE("five corrupt frames in a row trip both channels, four and a good one do not") {
+  Ecu ecu;
+  bus_frame bad = Ecu::packed(1, 0, 2000);
+  bad.data[3] ^= 0x10;
+  for (std::uint8_t round = 0; round < 3; ++round) {
+    for (int i = 0; i < 4; ++i) CHECK_FALSE(ecu.hear(bad));
+    CHECK(ecu.command(round, 0, 2000));
+  }
+  CHECK(ecu.channel[0].state == ECU_STATE_RUNNING);
+  for (int i = 0; i < 5; ++i) ecu.hear(bad);
+  CHECK(ecu.channel[0].fault == ECU_FAULT_CORRUPT);
+  CHECK(ecu.channel[1].fault == ECU_FAULT_CORRUPT);
+  CHECK(ecu.link.corrupt == 17);
+}
+
+TEST_CASE("a gain set with a frame lost is refused whole, wherever the gap is") {
+  for (std::uint8_t lost = 0; lost < 3; ++lost) {
+    INFO("lost frame " << int(lost));
+    Ecu ecu;
+    const Gains before = rig_gains();
+    const std::uint8_t indices[] = {ECU_PARAMETER_LENGTH_KP, ECU_PARAMETER_CURRENT_KP,
+                                    ECU_PARAMETER_CURRENT_KI};
+    REQUIRE(ecu.parameter(0, ECU_PARAMETER_CURRENT_KD, 0, true));
+    for (std::uint8_t p = 0; p < 3; ++p)
+      if (p != lost) ecu.parameter(p, indices[p], 1.0f, p == 2);
+    if (lost == 2) ecu.parameter(0, ECU_PARAMETER_CURRENT_KD, 0, true);
+    CHECK(std::equal(before.begin(), before.end(), ecu.channel[0].gains));
+    for (std::uint8_t p = 0; p < 3; ++p) CHECK(ecu.parameter(p, indices[p], 2.0f, p == 2));
+    CHECK(ecu.channel[0].gains[ECU_PARAMETER_LENGTH_KP] == 2.0f);
+  }
+}
+
+TEST_CASE("a gain set survives every one of its frames coming twice") {
+  Ecu ecu;
+  const Gains gains = rig_gains();
+  for (std::uint8_t p = 0; p < ECU_PARAMETER_COUNT; ++p)
+    for (int twice = 0; twice < 2; ++twice)
+      ecu.parameter(p, p, gains[p] * 1.01f, p + 1 == ECU_PARAMETER_COUNT);
+  CHECK(ecu.channel[0].gains[ECU_PARAMETER_LENGTH_KP] == 40 * 1.01f);
+  CHECK(ecu.channel[0].rejected_commits == 0);
+}
+
+TEST_CASE("a period is said in one status a channel, last, with its analog inputs") {
+  Ecu ecu;
+  const auto frames = ecu.say();
+  REQUIRE(frames.size() == 4);
+  frame_analog analog;
+  REQUIRE(frame_unpack_analog(&frames[0], &analog));
+  CHECK(analog.present == 1);
+  CHECK(analog.counts[0] == 11);
+  REQUIRE(frame_unpack_analog(&frames[1], &analog));
+  CHECK(analog.page == 1);
+  CHECK(analog.counts[0] == 33);
+  CHECK(frame_function_of(&frames[2]) == FRAME_STATUS_0);
+  CHECK(frame_function_of(&frames[3]) == FRAME_STATUS_1);
+}
+
+TEST_CASE("every channel's health is said whole once in 200 ms") {
+  Ecu ecu;
+  int pages[2][2] = {};
+  for (int i = 0; i < 100; ++i)
+    for (const bus_frame& frame : ecu.say()) {
+      frame_health health;
+      if (frame_unpack_health(&frame, &health))
+        ++pages[frame_function_of(&frame) == FRAME_HEALTH_1][health.page];
+    }
+  for (auto& channel : pages) CHECK((channel[0] == 1 && channel[1] == 1));
+  CHECK(ecu.say(true).size() == 8);
+}
+
+TEST_CASE("a fault is said once in an emergency frame, and again when it is a new one") {
+  Ecu ecu;
+  ecu_trip(&ecu.channel[1], ECU_FAULT_OVER_TENSION);
+  const auto frames = ecu.say();
+  frame_emergency said;
+  REQUIRE(frame_unpack_emergency(&frames[0], &said));
+  CHECK(said.channel == 1);
+  CHECK(said.fault == ECU_FAULT_OVER_TENSION);
+  CHECK(count(ecu.say(), FRAME_EMERGENCY) == 0);
+  ecu_command(&ecu.channel[1], ECU_REQUEST_CLEAR, 0);
+  CHECK(count(ecu.say(), FRAME_EMERGENCY) == 0);
+  ecu_trip(&ecu.channel[1], ECU_FAULT_CORRUPT);
+  CHECK(count(ecu.say(), FRAME_EMERGENCY) == 1);
+}
+
+TEST_CASE("a boot is said with its cause and the version of the layout") {
+  Ecu ecu;
+  bus_frame frame;
+  ecu_link_say_boot(&ecu.link, FRAME_RESET_WATCHDOG, &frame);
+  frame_emergency said;
+  REQUIRE(frame_unpack_emergency(&frame, &said));
+  CHECK(said.boot);
+  CHECK(said.reset_cause == FRAME_RESET_WATCHDOG);
+  CHECK(said.version == FRAME_VERSION);
+}
+
+TEST_CASE("no frame of random bytes drives a channel") {
+  Ecu ecu;
+  std::mt19937 random_bits(2);
+  for (int n = 0; n < 200000; ++n) {
+    bus_frame frame{std::uint16_t(random_bits() & 0x7FF), std::uint8_t(random_bits() % 10), {}};
+    for (auto& byte : frame.data) byte = std::uint8_t(random_bits());
+    if (!frame_is_intact(&frame)) CHECK_FALSE(ecu.hear(frame));
+  }
+}
+
+TEST_CASE("an ECU with one channel takes a frame for two") {
+  ecu_channel only = in_state(ECU_STATE_RUNNING);
+  ecu_link link;
+  ecu_link_init(&link, 12, nullptr, &only, 0);
+  const frame_command said{{{ECU_REQUEST_VOLTAGE, 1}, {ECU_REQUEST_VOLTAGE, 2}}, 0, 0};
+  bus_frame frame;
+  frame_pack_command(&frame, 12, &said);
+  CHECK(ecu_link_hear(&link, &frame));
+  CHECK(only.setpoint == 2);
+}

@@ -1,0 +1,159 @@
+#include "hal/can/gateway.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "tests/hal/can/pair.hpp"
+
+using namespace can_test;
+using erp::Heard;
+
+namespace {
+
+bool is_status(const erp::CanFrame& frame, int ecu, int channel) {
+  return frame.id == frame_identifier(channel ? FRAME_STATUS_1 : FRAME_STATUS_0, std::uint8_t(ecu));
+}
+
+}  // namespace
+
+TEST_CASE("a gateway that comes late is told the whole encoder count") {
+  Pair pair;
+  for (int tick = 0; tick < 5000; ++tick) pair.report();  // says more than 16 bits to nobody
+  CHECK(std::abs(pair.robotics.frame.channels._buffer[0].encoder_counts) > 65536);
+  const auto again = pair.ecus.again();
+  CHECK(pair.hear({again.begin(), again.end()}) == 1);
+  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+}
+
+TEST_CASE("without lockstep a late gateway knows every encoder within 200 ms") {
+  Pair pair;
+  for (int tick = 0; tick < 777; ++tick) pair.report();
+  for (int tick = 0; tick < 100; ++tick) pair.hear(pair.report());
+  CHECK(pair.hear(pair.report()) == 1);
+  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+}
+
+TEST_CASE("a lost status leaves that channel stale, and the next tick whole again") {
+  Pair pair;
+  pair.hear(pair.report());
+  const auto encoder = pair.sample(1).encoder_counts;
+  for (const auto& frame : pair.report())
+    if (!is_status(frame, 3, 1)) CHECK(pair.gateway.hear(frame) == Heard::nothing);
+  const auto truth_then = pair.robotics.frame;
+  int ticks = 0;
+  for (const auto& frame : pair.report()) {
+    if (pair.gateway.hear(frame) != Heard::tick) continue;
+    if (++ticks == 1) {
+      CHECK_FALSE(pair.sample(1).fresh);
+      CHECK(pair.sample(1).encoder_counts == encoder);
+      CHECK(same(pair.sample(0), truth_then.channels._buffer[0]));
+    }
+  }
+  CHECK(ticks == 2);
+  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+  CHECK(pair.gateway.counters().lost == 1);
+  CHECK(pair.gateway.counters().incomplete_ticks == 1);
+}
+
+TEST_CASE("a tick closed by its deadline says who is missing") {
+  Pair pair;
+  pair.hear(pair.report());
+  for (const auto& frame : pair.report())
+    if (frame_ecu_of(&frame) != 4) pair.gateway.hear(frame);
+  pair.gateway.close_tick();
+  CHECK(pair.sample(0).fresh);
+  CHECK_FALSE(pair.sample(2).fresh);
+  CHECK_FALSE(pair.sample(3).fresh);
+  CHECK(pair.sample(4).fresh);
+  CHECK(pair.gateway.frame().sequence == 2);
+}
+
+TEST_CASE("a channel never heard is of unknown state") {
+  Pair pair;
+  pair.gateway.close_tick();
+  CHECK(pair.sample(0).state == std::uint8_t(erp::EcuState::unknown));
+  CHECK_FALSE(pair.sample(0).fresh);
+}
+
+TEST_CASE("corrupt, repeated and late frames change nothing and are counted") {
+  Pair pair;
+  pair.hear(pair.report());
+  const auto old = pair.report();
+  pair.hear(old);
+  pair.hear(pair.report());
+  const erp::EcuFrame before = pair.gateway.frame();
+  for (auto frame : pair.report()) {
+    frame.data[2] ^= 1;
+    CHECK(pair.gateway.hear(frame) == Heard::nothing);
+  }
+  for (const auto& frame : old) CHECK(pair.gateway.hear(frame) == Heard::nothing);
+  CHECK(difference(before, pair.gateway.frame()) == "");
+  CHECK(pair.gateway.counters().corrupt == 9);  // 5 STATUS, 4 ANALOG
+  CHECK(pair.gateway.counters().late == 9);
+}
+
+TEST_CASE("an ECU that boots in mid-run is taken up again, and its boot is told") {
+  Pair pair;
+  for (int tick = 0; tick < 13; ++tick) pair.hear(pair.report());
+  Robotics fresh(pair.robot, 2);
+  erp::RobotEcus rebooted(pair.robot, fresh.lent);
+  const auto boot = rebooted.boot(FRAME_RESET_BROWN_OUT);
+  pair.hear({boot.begin(), boot.end()});
+  REQUIRE(pair.gateway.emergencies().size() == 3);
+  CHECK(pair.gateway.emergencies()[0].said.reset_cause == FRAME_RESET_BROWN_OUT);
+  fresh.tick();
+  const auto first = rebooted.report(fresh.frame);
+  CHECK(pair.hear({first.begin(), first.end()}) == 1);
+  CHECK(difference(pair.gateway.frame(), fresh.frame) == "");
+  for (const auto& frame :
+       pair.gateway.commands(command_for(pair.robot, pair.gateway.frame().sequence, 0, 0)))
+    CHECK(rebooted.hear(frame));
+  CHECK(rebooted.answered());
+}
+
+TEST_CASE("an ECU that speaks another version of the layout is not listened to") {
+  Pair pair(1);
+  const frame_emergency said{true, 0, 0, FRAME_RESET_POWER, FRAME_VERSION + 1, 0};
+  erp::CanFrame boot;
+  frame_pack_emergency(&boot, 3, &said);
+  pair.gateway.hear(boot);
+  CHECK(pair.hear(pair.report()) == 0);
+}
+
+TEST_CASE("commands and parameters for channels that are not there are counted, not sent") {
+  Pair pair;
+  erp::EcuCommand command;
+  for (auto [ecu, channel] : {std::pair{99, 0}, {200, 0}, {3, 2}, {5, 1}})
+    erp::append(command.channels,
+                erp::EcuChannelCommand{std::uint8_t(ecu), std::uint8_t(channel), 2, 0});
+  CHECK(pair.gateway.commands(command).empty());
+  erp::EcuParameter parameter;
+  erp::append(parameter.values, erp::EcuParameterValue{99, 0, 0, false, 1});
+  CHECK(pair.gateway.parameters(parameter).empty());
+  CHECK(pair.gateway.counters().unknown_channels == 5);
+}
+
+TEST_CASE("a parameter number beyond the bus's six bits spoils its set, it is never another one") {
+  Pair pair;
+  pair.arm();
+  const float before = pair.robotics.channels[0].gains[0];
+  erp::EcuParameter parameter;
+  erp::append(parameter.values, erp::EcuParameterValue{3, 0, 64, true, 99});
+  pair.send(pair.gateway.parameters(parameter));
+  CHECK(pair.robotics.channels[0].gains[0] == before);
+  CHECK(pair.robotics.channels[0].rejected_commits == 1);
+}
+
+TEST_CASE("two actuators on one channel, or sensors on one input, are refused") {
+  auto robot = robot_of(2);
+  robot.actuators[1].channel = 0;
+  CHECK_THROWS_WITH(erp::Gateway(robot),
+                    Catch::Contains("muscle_1") && Catch::Contains("ECU 3 channel 0"));
+  Robotics robotics(robot, 1);
+  CHECK_THROWS_WITH(erp::RobotEcus(robot, robotics.lent), Catch::Contains("ECU 3 channel 0"));
+  robot = robot_of(2);
+  robot.joint_sensors[1].input = 0;
+  CHECK_THROWS_WITH(erp::Gateway(robot), Catch::Contains("joint_33") && Catch::Contains("input 0"));
+  CHECK_THROWS_WITH(erp::RobotEcus(robot_of(3), robotics.lent),
+                    Catch::Contains("has 3 actuators, got 2"));
+}

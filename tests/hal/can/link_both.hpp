@@ -1,0 +1,149 @@
+#pragma once
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <vector>
+
+#include "hal/can/bus.hpp"
+#include "hal/can/gateway.hpp"
+#include "hal/can/robot_ecus.hpp"
+#include "tests/hal/can/rig.hpp"
+
+/// What every back end must do: run against UDP here, and against SocketCAN where there is one.
+namespace can_test {
+
+/// A bus specification with a port that nobody uses now.
+inline std::string free_udp_bus() {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in where{};
+  where.sin_family = AF_INET;
+  where.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof where;
+  REQUIRE(::bind(fd, reinterpret_cast<sockaddr*>(&where), size) == 0);
+  REQUIRE(::getsockname(fd, reinterpret_cast<sockaddr*>(&where), &size) == 0);
+  ::close(fd);
+  return "udp:239.255.42.1:" + std::to_string(ntohs(where.sin_port));
+}
+
+inline erp::CanFrame numbered(unsigned n) {
+  erp::CanFrame frame{std::uint16_t(n % 0x800), std::uint8_t(n % 9), {}};
+  for (unsigned i = 0; i < frame.size; ++i) frame.data[i] = std::uint8_t(n >> i);
+  return frame;
+}
+
+inline bool same(const erp::CanFrame& a, const erp::CanFrame& b) {
+  return a.id == b.id && a.size == b.size && std::memcmp(a.data, b.data, a.size) == 0;
+}
+
+/// Waits for `count` frames.
+inline std::vector<erp::CanFrame> collect(erp::CanBus& bus, std::size_t count) {
+  std::vector<erp::CanFrame> frames(count);
+  for (std::size_t have = 0; have < count;)
+    have += bus.receive(std::span(frames).subspan(have), 10);
+  return frames;
+}
+
+inline void hears_in_order(const std::string& specification) {
+  const auto a = erp::open_bus(specification), b = erp::open_bus(specification);
+  std::vector<erp::CanFrame> sent;
+  for (unsigned n = 0; n < 150; ++n) sent.push_back(numbered(n));
+  for (auto* pair : {&a, &b}) {
+    auto& to = pair == &a ? b : a;
+    REQUIRE((*pair)->send(sent) == sent.size());
+    const auto heard = collect(*to, sent.size());
+    for (std::size_t n = 0; n < sent.size(); ++n) REQUIRE(same(heard[n], sent[n]));
+  }
+  CHECK(a->counters().sent == 150);
+  CHECK(a->counters().received == 150);
+  CHECK(a->counters().refused == 0);
+}
+
+inline void hears_not_itself(const std::string& specification) {
+  const auto a = erp::open_bus(specification), b = erp::open_bus(specification);
+  const auto mine = numbered(1), other = numbered(2);
+  a->send({&mine, 1});
+  b->send({&other, 1});
+  CHECK(same(collect(*a, 1)[0], other));
+  CHECK(same(collect(*b, 1)[0], mine));
+  erp::CanFrame more;
+  CHECK(a->receive({&more, 1}, 0) == 0);
+  CHECK(b->receive({&more, 1}, 0) == 0);
+}
+
+inline void is_heard_by_all(const std::string& specification) {
+  const auto a = erp::open_bus(specification), b = erp::open_bus(specification),
+             c = erp::open_bus(specification);
+  const auto frame = numbered(77);
+  a->send({&frame, 1});
+  CHECK(same(collect(*b, 1)[0], frame));
+  CHECK(same(collect(*c, 1)[0], frame));
+}
+
+inline void keeps_the_rest(const std::string& specification) {
+  const auto a = erp::open_bus(specification), b = erp::open_bus(specification);
+  std::vector<erp::CanFrame> sent;
+  for (unsigned n = 0; n < 10; ++n) sent.push_back(numbered(n));
+  a->send(sent);
+  for (unsigned n = 0; n < 10; n += 2) {
+    const auto two = collect(*b, 2);
+    CHECK(same(two[0], sent[n]));
+    CHECK(same(two[1], sent[n + 1]));
+  }
+}
+
+/// 500 ticks of a robot of 11 actuators, both ends in this thread, against the run without a bus.
+inline void runs_in_lockstep(const std::string& specification) {
+  const auto robot = robot_of(11);
+  Robotics robotics(robot, 1), direct(robot, 1);
+  erp::RobotEcus ecus(robot, robotics.lent);
+  erp::Gateway gateway(robot);
+  const auto robot_side = erp::open_bus(specification), host_side = erp::open_bus(specification);
+  std::array<erp::CanFrame, 32> frames;
+  std::mt19937 random(9);
+
+  const auto gains = gains_for(robot);
+  direct.apply(gains);
+  const auto all = gateway.parameters(gains);
+  for (std::size_t at = 0; at < all.size();) {  // as much as the bus takes
+    at += host_side->send(all.subspan(at, std::min<std::size_t>(64, all.size() - at)));
+    while (const auto count = robot_side->receive(frames, 0))
+      for (std::size_t i = 0; i < count; ++i) ecus.hear(frames[i]);
+  }
+  for (int tick = 0; tick < 500; ++tick) {
+    INFO("tick " << tick);
+    direct.tick();
+    robotics.tick();
+    const auto said = ecus.report(robotics.frame);
+    REQUIRE(robot_side->send(said) == said.size());
+    for (bool whole = false; !whole;) {
+      const auto count = host_side->receive(frames, 10);
+      for (std::size_t i = 0; i < count; ++i)
+        whole = gateway.hear(frames[i]) == erp::Heard::tick || whole;
+    }
+    REQUIRE(difference(gateway.frame(), direct.frame) == "");
+    auto command = any_command(robot, gateway.frame().sequence, random);
+    for (const auto& actuator : robot.actuators) {  // lockstep needs a word to every ECU
+      const auto asked = erp::samples(command.channels);
+      const bool spoken_to = std::any_of(asked.begin(), asked.end(),
+                                         [&](const auto& c) { return c.ecu == actuator.ecu; });
+      if (!spoken_to)
+        erp::append(command.channels, erp::EcuChannelCommand{std::uint8_t(actuator.ecu),
+                                                             std::uint8_t(actuator.channel), 0, 0});
+    }
+    direct.apply(command);
+    const auto asked = gateway.commands(command);
+    REQUIRE(host_side->send(asked) == asked.size());
+    while (!ecus.answered()) {
+      const auto count = robot_side->receive(frames, 10);
+      for (std::size_t i = 0; i < count; ++i) ecus.hear(frames[i]);
+    }
+  }
+  CHECK(gateway.counters().lost == 0);
+  CHECK(gateway.counters().corrupt == 0);
+}
+
+}  // namespace can_test

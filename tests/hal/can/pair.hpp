@@ -1,0 +1,41 @@
+#pragma once
+#include <vector>
+
+#include "hal/can/gateway.hpp"
+#include "hal/can/robot_ecus.hpp"
+#include "tests/hal/can/rig.hpp"
+
+namespace can_test {
+
+/// Gateway and ECUs with a perfect wire between them.
+struct Pair {
+  erp::Robot robot;
+  Robotics robotics{robot, 1};
+  erp::RobotEcus ecus{robot, robotics.lent};
+  erp::Gateway gateway{robot};
+
+  explicit Pair(int actuators = 5) : robot(robot_of(actuators)) {}
+
+  int hear(std::span<const erp::CanFrame> frames) {
+    int ticks = 0;
+    for (const auto& frame : frames) ticks += gateway.hear(frame) == erp::Heard::tick;
+    return ticks;
+  }
+  std::vector<erp::CanFrame> report() {
+    robotics.tick();
+    const auto frames = ecus.report(robotics.frame);
+    return {frames.begin(), frames.end()};
+  }
+  void send(std::span<const erp::CanFrame> frames) {
+    for (const auto& frame : frames) ecus.hear(frame);
+  }
+  void arm() {
+    send(gateway.parameters(gains_for(robot)));
+    send(gateway.commands(command_for(robot, 0, ECU_REQUEST_ARM, 0)));
+  }
+  const erp::EcuChannelSample& sample(int i) {
+    return erp::samples(gateway.frame().channels)[std::size_t(i)];
+  }
+};
+
+}  // namespace can_test

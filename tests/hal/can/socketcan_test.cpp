@@ -1,0 +1,91 @@
+// Run by tests/hal/uml/run_in_uml.sh, under a kernel with CAN: vcan0 and vcan1 are up, vcan2 is
+// down.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <string>
+
+#include "hal/can/bus.hpp"
+#include "tests/hal/can/link_both.hpp"
+
+using namespace can_test;
+
+namespace {
+const std::string vcan0 = "socketcan:vcan0";
+
+/// Puts a frame on vcan0 with a program that is not ours.
+void cansend(const std::string& frame) {
+  REQUIRE(std::system(("cansend vcan0 " + frame).c_str()) == 0);
+}
+}  // namespace
+
+TEST_CASE("two ends of a CAN interface hear each other, in order and whole") {
+  hears_in_order(vcan0);
+}
+TEST_CASE("nobody on a CAN interface hears himself") { hears_not_itself(vcan0); }
+TEST_CASE("all who open a CAN interface hear the same") { is_heard_by_all(vcan0); }
+TEST_CASE("a receive with little room leaves the rest in the socket") { keeps_the_rest(vcan0); }
+TEST_CASE("gateway and ECUs run in lockstep over SocketCAN") { runs_in_lockstep(vcan0); }
+
+TEST_CASE("two interfaces are two buses") {
+  const auto a = erp::open_bus(vcan0), b = erp::open_bus("socketcan:vcan1"),
+             c = erp::open_bus(vcan0);
+  const auto frame = numbered(5);
+  a->send({&frame, 1});
+  CHECK(same(collect(*c, 1)[0], frame));
+  erp::CanFrame more;
+  CHECK(b->receive({&more, 1}, 0) == 0);
+}
+
+TEST_CASE("another program's frame is heard as it was sent") {
+  const auto bus = erp::open_bus(vcan0);
+  cansend("17F#DEADBEEF");
+  const auto frame = collect(*bus, 1)[0];
+  CHECK(frame.id == 0x17F);
+  CHECK(frame.size == 4);
+  CHECK(frame.data[0] == 0xDE);
+  CHECK(frame.data[3] == 0xEF);
+}
+
+TEST_CASE("frames with 29-bit identifiers and remote requests are passed over") {
+  const auto bus = erp::open_bus(vcan0);
+  cansend("1F334455#1122");
+  cansend("123#R");
+  cansend("124#01");
+  CHECK(collect(*bus, 1)[0].id == 0x124);
+}
+
+TEST_CASE("bus-off is seen from the controller's error frames, and its end too") {
+  const auto bus = erp::open_bus(vcan0);
+  erp::CanFrame frame;
+  cansend("20000040#0000000000000000");  // CAN_ERR_BUSOFF
+  while (!bus->counters().off) CHECK(bus->receive({&frame, 1}, 10) == 0);
+  CHECK(bus->counters().errors == 1);
+  cansend("20000100#0000000000000000");  // CAN_ERR_RESTARTED
+  while (bus->counters().off) CHECK(bus->receive({&frame, 1}, 10) == 0);
+  CHECK(bus->counters().received == 0);
+}
+
+TEST_CASE("an interface that goes down is noticed, and works again when it is up") {
+  const auto a = erp::open_bus("socketcan:vcan1"), b = erp::open_bus("socketcan:vcan1");
+  REQUIRE(std::system("ip link set vcan1 down") == 0);
+  const auto frame = numbered(3);
+  erp::CanFrame none;
+  CHECK(a->receive({&none, 1}, 10) == 0);
+  CHECK(a->counters().off);
+  CHECK(a->send({&frame, 1}) == 0);
+  CHECK(a->counters().refused == 1);
+  REQUIRE(std::system("ip link set vcan1 up") == 0);
+  CHECK(b->receive({&none, 1}, 10) == 0);  // is told that it was down
+  CHECK(a->send({&frame, 1}) == 1);
+  CHECK(same(collect(*b, 1)[0], frame));
+  CHECK_FALSE(b->counters().off);
+}
+
+TEST_CASE("an interface that is missing, down or no CAN is refused with the remedy") {
+  using Catch::Contains;
+  CHECK_THROWS_WITH(erp::open_bus("socketcan:can7"),
+                    Contains("no interface \"can7\"; `ip -br link show type can`"));
+  CHECK_THROWS_WITH(erp::open_bus("socketcan:lo"), Contains("\"lo\" is no CAN interface"));
+  CHECK_THROWS_WITH(erp::open_bus("socketcan:vcan2"),
+                    Contains("interface \"vcan2\" is down; `ip link set vcan2 up"));
+}

@@ -1,0 +1,53 @@
+#!/bin/bash
+# run_in_uml.sh PROGRAM [ARGUMENT…]: runs a program under a kernel that has CAN.
+#
+# Most build machines and all containers lack AF_CAN. User-mode Linux is a kernel in a process; it
+# needs no rights. The program sees this machine's files read-only, is root there, and finds the
+# virtual CAN interfaces vcan0 and vcan1 up and vcan2 down. Its exit status is passed on.
+# Debian: user-mode-linux kmod iproute2 can-utils. Sanitizers other than UBSan do not run in it.
+set -u
+[ $# -ge 1 ] || { echo "usage: run_in_uml.sh PROGRAM [ARGUMENT…]" >&2; exit 2; }
+for tool in linux.uml insmod ip cansend; do
+  PATH=$PATH:/usr/sbin:/sbin command -v "$tool" > /dev/null && continue
+  echo "run_in_uml.sh: no $tool; apt-get install user-mode-linux kmod iproute2 can-utils" >&2
+  exit 1
+done
+
+exchange=$(mktemp -d /var/tmp/erp_uml.XXXXXX) || exit 1
+trap 'rm -rf "$exchange"' EXIT
+printf '%q ' "$@" > "$exchange/command"
+
+# The first and only process of the guest.
+cat > "$exchange/init" << 'INIT'
+#!/bin/bash
+export PATH=/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin
+exchange=$(dirname "$0")
+mount -t proc proc /proc
+mount -t sysfs sys /sys
+mount -t tmpfs tmpfs /run
+mount -t hostfs none "$exchange" -o "$exchange"
+modules=/usr/lib/uml/modules/$(uname -r)/kernel
+for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/net/can/vcan; do
+  insmod "$modules/$module.ko" || echo "run_in_uml.sh: no kernel module $module"
+done
+ip link set lo up
+for interface in vcan0 vcan1 vcan2; do
+  ip link add "$interface" type vcan
+  ip link set "$interface" txqueuelen 1000
+done
+ip link set vcan0 up
+ip link set vcan1 up
+bash -c "TMPDIR=/run exec $(cat "$exchange/command")" < /dev/null
+echo $? > "$exchange/status"
+sync
+echo o > /proc/sysrq-trigger
+sleep 60
+INIT
+chmod +x "$exchange/init"
+
+PATH=$PATH:/usr/sbin:/sbin linux.uml mem=256M root=/dev/root rootfstype=hostfs rootflags=/ ro \
+  quiet loglevel=3 uml_dir="$exchange" umid=guest con=null con0=null,fd:1 ssl=null \
+  init="$exchange/init" < /dev/null
+status=$(cat "$exchange/status" 2> /dev/null)
+[ -n "$status" ] || { echo "run_in_uml.sh: the guest did not reach the end" >&2; exit 1; }
+exit "$status"

@@ -1,0 +1,34 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string>
+
+#include "interfaces/recording/bytes.hpp"
+
+namespace test {
+
+/// Writes CDR by hand, to hold the reader against.
+struct CdrWriter {
+  explicit CdrWriter(bool little_endian = true) : little(little_endian) {
+    bytes = {std::byte{0}, std::byte{little}, std::byte{0}, std::byte{0}};
+  }
+  template <class T>
+  CdrWriter& put(T value) {
+    while ((bytes.size() - 4) % sizeof(T)) bytes.push_back(std::byte{0});
+    auto raw = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
+    if (!little) std::ranges::reverse(raw);
+    recording::put(bytes, raw);
+    return *this;
+  }
+  CdrWriter& string(const std::string& text) {
+    put(static_cast<std::uint32_t>(text.size() + 1));
+    recording::put(bytes, recording::view(text));
+    bytes.push_back(std::byte{0});
+    return *this;
+  }
+  recording::Bytes bytes;
+  bool little;
+};
+
+}  // namespace test

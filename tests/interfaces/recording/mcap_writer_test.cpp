@@ -1,0 +1,188 @@
+#include "interfaces/recording/mcap_writer.hpp"
+
+#include <sys/resource.h>
+#include <zlib.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+#include "interfaces/recording/mcap_reader.hpp"
+#include "tests/interfaces/recording/support.hpp"
+
+using namespace recording;
+
+namespace {
+
+const std::string magic_text = "\x89MCAP0\r\n";
+
+std::uint64_t u64(const std::string& bytes, std::size_t at) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < 8; ++i)
+    value |= std::uint64_t{static_cast<unsigned char>(bytes.at(at + i))} << (8 * i);
+  return value;
+}
+std::uint32_t u32(const std::string& bytes, std::size_t at) {
+  return static_cast<std::uint32_t>(u64(bytes + std::string(4, '\0'), at));
+}
+std::uint32_t crc(const std::string& bytes) {
+  return static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
+}
+
+/// The kinds of the records from `at` to the closing magic, and where each starts.
+std::vector<std::pair<int, std::size_t>> records(const std::string& bytes) {
+  std::vector<std::pair<int, std::size_t>> found;
+  for (std::size_t at = 8; at + 8 < bytes.size(); at += 9 + u64(bytes, at + 1))
+    found.emplace_back(bytes[at], at);
+  return found;
+}
+std::size_t place_of(const std::string& bytes, int op) {
+  for (const auto& [kind, at] : records(bytes))
+    if (kind == op) return at;
+  FAIL("no record of kind " << op);
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("a recording starts and ends with MCAP's eight bytes and a header without profile") {
+  const test::Folder folder;
+  const std::string bytes = test::small_recording(folder / "a.mcap", {}, 4);
+  CHECK(bytes.substr(0, 8) == magic_text);
+  CHECK(bytes.substr(bytes.size() - 8) == magic_text);
+  CHECK(bytes[8] == 1);
+  CHECK(u32(bytes, 17) == 0);
+  CHECK(bytes.substr(25, 4) == "erp ");
+  CHECK(u32(bytes, 21) == u64(bytes, 9) - 8);
+}
+
+TEST_CASE("the records stand in the order that the format asks for") {
+  const test::Folder folder;
+  const std::string bytes =
+      test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 3);
+  std::vector<int> kinds;
+  for (const auto& [kind, at] : records(bytes)) kinds.push_back(kind);
+  const std::vector<int> expected{1, 9, 3, 4, 4,          // header, attachment, schema, channels
+                                  6, 7, 7, 6, 7, 15,      // two chunks with indexes, end of data
+                                  3, 4, 4, 11, 8, 8, 10,  // summary: … statistics, chunks, attachment
+                                  14, 14, 14, 14, 14, 2};
+  CHECK(kinds == expected);
+}
+
+TEST_CASE("data, summary, chunk and attachment carry the checksums of what they cover") {
+  const test::Folder folder;
+  const std::string bytes =
+      test::small_recording(folder / "a.mcap", {.compression = Compression::none}, 4);
+  const std::size_t data_end = place_of(bytes, 15);
+  CHECK(u32(bytes, data_end + 9) == crc(bytes.substr(0, data_end)));
+  const std::size_t footer = place_of(bytes, 2), summary = u64(bytes, footer + 9);
+  CHECK(summary == data_end + 13);
+  CHECK(u32(bytes, footer + 25) == crc(bytes.substr(summary, footer + 25 - summary)));
+  const std::size_t chunk = place_of(bytes, 6);
+  CHECK(u32(bytes, chunk + 33) == crc(bytes.substr(chunk + 49, u64(bytes, chunk + 41))));
+  const std::size_t attachment = place_of(bytes, 9), length = u64(bytes, attachment + 1);
+  CHECK(u32(bytes, attachment + 9 + length - 4) == crc(bytes.substr(attachment + 9, length - 4)));
+}
+
+TEST_CASE("every summary offset and index points at the record it speaks of") {
+  const test::Folder folder;
+  const std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 5);
+  for (const auto& [kind, at] : records(bytes)) {
+    if (kind == 14) {
+      CHECK(bytes[u64(bytes, at + 10)] == bytes[at + 9]);
+    }
+    if (kind == 8) {
+      const std::size_t chunk = u64(bytes, at + 25);
+      CHECK(bytes[chunk] == 6);
+      CHECK(u64(bytes, chunk + 1) + 9 == u64(bytes, at + 33));
+      const std::size_t index = u64(bytes, at + 47);
+      CHECK(bytes[index] == 7);
+      CHECK(index >= chunk + u64(bytes, at + 33));
+    }
+    if (kind == 10) {
+      CHECK(bytes[u64(bytes, at + 9)] == 9);
+    }
+  }
+}
+
+TEST_CASE("a chunk spans at most a second of log time") {
+  const test::Folder folder;
+  McapWriter writer(folder / "a.mcap");
+  const auto channel = writer.add_channel("t", "cdr", 0);
+  for (std::uint64_t i = 0; i < 40; ++i) writer.write(channel, 0, i * 100'000'000, 0, view("x"));
+  writer.close();
+  const McapReader reader(folder / "a.mcap");
+  for (const auto& region : reader.contents().regions)
+    CHECK(region.last_ns - region.first_ns <= 1'000'000'000);
+  CHECK(reader.contents().chunks == 4);
+}
+
+TEST_CASE("a flushed message is in the file although the recording was never closed") {
+  const test::Folder folder;
+  McapWriter writer(folder / "a.mcap");
+  const auto channel = writer.add_channel("t", "cdr", 0);
+  writer.write(channel, 7, 1, 1, view("kept"));
+  CHECK(McapReader(folder / "a.mcap").contents().messages == 0);
+  writer.flush();
+  const McapReader reader(folder / "a.mcap");
+  CHECK(reader.contents().messages == 1);
+  CHECK_FALSE(reader.complete());
+  writer.flush();
+  writer.flush();
+  writer.close();
+  CHECK(McapReader(folder / "a.mcap").complete());
+}
+
+TEST_CASE("a full disk is reported with the file's name and the system's reason") {
+  McapOptions replace{.replace = true};
+  CHECK_THROWS_WITH(McapWriter("/dev/full", replace),
+                    Catch::Contains("/dev/full: cannot write: No space left on device"));
+}
+
+TEST_CASE("a write that fails half-way is taken back, said once more, and loses nothing before it") {
+  const test::Folder folder;
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  {
+    McapWriter writer(folder / "a.mcap", {.compression = Compression::none});
+    const auto channel = writer.add_channel("t", "cdr", 0);
+    writer.write(channel, 0, 1, 1, view("first"));
+    writer.flush();
+    const rlimit limit{std::filesystem::file_size(folder / "a.mcap") + 30, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    writer.write(channel, 1, 2, 2, view(std::string(1000, 'x')));
+    CHECK_THROWS_WITH(writer.flush(), Catch::Contains("File too large"));
+    setrlimit(RLIMIT_FSIZE, &before);
+    CHECK_THROWS_WITH(writer.write(channel, 2, 3, 3, view("y")), Catch::Contains("earlier write"));
+    CHECK_THROWS_AS(writer.close(), RecordingError);
+  }
+  std::signal(SIGXFSZ, old);
+  const McapReader reader(folder / "a.mcap");
+  CHECK(reader.contents().messages == 1);
+  CHECK(reader.truncation().find("without a footer") != std::string::npos);
+}
+
+TEST_CASE("a recording that exists is not overwritten unless asked") {
+  const test::Folder folder;
+  test::write_file(folder / "a.mcap", "precious");
+  CHECK_THROWS_WITH(McapWriter(folder / "a.mcap"), Catch::Contains("there is a file already"));
+  CHECK(test::read_file(folder / "a.mcap") == "precious");
+  CHECK_NOTHROW(McapWriter(folder / "a.mcap", {.replace = true}));
+}
+
+TEST_CASE("a channel or schema that was never added is refused") {
+  const test::Folder folder;
+  McapWriter writer(folder / "a.mcap");
+  CHECK_THROWS_AS(writer.add_channel("t", "cdr", 1), std::invalid_argument);
+  CHECK_THROWS_AS(writer.write(1, 0, 0, 0, {}), std::invalid_argument);
+}
+
+TEST_CASE("a closed recording takes nothing more") {
+  const test::Folder folder;
+  McapWriter writer(folder / "a.mcap");
+  const auto channel = writer.add_channel("t", "cdr", 0);
+  writer.close();
+  writer.close();
+  CHECK_THROWS_WITH(writer.write(channel, 0, 0, 0, {}), Catch::Contains("is closed"));
+}

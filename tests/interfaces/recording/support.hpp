@@ -1,0 +1,59 @@
+#pragma once
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "interfaces/recording/mcap_writer.hpp"
+
+/// What the recording tests share: a folder of their own, whole files, small recordings.
+namespace test {
+
+class Folder {
+ public:
+  Folder() {
+    // In memory where there is such a place: these tests write thousands of files, each synced.
+    std::filesystem::path base = "/dev/shm";
+    if (!std::filesystem::is_directory(base)) base = std::filesystem::temp_directory_path();
+    std::string name = (base / "erp_recording_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write_file(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// A recording of two channels in several chunks with an attachment; `count` messages of text.
+inline std::string small_recording(const std::string& path, recording::McapOptions options,
+                                   int count) {
+  recording::McapWriter writer(path, options);
+  writer.attach("robot.xml", "text/xml", "<robot name=\"rig\"/>");
+  const auto schema = writer.add_schema("std_msgs/msg/String", "ros2msg", "string data\n");
+  const auto first = writer.add_channel("first", "cdr", schema, {{"writer", "a"}});
+  const auto second = writer.add_channel("second", "cdr", schema);
+  for (int i = 0; i < count; ++i) {
+    const auto time_ns = static_cast<std::uint64_t>(1000 + i * 10);
+    const auto sequence = static_cast<std::uint32_t>(i / 2);
+    writer.write(i % 2 ? second : first, sequence, time_ns, time_ns - 3,
+                 recording::view("message " + std::to_string(i)));
+  }
+  writer.close();
+  return read_file(path);
+}
+
+}  // namespace test

@@ -1,0 +1,92 @@
+// tests/interfaces/broken/robot holds one file a mistake; here is what takes more than one file
+// can show.
+#include "interfaces/robot/check.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+erp::Robot rig() { return erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml"); }
+
+std::string mistakes(const erp::Robot& robot) {
+  std::string text;
+  for (const auto& error : erp::check_robot(robot)) text += to_string(error) + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a sound robot has no mistakes") { CHECK(mistakes(rig()).empty()); }
+
+TEST_CASE("more actuators than the bus carries are refused") {
+  erp::Robot robot = rig();
+  const erp::Actuator flexor = robot.actuators[0];
+  robot.actuators.clear();
+  for (int i = 0; i < 64; ++i) {
+    robot.actuators.push_back(flexor);
+    robot.actuators.back().name = "a" + std::to_string(i);
+    robot.actuators.back().ecu = i;
+  }
+  CHECK(mistakes(robot).empty());
+  robot.actuators.push_back(flexor);
+  robot.actuators.back().ecu = 64;
+  CHECK_THAT(mistakes(robot), Catch::Contains("65 actuators; the bus carries at most 64"));
+}
+
+TEST_CASE("a loop is reported once, and a chain that hangs on it not at all") {
+  erp::Robot robot = rig();
+  auto& skeleton = robot.skeletons[0];
+  for (const char* name : {"a", "b", "c", "d"}) {
+    skeleton.bodies.push_back({{}, name, 1.0});
+    skeleton.joints.push_back({{}, std::string("to_") + name, erp::JointType::fixed, "", name});
+  }
+  const auto parent_of = [&](std::size_t joint) -> std::string& {
+    return skeleton.joints.at(joint).parent;
+  };
+  parent_of(1) = "c", parent_of(2) = "a", parent_of(3) = "b", parent_of(4) = "c";
+  const std::string said = mistakes(robot);
+  CHECK_THAT(said, Catch::Contains("the joints form a loop: a < c < b < a"));
+  CHECK(said.find("loop") == said.rfind("loop"));
+}
+
+TEST_CASE("a body that hangs on itself is a loop") {
+  erp::Robot robot = rig();
+  robot.skeletons[0].joints[0].parent = "forearm";
+  CHECK_THAT(mistakes(robot), Catch::Contains("loop: forearm < forearm"));
+}
+
+TEST_CASE("spherical and fixed joints need no axis and no limits") {
+  erp::Robot robot = rig();
+  robot.joint_sensors.clear();
+  auto& joint = robot.skeletons[0].joints[0];
+  joint.axis = {0, 0, 0};
+  joint.min_rad = 3;
+  joint.type = erp::JointType::spherical;
+  CHECK(mistakes(robot).empty());
+}
+
+TEST_CASE("two sensors may not share an input nor a joint") {
+  erp::Robot robot = rig();
+  robot.joint_sensors.push_back(robot.joint_sensors[0]);
+  CHECK_THAT(mistakes(robot), Catch::Contains("input=\"0\" reads \"elbow\" already") &&
+                                  Catch::Contains("a second sensor on joint \"elbow\""));
+}
+
+TEST_CASE("a point may touch its pulley, and lie inside one that is not its neighbour") {
+  erp::Robot robot = rig();
+  auto& path = robot.actuators[0].tendon.path;
+  std::get<erp::Attach>(path[1]).at_m = {-0.025, 0, 0};
+  std::get<erp::Attach>(path[0]).at_m = {0, 0, 0.001};
+  CHECK(mistakes(robot).empty());
+  std::get<erp::Attach>(path[1]).at_m = {-0.0249, 0, 0};
+  CHECK_THAT(mistakes(robot), Catch::Contains("inside its radius_m=\"0.025\""));
+}
+
+TEST_CASE("tensions that cannot be held are refused") {
+  erp::Robot robot = rig();
+  robot.actuators[0].relax_tension_N = 151;
+  robot.actuators[1].tendon.pretension_N = 151;
+  CHECK_THAT(mistakes(robot),
+             Catch::Contains("relax_tension_N=\"151\" exceeds max_tension_N=\"150\"") &&
+                 Catch::Contains("pretension_N=\"151\" exceeds max_tension_N=\"150\""));
+}

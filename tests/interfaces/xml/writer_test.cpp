@@ -1,0 +1,68 @@
+#include "interfaces/xml/writer.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <random>
+
+#include "tests/interfaces/xml/example.hpp"
+
+namespace {
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+}  // namespace
+
+TEST_CASE("what equals its default is left out, what is required is not") {
+  example::Params p;
+  CHECK(xml::write(p, "tracker") ==
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<tracker gain_per_s=\"1\"/>\n");
+  p.mode = example::Mode::slow;
+  p.limit_N = 0;
+  p.tracks.push_back({{}, "a", 2});
+  CHECK(xml::write(p, "tracker") ==
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<tracker gain_per_s=\"1\" mode=\"slow\" limit_N=\"0\">\n"
+        "  <track name=\"a\" step=\"2\"/>\n"
+        "</tracker>\n");
+}
+
+TEST_CASE("any finite number is read back to the same bits") {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const std::uint64_t bits = random();
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    if (!std::isfinite(value)) continue;
+    double back = 0;
+    REQUIRE_FALSE(xml::read_number(xml::write_number(value), back, xml::any));
+    REQUIRE(same_bits(back, value));
+  }
+  double back = 1;
+  REQUIRE_FALSE(xml::read_number(xml::write_number(-0.0), back, xml::any));
+  CHECK(same_bits(back, -0.0));
+}
+
+TEST_CASE("any text is read back, markup and line breaks included") {
+  const example::Row row{{example::Bell{"<&>\"'\r\n\t größe  "}}};
+  const auto back = xml::parse<example::Row>(xml::write(row), "f.xml");
+  CHECK(std::get<example::Bell>(back.things.at(0)).tone == "<&>\"'\r\n\t größe  ");
+}
+
+TEST_CASE("single and optional children are written and read back") {
+  example::Cart cart;
+  cart.wheel.radius_m = 0.25;
+  cart.bell = example::Bell{"c"};
+  const std::string text = xml::write(cart);
+  CHECK(xml::write(xml::parse<example::Cart>(text, "f.xml")) == text);
+}
+
+TEST_CASE("long elements wrap at a hundred columns") {
+  example::Params p;
+  p.names.assign(8, "a_rather_long_name");
+  p.offset_m = {0.1, 0.2, 0.3};
+  p.mode = example::Mode::slow;
+  p.enabled = true;
+  const std::string text = xml::write(p, "tracker");
+  CHECK_THAT(text, Catch::Contains("\n         names="));
+  CHECK(example::params_of(text).names == p.names);
+}

@@ -1,0 +1,33 @@
+#include "tests/interfaces/xml/xmllint.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+std::set<std::string> valid_by_schema(const std::string& schema_file,
+                                      const std::vector<std::string>& files) {
+  std::string command = "xmllint --nonet --noout --schema '" + schema_file + "'";
+  for (const std::string& file : files) command += " '" + file + "'";
+  const std::unique_ptr<FILE, int (*)(FILE*)> out(popen((command + " 2>&1").c_str(), "r"), pclose);
+  std::set<std::string> valid;
+  std::string all;
+  for (char line[4096]; std::fgets(line, sizeof line, out.get());) {
+    const std::string said = line;
+    all += said;
+    if (said.ends_with(" validates\n")) valid.insert(said.substr(0, said.size() - 11));
+  }
+  if (all.find("not found") != all.npos || all.find("failed to compile") != all.npos)
+    throw std::runtime_error(all);
+  return valid;
+}
+
+std::string temporary(const std::string& name, const std::string& text) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("erp_" + std::to_string(getpid()) + "_" + name);
+  std::ofstream(file) << text;
+  return file.string();
+}

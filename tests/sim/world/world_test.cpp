@@ -1,0 +1,119 @@
+#include "sim/world/world.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "tests/sim/skeletons.hpp"
+
+using sim::World;
+
+namespace {
+
+erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+
+double length_at(World& world, int actuator, double angle) {
+  sim::JointReading reading = world.joints()[0];
+  reading.position[0] = angle;
+  world.set_joint(0, reading);
+  return world.actuators()[actuator].length_m;
+}
+
+/// The elbow's angle after 0.4 s under constant voltages.
+double run_hinge(double dt) {
+  World world(hinge_rig(), {.usual_step_s = dt});
+  const std::vector<double> voltage{1.5, -0.2};
+  for (int k = 0; k < std::lround(0.4 / dt); ++k) world.step(voltage, dt);
+  return world.joints()[0].position[0];
+}
+
+}  // namespace
+
+TEST_CASE("the hinge rig's moment arm is 25 mm over the whole range") {
+  World world(hinge_rig());
+  const double h = 1e-4;
+  for (int actuator : {0, 1}) {
+    const double sign = actuator == 0 ? -1 : 1;  // flexion shortens the flexor
+    for (double q = -1.2 + h; q <= 1.6 - h; q += 0.01) {
+      const double slope = (length_at(world, actuator, q + h) - length_at(world, actuator, q - h)) /
+                           (2 * h);
+      REQUIRE(std::abs(slope - sign * 0.025) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("the rig stands at its pretension, unpowered, by the friction of its gears") {
+  World world(hinge_rig());
+  CHECK(world.actuators()[0].tension_N == Approx(5));
+  const std::vector<double> off(2, 0.0);
+  for (int k = 0; k < 3000; ++k) world.step(off, 1e-3);
+  CHECK(std::abs(world.joints()[0].position[0]) < 1e-3);
+  CHECK(world.actuators()[0].tension_N == Approx(5).margin(0.05));
+  CHECK(world.actuators()[0].shaft_rad == 0.0);
+}
+
+TEST_CASE("winding up the flexor flexes the elbow") {
+  World world(hinge_rig());
+  const std::vector<double> voltage{3, -3};
+  for (int k = 0; k < 500; ++k) world.step(voltage, 1e-3);
+  CHECK(world.joints()[0].position[0] > 0.1);
+  CHECK(world.actuators()[0].line_m < 0);
+  CHECK(world.actuators()[1].line_m > 0);
+}
+
+TEST_CASE("the two tendons and the forearm swing at √(2 κ r² + m g l) / I") {
+  erp::Robot rig = hinge_rig();
+  auto& elbow = rig.skeletons[0].joints[0];
+  elbow.viscous_Nm_s_per_rad = elbow.coulomb_Nm = 0;
+  for (auto& actuator : rig.actuators) actuator.tendon.damping_N_s_per_m = 0;
+  World world(rig);
+  length_at(world, 0, 0.01);
+  const std::vector<double> off(2, 0.0);
+  const double dt = 1e-4;
+  double before = 0.01, first = 0, last = 0;
+  int crossings = 0;
+  while (crossings < 11) {
+    world.step(off, dt);
+    const double now = world.joints()[0].position[0];
+    if (before > 0 && now <= 0) {
+      last = world.time_s() - dt * now / (now - before);
+      if (++crossings == 1) first = last;
+    }
+    before = now;
+  }
+  const double stiffness = 2 * 6000 * 0.025 * 0.025 + 0.8 * 9.81 * 0.12;
+  CHECK(2 * std::numbers::pi * 10 / (last - first) ==
+        Approx(std::sqrt(stiffness / rigs::pendulum_I_kg_m2)).epsilon(1e-4));
+}
+
+TEST_CASE("halving the step halves the error") {
+  const double exact = run_hinge(2e-6);
+  const double coarse = std::abs(run_hinge(4e-4) - exact), fine = std::abs(run_hinge(2e-4) - exact);
+  CHECK(std::log2(coarse / fine) == Approx(1).margin(0.15));
+}
+
+TEST_CASE("the same run again, and after a reset, is the same to the last bit") {
+  const auto run = [](World& world) {
+    std::vector<double> trace;
+    for (int k = 0; k < 2000; ++k) {
+      const std::vector<double> voltage{3 * std::sin(0.01 * k), 2 * std::cos(0.013 * k)};
+      world.step(voltage, 1e-3);
+      trace.push_back(world.joints()[0].position[0]);
+      trace.push_back(world.actuators()[0].tension_N);
+      trace.push_back(world.actuators()[1].shaft_rad);
+    }
+    return trace;
+  };
+  World one(hinge_rig()), other(hinge_rig());
+  const auto first = run(one), second = run(other);
+  CHECK(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)) == 0);
+  one.reset();
+  const auto third = run(one);
+  CHECK(std::memcmp(first.data(), third.data(), first.size() * sizeof(double)) == 0);
+}
+
+TEST_CASE("the wrong number of voltages is refused") {
+  World world(hinge_rig());
+  CHECK_THROWS_AS(world.step(std::vector<double>(3), 1e-3), std::invalid_argument);
+}
