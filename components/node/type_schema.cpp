@@ -34,31 +34,47 @@ ddsi_sertype_cdr_data blob(const dds_type_meta_ser& meta) {
 
 std::optional<Kind> primitive(std::uint8_t kind) {
   switch (kind) {
-    case DDS_XTypes_TK_BOOLEAN: return Kind::boolean;
-    case DDS_XTypes_TK_BYTE: return Kind::uint8;
-    case DDS_XTypes_TK_CHAR8: return Kind::uint8;
-    case DDS_XTypes_TK_INT16: return Kind::int16;
-    case DDS_XTypes_TK_INT32: return Kind::int32;
-    case DDS_XTypes_TK_INT64: return Kind::int64;
-    case DDS_XTypes_TK_UINT16: return Kind::uint16;
-    case DDS_XTypes_TK_UINT32: return Kind::uint32;
-    case DDS_XTypes_TK_UINT64: return Kind::uint64;
-    case DDS_XTypes_TK_FLOAT32: return Kind::float32;
-    case DDS_XTypes_TK_FLOAT64: return Kind::float64;
-    default: return std::nullopt;
+    case DDS_XTypes_TK_BOOLEAN:
+      return Kind::boolean;
+    case DDS_XTypes_TK_BYTE:
+      return Kind::uint8;
+    case DDS_XTypes_TK_CHAR8:
+      return Kind::uint8;
+    case DDS_XTypes_TK_INT16:
+      return Kind::int16;
+    case DDS_XTypes_TK_INT32:
+      return Kind::int32;
+    case DDS_XTypes_TK_INT64:
+      return Kind::int64;
+    case DDS_XTypes_TK_UINT16:
+      return Kind::uint16;
+    case DDS_XTypes_TK_UINT32:
+      return Kind::uint32;
+    case DDS_XTypes_TK_UINT64:
+      return Kind::uint64;
+    case DDS_XTypes_TK_FLOAT32:
+      return Kind::float32;
+    case DDS_XTypes_TK_FLOAT64:
+      return Kind::float64;
+    default:
+      return std::nullopt;
   }
 }
 
 /// Enums travel in 1, 2 or 4 bytes, bitmasks in 1, 2, 4 or 8.
 Kind unsigned_of(unsigned bits) {
-  return bits <= 8 ? Kind::uint8 : bits <= 16 ? Kind::uint16 : bits <= 32 ? Kind::uint32 : Kind::uint64;
+  return bits <= 8    ? Kind::uint8
+         : bits <= 16 ? Kind::uint16
+         : bits <= 32 ? Kind::uint32
+                      : Kind::uint64;
 }
 
 class Describer {
  public:
   explicit Describer(const dds_topic_descriptor_t& type) : name_(type.m_typename) {
     if (!type.type_mapping.data || !type.type_mapping.sz)
-      throw std::invalid_argument(name_ + ": carries no type information; compile its IDL without -t");
+      throw std::invalid_argument(name_ +
+                                  ": carries no type information; compile its IDL without -t");
     const auto mapping = blob(type.type_mapping), information = blob(type.type_information);
     map_.reset(ddsi_typemap_deser(&mapping));
     info_.reset(ddsi_typeinfo_deser(&information));
@@ -147,8 +163,10 @@ class Describer {
       return;
     }
     switch (id._d) {
-      case DDS_XTypes_TI_STRING8_SMALL: return string(field, id._u.string_sdefn.bound);
-      case DDS_XTypes_TI_STRING8_LARGE: return string(field, id._u.string_ldefn.bound);
+      case DDS_XTypes_TI_STRING8_SMALL:
+        return string(field, id._u.string_sdefn.bound);
+      case DDS_XTypes_TI_STRING8_LARGE:
+        return string(field, id._u.string_ldefn.bound);
       case DDS_XTypes_TI_PLAIN_SEQUENCE_SMALL:
         many(field, Count::sequence, id._u.seq_sdefn.bound);
         return take(*id._u.seq_sdefn.element_identifier, field);
@@ -161,8 +179,10 @@ class Describer {
       case DDS_XTypes_TI_PLAIN_ARRAY_LARGE:
         array(field, id._u.array_ldefn.array_bound_seq);
         return take(*id._u.array_ldefn.element_identifier, field);
-      case DDS_XTypes_EK_COMPLETE: return take_object(id, field);
-      default: refuse("is a map, a wide string or a recursive type");
+      case DDS_XTypes_EK_COMPLETE:
+        return take_object(id, field);
+      default:
+        refuse("is a map, a wide string or a recursive type");
     }
   }
 
@@ -173,7 +193,8 @@ class Describer {
         field.kind = Kind::structure;
         field.structure = structure(id);
         return;
-      case DDS_XTypes_TK_ALIAS: return take(found._u.alias_type.body.common.related_type, field);
+      case DDS_XTypes_TK_ALIAS:
+        return take(found._u.alias_type.body.common.related_type, field);
       case DDS_XTypes_TK_ENUM:
         field.kind = unsigned_of(found._u.enumerated_type.header.common.bit_bound);
         return;
@@ -186,7 +207,8 @@ class Describer {
       case DDS_XTypes_TK_ARRAY:
         array(field, found._u.array_type.header.common.bound_seq);
         return take(found._u.array_type.element.common.type, field);
-      default: refuse("is a union, a bitset or a map");
+      default:
+        refuse("is a union, a bitset or a map");
     }
   }
 

@@ -1,8 +1,8 @@
 #include "interfaces/recording/cdr.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <array>
+#include <bit>
 
 #include "interfaces/recording/error.hpp"
 
@@ -59,7 +59,8 @@ class Decoder {
     if (!fixed && field.size && count > field.size)
       fail("holds " + std::to_string(count) + " elements, at most " + std::to_string(field.size));
     if (count > (bytes_.size() - at_) / std::max<std::size_t>(1, least_bytes(type_, field)))
-      fail("says it holds " + std::to_string(count) + " elements, more than the message has room for");
+      fail("says it holds " + std::to_string(count) +
+           " elements, more than the message has room for");
     Values values;
     values.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t i = 0; i < count; ++i) values.push_back(one(field));
@@ -69,19 +70,32 @@ class Decoder {
   Value one(const Field& field) {
     field_ = &field;
     switch (field.kind) {
-      case Kind::boolean: return {boolean()};
-      case Kind::int8: return {std::int64_t{raw<std::int8_t>()}};
-      case Kind::uint8: return {std::uint64_t{raw<std::uint8_t>()}};
-      case Kind::int16: return {std::int64_t{raw<std::int16_t>()}};
-      case Kind::uint16: return {std::uint64_t{raw<std::uint16_t>()}};
-      case Kind::int32: return {std::int64_t{raw<std::int32_t>()}};
-      case Kind::uint32: return {std::uint64_t{raw<std::uint32_t>()}};
-      case Kind::int64: return {raw<std::int64_t>()};
-      case Kind::uint64: return {raw<std::uint64_t>()};
-      case Kind::float32: return {raw<float>()};
-      case Kind::float64: return {raw<double>()};
-      case Kind::string: return {string(field)};
-      case Kind::structure: break;
+      case Kind::boolean:
+        return {boolean()};
+      case Kind::int8:
+        return {std::int64_t{raw<std::int8_t>()}};
+      case Kind::uint8:
+        return {std::uint64_t{raw<std::uint8_t>()}};
+      case Kind::int16:
+        return {std::int64_t{raw<std::int16_t>()}};
+      case Kind::uint16:
+        return {std::uint64_t{raw<std::uint16_t>()}};
+      case Kind::int32:
+        return {std::int64_t{raw<std::int32_t>()}};
+      case Kind::uint32:
+        return {std::uint64_t{raw<std::uint32_t>()}};
+      case Kind::int64:
+        return {raw<std::int64_t>()};
+      case Kind::uint64:
+        return {raw<std::uint64_t>()};
+      case Kind::float32:
+        return {raw<float>()};
+      case Kind::float64:
+        return {raw<double>()};
+      case Kind::string:
+        return {string(field)};
+      case Kind::structure:
+        break;
     }
     return {structure(type_.structures[field.structure])};
   }
@@ -142,8 +156,7 @@ std::optional<double> Value::number() const {
       [](const auto& value) -> std::optional<double> {
         if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>)
           return static_cast<double>(value);
-        else
-          return std::nullopt;
+        else return std::nullopt;
       },
       data);
 }

@@ -9,8 +9,7 @@ namespace recording {
 
 Bytes compress_zstd(ByteView bytes, int level) {
   Bytes out(ZSTD_compressBound(bytes.size()));
-  const std::size_t size =
-      ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size))
     throw RecordingError(std::string("zstd: ") + ZSTD_getErrorName(size) +
                          "; record with compression none");

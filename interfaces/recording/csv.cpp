@@ -110,7 +110,8 @@ class Parser {
       fail(1, "there is no column time_s",
            semicolons ? "separate the columns with commas" : "add it as the first column");
     std::ranges::stable_partition(order_, [&](std::size_t i) { return cells[i].text == "time_s"; });
-    std::ranges::stable_partition(table_.columns, [](const Column& c) { return c.name == "time_s"; });
+    std::ranges::stable_partition(table_.columns,
+                                  [](const Column& c) { return c.name == "time_s"; });
     target_.resize(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) target_[order_[i]] = i;
   }
@@ -119,7 +120,8 @@ class Parser {
     const std::string& name = cell.text;
     const std::string_view signal = signal_of(name);
     const auto& known = known_signals();
-    if (table_.find(name)) fail(cell.column, "column \"" + name + "\" stands there twice", "remove one");
+    if (table_.find(name))
+      fail(cell.column, "column \"" + name + "\" stands there twice", "remove one");
     if (name != "time_s" &&
         (signal.size() == name.size() || std::ranges::find(known, signal) == known.end()))
       fail(cell.column, "unknown column \"" + name + "\"",
@@ -182,8 +184,6 @@ class Parser {
 
 }  // namespace
 
-Table parse_csv(const std::string& path, std::string_view text) {
-  return Parser(path, text).run();
-}
+Table parse_csv(const std::string& path, std::string_view text) { return Parser(path, text).run(); }
 
 }  // namespace recording

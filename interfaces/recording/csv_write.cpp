@@ -17,8 +17,7 @@ std::string csv_cell(std::string_view text) {
 std::string csv_number(double value) {
   if (std::isnan(value)) return {};
   std::array<char, 32> digits;
-  return {digits.data(),
-          std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
 void write_csv(const Table& table, std::ostream& out) {

@@ -27,8 +27,8 @@ OutputFile::~OutputFile() {
 
 void OutputFile::fail(const char* doing, int error) const {
   throw WriteError(path_ + ": cannot " + doing + ": " + std::strerror(error) +
-                       (error == ENOSPC ? "; free some space or record elsewhere"
-                                        : "; check the folder and its permissions"));
+                   (error == ENOSPC ? "; free some space or record elsewhere"
+                                    : "; check the folder and its permissions"));
 }
 
 void OutputFile::append(ByteView bytes) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <list>
 #include <memory>
 #include <numeric>
 #include <queue>
@@ -11,15 +12,47 @@
 namespace recording {
 namespace {
 
-/// Where one loaded region is being read.
+constexpr std::size_t most_cached_bytes = std::size_t{256} << 20;  // chosen
+
+/// Loads regions and keeps the last used ones, so that a recording whose chunks all overlap in
+/// time still fits into memory.
+class Cache {
+ public:
+  Cache(const InputFile& file, const std::vector<Region>& regions)
+      : file_(file), regions_(regions) {}
+
+  const LoadedRegion& get(std::size_t i) {
+    const auto known = std::ranges::find(recent_, i, &Entry::first);
+    if (known != recent_.end()) {
+      recent_.splice(recent_.begin(), recent_, known);
+      return recent_.front().second;
+    }
+    recent_.emplace_front(i, load(file_, regions_[i]));
+    bytes_ += recent_.front().second.records.size();
+    while (bytes_ > most_cached_bytes && recent_.size() > 1) {
+      bytes_ -= recent_.back().second.records.size();
+      recent_.pop_back();
+    }
+    return recent_.front().second;
+  }
+
+ private:
+  using Entry = std::pair<std::size_t, LoadedRegion>;
+  const InputFile& file_;
+  const std::vector<Region>& regions_;
+  std::list<Entry> recent_;
+  std::size_t bytes_ = 0;
+};
+
+/// Where one region is being read.
 struct Cursor {
-  std::shared_ptr<const LoadedRegion> region;
-  std::size_t order, next;
-  std::uint64_t time_ns() const { return region->messages[next].first; }
+  std::shared_ptr<const MessageIndex> messages;
+  std::size_t region, next;
+  std::uint64_t time_ns() const { return (*messages)[next].first; }
 };
 struct Later {
   bool operator()(const Cursor& a, const Cursor& b) const {
-    return std::pair(a.time_ns(), a.order) > std::pair(b.time_ns(), b.order);
+    return std::pair(a.time_ns(), a.region) > std::pair(b.time_ns(), b.region);
   }
 };
 
@@ -51,25 +84,32 @@ void McapReader::for_each(const std::function<void(const Message&)>& use) const 
   std::iota(by_start.begin(), by_start.end(), std::size_t{0});
   std::ranges::stable_sort(by_start, {}, [&](std::size_t i) { return regions[i].first_ns; });
   std::priority_queue<Cursor, std::vector<Cursor>, Later> open;
-  std::size_t next = 0;
+  Cache cache(file_, regions);
+  auto next = by_start.begin();
   for (;;) {
-    while (next < by_start.size() &&
-           (open.empty() || regions[by_start[next]].first_ns <= open.top().time_ns())) {
-      auto loaded = std::make_shared<const LoadedRegion>(load(file_, regions[by_start[next]]));
-      if (!loaded->messages.empty()) open.push({std::move(loaded), by_start[next], 0});
+    while (next != by_start.end() &&
+           (open.empty() || regions[*next].first_ns <= open.top().time_ns())) {
+      auto index = std::make_shared<const MessageIndex>(cache.get(*next).messages);
+      if (!index->empty()) open.push({std::move(index), *next, 0});
       ++next;
     }
     if (open.empty()) return;
     Cursor cursor = open.top();
     open.pop();
-    ByteView data;
-    const MessageHead head = cursor.region->message(cursor.next, path(), data);
-    const auto channel = contents_.channels.find(head.channel_id);
-    if (channel == contents_.channels.end())
-      throw RecordingError(path() + ": the file changed while it was read; read a copy");
-    use({channel->second, head.sequence, head.log_time_ns, head.publish_time_ns, data});
-    if (++cursor.next < cursor.region->messages.size()) open.push(std::move(cursor));
+    emit(cache.get(cursor.region), cursor.next, use);
+    if (++cursor.next < cursor.messages->size()) open.push(std::move(cursor));
   }
+}
+
+void McapReader::emit(const LoadedRegion& region, std::size_t i,
+                      const std::function<void(const Message&)>& use) const {
+  ByteView data;
+  const bool there = i < region.messages.size();
+  const MessageHead head = there ? region.message(i, path(), data) : MessageHead{};
+  const auto channel = contents_.channels.find(head.channel_id);
+  if (!there || channel == contents_.channels.end())
+    throw RecordingError(path() + ": the file changed while it was read; read a copy");
+  use({channel->second, head.sequence, head.log_time_ns, head.publish_time_ns, data});
 }
 
 Recovered recover(const std::string& in, const std::string& out) {

@@ -35,7 +35,7 @@ class McapReader {
   const std::string& path() const { return file_.path(); }
 
   /// Every message in the order of log times; of equal times, in the order of the file.
-  /// Holds in memory only chunks that overlap in time.
+  /// Holds chunks that overlap in time in memory, up to 256 MB of them.
   void for_each(const std::function<void(const Message&)>& use) const;
 
  protected:
@@ -43,6 +43,9 @@ class McapReader {
       : file_(std::move(path)), contents_(scan(file_, tolerant)) {}
 
  private:
+  void emit(const LoadedRegion& region, std::size_t i,
+            const std::function<void(const Message&)>& use) const;
+
   InputFile file_;
   Contents contents_;
 };

@@ -8,7 +8,8 @@ namespace {
 void put_map(Bytes& out, const TextMap& map) {
   const std::size_t start = out.size();
   put(out, std::uint32_t{0});
-  for (const auto& [key, value] : map) put(out, std::string_view(key)), put(out, std::string_view(value));
+  for (const auto& [key, value] : map)
+    put(out, std::string_view(key)), put(out, std::string_view(value));
   Bytes length;
   put(length, static_cast<std::uint32_t>(out.size() - start - 4));
   std::copy(length.begin(), length.end(), out.begin() + static_cast<std::ptrdiff_t>(start));
@@ -121,7 +122,8 @@ ChunkHead get_chunk(ByteReader& in, ByteView& records) {
   head.uncompressed_bytes = in.integer<std::uint64_t>("a chunk's size");
   head.uncompressed_crc = in.integer<std::uint32_t>("a chunk's checksum");
   head.compression = in.characters("a chunk's compression");
-  records = in.take(in.integer<std::uint64_t>("the length of a chunk's records"), "a chunk's records");
+  records =
+      in.take(in.integer<std::uint64_t>("the length of a chunk's records"), "a chunk's records");
   return head;
 }
 
@@ -166,7 +168,8 @@ Attachment get_attachment(ByteReader& in) {
   attachment.create_time_ns = in.integer<std::uint64_t>("an attachment's creation time");
   attachment.name = in.characters("an attachment's name");
   attachment.media_type = in.characters("an attachment's media type");
-  const ByteView data = in.take(in.integer<std::uint64_t>("an attachment's length"), "an attachment");
+  const ByteView data =
+      in.take(in.integer<std::uint64_t>("an attachment's length"), "an attachment");
   const ByteView summed = whole.take(in.at() - whole.at(), "an attachment");
   const auto crc = in.integer<std::uint32_t>("an attachment's checksum");
   if (crc != 0 && crc != crc32_of(summed))

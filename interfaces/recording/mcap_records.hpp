@@ -16,8 +16,21 @@ inline constexpr std::array<std::uint8_t, 8> magic{0x89, 'M', 'C', 'A', 'P', '0'
 inline constexpr std::size_t record_head_bytes = 9;
 
 enum class Op : std::uint8_t {
-  header = 1, footer, schema, channel, message, chunk, message_index, chunk_index,
-  attachment, attachment_index, statistics, metadata, metadata_index, summary_offset, data_end
+  header = 1,
+  footer,
+  schema,
+  channel,
+  message,
+  chunk,
+  message_index,
+  chunk_index,
+  attachment,
+  attachment_index,
+  statistics,
+  metadata,
+  metadata_index,
+  summary_offset,
+  data_end
 };
 
 using TextMap = std::map<std::string, std::string>;

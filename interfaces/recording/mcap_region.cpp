@@ -39,11 +39,20 @@ bool is_sound(Op op, ByteReader in) {
   try {
     ByteView records;
     switch (op) {
-      case Op::schema: get_schema(in); break;
-      case Op::channel: get_channel(in); break;
-      case Op::attachment: get_attachment(in); break;
-      case Op::chunk: get_chunk(in, records); break;
-      default: return false;
+      case Op::schema:
+        get_schema(in);
+        break;
+      case Op::channel:
+        get_channel(in);
+        break;
+      case Op::attachment:
+        get_attachment(in);
+        break;
+      case Op::chunk:
+        get_chunk(in, records);
+        break;
+      default:
+        return false;
     }
     return in.empty();
   } catch (const RecordingError&) {
@@ -114,7 +123,8 @@ std::uint64_t next_sound_record(const InputFile& file, std::uint64_t from) {
     const Bytes bytes = file.read(base, std::min(window, file.size() - base));
     for (std::uint64_t i = 0; i < bytes.size(); ++i) {
       const Op op = static_cast<Op>(bytes[i]);
-      if (op != Op::schema && op != Op::channel && op != Op::chunk && op != Op::attachment) continue;
+      if (op != Op::schema && op != Op::channel && op != Op::chunk && op != Op::attachment)
+        continue;
       if (is_sound_at(file, base + i)) return base + i;
     }
   }

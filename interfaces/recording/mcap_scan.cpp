@@ -60,7 +60,8 @@ void Scanner::check_start() {
 bool Scanner::step() {
   const std::uint64_t left = file_.size() - at_;
   if (left < record_head_bytes)
-    return cut(left ? "the file ends inside a record" : "the file ends without a footer", at_), false;
+    return cut(left ? "the file ends inside a record" : "the file ends without a footer", at_),
+           false;
   const Bytes start = file_.read(at_, record_head_bytes);
   ByteReader in(start, file_.path(), at_);
   const RecordHead head = get_record_head(in);
@@ -89,19 +90,33 @@ bool Scanner::take(Op op, ByteReader in, std::uint64_t length) {
       contents_.profile = in.characters("the profile");
       contents_.library = in.characters("the library");
       break;
-    case Op::schema: add(get_schema(in), in); break;
-    case Op::channel: add(get_channel(in), in); break;
-    case Op::message: take_loose(in, here); break;
-    case Op::chunk: take_chunk(in, here); break;
-    case Op::attachment: contents_.attachments.push_back(get_attachment(in)); break;
-    case Op::metadata: contents_.metadata.push_back(get_metadata(in)); break;
+    case Op::schema:
+      add(get_schema(in), in);
+      break;
+    case Op::channel:
+      add(get_channel(in), in);
+      break;
+    case Op::message:
+      take_loose(in, here);
+      break;
+    case Op::chunk:
+      take_chunk(in, here);
+      break;
+    case Op::attachment:
+      contents_.attachments.push_back(get_attachment(in));
+      break;
+    case Op::metadata:
+      contents_.metadata.push_back(get_metadata(in));
+      break;
     case Op::data_end: {
       const auto crc = in.integer<std::uint32_t>("the data's checksum");
       if (crc != 0 && crc != data_crc_) in.fail("the data section's checksum does not match");
       break;
     }
-    case Op::footer: return check_footer(in, length), false;
-    default: break;  // indexes, and kinds that are newer than this reader
+    case Op::footer:
+      return check_footer(in, length), false;
+    default:
+      break;  // indexes, and kinds that are newer than this reader
   }
   return true;
 }
@@ -191,7 +206,8 @@ void Scanner::cut(const std::string& what, std::uint64_t place) {
 /// A record that reaches beyond the end: the recorder was killed, or the length is wrong.
 bool Scanner::end_early(const RecordHead& head) {
   cut("the file ends inside a record that says it is " + std::to_string(head.length) +
-          " bytes long", at_);
+          " bytes long",
+      at_);
   if (!tolerant_) return false;
   const std::uint64_t next = next_sound_record(file_, at_ + 1);
   if (next == file_.size() && head.op == Op::chunk) take_cut_chunk();

@@ -9,6 +9,9 @@
 namespace recording {
 namespace {
 
+/// Stamps further apart are of two clocks (simulated and wall time in one recording), and say
+/// nothing about how long a chunk has been open. chosen
+constexpr std::uint64_t another_clock_ns = 3'600'000'000'000;
 constexpr std::uint16_t most_ids = std::numeric_limits<std::uint16_t>::max();
 
 void put_summary_offset(Bytes& out, Op op, std::uint64_t start, std::uint64_t length) {
@@ -67,8 +70,8 @@ std::uint16_t McapWriter::add_channel(std::string topic, std::string message_enc
   if (schema_id > schema_count_)
     throw std::invalid_argument("no schema has the id " + std::to_string(schema_id));
   if (channel_count_ == most_ids) throw RecordingError(path() + ": more than 65535 writers");
-  const Channel channel{static_cast<std::uint16_t>(channel_count_ + 1), schema_id,
-                        std::move(topic), std::move(message_encoding), std::move(metadata)};
+  const Channel channel{static_cast<std::uint16_t>(channel_count_ + 1), schema_id, std::move(topic),
+                        std::move(message_encoding), std::move(metadata)};
   Bytes record;
   put_channel(record, channel);
   append(record);
@@ -82,6 +85,7 @@ void McapWriter::write(std::uint16_t channel, std::uint32_t sequence, std::uint6
     throw std::invalid_argument("no channel has the id " + std::to_string(channel));
   if (failed_ || !file_.is_open()) append({});
   const bool first = chunk_.records.empty();
+  if (first) chunk_.first_ns = log_time_ns;
   chunk_.start_ns = first ? log_time_ns : std::min(chunk_.start_ns, log_time_ns);
   chunk_.end_ns = first ? log_time_ns : std::max(chunk_.end_ns, log_time_ns);
   start_ns_ = messages_ ? std::min(start_ns_, log_time_ns) : log_time_ns;
@@ -90,9 +94,11 @@ void McapWriter::write(std::uint16_t channel, std::uint32_t sequence, std::uint6
   put_message(chunk_.records, {channel, sequence, log_time_ns, publish_time_ns}, data);
   ++messages_;
   ++channel_messages_[channel];
-  if (chunk_.records.size() >= options_.chunk_bytes ||
-      chunk_.end_ns - chunk_.start_ns >= options_.chunk_span_ns)
-    close_chunk();
+  const std::uint64_t from_ns = chunk_.first_ns;
+  const std::uint64_t apart_ns =
+      log_time_ns > from_ns ? log_time_ns - from_ns : from_ns - log_time_ns;
+  const bool long_enough = apart_ns >= options_.chunk_span_ns && apart_ns < another_clock_ns;
+  if (long_enough || chunk_.records.size() >= options_.chunk_bytes) close_chunk();
 }
 
 void McapWriter::close_chunk() {
@@ -178,7 +184,9 @@ void McapWriter::put_summary(Bytes& out) {
   group(Op::schema, [&] { put(out, schema_records_); });
   group(Op::channel, [&] { put(out, channel_records_); });
   group(Op::statistics, [&] { put_statistics(out); });
-  group(Op::chunk_index, [&] { for (const auto& chunk : chunks_) put_chunk_index(out, chunk); });
+  group(Op::chunk_index, [&] {
+    for (const auto& chunk : chunks_) put_chunk_index(out, chunk);
+  });
   group(Op::attachment_index, [&] { put(out, attachment_records_); });
   group(Op::metadata_index, [&] { put(out, metadata_records_); });
   const std::uint64_t offsets_start = summary_start + out.size();

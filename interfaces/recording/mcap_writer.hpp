@@ -12,9 +12,9 @@ enum class Compression { none, zstd };
 
 struct McapOptions {
   Compression compression = Compression::zstd;
-  std::size_t chunk_bytes = 1u << 20;             ///< a chunk is closed when it is this large, chosen
-  std::uint64_t chunk_span_ns = 1'000'000'000;    ///< or spans this much log time
-  bool replace = false;                           ///< overwrite a file that stands there
+  std::size_t chunk_bytes = 1u << 20;           ///< a chunk is closed when it is this large, chosen
+  std::uint64_t chunk_span_ns = 1'000'000'000;  ///< or spans this much log time
+  bool replace = false;                         ///< overwrite a file that stands there
 };
 
 /// Writes an MCAP file: chunks with indexes, attachments, a summary. What is not in a closed
@@ -44,7 +44,8 @@ class McapWriter {
 
   /// Closes the chunk and waits until the disk has it.
   void flush();
-  /// Writes the summary and the footer. Nothing can be added afterwards; a second call does nothing.
+  /// Writes the summary and the footer. Nothing can be added afterwards; a second call does
+  /// nothing.
   void close();
 
   std::uint64_t message_count() const { return messages_; }
@@ -53,7 +54,7 @@ class McapWriter {
  private:
   struct Chunk {
     Bytes records;
-    std::uint64_t start_ns = 0, end_ns = 0;
+    std::uint64_t first_ns = 0, start_ns = 0, end_ns = 0;  ///< of the first message, least, most
     std::map<std::uint16_t, MessageIndex> index;
   };
   void append(const Bytes& bytes);

@@ -20,11 +20,11 @@ struct MessageType {
 
 /// One message as it came off the bus.
 struct Sample {
-  std::string_view writer;             ///< who wrote it, unique in the recording's time
-  std::uint64_t log_time_ns = 0;       ///< when the recorder had it
-  std::uint64_t publish_time_ns = 0;   ///< its own stamp
+  std::string_view writer;                ///< who wrote it, unique in the recording's time
+  std::uint64_t log_time_ns = 0;          ///< when the recorder had it
+  std::uint64_t publish_time_ns = 0;      ///< its own stamp
   std::optional<std::uint64_t> sequence;  ///< its number; gaps in it are counted
-  ByteView cdr;                        ///< with the 4 bytes of encapsulation
+  ByteView cdr;                           ///< with the 4 bytes of encapsulation
 };
 
 /// What came in on a topic, and what did not.

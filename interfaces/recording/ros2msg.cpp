@@ -108,9 +108,25 @@ class Parser {
     if (!is_word(name)) fail(line_, "\"" + std::string(code) + "\" is not \"type name\"");
     Field field;
     field.name = name;
-    if (comment.find_first_of(blanks) == comment.npos) field.unit = comment;
+    take_comment(comment, field);
     take_type(type, field);
     type_.structures.back().fields.push_back(std::move(field));
+  }
+
+  /// "tension_N [N]": the name before ROS 2's rules made it `tension_n`, and the unit.
+  static void take_comment(std::string_view comment, Field& field) {
+    const std::string_view word = comment.substr(0, comment.find_first_of(blanks));
+    const std::string_view rest = trimmed(comment.substr(word.size()));
+    const bool has_name = is_word(word);
+    const std::string_view unit = has_name ? rest : comment;
+    if (unit.starts_with('[') && unit.ends_with(']') && unit.size() > 2)
+      field.unit = unit.substr(1, unit.size() - 2);
+    else if (!unit.empty()) return;  // a person's sentence
+    if (!has_name) return;
+    const std::string plain = ros_field_name(word);
+    const bool same = field.name.starts_with(plain) &&
+                      field.name.find_first_not_of("0123456789", plain.size()) == field.name.npos;
+    if (same) field.name = word;
   }
 
   void take_type(std::string_view type, Field& field) {
@@ -131,8 +147,8 @@ class Parser {
     }
     field.kind = Kind::structure;
     const auto& structures = type_.structures;
-    references_.push_back({structures.size() - 1, structures.back().fields.size(),
-                           std::string(type), line_});
+    references_.push_back(
+        {structures.size() - 1, structures.back().fields.size(), std::string(type), line_});
   }
 
   void take_count(std::string_view text, Field& field) {
@@ -155,8 +171,7 @@ class Parser {
       std::string name = reference.name;
       if (name.find('/') == name.npos) name = owner.substr(0, owner.rfind('/') + 1) + name;
       const auto place = places_.find(full_name(name));
-      if (place == places_.end())
-        fail(reference.line, "unknown type \"" + reference.name + "\"");
+      if (place == places_.end()) fail(reference.line, "unknown type \"" + reference.name + "\"");
       type_.structures[reference.structure].fields[reference.field].structure = place->second;
     }
   }

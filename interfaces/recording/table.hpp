@@ -41,9 +41,9 @@ std::string_view signal_of(std::string_view column);
 bool holds_mode(std::string_view column);
 
 struct TableOptions {
-  std::string robot;       ///< empty: the only one in the recording
-  bool lines = false;      ///< with <a>.line_m
-  bool targets = false;    ///< with <a>.target_mode and <a>.target
+  std::string robot;     ///< empty: the only one in the recording
+  bool lines = false;    ///< with <a>.line_m
+  bool targets = false;  ///< with <a>.target_mode and <a>.target
   /// Where spherical joints come from; empty: motion_capture if recorded, else sim.
   std::string pose_source;
 };

@@ -19,13 +19,12 @@ struct Source {
   const char* field;
   unsigned valid;  ///< 0: always there
 };
-constexpr Source actuator_sources[] = {
-    {"mode", "mode", 0},
-    {"reference", "reference", 0},
-    {"voltage_V", "voltage_V", erp::valid::voltage},
-    {"current_A", "current_A", erp::valid::current},
-    {"shaft_rad", "shaft_rad", erp::valid::shaft},
-    {"tension_N", "tension_N", erp::valid::tension}};
+constexpr Source actuator_sources[] = {{"mode", "mode", 0},
+                                       {"reference", "reference", 0},
+                                       {"voltage_V", "voltage_V", erp::valid::voltage},
+                                       {"current_A", "current_A", erp::valid::current},
+                                       {"shaft_rad", "shaft_rad", erp::valid::shaft},
+                                       {"tension_N", "tension_N", erp::valid::tension}};
 constexpr Source line_source{"line_m", "line_m", erp::valid::line};
 constexpr Source joint_source{"angle_rad", "angle_rad", erp::valid::joint_angle};
 
@@ -151,7 +150,8 @@ class Builder {
       const bool driven = number_in(sample, "mode") != 0;
       for (const Source& source : actuator_sources)
         set(actuators_, name, source, row, sample, source.valid ? valid & source.valid : driven);
-      if (options_.lines) set(actuators_, name, line_source, row, sample, valid & line_source.valid);
+      if (options_.lines)
+        set(actuators_, name, line_source, row, sample, valid & line_source.valid);
     });
     each_in(frame, "joints", [&](const Members& sample) {
       const auto valid = static_cast<unsigned>(number_in(sample, "valid"));
@@ -201,11 +201,14 @@ class Builder {
         const std::uint64_t t = rows_[row].log_time_ns;
         return t > target.log_time_ns ? t - target.log_time_ns : target.log_time_ns - t;
       };
-      const auto row = std::min_element(
-          first, last, [&](const auto& a, const auto& b) { return apart(a.second) < apart(b.second); });
+      const auto row = std::min_element(first, last, [&](const auto& a, const auto& b) {
+        return apart(a.second) < apart(b.second);
+      });
       if (row == last) continue;
-      actuators_.set(target.actuator, "target_mode", row->second, target.mode ? target.mode : not_taken);
-      actuators_.set(target.actuator, "target", row->second, target.mode ? target.reference : not_taken);
+      actuators_.set(target.actuator, "target_mode", row->second,
+                     target.mode ? target.mode : not_taken);
+      actuators_.set(target.actuator, "target", row->second,
+                     target.mode ? target.reference : not_taken);
     }
   }
 

@@ -84,16 +84,22 @@ void write_topic_csv(const McapReader& recording, const std::string& topic, std:
   std::unordered_map<std::string, std::size_t> places;
   std::string header = "log_time_ns";
   reader.for_each([&](const Message&, const Members& members) {
-    each_leaf("", members, [&](const std::string& path, const Value&) {
-      if (places.try_emplace(path, places.size()).second) header += "," + csv_cell(path);
-    }, false);
+    each_leaf(
+        "", members,
+        [&](const std::string& path, const Value&) {
+          if (places.try_emplace(path, places.size()).second) header += "," + csv_cell(path);
+        },
+        false);
   });
   out << header << '\n';
   reader.for_each([&](const Message& message, const Members& members) {
     std::vector<std::string> cells(places.size());
-    each_leaf("", members, [&](const std::string& path, const Value& value) {
-      cells[places.at(path)] = csv_cell(to_text(value));
-    }, false);
+    each_leaf(
+        "", members,
+        [&](const std::string& path, const Value& value) {
+          cells[places.at(path)] = csv_cell(to_text(value));
+        },
+        false);
     out << message.log_time_ns;
     for (const std::string& cell : cells) out << ',' << cell;
     out << '\n';

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -12,9 +13,19 @@ struct Primitive {
   std::string_view name;
   std::size_t bytes;
 };
-constexpr std::array<Primitive, 13> primitives{{{"bool", 1}, {"int8", 1}, {"uint8", 1},
-    {"int16", 2}, {"uint16", 2}, {"int32", 4}, {"uint32", 4}, {"int64", 8}, {"uint64", 8},
-    {"float32", 4}, {"float64", 8}, {"string", 0}, {"", 0}}};
+constexpr std::array<Primitive, 13> primitives{{{"bool", 1},
+                                                {"int8", 1},
+                                                {"uint8", 1},
+                                                {"int16", 2},
+                                                {"uint16", 2},
+                                                {"int32", 4},
+                                                {"uint32", 4},
+                                                {"int64", 8},
+                                                {"uint64", 8},
+                                                {"float32", 4},
+                                                {"float64", 8},
+                                                {"string", 0},
+                                                {"", 0}}};
 
 /// "erp/msg/SensorFrame" as fields and `MSG:` lines write it: "erp/SensorFrame".
 std::string short_name(const std::string& name) {
@@ -22,16 +33,28 @@ std::string short_name(const std::string& name) {
   return middle == std::string::npos ? name : name.substr(0, middle) + name.substr(middle + 4);
 }
 
-void put_field(std::string& out, const TypeDescription& type, const Field& field) {
+void put_type(std::string& out, const TypeDescription& type, const Field& field) {
   out += field.kind == Kind::structure ? short_name(type.structures[field.structure].name)
                                        : std::string(name_of(field.kind));
   if (field.string_bound) out += "<=" + std::to_string(field.string_bound);
   if (field.count == Count::array) out += "[" + std::to_string(field.size) + "]";
   if (field.count == Count::sequence)
     out += field.size ? "[<=" + std::to_string(field.size) + "]" : "[]";
-  out += " " + field.name;
-  if (!field.unit.empty()) out += "  # " + field.unit;
-  out += "\n";
+}
+
+void put_structure(std::string& out, const TypeDescription& type, const Structure& structure) {
+  std::set<std::string> used;
+  for (const Field& field : structure.fields) {
+    const std::string plain = ros_field_name(field.name);
+    std::string name = plain;
+    for (int n = 2; !used.insert(name).second; ++n) name = plain + std::to_string(n);
+    put_type(out, type, field);
+    out += " " + name;
+    if (name != field.name || !field.unit.empty()) out += "  #";
+    if (name != field.name) out += " " + field.name;
+    if (!field.unit.empty()) out += " [" + field.unit + "]";
+    out += "\n";
+  }
 }
 
 constexpr std::size_t deepest_nesting = 32;  // as Cyclone's own limit
@@ -61,7 +84,8 @@ void measure(TypeDescription& type, std::size_t i, std::vector<std::size_t>& abo
     check_field(type, structure, field);
     if (field.kind == Kind::structure) measure(type, field.structure, above);
     const std::uint64_t one = least_bytes(type, field);
-    sum += field.count == Count::sequence ? 4 : one * (field.count == Count::array ? field.size : 1);
+    sum +=
+        field.count == Count::sequence ? 4 : one * (field.count == Count::array ? field.size : 1);
     sum = std::min(sum, std::uint64_t{1} << 31);  // no message is larger
   }
   above.pop_back();
@@ -97,12 +121,24 @@ std::string ros_name(std::string_view idl_name) {
   return (package.empty() ? "idl" : package) + "/msg/" + type;
 }
 
+std::string ros_field_name(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    const bool capital = c >= 'A' && c <= 'Z';
+    if (c == '_' && (out.empty() || out.back() == '_')) continue;
+    out += capital ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  if (out.ends_with('_')) out.pop_back();
+  if (out.empty() || (out[0] >= '0' && out[0] <= '9')) out.insert(0, "f");
+  return out;
+}
+
 std::string ros2msg_text(const TypeDescription& type) {
   std::string out;
   for (const Structure& structure : type.structures) {
     if (&structure != &type.root())
       out += std::string(80, '=') + "\nMSG: " + short_name(structure.name) + "\n";
-    for (const Field& field : structure.fields) put_field(out, type, field);
+    put_structure(out, type, structure);
   }
   return out;
 }

@@ -8,7 +8,18 @@ namespace recording {
 
 /// What one field holds; the primitive types of ROS 2 messages.
 enum class Kind : std::uint8_t {
-  boolean, int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64, string,
+  boolean,
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64,
+  string,
   structure
 };
 
@@ -18,7 +29,7 @@ enum class Count : std::uint8_t { one, array, sequence };
 struct Field {
   std::string name;
   Kind kind = Kind::uint8;
-  std::size_t structure = 0;       ///< Kind::structure: its place in TypeDescription::structures
+  std::size_t structure = 0;  ///< Kind::structure: its place in TypeDescription::structures
   Count count = Count::one;
   std::uint32_t size = 0;          ///< array: elements; sequence: at most so many, 0: any number
   std::uint32_t string_bound = 0;  ///< characters at most, 0: any number
@@ -39,15 +50,20 @@ struct TypeDescription {
   const std::string& name() const { return root().name; }
 };
 
-std::string_view name_of(Kind kind);      ///< "float64"
-std::size_t size_of(Kind kind);           ///< bytes of a primitive; of string and structure, 0
+std::string_view name_of(Kind kind);  ///< "float64"
+std::size_t size_of(Kind kind);       ///< bytes of a primitive; of string and structure, 0
 
 /// "erp::SensorFrame" or "sensor_msgs::msg::dds_::JointState_" as "erp/msg/SensorFrame": the first
 /// modules are the package.
 std::string ros_name(std::string_view idl_name);
 
+/// A field's name as ROS 2 allows it: lower case, single underscores inside only. "tension_N" →
+/// "tension_n"; Foxglove refuses a schema with any other name.
+std::string ros_field_name(std::string_view name);
+
 /// The type as `ros2msg` text: its fields, then `===` and `MSG: package/Type` for every structure
-/// it needs. Units become comments.
+/// it needs. Where a name had to change or a unit is known, a comment says so, and parse_ros2msg
+/// finds them there: `float64 tension_n  # tension_N [N]`.
 std::string ros2msg_text(const TypeDescription& type);
 
 /// Checks that every structure has fields, none of them twice, and holds itself nowhere; sets

@@ -42,7 +42,8 @@ struct Printer {
   std::string operator()(const Members& members) const {
     std::string out = "{";
     for (std::size_t i = 0; i < members.fields.size(); ++i)
-      (out += i ? "," : "") += quoted(members.type->fields[i].name) + ":" + inner(members.fields[i]);
+      (out += i ? "," : "") +=
+          quoted(members.type->fields[i].name) + ":" + inner(members.fields[i]);
     return out + "}";
   }
 

@@ -83,7 +83,7 @@ std::string xsd_restriction(const std::string& base, const Range& range) {
 std::string xsd_filled_text() { return xsd_restriction("filled_text", any); }
 
 std::string xsd_list(const std::string& item_type, std::size_t length) {
-  const std::string list = "<xs:simpleType><xs:list>" + item_type + "</xs:list></xs:simpleType>";
+  std::string list = "<xs:simpleType><xs:list>" + item_type + "</xs:list></xs:simpleType>";
   if (length == 0) return list;
   return "<xs:simpleType><xs:restriction>" + list + "<xs:length value=\"" + std::to_string(length) +
          "\"/></xs:restriction></xs:simpleType>";

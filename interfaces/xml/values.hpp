@@ -43,7 +43,7 @@ template <std::floating_point T>
 struct Codec<T> {
   static Refused read(std::string_view text, T& value, const Range& range) {
     double number = 0;
-    const Refused refused = read_number(text, number, range);
+    Refused refused = read_number(text, number, range);
     if (!refused) value = static_cast<T>(number);
     return refused;
   }
@@ -61,7 +61,7 @@ requires(std::integral<T> && !std::same_as<T, bool>) struct Codec<T> {
   }
   static Refused read(std::string_view text, T& value, const Range& range) {
     long long number = 0;
-    const Refused refused = read_integer(text, number, within(range));
+    Refused refused = read_integer(text, number, within(range));
     if (!refused) value = static_cast<T>(number);
     return refused;
   }
@@ -109,6 +109,7 @@ struct ListCodec {
   }
   static std::string write(const List& value) {
     std::vector<std::string> words;
+    words.reserve(value.size());
     for (const Item& item : value) words.push_back(Codec<Item>::write(item));
     return joined(words, " ");
   }
@@ -126,7 +127,7 @@ template <class T>
 struct Codec<std::optional<T>> {
   static Refused read(std::string_view text, std::optional<T>& value, const Range& range) {
     T inner{};
-    const Refused refused = Codec<T>::read(text, inner, range);
+    Refused refused = Codec<T>::read(text, inner, range);
     if (!refused) value = inner;
     return refused;
   }
@@ -142,6 +143,7 @@ requires std::is_enum_v<Enum>
 struct Codec<Enum> {
   static std::vector<std::string> all_words() {
     std::vector<std::string> words;
+    words.reserve(Names<Enum>::list.size());
     for (const auto& [word, value] : Names<Enum>::list) words.push_back(word);
     return words;
   }

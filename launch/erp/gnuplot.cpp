@@ -21,14 +21,14 @@ using Temporary = std::unique_ptr<std::FILE, decltype(&std::fclose)>;
 Temporary temporary() {
   Temporary file(std::tmpfile(), &std::fclose);
   if (!file)
-    throw recording::WriteError(std::string("cannot make a temporary file: ") + std::strerror(errno) +
-                                "; check TMPDIR");
+    throw recording::WriteError(std::string("cannot make a temporary file: ") +
+                                std::strerror(errno) + "; check TMPDIR");
   return file;
 }
 
 std::string terminal(const std::string& file, int panels) {
-  const std::string size = " size " + std::to_string(picture_width) + "," +
-                           std::to_string(picture_height(panels));
+  const std::string size =
+      " size " + std::to_string(picture_width) + "," + std::to_string(picture_height(panels));
   constexpr auto* font = " font 'DejaVu Sans,11' background rgb 'white'";
   if (file.ends_with(".png")) return "set terminal pngcairo noenhanced" + size + font + "\n";
   if (file.ends_with(".svg")) return "set terminal svg noenhanced" + size + font + "\n";
@@ -76,7 +76,8 @@ void draw(const PlotScript& script, const std::string& file) {
   const std::string part = file + ".part";
   const int out = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (out < 0)
-    throw recording::WriteError(part + ": cannot create: " + std::strerror(errno) + "; check the folder");
+    throw recording::WriteError(part + ": cannot create: " + std::strerror(errno) +
+                                "; check the folder");
   try {
     const int status = run_gnuplot(fileno(in.get()), out, fileno(err.get()));
     const off_t size = ::lseek(out, 0, SEEK_END);
@@ -84,7 +85,8 @@ void draw(const PlotScript& script, const std::string& file) {
       throw recording::WriteError(file + ": gnuplot failed: " + first_words(err.get()) +
                                   "; check the disk, or export the recording and draw it yourself");
     if (::rename(part.c_str(), file.c_str()) != 0)
-      throw recording::WriteError(file + ": cannot rename: " + std::strerror(errno) + "; check the folder");
+      throw recording::WriteError(file + ": cannot rename: " + std::strerror(errno) +
+                                  "; check the folder");
   } catch (...) {
     ::close(out);
     ::unlink(part.c_str());

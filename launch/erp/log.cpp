@@ -32,7 +32,8 @@ int guarded(Work&& work) {
 
 int written(std::ostream& out) {
   if (out.flush()) return 0;
-  throw recording::WriteError("the output could not be written; free some space or name another file");
+  throw recording::WriteError(
+      "the output could not be written; free some space or name another file");
 }
 
 std::string decimal(const char* format, double value) {
@@ -78,16 +79,19 @@ std::map<std::string, TopicRow> rows_of(const McapReader& reader) {
   return rows;
 }
 
+/// The longest any topic lasted; topics may be stamped by different clocks.
+double duration_s(const std::map<std::string, TopicRow>& rows) {
+  std::uint64_t longest_ns = 0;
+  for (const auto& [topic, row] : rows)
+    if (row.last_ns > row.first_ns) longest_ns = std::max(longest_ns, row.last_ns - row.first_ns);
+  return static_cast<double>(longest_ns) * 1e-9;
+}
+
 void print_head(const McapReader& reader, std::ostream& out) {
-  std::uint64_t first_ns = UINT64_MAX, last_ns = 0;
-  for (const auto& region : reader.contents().regions) {
-    first_ns = std::min(first_ns, region.first_ns);
-    last_ns = std::max(last_ns, region.last_ns);
-  }
-  const double duration_s = last_ns > first_ns ? static_cast<double>(last_ns - first_ns) * 1e-9 : 0;
   out << reader.path() << ": " << (reader.complete() ? "complete" : "cut off") << ", "
-      << decimal("%.3f s, ", duration_s) << reader.contents().messages << " messages in "
-      << reader.contents().chunks << " chunks, by " << reader.contents().library << '\n';
+      << decimal("%.3f s, ", duration_s(rows_of(reader))) << reader.contents().messages
+      << " messages in " << reader.contents().chunks << " chunks, by " << reader.contents().library
+      << '\n';
   if (!reader.complete()) out << "  " << reader.truncation() << '\n';
 }
 
@@ -128,8 +132,7 @@ int log_export(const std::string& path, std::ostream& out, const LogExportOption
   return guarded([&] {
     if (options.topic.empty())
       recording::write_csv(recording::read_table(path, {.robot = options.robot}), out);
-    else
-      recording::write_topic_csv(McapReader(path), options.topic, out);
+    else recording::write_topic_csv(McapReader(path), options.topic, out);
     return written(out);
   });
 }
@@ -146,8 +149,8 @@ int log_recover(const std::string& in, const std::string& out, std::ostream& sai
 
 int log_plot(const std::string& path, const std::string& out, const LogPlotOptions& options) {
   return guarded([&] {
-    const auto table = recording::read_table(
-        path, {.robot = options.robot, .lines = true, .targets = true});
+    const auto table =
+        recording::read_table(path, {.robot = options.robot, .lines = true, .targets = true});
     const std::string title =
         options.title.empty() ? path.substr(path.rfind('/') + 1) : options.title;
     draw(plot_script(table, options.signals, title, path), out);

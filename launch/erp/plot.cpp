@@ -25,14 +25,13 @@ struct Panel {
   bool standard;  ///< shown unless something else is asked for
 };
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr Panel panels[] = {
-    {"tension_N", "tension  [N]", 1, erp::Mode::force, true},
-    {"line_m", "line length  [mm]", 1e3, erp::Mode::length, true},
-    {"shaft_rad", "shaft  [rad]", 1, erp::Mode::off, false},
-    {"voltage_V", "voltage  [V]", 1, erp::Mode::voltage, false},
-    {"current_A", "current  [A]", 1, erp::Mode::current, false},
-    {"angle_rad", "joint angle  [°]", degrees, erp::Mode::off, true},
-    {"qw", "joint rotation  [°]", 2 * degrees, erp::Mode::off, true}};
+constexpr Panel panels[] = {{"tension_N", "tension  [N]", 1, erp::Mode::force, true},
+                            {"line_m", "line length  [mm]", 1e3, erp::Mode::length, true},
+                            {"shaft_rad", "shaft  [rad]", 1, erp::Mode::off, false},
+                            {"voltage_V", "voltage  [V]", 1, erp::Mode::voltage, false},
+                            {"current_A", "current  [A]", 1, erp::Mode::current, false},
+                            {"angle_rad", "joint angle  [°]", degrees, erp::Mode::off, true},
+                            {"qw", "joint rotation  [°]", 2 * degrees, erp::Mode::off, true}};
 
 // Colours that colour-blind eyes tell apart, after Okabe & Ito and Tol. Joints begin at `joint`.
 constexpr std::array<unsigned, 12> colours{0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
@@ -138,15 +137,18 @@ class Script {
     const double from_s = time_s_.empty() ? 0 : time_s_.front();
     const double to_s = time_s_.empty() || time_s_.back() <= from_s ? from_s + 1 : time_s_.back();
     const double height = picture_height(static_cast<int>(plots_.size()));
-    std::string out = data_ +
-        "set multiplot layout " + std::to_string(plots_.size()) + ",1 title " + quoted(title) +
-        " font ',15' noenhanced margins screen 0.065,0.83," + number(60.0 / height) + "," + number(1 - 50.0 / height) +
-        " spacing screen 0," + number(22.0 / height) +
-        "\n"
-        "set border 3 linecolor '#777777'\nset grid linecolor '#dddddd' linetype 1\n"
-        "set tics nomirror textcolor '#333333'\nset xrange [" + number(from_s) + ":" + number(to_s) +
-        "]\nset key at screen 0.84, graph 1.02 left top Left reverse noenhanced samplen 2 spacing 1.2\n"
-        "set ylabel noenhanced\nset format x ''\n";
+    std::string out = data_ + "set multiplot layout " + std::to_string(plots_.size()) +
+                      ",1 title " + quoted(title) +
+                      " font ',15' noenhanced margins screen 0.065,0.83," + number(60.0 / height) +
+                      "," + number(1 - 50.0 / height) + " spacing screen 0," +
+                      number(22.0 / height) +
+                      "\n"
+                      "set border 3 linecolor '#777777'\nset grid linecolor '#dddddd' linetype 1\n"
+                      "set tics nomirror textcolor '#333333'\nset xrange [" +
+                      number(from_s) + ":" + number(to_s) +
+                      "]\nset key at screen 0.84, graph 1.02 left top Left reverse noenhanced "
+                      "samplen 2 spacing 1.2\n"
+                      "set ylabel noenhanced\nset format x ''\n";
     for (std::size_t i = 0; i < plots_.size(); ++i) {
       if (i + 1 == plots_.size()) out += "set format x '%g'\nset xlabel 'time  [s]'\n";
       out += plots_[i];
@@ -217,7 +219,8 @@ PlotScript plot_script(const Table& table, const std::vector<std::string>& signa
   check_signals(table, signals, place);
   const Script script(table, signals);
   if (script.empty())
-    throw recording::RecordingError(place + ": holds no samples to draw; see erp log info " + place);
+    throw recording::RecordingError(place + ": holds no samples to draw; see erp log info " +
+                                    place);
   return script.finish(title);
 }
 

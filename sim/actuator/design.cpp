@@ -36,12 +36,11 @@ Discrete hold(const ForceModel& model, double t) {
 
 /// The model's own poles, with the slowest moved to −bandwidth.
 Poles default_poles(const ForceModel& model, double bandwidth_per_s) {
-  const Vector3d::Scalar none = 0;
   const auto own = model.a.eigenvalues();
   Poles poles{own[0], own[1], own[2]};
   std::sort(poles.begin(), poles.end(),
             [](auto x, auto y) { return std::abs(x) < std::abs(y); });
-  if (std::abs(poles[0].imag()) > none)
+  if (poles[0].imag() != 0)
     throw std::invalid_argument(
         "the tendon and its motor oscillate; give force_poles_per_s explicitly");
   poles[0] = -bandwidth_per_s;
@@ -111,52 +110,81 @@ ForceGains design_force(const ForceModel& model, const DesignOptions& options) {
   return gains;
 }
 
-double resting_error_N(const erp::MotorType& m, const ForceGains& gains) {
-  const double drive = m.gear_efficiency * m.gear_ratio;
-  const double friction_A =
-      (drive * m.rotor_coulomb_Nm + m.gear_coulomb_Nm) / (drive * m.torque_Nm_per_A);
-  return (m.resistance_ohm + gains.feedback.x()) * friction_A / gains.prefilter_V_per_N;
+RestingBand resting_band(const erp::MotorType& m, double radius_m, const ForceGains& gains,
+                         double force_N) {
+  const double n = m.gear_ratio, eta = m.gear_efficiency, k = m.torque_Nm_per_A;
+  const double load = radius_m * force_N;
+  const double counted_on_A = load / (eta * n * k);
+  const double friction_A = (m.gear_coulomb_Nm / (eta * n) + m.rotor_coulomb_Nm) / k;
+  const double holds_A = (eta * (load - m.gear_coulomb_Nm) / n - m.rotor_coulomb_Nm) / k;
+  const double volt_per_A = m.resistance_ohm + gains.feedback.x();
+  return {volt_per_A * friction_A / gains.prefilter_V_per_N,
+          volt_per_A * (counted_on_A - holds_A) / gains.feedback.z()};
 }
+
+namespace {
+
+void set(EcuParameters& p, ecu_parameter_index index, double value) {
+  p[index] = static_cast<float>(value);
+}
+
+void set_converters(EcuParameters& p, const SensorScale& scale) {
+  set(p, ECU_PARAMETER_SHAFT_SCALE, scale.shaft_rad_per_count);
+  set(p, ECU_PARAMETER_CURRENT_SCALE, scale.current_A_per_count);
+  set(p, ECU_PARAMETER_CURRENT_COUNTS_MAX, scale.current_counts_max);
+  set(p, ECU_PARAMETER_TENSION_SCALE, scale.tension_N_per_count);
+  set(p, ECU_PARAMETER_TENSION_COUNTS_MAX, scale.tension_counts_max);
+}
+
+/// Above the limit, below the converter's end; never below the limit itself.
+double trip_level(double limit, double factor, double range) {
+  return std::max(limit, std::min(factor * limit, range));
+}
+
+void set_limits(EcuParameters& p, const erp::MotorType& motor, const erp::SensorType& sensors,
+                const erp::Actuator& actuator, double line_travel_m) {
+  const double travel_rad = line_travel_m / actuator.spindle.radius_m;
+  set(p, ECU_PARAMETER_CURRENT_LIMIT, motor.current_limit_A);
+  set(p, ECU_PARAMETER_CURRENT_TRIP,
+      trip_level(motor.current_limit_A, 1.5, 0.95 * sensors.current_range_A));
+  set(p, ECU_PARAMETER_TENSION_LIMIT, actuator.max_tension_N);
+  set(p, ECU_PARAMETER_TENSION_TRIP,
+      trip_level(actuator.max_tension_N, 1.2, 0.98 * sensors.tension_range_N));
+  set(p, ECU_PARAMETER_SHAFT_MIN, -travel_rad);
+  set(p, ECU_PARAMETER_SHAFT_MAX, travel_rad);
+}
+
+void set_motor(EcuParameters& p, const erp::MotorType& motor, double period_s) {
+  const double back_emf = motor.back_emf_V_s_per_rad * motor.gear_ratio;
+  const double current_bandwidth_per_s = 0.3 / period_s;
+  set(p, ECU_PARAMETER_SUPPLY, motor.supply_V);
+  set(p, ECU_PARAMETER_RESISTANCE, motor.resistance_ohm);
+  set(p, ECU_PARAMETER_BACK_EMF, back_emf);
+  set(p, ECU_PARAMETER_LENGTH_KP, back_emf * mechanical_pole_per_s(motor) / 4);
+  set(p, ECU_PARAMETER_CURRENT_KP, motor.inductance_H * current_bandwidth_per_s);
+  set(p, ECU_PARAMETER_CURRENT_KI, motor.resistance_ohm * current_bandwidth_per_s);
+  set(p, ECU_PARAMETER_CURRENT_KD, 0);
+}
+
+void set_force(EcuParameters& p, const ForceGains& force) {
+  set(p, ECU_PARAMETER_FORCE_K_CURRENT, force.feedback.x());
+  set(p, ECU_PARAMETER_FORCE_K_SPEED, force.feedback.y());
+  set(p, ECU_PARAMETER_FORCE_K_TENSION, force.feedback.z());
+  set(p, ECU_PARAMETER_FORCE_PREFILTER, force.prefilter_V_per_N);
+}
+
+}  // namespace
 
 EcuParameters design_parameters(const erp::Robot& robot, const erp::Actuator& actuator,
                                 const DesignOptions& options) {
   const erp::MotorType& motor = robot.motor_of(actuator);
   const erp::SensorType& sensors = robot.sensors_of(actuator);
-  const SensorScale scale(motor, sensors);
   const double r = actuator.spindle.radius_m;
-  const double back_emf = motor.back_emf_V_s_per_rad * motor.gear_ratio;
-  const double current_bandwidth_per_s = 0.3 / options.period_s;
-  const ForceGains force = design_force(force_model(motor, actuator.tendon, r), options);
   EcuParameters p{};
-  const auto set = [&p](ecu_parameter_index index, double value) {
-    p[index] = static_cast<float>(value);
-  };
-  set(ECU_PARAMETER_SUPPLY, motor.supply_V);
-  set(ECU_PARAMETER_SHAFT_SCALE, scale.shaft_rad_per_count);
-  set(ECU_PARAMETER_CURRENT_SCALE, scale.current_A_per_count);
-  set(ECU_PARAMETER_CURRENT_COUNTS_MAX, scale.current_counts_max);
-  set(ECU_PARAMETER_TENSION_SCALE, scale.tension_N_per_count);
-  set(ECU_PARAMETER_TENSION_COUNTS_MAX, scale.tension_counts_max);
-  set(ECU_PARAMETER_RESISTANCE, motor.resistance_ohm);
-  set(ECU_PARAMETER_BACK_EMF, back_emf);
-  set(ECU_PARAMETER_CURRENT_LIMIT, motor.current_limit_A);
-  set(ECU_PARAMETER_CURRENT_TRIP,
-      std::max(motor.current_limit_A,
-               std::min(1.5 * motor.current_limit_A, 0.95 * sensors.current_range_A)));
-  set(ECU_PARAMETER_TENSION_LIMIT, actuator.max_tension_N);
-  set(ECU_PARAMETER_TENSION_TRIP,
-      std::max(actuator.max_tension_N,
-               std::min(1.2 * actuator.max_tension_N, 0.98 * sensors.tension_range_N)));
-  set(ECU_PARAMETER_SHAFT_MIN, -options.line_travel_m / r);
-  set(ECU_PARAMETER_SHAFT_MAX, options.line_travel_m / r);
-  set(ECU_PARAMETER_LENGTH_KP, back_emf * mechanical_pole_per_s(motor) / 4);
-  set(ECU_PARAMETER_CURRENT_KP, motor.inductance_H * current_bandwidth_per_s);
-  set(ECU_PARAMETER_CURRENT_KI, motor.resistance_ohm * current_bandwidth_per_s);
-  set(ECU_PARAMETER_CURRENT_KD, 0);
-  set(ECU_PARAMETER_FORCE_K_CURRENT, force.feedback.x());
-  set(ECU_PARAMETER_FORCE_K_SPEED, force.feedback.y());
-  set(ECU_PARAMETER_FORCE_K_TENSION, force.feedback.z());
-  set(ECU_PARAMETER_FORCE_PREFILTER, force.prefilter_V_per_N);
+  set_converters(p, SensorScale(motor, sensors));
+  set_limits(p, motor, sensors, actuator, options.line_travel_m);
+  set_motor(p, motor, options.period_s);
+  set_force(p, design_force(force_model(motor, actuator.tendon, r), options));
   return p;
 }
 

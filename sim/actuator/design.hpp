@@ -18,11 +18,15 @@
 /// By default only the slow pole (the tendon being wound up) is moved; the motor's two own poles
 /// stay where they are, which asks least of current and speed and so passes on least noise.
 ///
-/// What is left at rest: the design knows no Coulomb friction. The shaft may stick anywhere inside
-/// its band of currents, so F rests within ±(R + k_i) τ_Ctot / (η N K_T P) of the reference
-/// (`resting_error_N`: about 0.01 N on hinge_rig). Letting out, the gear is back-driven (1/η): the
-/// true inertia is 2.9 times the model's and the load helps less; the poles move, the rest is the
-/// same band seen from above, wider by the same factor.
+/// What is left at rest: the design knows no Coulomb friction and no back-driving. The shaft may
+/// stick at any current of its band, so that F rests between (`resting_band`)
+///
+///   F_ref − (R + k_i) (i_up − i_0) / P       wound up to it:  i_up the current that just winds
+///   F_ref + (R + k_i) (i_0 − i_down) / k_F   let out to it:   i_down the current that just holds
+///
+/// with i_0 = r F_ref / (η N K_T), the current the design counts on. On hinge_rig at 40 N that is
+/// −0.01 N and +0.05 N. Letting out, the moving masses weigh 1/η² = 2.9 times as much in the model's
+/// terms; the loop stays stable (design_test.cpp).
 ///
 /// Length, V = kp (θ_ref − θ): kp = K_E N λ_m / 4, λ_m the mechanical pole: critically damped.
 /// Current, PID: kp = L b, ki = R b, kd = 0, which cancels R/L; b = 0.3 / period: at 500 Hz the
@@ -57,8 +61,12 @@ struct ForceGains {
 /// Throws std::invalid_argument: poles unstable or not in conjugate pairs, period not positive.
 ForceGains design_force(const ForceModel& model, const DesignOptions& options);
 
-/// The most by which Coulomb friction keeps the tension from the reference, winding up.
-double resting_error_N(const erp::MotorType& motor, const ForceGains& gains);
+/// Where the tension may rest, relative to the reference. Friction of the motor, no noise.
+struct RestingBand {
+  double below_N, above_N;
+};
+RestingBand resting_band(const erp::MotorType& motor, double radius_m, const ForceGains& gains,
+                         double force_N);
 
 /// The whole list of firmware/core/parameters.h, in its order.
 EcuParameters design_parameters(const erp::Robot& robot, const erp::Actuator& actuator,

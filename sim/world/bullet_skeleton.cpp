@@ -23,6 +23,7 @@ struct Tree {
   std::vector<JointLimit> limits;
   Eigen::MatrixXd inverse_inertia;
   Eigen::VectorXd velocity;
+  Eigen::VectorXd velocity_before;  ///< at the start of the step
 };
 
 /// Where a body lives in Bullet.
@@ -43,7 +44,10 @@ struct BulletSkeleton::Bullet {
           owner_(owner) {}
     void solveInternalConstraints(btContactSolverInfo& info) override {
       btMultiBodyDynamicsWorld::solveInternalConstraints(info);
-      for (Tree& tree : owner_.trees) owner_.rub(tree, info.m_timeStep);
+      for (Tree& tree : owner_.trees) {
+        owner_.correct(tree, info.m_timeStep);
+        owner_.rub(tree, info.m_timeStep);
+      }
     }
 
    private:
@@ -61,6 +65,7 @@ struct BulletSkeleton::Bullet {
   void read();
   void read_pose(int body);
   void read_joint(int body);
+  void correct(Tree& tree, double dt);
   void rub(Tree& tree, double dt);
   void find_limits(Tree& tree, double dt);
   void invert_inertia(Tree& tree);
@@ -81,6 +86,7 @@ struct BulletSkeleton::Bullet {
   std::vector<btScalar> unit, response;
   btAlignedObjectArray<btScalar> scratch_r;
   btAlignedObjectArray<btVector3> scratch_v;
+  btAlignedObjectArray<btMatrix3x3> scratch_m;
 };
 
 BulletSkeleton::Bullet::Bullet(const RobotTree& tree_of_robot, const Vec3& g,
@@ -254,6 +260,18 @@ void BulletSkeleton::Bullet::invert_inertia(Tree& tree) {
   }
 }
 
+void BulletSkeleton::Bullet::correct(Tree& tree, double dt) {
+  btMultiBody& b = *tree.body;
+  const int n = b.getNumDofs();
+  if (n == 0) return;
+  // v⁺ = v + dt a(q, (v + v¹)/2), v¹ = v + dt a(q, v): the velocity-dependent forces at mid-step.
+  Eigen::Map<Eigen::VectorXd> velocity(const_cast<btScalar*>(b.getVelocityVector()) + 6, n);
+  velocity = 0.5 * (tree.velocity_before + velocity);
+  b.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r, scratch_v, scratch_m, false,
+                                                         false, false);
+  velocity = tree.velocity_before + dt * Eigen::Map<const Eigen::VectorXd>(&scratch_r[n] + 6, n);
+}
+
 void BulletSkeleton::Bullet::rub(Tree& tree, double dt) {
   const int n = tree.body->getNumDofs();
   if (n == 0) return;
@@ -304,6 +322,9 @@ void BulletSkeleton::push(int body, const Vec3& at_m, const Vec3& force_N) {
 }
 
 void BulletSkeleton::step(double dt_s) {
+  for (Tree& tree : bullet_->trees)
+    tree.velocity_before = Eigen::Map<const Eigen::VectorXd>(tree.body->getVelocityVector() + 6,
+                                                             tree.body->getNumDofs());
   bullet_->world.stepSimulation(dt_s, 0);
   bullet_->read();
 }

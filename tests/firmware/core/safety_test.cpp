@@ -177,6 +177,16 @@ TEST_CASE("speed is taken from the encoder over one period, through the wrap of 
   CHECK(channel.speed_rad_per_s == Approx(200 * scale / 0.002f));
 }
 
+TEST_CASE("only a running channel drives: in every other state PWM is 0 at any speed and load") {
+  for (ecu_state state : {ECU_STATE_BOOT, ECU_STATE_IDLE, ECU_STATE_ARMED, ECU_STATE_FAULT}) {
+    ecu_channel channel = in_state(state);
+    for (std::int32_t n = 0; n < 20; ++n) {
+      CHECK(tick(channel, {n * 700, 500, 2000}) == 0);
+      CHECK(channel.state == state);
+    }
+  }
+}
+
 TEST_CASE("gains that overflow drive nothing") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   ecu_parameter(&channel, ECU_PARAMETER_FORCE_PREFILTER, 3e38f, false);

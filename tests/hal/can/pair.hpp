@@ -14,7 +14,8 @@ struct Pair {
   erp::RobotEcus ecus{robot, robotics.lent};
   erp::Gateway gateway{robot};
 
-  explicit Pair(int actuators = 5) : robot(robot_of(actuators)) {}
+  explicit Pair(int actuators = 5) : Pair(robot_of(actuators)) {}
+  explicit Pair(const erp::Robot& some) : robot(some) {}
 
   int hear(std::span<const erp::CanFrame> frames) {
     int ticks = 0;

@@ -38,18 +38,27 @@ TEST_CASE("a big-endian message means the same as a little-endian one") {
 
 TEST_CASE("every primitive keeps its extremes") {
   test::CdrWriter cdr;
-  cdr.put<std::uint8_t>(1).put<std::int8_t>(-128).put<std::uint8_t>(255).put<std::int16_t>(-32768)
-      .put<std::uint16_t>(65535).put<std::int32_t>(INT32_MIN).put<std::uint32_t>(UINT32_MAX)
-      .put<std::int64_t>(INT64_MIN).put<std::uint64_t>(UINT64_MAX).put<double>(5e-324);
+  cdr.put<std::uint8_t>(1)
+      .put<std::int8_t>(-128)
+      .put<std::uint8_t>(255)
+      .put<std::int16_t>(-32768)
+      .put<std::uint16_t>(65535)
+      .put<std::int32_t>(INT32_MIN)
+      .put<std::uint32_t>(UINT32_MAX)
+      .put<std::int64_t>(INT64_MIN)
+      .put<std::uint64_t>(UINT64_MAX)
+      .put<double>(5e-324);
   CHECK(decoded("bool a\nint8 b\nuint8 c\nint16 d\nuint16 e\nint32 f\nuint32 g\nint64 h\nuint64 i\n"
-                "float64 j\n", cdr.bytes) ==
+                "float64 j\n",
+                cdr.bytes) ==
         R"({"a":true,"b":-128,"c":255,"d":-32768,"e":65535,"f":-2147483648,"g":4294967295,)"
         R"("h":-9223372036854775808,"i":18446744073709551615,"j":5e-324})");
 }
 
 TEST_CASE("arrays have no length in front, sequences have one, structures nest in both") {
-  const std::string schema = "p/In[2] fixed\nIn[<=3] some\nfloat64[] many\n===\nMSG: p/In\nint8 x\n"
-                             "string<=4 s\n";
+  const std::string schema =
+      "p/In[2] fixed\nIn[<=3] some\nfloat64[] many\n===\nMSG: p/In\nint8 x\n"
+      "string<=4 s\n";
   test::CdrWriter cdr;
   for (const int x : {1, 2}) cdr.put<std::int8_t>(static_cast<std::int8_t>(x)).string("ab");
   cdr.put<std::uint32_t>(1).put<std::int8_t>(3).string("");
@@ -75,7 +84,8 @@ TEST_CASE("a message that does not fit its type is refused with the field and th
     what = "holds 3 elements, at most 2";
   }
   SECTION("a sequence longer than the message") {
-    schema = "float64[] x\n", cdr.put<std::uint32_t>(0xffff'ffff), what = "more than the message has room for";
+    schema = "float64[] x\n", cdr.put<std::uint32_t>(0xffff'ffff),
+    what = "more than the message has room for";
   }
   SECTION("a string longer than its bound") {
     schema = "string<=2 x\n", cdr.string("abc"), what = "longer than 2 characters";
@@ -88,10 +98,12 @@ TEST_CASE("a message that does not fit its type is refused with the field and th
   }
   SECTION("a bool of 2") { schema = "bool x\n", cdr.put<std::uint8_t>(2), what = "a bool of 2"; }
   SECTION("bytes too many") {
-    schema = "uint8 x\n", cdr.put<std::uint8_t>(2).put<std::uint64_t>(0), what = "bytes more than its type";
+    schema = "uint8 x\n", cdr.put<std::uint8_t>(2).put<std::uint64_t>(0),
+    what = "bytes more than its type";
   }
   SECTION("another encoding") {
-    schema = "uint8 x\n", cdr.put<std::uint8_t>(2), cdr.bytes[1] = std::byte{9}, what = "encoded as 9";
+    schema = "uint8 x\n", cdr.put<std::uint8_t>(2), cdr.bytes[1] = std::byte{9},
+    what = "encoded as 9";
   }
   SECTION("nothing") { schema = "uint8 x\n", cdr.bytes.clear(), what = "encapsulation"; }
   CHECK_THROWS_WITH(decoded(schema, cdr.bytes), Catch::Contains(what));
@@ -99,7 +111,8 @@ TEST_CASE("a message that does not fit its type is refused with the field and th
 
 TEST_CASE("any bytes at all are decoded or refused, never more") {
   const TypeDescription type = type_of(
-      "string name\nIn[] list\nuint8[] raw\nfloat64[3] xyz\n===\nMSG: p/In\nstring<=8 s\nbool[] b\n");
+      "string name\nIn[] list\nuint8[] raw\nfloat64[3] xyz\n===\nMSG: p/In\nstring<=8 s\nbool[] "
+      "b\n");
   std::mt19937 random(5);
   for (int round = 0; round < 20000; ++round) {
     Bytes bytes(random() % 80);

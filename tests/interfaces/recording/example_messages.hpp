@@ -28,7 +28,9 @@ M references(std::uint64_t n) {
   return m;
 }
 
-inline void fill(erp::ActuatorTarget& m, std::uint64_t n) { m = references<erp::ActuatorTarget>(n); }
+inline void fill(erp::ActuatorTarget& m, std::uint64_t n) {
+  m = references<erp::ActuatorTarget>(n);
+}
 inline void fill(erp::ActuatorCommand& m, std::uint64_t n) {
   m = references<erp::ActuatorCommand>(n);
   m.priority = -3;
@@ -39,7 +41,8 @@ inline void fill(erp::SensorFrame& m, std::uint64_t n) {
   erp::ActuatorSample a{};
   erp::assign(a.name, "flexor");
   a.valid = 31, a.ecu_state = 3, a.ecu_fault = 2, a.mode = 4, a.reference = 40.5 + x;
-  a.voltage_V = 1.25, a.current_A = -0.3, a.shaft_rad = 1.0 / 3, a.line_m = -2e-3, a.tension_N = 39.9 + x;
+  a.voltage_V = 1.25, a.current_A = -0.3, a.shaft_rad = 1.0 / 3, a.line_m = -2e-3,
+  a.tension_N = 39.9 + x;
   erp::append(m.actuators, a);
   erp::assign(a.name, "a_name_of_thirty_two_characters_");
   a.valid = 16, a.mode = 0, a.tension_N = 5e-324;
@@ -55,7 +58,8 @@ inline void fill(erp::EcuCommand& m, std::uint64_t n) {
 }
 inline void fill(erp::EcuFrame& m, std::uint64_t n) {
   head(m, n);
-  erp::append(m.channels, erp::EcuChannelSample{1, 0, true, 3, 4, 5, -600000, 700000, -1023, -2048, 4095});
+  erp::append(m.channels,
+              erp::EcuChannelSample{1, 0, true, 3, 4, 5, -600000, 700000, -1023, -2048, 4095});
   erp::append(m.channels, erp::EcuChannelSample{2, 1, false, 1, 0, 2, 9, 8, 7, 6, 5});
   erp::append(m.analogs, erp::EcuAnalogSample{1, 3, true, -8191});
 }
@@ -63,7 +67,7 @@ inline void fill(erp::EcuParameter& m, std::uint64_t n) {
   head(m, n);
   for (int i = 0; i < 200; ++i)
     erp::append(m.values, erp::EcuParameterValue{1, 0, static_cast<std::uint8_t>(i), i % 2 == 0,
-                                                 0.1f * static_cast<float>(i)});
+                                                 0.125f * static_cast<float>(i)});
 }
 inline void fill(erp::GainCommand& m, std::uint64_t n) {
   head(m, n);
@@ -103,7 +107,8 @@ inline void fill(erp::ActuatorOwner& m, std::uint64_t n) {
 inline void fill(erp::ComponentState& m, std::uint64_t n) {
   head(m, n);
   erp::assign(m.component, "plant"), erp::assign(m.note, "fine");
-  m.pid = 4711, m.lifecycle = 2, m.peers = 3, m.links = 8, m.steps = 1'000'000'000'000, m.rate_Hz = 499.5;
+  m.pid = 4711, m.lifecycle = 2, m.peers = 3, m.links = 8, m.steps = 1'000'000'000'000,
+  m.rate_Hz = 499.5;
   m.overruns = 1, m.missed = 2;
   for (std::uint32_t i = 0; i < 24; ++i) m.age_bins[i] = i, m.jitter_bins[i] = 100 + i;
 }

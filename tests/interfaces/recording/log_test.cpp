@@ -38,12 +38,19 @@ void record_rig(const std::string& path) {
     const double pull = wanted * (t < 1 ? 1 - std::exp(-t / 0.1) : 1) + 0.2 * std::sin(300 * t);
     const auto stamp = static_cast<std::int64_t>(i) * 2'000'000;
     number = static_cast<std::uint32_t>(i);
-    const auto bytes = test::frame(stamp, number,
+    const auto bytes = test::frame(
+        stamp, number,
         {{.name = "flexor", .reference = wanted, .line_m = -0.002 * pull / 10, .tension_N = pull},
-         {.name = "extensor", .mode = 2, .reference = 0.001, .line_m = 0.001 + 1e-5 * std::sin(40 * t), .tension_N = 12 - 0.1 * pull}},
+         {.name = "extensor",
+          .mode = 2,
+          .reference = 0.001,
+          .line_m = 0.001 + 1e-5 * std::sin(40 * t),
+          .tension_N = 12 - 0.1 * pull}},
         {{.name = "elbow", .angle_rad = 0.02 * pull}});
-    file.writer.write(file.frames, number, static_cast<std::uint64_t>(stamp), static_cast<std::uint64_t>(stamp), bytes);
-    file.write(file.joints, static_cast<std::uint64_t>(stamp), test::ball(stamp, "shoulder", std::cos(0.3 * t / 2)));
+    file.writer.write(file.frames, number, static_cast<std::uint64_t>(stamp),
+                      static_cast<std::uint64_t>(stamp), bytes);
+    file.write(file.joints, static_cast<std::uint64_t>(stamp),
+               test::ball(stamp, "shoulder", std::cos(0.3 * t / 2)));
   }
 }
 
@@ -55,7 +62,9 @@ TEST_CASE("info says how long, what, how often, what is missing and what is atta
   std::ostringstream out;
   CHECK(log_info(folder / "a.mcap", out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("a.mcap: complete, 3.998 s, 3998 messages in "));
-  CHECK_THAT(out.str(), Catch::Matches("(.|\n)*sensor_frame +erp/msg/SensorFrame +1999 +499\\.7 Hz +1 +0 +1\n(.|\n)*"));
+  CHECK_THAT(out.str(),
+             Catch::Matches(
+                 "(.|\n)*sensor_frame +erp/msg/SensorFrame +1999 +499\\.7 Hz +1 +0 +1\n(.|\n)*"));
   CHECK_THAT(out.str(), Catch::Contains("robot.xml   text/xml    19 B"));
 }
 
@@ -68,7 +77,8 @@ TEST_CASE("info on a recording that was cut off says where and how to mend it") 
   CHECK(log_info(folder / "cut.mcap", out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("cut off") && Catch::Contains("erp log recover"));
   CHECK(log_recover(folder / "cut.mcap", folder / "whole.mcap", said) == 0);
-  CHECK_THAT(said.str(), Catch::Contains("the file ends inside") && Catch::Contains("1 attachments"));
+  CHECK_THAT(said.str(),
+             Catch::Contains("the file ends inside") && Catch::Contains("1 attachments"));
   CHECK(recording::McapReader(folder / "whole.mcap").complete());
 }
 
@@ -85,8 +95,9 @@ TEST_CASE("export gives the table, or any topic by its name; the same recording 
   CHECK(log_export(folder / "a.csv", again) == 0);
   CHECK(again.str() == first.str());
   CHECK(log_export(folder / "a.mcap", topic, {.topic = "joint_state"}) == 0);
-  CHECK(topic.str().starts_with(
-      "log_time_ns,robot,source,stamp_ns,sequence,joints.shoulder.dof,joints.shoulder.position[0],"));
+  CHECK(
+      topic.str().starts_with("log_time_ns,robot,source,stamp_ns,sequence,joints.shoulder.dof,"
+                              "joints.shoulder.position[0],"));
   CHECK_THAT(topic.str(), Catch::Contains("\n2000000,rig,sim,2000000,0,3,0.9999"));
 }
 
@@ -114,10 +125,12 @@ TEST_CASE("plot draws an SVG and a PNG with a panel a signal") {
   record_rig(folder / "a.mcap");
   REQUIRE(log_plot(folder / "a.mcap", folder / "a.svg") == 0);
   const std::string svg = test::read_file(folder / "a.svg");
-  for (const char* word : {"tension  [N]", "line length  [mm]", "joint angle  [°]", "joint rotation  [°]",
-                           "flexor", "elbow", "asked for", "time  [s]", "a.mcap"})
+  for (const char* word :
+       {"tension  [N]", "line length  [mm]", "joint angle  [°]", "joint rotation  [°]", "flexor",
+        "elbow", "asked for", "time  [s]", "a.mcap"})
     CHECK_THAT(svg, Catch::Contains(word));
-  REQUIRE(log_plot(folder / "a.mcap", folder / "a.png", {.title = "The rig's \"first\" light"}) == 0);
+  REQUIRE(log_plot(folder / "a.mcap", folder / "a.png", {.title = "The rig's \"first\" light"}) ==
+          0);
   CHECK(test::read_file(folder / "a.png").starts_with("\x89PNG"));
   CHECK_FALSE(std::filesystem::exists(folder / "a.png.part"));
 }
@@ -143,7 +156,8 @@ TEST_CASE("without gnuplot, plot says what to install and leaves nothing behind"
   CHECK_FALSE(std::filesystem::exists(folder / "a.svg.part"));
 }
 
-TEST_CASE("a long curve is thinned without losing its peaks, and broken where nothing was measured") {
+TEST_CASE(
+    "a long curve is thinned without losing its peaks, and broken where nothing was measured") {
   recording::Table table{{{"time_s", {}}, {"m.tension_N", {}}}};
   for (int i = 0; i < 100000; ++i) {
     table.columns[0].values.push_back(i * 0.001);

@@ -10,12 +10,6 @@ using namespace recording;
 
 namespace {
 
-std::vector<std::string> texts(const McapReader& reader) {
-  std::vector<std::string> found;
-  reader.for_each([&](const Message& message) { found.emplace_back(text(message.data)); });
-  return found;
-}
-
 /// A file of records made by hand, as another program might write them.
 struct HandMade {
   Bytes bytes;
@@ -95,7 +89,7 @@ TEST_CASE("messages outside of chunks and definitions inside of them are read to
   file.chunk(inside);
   file.save(folder / "a.mcap");
   const McapReader reader(folder / "a.mcap");
-  CHECK(texts(reader) == std::vector<std::string>{"loose early", "in a chunk", "loose late"});
+  CHECK(test::texts(reader) == std::vector<std::string>{"loose early", "in a chunk", "loose late"});
   CHECK(reader.channels().at(2).topic == "inner");
 }
 
@@ -124,7 +118,8 @@ TEST_CASE("a file that is none, empty or a folder is refused with its name") {
   const test::Folder folder;
   test::write_file(folder / "text", "time_s,flexor.mode\n");
   test::write_file(folder / "empty", "");
-  CHECK_THROWS_WITH(McapReader(folder / "text"), Catch::Contains("byte 0: this is not an MCAP file"));
+  CHECK_THROWS_WITH(McapReader(folder / "text"),
+                    Catch::Contains("byte 0: this is not an MCAP file"));
   CHECK_THROWS_WITH(McapReader(folder / "empty"), Catch::Contains("this is not an MCAP file"));
   CHECK_THROWS_WITH(McapReader(folder / "missing"), Catch::Contains("No such file"));
   CHECK_THROWS_WITH(McapReader(folder / "."), Catch::Contains("is not a file"));
@@ -151,7 +146,8 @@ TEST_CASE("damage is refused with the byte where it is and what to do") {
     what = "says it holds 1152921504606846976 bytes";
   }
   SECTION("a compressed chunk that lies about its size") {
-    file.chunk(compress_zstd(view("abc")), {.uncompressed_bytes = std::uint64_t{1} << 60, .compression = "zstd"});
+    file.chunk(compress_zstd(view("abc")),
+               {.uncompressed_bytes = std::uint64_t{1} << 60, .compression = "zstd"});
     what = "at most 268435456 are accepted";
   }
   SECTION("a zstd frame of another size") {
@@ -212,143 +208,7 @@ TEST_CASE("damage is refused with the byte where it is and what to do") {
     what = "kind 0";
   }
   file.save(path);
-  CHECK_THROWS_WITH(McapReader(path), Catch::StartsWith(path + ": byte ") && Catch::Contains(what) &&
+  CHECK_THROWS_WITH(McapReader(path), Catch::StartsWith(path + ": byte ") &&
+                                          Catch::Contains(what) &&
                                           Catch::Contains("erp log recover " + path));
-}
-
-TEST_CASE("a changed byte anywhere in a whole recording is noticed or harmless") {
-  const test::Folder folder;
-  const std::string good = test::small_recording(folder / "good.mcap", {.chunk_bytes = 100}, 6);
-  const auto expected = texts(McapReader(folder / "good.mcap"));
-  int noticed = 0;
-  for (std::size_t i = 0; i < good.size(); ++i) {
-    std::string bad = good;
-    bad[i] = static_cast<char>(bad[i] ^ 0x41);
-    test::write_file(folder / "bad.mcap", bad);
-    try {
-      const McapReader reader(folder / "bad.mcap");
-      if (reader.complete()) CHECK(texts(reader) == expected);
-      else ++noticed;
-    } catch (const RecordingError&) {
-      ++noticed;
-    }
-  }
-  // The footer's last numbers and kinds that nobody needs may change unnoticed; no data byte may.
-  CHECK(noticed > static_cast<int>(good.size()) - 40);
-}
-
-TEST_CASE("cut at any byte, a recording gives the messages of its whole chunks and can be mended") {
-  const test::Folder folder;
-  const auto compression = GENERATE(Compression::none, Compression::zstd);
-  const std::string whole = test::small_recording(
-      folder / "whole.mcap", {.compression = compression, .chunk_bytes = 100}, 10);
-  const McapReader all(folder / "whole.mcap");
-  const auto expected = texts(all);
-  for (std::size_t size = 1; size < whole.size(); ++size) {
-    test::write_file(folder / "cut.mcap", whole.substr(0, size));
-    std::size_t in_whole_chunks = 0;
-    for (const Region& region : all.contents().regions)
-      if (region.offset + region.length <= size) in_whole_chunks += region.messages;
-    const McapReader reader(folder / "cut.mcap");
-    const auto found = texts(reader);
-    CHECK_FALSE(reader.complete());
-    CHECK(reader.truncation().find("cut.mcap: byte ") != std::string::npos);
-    CHECK(found.size() == in_whole_chunks);
-    CHECK(std::equal(found.begin(), found.end(), expected.begin()));
-
-    const Recovered recovered = recover(folder / "cut.mcap", folder / "mended.mcap");
-    const McapReader mended(folder / "mended.mcap");
-    const auto saved = texts(mended);
-    CHECK(mended.complete());
-    CHECK(saved.size() == recovered.messages);
-    CHECK(saved.size() >= in_whole_chunks);
-    CHECK(std::equal(saved.begin(), saved.end(), expected.begin()));
-    std::filesystem::remove(folder / "mended.mcap");
-  }
-}
-
-TEST_CASE("recover takes the messages at the start of a chunk that was cut") {
-  const test::Folder folder;
-  const std::string whole =
-      test::small_recording(folder / "a.mcap", {.compression = Compression::none}, 10);
-  const Region chunk = McapReader(folder / "a.mcap").contents().regions.at(0);
-  test::write_file(folder / "cut.mcap", whole.substr(0, chunk.offset + chunk.length - 5));
-  CHECK(McapReader(folder / "cut.mcap").contents().messages == 0);
-  CHECK(recover(folder / "cut.mcap", folder / "mended.mcap").messages == 9);
-}
-
-TEST_CASE("recover steps over a damaged chunk and keeps the rest, attachment and numbers included") {
-  const test::Folder folder;
-  std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 100}, 12);
-  const McapReader good(folder / "a.mcap");
-  const Region second = good.contents().regions.at(1);
-  bytes[second.offset + second.length - 3] ^= 0x55;
-  test::write_file(folder / "bad.mcap", bytes);
-  CHECK_THROWS_AS(McapReader(folder / "bad.mcap"), RecordingError);
-  const Recovered recovered = recover(folder / "bad.mcap", folder / "mended.mcap");
-  CHECK(recovered.messages == 12 - second.messages);
-  CHECK(recovered.attachments == 1);
-  CHECK(recovered.problems.size() == 2);  // the chunk, and the checksum over all data
-  const McapReader mended(folder / "mended.mcap");
-  CHECK(mended.complete());
-  CHECK(mended.channels() == good.channels());
-  CHECK(mended.schemas() == good.schemas());
-}
-
-TEST_CASE("recover finds its way again after a wrong length, and lost definitions in the summary") {
-  const test::Folder folder;
-  std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 100}, 12);
-  const std::size_t attachment = bytes.find("robot.xml") - 4 - 16 - 9;
-  REQUIRE(bytes[attachment] == 9);
-  const auto victim = GENERATE(0, 1, 2);
-  if (victim == 0) bytes[attachment + 3] = 0x7f;               // the attachment's length
-  if (victim == 1) bytes[bytes.find("first") - 10] = 0x7f;     // the channel's length
-  if (victim == 2) bytes[bytes.find("std_msgs") - 3] = 0x7f;   // the schema's name's length
-  test::write_file(folder / "bad.mcap", bytes);
-  const Recovered recovered = recover(folder / "bad.mcap", folder / "mended.mcap");
-  CHECK(recovered.messages == 12);
-  CHECK_FALSE(recovered.problems.empty());
-}
-
-TEST_CASE("recover does not write over a file, its own input least of all") {
-  const test::Folder folder;
-  const std::string bytes = test::small_recording(folder / "a.mcap", {}, 3);
-  CHECK_THROWS_WITH(recover(folder / "a.mcap", folder / "a.mcap"),
-                    Catch::Contains("there is a file already"));
-  CHECK(test::read_file(folder / "a.mcap") == bytes);
-}
-
-TEST_CASE("random damage never crashes the reader nor recover") {
-  const test::Folder folder;
-  const auto compression = GENERATE(Compression::none, Compression::zstd);
-  const std::string good = test::small_recording(
-      folder / "good.mcap", {.compression = compression, .chunk_bytes = 150}, 12);
-  std::mt19937 random(20240229);
-  const auto below = [&](std::size_t n) { return random() % n; };
-  for (int round = 0; round < 1500; ++round) {
-    std::string bad = good;
-    for (std::size_t hit = 0; hit <= below(6); ++hit) {
-      const std::size_t at = below(bad.size());
-      switch (below(4)) {
-        case 0: bad[at] = static_cast<char>(random()); break;
-        case 1: bad.erase(at, below(40)); break;
-        case 2: bad.insert(at, good.substr(below(good.size()), below(60))); break;
-        default: std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(at),
-                             std::min<std::size_t>(8, bad.size() - at), '\xff');
-      }
-      if (bad.empty()) bad = "x";
-    }
-    test::write_file(folder / "bad.mcap", bad);
-    try {
-      texts(McapReader(folder / "bad.mcap"));
-    } catch (const RecordingError&) {
-    }
-    try {
-      recover(folder / "bad.mcap", folder / "mended.mcap");
-      CHECK(McapReader(folder / "mended.mcap").complete());
-    } catch (const RecordingError& error) {
-      CHECK_THAT(error.what(), Catch::Contains("not an MCAP file"));
-    }
-    std::filesystem::remove(folder / "mended.mcap");
-  }
 }

@@ -58,13 +58,13 @@ TEST_CASE("a recording starts and ends with MCAP's eight bytes and a header with
 
 TEST_CASE("the records stand in the order that the format asks for") {
   const test::Folder folder;
-  const std::string bytes =
-      test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 3);
+  const std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 3);
   std::vector<int> kinds;
   for (const auto& [kind, at] : records(bytes)) kinds.push_back(kind);
-  const std::vector<int> expected{1, 9, 3, 4, 4,          // header, attachment, schema, channels
-                                  6, 7, 7, 6, 7, 15,      // two chunks with indexes, end of data
-                                  3, 4, 4, 11, 8, 8, 10,  // summary: … statistics, chunks, attachment
+  const std::vector<int> expected{1,  9,  3,  4,  4,       // header, attachment, schema, channels
+                                  6,  7,  7,  6,  7,  15,  // two chunks with indexes, end of data
+                                  3,  4,  4,  11, 8,  8,
+                                  10,  // summary: … statistics, chunks, attachment
                                   14, 14, 14, 14, 14, 2};
   CHECK(kinds == expected);
 }
@@ -117,6 +117,16 @@ TEST_CASE("a chunk spans at most a second of log time") {
   CHECK(reader.contents().chunks == 4);
 }
 
+TEST_CASE("two clocks in one recording do not make a chunk of every message") {
+  const test::Folder folder;
+  McapWriter writer(folder / "a.mcap");
+  const auto channel = writer.add_channel("t", "cdr", 0);
+  for (std::uint64_t i = 0; i < 100; ++i)
+    writer.write(channel, 0, i * 1'000'000 + (i % 2) * 1'700'000'000'000'000'000, 0, view("x"));
+  writer.close();
+  CHECK(McapReader(folder / "a.mcap").contents().chunks == 1);
+}
+
 TEST_CASE("a flushed message is in the file although the recording was never closed") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
@@ -139,7 +149,8 @@ TEST_CASE("a full disk is reported with the file's name and the system's reason"
                     Catch::Contains("/dev/full: cannot write: No space left on device"));
 }
 
-TEST_CASE("a write that fails half-way is taken back, said once more, and loses nothing before it") {
+TEST_CASE(
+    "a write that fails half-way is taken back, said once more, and loses nothing before it") {
   const test::Folder folder;
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);

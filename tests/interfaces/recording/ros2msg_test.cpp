@@ -6,24 +6,41 @@ using namespace recording;
 
 TEST_CASE("a type written as ros2msg text reads back as the same type") {
   TypeDescription type;
-  type.structures.push_back({"erp/msg/Frame", {
-      {.name = "robot", .kind = Kind::string, .string_bound = 32},
-      {.name = "stamp_ns", .kind = Kind::int64, .unit = "ns"},
-      {.name = "samples", .kind = Kind::structure, .structure = 1, .count = Count::sequence, .size = 64},
-      {.name = "q", .kind = Kind::float64, .count = Count::array, .size = 4},
-      {.name = "names", .kind = Kind::string, .count = Count::sequence, .string_bound = 8},
-      {.name = "ok", .kind = Kind::boolean}}});
-  type.structures.push_back({"erp/msg/Sample", {{.name = "tension_N", .kind = Kind::float32, .unit = "N"}}});
+  type.structures.push_back(
+      {"erp/msg/Frame",
+       {{.name = "robot", .kind = Kind::string, .string_bound = 32},
+        {.name = "stamp_ns", .kind = Kind::int64, .unit = "ns"},
+        {.name = "samples",
+         .kind = Kind::structure,
+         .structure = 1,
+         .count = Count::sequence,
+         .size = 64},
+        {.name = "q", .kind = Kind::float64, .count = Count::array, .size = 4},
+        {.name = "names", .kind = Kind::string, .count = Count::sequence, .string_bound = 8},
+        {.name = "ok", .kind = Kind::boolean},
+        {.name = "v", .kind = Kind::int8},
+        {.name = "V", .kind = Kind::int8},
+        {.name = "_Odd__Name_", .kind = Kind::int8}}});
+  type.structures.push_back(
+      {"erp/msg/Sample", {{.name = "tension_N", .kind = Kind::float32, .unit = "N"}}});
   const std::string text = ros2msg_text(type);
-  CHECK(text == "string<=32 robot\nint64 stamp_ns  # ns\nerp/Sample[<=64] samples\nfloat64[4] q\n"
-                "string<=8[] names\nbool ok\n" + std::string(80, '=') +
-                "\nMSG: erp/Sample\nfloat32 tension_N  # N\n");
-  CHECK(ros2msg_text(parse_ros2msg("erp/msg/Frame", text)) == text);
+  CHECK(text ==
+        "string<=32 robot\nint64 stamp_ns  # [ns]\nerp/Sample[<=64] samples\nfloat64[4] q\n"
+        "string<=8[] names\nbool ok\nint8 v\nint8 v2  # V\nint8 odd_name  # _Odd__Name_\n" +
+            std::string(80, '=') + "\nMSG: erp/Sample\nfloat32 tension_n  # tension_N [N]\n");
+  const TypeDescription back = parse_ros2msg("erp/msg/Frame", text);
+  CHECK(ros2msg_text(back) == text);
+  for (std::size_t s = 0; s < 2; ++s)
+    for (std::size_t i = 0; i < type.structures[s].fields.size(); ++i) {
+      CHECK(back.structures[s].fields[i].name == type.structures[s].fields[i].name);
+      CHECK(back.structures[s].fields[i].unit == type.structures[s].fields[i].unit);
+    }
   CHECK(parse_ros2msg("erp/msg/Frame", text).name() == "erp/msg/Frame");
 }
 
 TEST_CASE("constants, defaults, comments and short names of a person's message are understood") {
-  const TypeDescription type = parse_ros2msg("a/B",
+  const TypeDescription type = parse_ros2msg(
+      "a/B",
       "# a message\nint32 LIMIT=5\nstring NAME = \"x\"\n  int32 n 7 # with a default\r\nbyte raw\n"
       "Inner one\nb/msg/Other two\n\n====\nMSG: a/Inner\nchar c\n====\nMSG: b/Other\nbool x\n");
   REQUIRE(type.root().fields.size() == 4);
@@ -34,9 +51,20 @@ TEST_CASE("constants, defaults, comments and short names of a person's message a
   CHECK(type.structures[type.root().fields[3].structure].name == "b/msg/Other");
 }
 
+TEST_CASE("a person's comment does not rename a field") {
+  const auto field = [](const std::string& line) {
+    return parse_ros2msg("a/msg/B", line).root().fields[0];
+  };
+  CHECK(field("float64 x # height\n").name == "x");
+  CHECK(field("float64 x # X is the height\n").name == "x");
+  CHECK(field("float64 x # in [m] or so\n").unit.empty());
+  CHECK(field("float64 x # [m]\n").unit == "m");
+}
+
 TEST_CASE("a schema that describes nothing is refused with its name, line and value") {
   const auto refused = [](const std::string& text, const std::string& what) {
-    CHECK_THROWS_WITH(parse_ros2msg("a/msg/B", text), Catch::Contains("a/msg/B") && Catch::Contains(what));
+    CHECK_THROWS_WITH(parse_ros2msg("a/msg/B", text),
+                      Catch::Contains("a/msg/B") && Catch::Contains(what));
   };
   refused("bool ok\nMissing x\n", ":2: unknown type \"Missing\"");
   refused("float64\n", ":1: \"float64\" is not");

@@ -5,7 +5,9 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
+#include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/mcap_writer.hpp"
 
 /// What the recording tests share: a folder of their own, whole files, small recordings.
@@ -54,6 +56,15 @@ inline std::string small_recording(const std::string& path, recording::McapOptio
   }
   writer.close();
   return read_file(path);
+}
+
+/// The messages of a recording as text, in the order in which they are read.
+inline std::vector<std::string> texts(const recording::McapReader& reader) {
+  std::vector<std::string> found;
+  reader.for_each([&](const recording::Message& message) {
+    found.emplace_back(recording::text(message.data));
+  });
+  return found;
 }
 
 }  // namespace test

@@ -30,13 +30,29 @@ TEST_CASE("a sensor frame becomes a row; what was not measured is an empty cell"
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
-    file.write(file.frames, 50, test::frame(5'000'000'000, 0,
-        {{.name = "flexor", .reference = 40, .voltage_V = 1.5, .current_A = 0.2, .shaft_rad = 0.1, .line_m = -1, .tension_N = 39.5}},
-        {{.name = "elbow", .angle_rad = 0.25}}));
-    file.write(file.frames, 60, test::frame(5'002'000'000, 1,
-        {{.name = "flexor", .valid = 17, .mode = 1, .reference = -2, .voltage_V = -2, .current_A = 9, .tension_N = 0.1}},
-        {{.name = "elbow", .valid = 0, .angle_rad = 9}}));
-    file.write(file.frames, 70, test::frame(5'004'000'000, 2, {{.name = "flexor", .valid = 0, .mode = 0, .reference = 7}}, {}));
+    file.write(file.frames, 50,
+               test::frame(5'000'000'000, 0,
+                           {{.name = "flexor",
+                             .reference = 40,
+                             .voltage_V = 1.5,
+                             .current_A = 0.2,
+                             .shaft_rad = 0.1,
+                             .line_m = -1,
+                             .tension_N = 39.5}},
+                           {{.name = "elbow", .angle_rad = 0.25}}));
+    file.write(file.frames, 60,
+               test::frame(5'002'000'000, 1,
+                           {{.name = "flexor",
+                             .valid = 17,
+                             .mode = 1,
+                             .reference = -2,
+                             .voltage_V = -2,
+                             .current_A = 9,
+                             .tension_N = 0.1}},
+                           {{.name = "elbow", .valid = 0, .angle_rad = 9}}));
+    file.write(file.frames, 70,
+               test::frame(5'004'000'000, 2,
+                           {{.name = "flexor", .valid = 0, .mode = 0, .reference = 7}}, {}));
   }
   CHECK(csv_of(folder / "a.mcap") ==
         "time_s,flexor.mode,flexor.reference,flexor.voltage_V,flexor.current_A,flexor.shaft_rad,"
@@ -62,14 +78,17 @@ TEST_CASE("an actuator that appears late has empty cells before") {
   {
     test::RigFile file(folder / "a.mcap");
     file.write(file.frames, 1, test::frame(0, 0, {}, {{.name = "j", .angle_rad = 1}}));
-    file.write(file.frames, 2, test::frame(1'000'000'000, 1, {{.name = "m", .mode = 4, .reference = 2}}, {}));
+    file.write(file.frames, 2,
+               test::frame(1'000'000'000, 1, {{.name = "m", .mode = 4, .reference = 2}}, {}));
   }
   CHECK(csv_of(folder / "a.mcap") ==
         "time_s,m.mode,m.reference,m.voltage_V,m.current_A,m.shaft_rad,m.tension_N,j.angle_rad\n"
         "0,,,,,,,1\n1,force,2,0,0,0,0,\n");
 }
 
-TEST_CASE("a spherical joint comes from joint_state, each of its samples once, never for a joint that is measured") {
+TEST_CASE(
+    "a spherical joint comes from joint_state, each of its samples once, never for a joint that is "
+    "measured") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -105,7 +124,8 @@ TEST_CASE("targets stand in the row they answer; actuator_target before commands
   {
     test::RigFile file(folder / "a.mcap");
     for (std::uint64_t i = 0; i < 4; ++i)
-      file.write(file.frames, 10 * i, test::frame(static_cast<std::int64_t>(i), i, {{.name = "m"}}, {}));
+      file.write(file.frames, 10 * i,
+                 test::frame(static_cast<std::int64_t>(i), i, {{.name = "m"}}, {}));
     file.write(file.commands, 5, test::target(1, "m", 1, 9.0, true, 100));
     file.write(file.targets, 6, test::target(1, "m", 4, 20.0));
     file.write(file.commands, 7, test::target(2, "m", 4, 5.0, true, 3));
@@ -130,20 +150,31 @@ TEST_CASE("two robots in one recording need a name, a recording without frames s
     file.write(file.frames, 1, test::frame(0, 0, {}, {{.name = "j", .angle_rad = 1}}, "left"));
     file.write(file.frames, 1, test::frame(0, 0, {}, {{.name = "j", .angle_rad = 2}}, "right"));
   }
-  CHECK_THROWS_WITH(read_table(folder / "a.mcap"), Catch::Contains("holds the robots left and right"));
+  CHECK_THROWS_WITH(read_table(folder / "a.mcap"),
+                    Catch::Contains("holds the robots left and right"));
   CHECK(read_table(folder / "a.mcap", {.robot = "right"}).find("j.angle_rad")->values ==
         std::vector<double>{2});
   CHECK_THROWS_WITH(read_table(folder / "a.mcap", {.robot = "up"}),
                     Catch::Contains("no sensor_frame of robot \"up\""));
   { test::RigFile empty(folder / "empty.mcap"); }
-  CHECK_THROWS_WITH(read_table(folder / "empty.mcap"), Catch::Contains("no sensor_frame; see what"));
+  CHECK_THROWS_WITH(read_table(folder / "empty.mcap"),
+                    Catch::Contains("no sensor_frame; see what"));
 }
 
 TEST_CASE("a table written as CSV reads back bit-equal and writes the same bytes again") {
   std::mt19937_64 random(11);
-  Table table{{{"time_s", {}}, {"m.mode", {}}, {"m.tension_N", {}}, {"odd, \"name\".angle_rad", {}}}};
-  const double special[] = {0.0, -0.0, 5e-324, 1e308, 0.1, 1.0 / 3, 123456789012345678.0, -1e-7,
-                            std::numeric_limits<double>::infinity(), not_taken};
+  Table table{
+      {{"time_s", {}}, {"m.mode", {}}, {"m.tension_N", {}}, {"odd, \"name\".angle_rad", {}}}};
+  const double special[] = {0.0,
+                            -0.0,
+                            5e-324,
+                            1e308,
+                            0.1,
+                            1.0 / 3,
+                            123456789012345678.0,
+                            -1e-7,
+                            std::numeric_limits<double>::infinity(),
+                            not_taken};
   for (int i = 0; i < 2000; ++i) {
     double x = std::bit_cast<double>(random());
     if (std::isnan(x)) x = not_taken;
@@ -160,16 +191,19 @@ TEST_CASE("a table written as CSV reads back bit-equal and writes the same bytes
     CHECK(back.columns[c].name == table.columns[c].name);
     for (std::size_t r = 0; r < table.rows(); ++r) {
       const double a = table.columns[c].values[r], b = back.columns[c].values[r];
-      if (std::isnan(a) ? !std::isnan(b) : std::bit_cast<std::uint64_t>(a) != std::bit_cast<std::uint64_t>(b))
+      if (std::isnan(a) ? !std::isnan(b)
+                        : std::bit_cast<std::uint64_t>(a) != std::bit_cast<std::uint64_t>(b))
         FAIL("column " << c << " row " << r << ": " << a << " became " << b);
     }
   }
   CHECK(csv_of(back) == text);
 }
 
-TEST_CASE("a foreign machine's CSV is read: its order, quotes, blanks, line ends, missing columns") {
+TEST_CASE(
+    "a foreign machine's CSV is read: its order, quotes, blanks, line ends, missing columns") {
   const Table table = parse_csv("t.csv",
-      "\xEF\xBB\xBF\"flexor.tension_N\" , time_s,flexor.mode\r\n 1e1,+0.0,force\r\n\r\n,0.5,\r\nnan,1,off\r\n");
+                                "\xEF\xBB\xBF\"flexor.tension_N\" , time_s,flexor.mode\r\n "
+                                "1e1,+0.0,force\r\n\r\n,0.5,\r\nnan,1,off\r\n");
   REQUIRE(table.columns.size() == 3);
   CHECK(table.columns[0].name == "time_s");
   CHECK(table.columns[1].name == "flexor.tension_N");
@@ -183,7 +217,8 @@ TEST_CASE("a foreign machine's CSV is read: its order, quotes, blanks, line ends
 
 TEST_CASE("a mistake in a CSV is refused with file, line, column, value and remedy") {
   const auto refused = [](const std::string& text, const std::string& what) {
-    CHECK_THROWS_WITH(parse_csv("t.csv", text), Catch::StartsWith("t.csv:") && Catch::Contains(what));
+    CHECK_THROWS_WITH(parse_csv("t.csv", text),
+                      Catch::StartsWith("t.csv:") && Catch::Contains(what));
   };
   refused("", ":1:1: there is no column time_s");
   refused("time_s;m.mode\n", "separate the columns with commas");

@@ -11,10 +11,13 @@
 namespace test {
 
 constexpr auto* frame_schema =
-    "string<=32 robot\nint64 stamp_ns  # ns\nuint64 sequence\nerp/ActuatorSample[<=64] actuators\n"
+    "string<=32 robot\nint64 stamp_ns  # [ns]\nuint64 sequence\nerp/ActuatorSample[<=64] "
+    "actuators\n"
     "erp/JointSample[<=128] joints\n===\nMSG: erp/ActuatorSample\nstring<=32 name\nuint8 valid\n"
-    "uint8 ecu_state\nuint8 ecu_fault\nuint8 mode\nfloat64 reference\nfloat64 voltage_V\n"
-    "float64 current_A\nfloat64 shaft_rad\nfloat64 line_m\nfloat64 tension_N\n===\n"
+    "uint8 ecu_state\nuint8 ecu_fault\nuint8 mode\nfloat64 reference\nfloat64 voltage_v  # "
+    "voltage_V [V]\n"
+    "float64 current_a  # current_A [A]\nfloat64 shaft_rad\nfloat64 line_m\nfloat64 tension_n  # "
+    "tension_N [N]\n===\n"
     "MSG: erp/JointSample\nstring<=32 name\nuint8 valid\nfloat64 angle_rad\n";
 constexpr auto* target_schema =
     "string<=32 robot\nstring<=32 controller\nint64 stamp_ns\nuint64 sequence\nuint64 answers\n"
@@ -38,12 +41,14 @@ struct JointRow {
 
 inline recording::Bytes frame(std::int64_t stamp_ns, std::uint64_t sequence,
                               const std::vector<ActuatorRow>& actuators,
-                              const std::vector<JointRow>& joints, const std::string& robot = "rig") {
+                              const std::vector<JointRow>& joints,
+                              const std::string& robot = "rig") {
   CdrWriter cdr;
   cdr.string(robot).put(stamp_ns).put(sequence).put(static_cast<std::uint32_t>(actuators.size()));
   for (const auto& a : actuators) {
     cdr.string(a.name).put(a.valid).put<std::uint8_t>(3).put<std::uint8_t>(0).put(a.mode);
-    for (const double x : {a.reference, a.voltage_V, a.current_A, a.shaft_rad, a.line_m, a.tension_N})
+    for (const double x :
+         {a.reference, a.voltage_V, a.current_A, a.shaft_rad, a.line_m, a.tension_N})
       cdr.put(x);
   }
   cdr.put(static_cast<std::uint32_t>(joints.size()));
@@ -51,8 +56,9 @@ inline recording::Bytes frame(std::int64_t stamp_ns, std::uint64_t sequence,
   return cdr.bytes;
 }
 
-inline recording::Bytes target(std::uint64_t answers, const std::string& actuator, std::uint8_t mode,
-                               double reference, bool command = false, std::int32_t priority = 0) {
+inline recording::Bytes target(std::uint64_t answers, const std::string& actuator,
+                               std::uint8_t mode, double reference, bool command = false,
+                               std::int32_t priority = 0) {
   CdrWriter cdr;
   cdr.string("rig").string("reference").put<std::int64_t>(0).put<std::uint64_t>(0).put(answers);
   if (command) cdr.put(priority);
@@ -76,10 +82,12 @@ struct RigFile {
       return writer.add_schema(name, "ros2msg", text);
     };
     frames = writer.add_channel("sensor_frame", "cdr", schema("erp/msg/SensorFrame", frame_schema));
-    targets = writer.add_channel("actuator_target", "cdr", schema("erp/msg/ActuatorTarget", target_schema));
+    targets = writer.add_channel("actuator_target", "cdr",
+                                 schema("erp/msg/ActuatorTarget", target_schema));
     std::string with_priority = target_schema;
     with_priority.insert(with_priority.find("erp/ActuatorReference"), "int32 priority\n");
-    commands = writer.add_channel("actuator_command", "cdr", schema("erp/msg/ActuatorCommand", with_priority));
+    commands = writer.add_channel("actuator_command", "cdr",
+                                  schema("erp/msg/ActuatorCommand", with_priority));
     joints = writer.add_channel("joint_state", "cdr", schema("erp/msg/JointState", joint_schema));
   }
   void write(std::uint16_t channel, std::uint64_t log_time_ns, const recording::Bytes& bytes) {

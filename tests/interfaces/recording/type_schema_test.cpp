@@ -47,15 +47,20 @@ Decoded example(std::uint64_t n = 3) {
 
 }  // namespace
 
-TEST_CASE("the sensor frame's schema has our names, units and bounds") {
-  CHECK(ros2msg_text(node::describe(erp_SensorFrame_desc)) ==
-        "string<=32 robot\nint64 stamp_ns  # ns\nuint64 sequence\n"
-        "erp/ActuatorSample[<=64] actuators\nerp/JointSample[<=128] joints\n" + std::string(80, '=') +
-        "\nMSG: erp/ActuatorSample\nstring<=32 name\nuint8 valid\nuint8 ecu_state\nuint8 ecu_fault\n"
-        "uint8 mode\nfloat64 reference\nfloat64 voltage_V  # V\nfloat64 current_A  # A\n"
-        "float64 shaft_rad  # rad\nfloat64 line_m  # m\nfloat64 tension_N  # N\n" +
-        std::string(80, '=') + "\nMSG: erp/JointSample\nstring<=32 name\nuint8 valid\n"
-        "float64 angle_rad  # rad\n");
+TEST_CASE("the sensor frame's schema has our names, units and bounds, spelled as ROS 2 asks") {
+  CHECK(
+      ros2msg_text(node::describe(erp_SensorFrame_desc)) ==
+      "string<=32 robot\nint64 stamp_ns  # [ns]\nuint64 sequence\n"
+      "erp/ActuatorSample[<=64] actuators\nerp/JointSample[<=128] joints\n" +
+          std::string(80, '=') +
+          "\nMSG: erp/ActuatorSample\nstring<=32 name\nuint8 valid\nuint8 ecu_state\nuint8 "
+          "ecu_fault\n"
+          "uint8 mode\nfloat64 reference\nfloat64 voltage_v  # voltage_V [V]\n"
+          "float64 current_a  # current_A [A]\nfloat64 shaft_rad  # [rad]\nfloat64 line_m  # [m]\n"
+          "float64 tension_n  # tension_N [N]\n" +
+          std::string(80, '=') +
+          "\nMSG: erp/JointSample\nstring<=32 name\nuint8 valid\n"
+          "float64 angle_rad  # [rad]\n");
   CHECK(node::describe(erp_SensorFrame_desc).name() == "erp/msg/SensorFrame");
 }
 
@@ -77,20 +82,24 @@ TEST_CASE("every topic's message decodes to the very struct that was written") {
   CHECK(example<erp::ActuatorTarget>()["actuators"] == command["actuators"]);
   CHECK(example<erp::EcuCommand>()["channels"] ==
         R"([{"ecu":1,"channel":2,"request":3,"setpoint":-400000}])");
-  CHECK(example<erp::EcuFrame>()["channels"] ==
-        R"([{"ecu":1,"channel":0,"fresh":true,"state":3,"fault":4,"request":5,"setpoint":-600000,)"
-        R"("encoder_counts":700000,"duty_counts":-1023,"current_counts":-2048,"tension_counts":4095},)"
-        R"({"ecu":2,"channel":1,"fresh":false,"state":1,"fault":0,"request":2,"setpoint":9,)"
-        R"("encoder_counts":8,"duty_counts":7,"current_counts":6,"tension_counts":5}])");
-  CHECK(example<erp::EcuFrame>()["analogs"] == R"([{"ecu":1,"input":3,"fresh":true,"counts":-8191}])");
+  CHECK(
+      example<erp::EcuFrame>()["channels"] ==
+      R"([{"ecu":1,"channel":0,"fresh":true,"state":3,"fault":4,"request":5,"setpoint":-600000,)"
+      R"("encoder_counts":700000,"duty_counts":-1023,"current_counts":-2048,"tension_counts":4095},)"
+      R"({"ecu":2,"channel":1,"fresh":false,"state":1,"fault":0,"request":2,"setpoint":9,)"
+      R"("encoder_counts":8,"duty_counts":7,"current_counts":6,"tension_counts":5}])");
+  CHECK(example<erp::EcuFrame>()["analogs"] ==
+        R"([{"ecu":1,"input":3,"fresh":true,"counts":-8191}])");
   const auto parameters = example<erp::EcuParameter>()["values"];
-  CHECK(parameters.ends_with(R"({"ecu":1,"channel":0,"index":199,"commit":false,"value":19.9}])"));
+  CHECK(
+      parameters.ends_with(R"({"ecu":1,"channel":0,"index":199,"commit":false,"value":24.875}])"));
   CHECK(example<erp::GainCommand>()["gains"] ==
         R"([{"name":"flexor","parameter":"length_gain_V_per_rad","value":12.5}])");
-  CHECK(example<erp::JointState>()["joints"] ==
-        R"([{"name":"shoulder","dof":3,"position":[0.5,1.5,2.5,3.5],"velocity_rad_per_s":[0,-1,-2],)"
-        R"("variance_rad2":[0,1e-06,2e-06]},{"name":"elbow","dof":1,"position":[0.5,1.5,2.5,3.5],)"
-        R"("velocity_rad_per_s":[0,-1,-2],"variance_rad2":[0,1e-06,2e-06]}])");
+  CHECK(
+      example<erp::JointState>()["joints"] ==
+      R"([{"name":"shoulder","dof":3,"position":[0.5,1.5,2.5,3.5],"velocity_rad_per_s":[0,-1,-2],)"
+      R"("variance_rad2":[0,1e-06,2e-06]},{"name":"elbow","dof":1,"position":[0.5,1.5,2.5,3.5],)"
+      R"("velocity_rad_per_s":[0,-1,-2],"variance_rad2":[0,1e-06,2e-06]}])");
   CHECK(example<erp::BodyPose>()["bodies"] ==
         R"([{"name":"forearm","position_m":[0,0.25,0.5],"orientation_wxyz":[1,0,0,0]}])");
   CHECK(example<erp::ActuatorOwner>()["actuators"] ==
@@ -136,13 +145,14 @@ TEST_CASE("enums, bitmasks, typedefs, inheritance and nested arrays keep their b
   m.words._buffer = words, m.words._length = 2, m.words._maximum = 3;
   m.text = const_cast<char*>("free"), m.pair[1] = odd_green;
   const Decoded decoded(odd_Everything_desc, &m);
-  CHECK(decoded.json() ==
-        R"({"head":9,"name":"key","yes":true,"i8":255,"u8":200,"i16":-300,"u16":60000,"i32":-70000,)"
-        R"("u32":4000000000,"i64":-5,"u64":6,"f32":0.25,"f64":-0.5,"paint":7,"little":1,"bits":2049,)"
-        R"("at":[0,0,8],"rows":[0,0,0,4,0,0],"grid":[0,0,0,0,0,12],"few":[5,-6],)"
-        R"("many":[{"letter":120,"tiny":249,"at":[1,2,3]}],)"
-        R"("two":[{"letter":120,"tiny":249,"at":[1,2,3]},{"letter":0,"tiny":3,"at":[0,0,0]}],)"
-        R"("words":["ab","cdefg"],"text":"free","pair":[0,1]})");
+  CHECK(
+      decoded.json() ==
+      R"({"head":9,"name":"key","yes":true,"i8":255,"u8":200,"i16":-300,"u16":60000,"i32":-70000,)"
+      R"("u32":4000000000,"i64":-5,"u64":6,"f32":0.25,"f64":-0.5,"paint":7,"little":1,"bits":2049,)"
+      R"("at":[0,0,8],"rows":[0,0,0,4,0,0],"grid":[0,0,0,0,0,12],"few":[5,-6],)"
+      R"("many":[{"letter":120,"tiny":249,"at":[1,2,3]}],)"
+      R"("two":[{"letter":120,"tiny":249,"at":[1,2,3]},{"letter":0,"tiny":3,"at":[0,0,0]}],)"
+      R"("words":["ab","cdefg"],"text":"free","pair":[0,1]})");
 }
 
 TEST_CASE("what a ROS 2 message cannot say is refused with type, member and reason") {
@@ -152,18 +162,21 @@ TEST_CASE("what a ROS 2 message cannot say is refused with type, member and reas
                     Catch::Contains("odd::HasOptional.maybe is optional"));
   CHECK_THROWS_WITH(node::describe(odd_HasNested_desc),
                     Catch::Contains("odd::HasNested.deep nests sequences"));
-  CHECK_THROWS_WITH(node::describe(odd_Growing_desc), Catch::Contains("odd::Growing is not @final"));
+  CHECK_THROWS_WITH(node::describe(odd_Growing_desc),
+                    Catch::Contains("odd::Growing is not @final"));
   dds_topic_descriptor_t bare = odd_Left_desc;
   bare.type_mapping = {nullptr, 0};
   CHECK_THROWS_WITH(node::describe(bare), Catch::Contains("no type information"));
 }
 
-TEST_CASE("a type met on the bus for the first time is described like the one it was compiled from") {
+TEST_CASE(
+    "a type met on the bus for the first time is described like the one it was compiled from") {
   test::Capture theirs(78), ours(79);  // two domains that see each other as two processes do
-  const dds_entity_t topic = dds_create_topic(theirs.participant(), &odd_Everything_desc, "odd", nullptr, nullptr);
+  const dds_entity_t topic =
+      dds_create_topic(theirs.participant(), &odd_Everything_desc, "odd", nullptr, nullptr);
   dds_create_writer(theirs.participant(), topic, nullptr, nullptr);
-  const dds_entity_t found = dds_create_reader(
-      ours.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+  const dds_entity_t found =
+      dds_create_reader(ours.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
   std::string text;
   while (text.empty()) {
     void* sample = nullptr;
@@ -176,9 +189,10 @@ TEST_CASE("a type met on the bus for the first time is described like the one it
     const dds_typeinfo_t* type_info = nullptr;
     dds_topic_descriptor_t* met = nullptr;
     if (info.valid_data && std::string(endpoint->topic_name) == "odd" &&
-        dds_builtintopic_get_endpoint_type_info(endpoint, &type_info) == DDS_RETCODE_OK && type_info &&
-        dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, ours.participant(), type_info, DDS_SECS(5),
-                                    &met) == DDS_RETCODE_OK) {
+        dds_builtintopic_get_endpoint_type_info(endpoint, &type_info) == DDS_RETCODE_OK &&
+        type_info &&
+        dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, ours.participant(), type_info,
+                                    DDS_SECS(5), &met) == DDS_RETCODE_OK) {
       text = ros2msg_text(node::describe(*met));
       dds_delete_topic_descriptor(met);
     }

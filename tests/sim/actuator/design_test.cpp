@@ -159,16 +159,23 @@ TEST_CASE("2 to 40 N: fast, without overshoot, quiet at rest, within the current
   CHECK(current < 4.2);
 }
 
-TEST_CASE("without noise friction leaves the tension within its stated band") {
+TEST_CASE("without noise the tension rests inside the stated band, from below and from above") {
   erp::Robot quiet = rig();
   quiet.sensor_types[0].current_noise_A = quiet.sensor_types[0].tension_noise_N = 0;
+  const double force = GENERATE(10.0, 40.0, 120.0), from = GENERATE(2.0, 140.0);
   Bench bench(quiet);
-  bench.hold_force(20, 2.0);
+  bench.hold_force(from, 2.0);
+  bench.hold_force(force, 2.0);
   const auto gains = sim::design_force(
       sim::force_model(rigs::caliper(), rigs::hinge_tendon(), rigs::spindle_radius_m), {});
-  const double half_quantum = 0.5 * 200 / 4095;
-  CHECK(std::abs(bench.tension_N() - 20) <
-        sim::resting_error_N(rigs::caliper(), gains) + half_quantum + 0.01);
+  const auto band =
+      sim::resting_band(rigs::caliper(), rigs::spindle_radius_m, gains, force);
+  const double half_quanta = 0.5 * 200 / 4095 + 0.5 * 12.0 / 1023 / gains.feedback.z();
+  CAPTURE(force, from, bench.tension_N() - force, band.below_N, band.above_N);
+  CHECK(bench.tension_N() > force - band.below_N - half_quanta);
+  CHECK(bench.tension_N() < force + band.above_N + half_quanta);
+  // Let out, it does rest above: the band is not empty talk.
+  if (from > force) CHECK(bench.tension_N() > force + 0.5 * band.above_N - half_quanta);
 }
 
 TEST_CASE("letting out, where the load drives the motor, the force loop stays stable") {

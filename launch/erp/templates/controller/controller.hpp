@@ -17,7 +17,7 @@ class @Class@ {
   erp::ActuatorCommand step(const erp::SensorFrame& frame, double /*dt_s*/) {
     erp::ActuatorCommand command;
     for (const auto& sample : erp::samples(frame.actuators)) {
-      auto& wanted = erp::append(command.actuators, {});
+      auto& wanted = erp::append(command.actuators, erp::ActuatorReference{});
       erp::assign(wanted.name, sample.name);
       wanted.mode = static_cast<std::uint8_t>(erp::Mode::force);
       wanted.reference = p_.tension_N + p_.gain * (p_.tension_N - sample.tension_N);

@@ -7,7 +7,7 @@ namespace {
 
 erp::SensorFrame frame_with(const char* actuator, double tension_N) {
   erp::SensorFrame frame;
-  auto& sample = erp::append(frame.actuators, {});
+  auto& sample = erp::append(frame.actuators, erp::ActuatorSample{});
   erp::assign(sample.name, actuator);
   sample.tension_N = tension_N;
   return frame;

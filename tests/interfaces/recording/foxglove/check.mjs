@@ -19,10 +19,15 @@ const readable = (bytes) => ({
 const plain = (value) => JSON.parse(JSON.stringify(value, (_, x) =>
   typeof x === "bigint" ? (Number.isSafeInteger(Number(x)) ? Number(x) : String(x))
   : ArrayBuffer.isView(x) ? Array.from(x) : x));
+/** Our tools show `tension_N`, ROS 2's rules allow Foxglove `tension_n`. */
+const lowered = (value) => Array.isArray(value) ? value.map(lowered)
+  : value && typeof value === "object"
+    ? Object.fromEntries(Object.entries(value).map(([key, x]) => [key.toLowerCase(), lowered(x)]))
+    : value;
 const expectedOf = (line) => {
   const [topic, sequence, ...json] = line.split(" ");
   return { topic, sequence: Number(sequence),
-    message: JSON.parse(json.join(" ").replace(/:(-?\d{16,})(?=[,}])/g, ':"$1"')) };
+    message: lowered(JSON.parse(json.join(" ").replace(/:(-?\d{16,})(?=[,}])/g, ':"$1"'))) };
 };
 
 async function ourFileTheirReader() {

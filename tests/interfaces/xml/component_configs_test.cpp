@@ -1,0 +1,89 @@
+// Reader and XSD agree on the components' configs too. One line a component.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include "components/follow/follow.hpp"
+#include "components/logger/logger_node.hpp"
+#include "components/plant/plant.hpp"
+#include "components/reference/reference.hpp"
+#include "components/replay/replay_node.hpp"
+#include "hal/can/gateway_node.hpp"
+#include "interfaces/xml/xml.hpp"
+#include "sim/world/sim_node.hpp"
+#include "tests/interfaces/xml/xmllint.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Kind {
+  std::function<std::string(const std::string& root)> schema;
+  std::function<void(const std::string& file, const std::string& root)> read;
+};
+
+template <class Params>
+Kind kind_of() {
+  return {[](const std::string& root) { return xml::schema<Params>(root); },
+          [](const std::string& file, const std::string& root) {
+            Params params;
+            xml::read_into(params, file, root);
+          }};
+}
+
+const std::map<std::string, Kind> kinds{
+    {"force_control", kind_of<follow::Params>()},
+    {"gateway", kind_of<can::GatewayNode::Params>()},
+    {"length_control", kind_of<follow::Params>()},
+    {"logger", kind_of<logger::LoggerNode::Params>()},
+    {"plant", kind_of<plant::Plant::Params>()},
+    {"reference", kind_of<reference::Params>()},
+    {"replay", kind_of<replay::ReplayNode::Params>()},
+    {"sim", kind_of<sim::SimNode::Params>()},
+    {"target", kind_of<reference::Params>()},
+};
+
+using Configs = std::map<std::string, std::vector<std::string>>;
+
+/// The components' configs, by root element.
+Configs configs_by_root() {
+  Configs configs;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERP_SOURCE_DIR) / "configs")) {
+    if (entry.path().extension() != ".xml") continue;
+    const std::string root = xml::read_document(entry.path().string()).name;
+    if (root != "robot" && root != "graph") configs[root].push_back(entry.path().string());
+  }
+  return configs;
+}
+
+}  // namespace
+
+TEST_CASE("reader and XSD both accept every component's config") {
+  const Configs configs = configs_by_root();
+  REQUIRE_FALSE(configs.empty());
+  for (const auto& [root, files] : configs) {
+    INFO("<" << root << "> needs its line in the list above");
+    REQUIRE(kinds.contains(root));
+    const std::string schema = temporary(root + ".xsd", kinds.at(root).schema(root));
+    const auto valid = valid_by_schema(schema, files);
+    for (const std::string& file : files) {
+      INFO(file);
+      CHECK_NOTHROW(kinds.at(root).read(file, root));
+      CHECK(valid.contains(file));
+    }
+    fs::remove(schema);
+  }
+}
+
+TEST_CASE("every component's parameters have an XSD, and it refuses an unknown one") {
+  for (const auto& [root, kind] : kinds) {
+    INFO(root);
+    const std::string schema = temporary(root + ".xsd", kind.schema(root));
+    const std::string file = temporary(root + ".xml", "<" + root + " unheard_of=\"1\"/>");
+    CHECK(valid_by_schema(schema, {file}).empty());
+    CHECK_THROWS_AS(kind.read(file, root), xml::Errors);
+    fs::remove(schema);
+    fs::remove(file);
+  }
+}

@@ -1,0 +1,136 @@
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "sim/world/arm_poses.hpp"
+#include "tests/sim/rigs.hpp"
+#include "tests/sim/world/limb.hpp"
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+erp::Robot arm() { return erp::read_robot(rigs::config("arm/robot.xml")); }
+
+Eigen::Quaterniond turn(const std::array<double, 4>& p) { return {p[0], p[1], p[2], p[3]}; }
+
+/// How far apart two poses are: the larger of shoulder and elbow.
+double apart_rad(const sim::Pose& a, const sim::Pose& b) {
+  return std::max(turn(a[0]).angularDistance(turn(b[0])), std::abs(a[1][0] - b[1][0]));
+}
+
+sim::Pose pose_of(const sim::World& world) {
+  return {world.joints()[0].position, world.joints()[1].position};
+}
+
+struct Hold {
+  double drift_rad = 0, error_rad = 0;
+};
+
+double least_jerk(double s) { return s >= 1 ? 1 : s * s * s * (10 + s * (6 * s - 15)); }
+
+/// Ramps in 1.5 s, settles, then watches for 3 s.
+Hold hold(Limb& limb, const std::vector<double>& from, const std::vector<double>& to,
+          const sim::Pose& wanted, double settle_s = 1) {
+  std::vector<double> lines = from;
+  for (int k = 0; k <= std::lround((1.5 + settle_s) / 0.002); ++k) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      lines[i] = from[i] + least_jerk(k / 750.0) * (to[i] - from[i]);
+    limb.follow_lines(lines);
+  }
+  const sim::Pose settled = pose_of(limb.world);
+  Hold result;
+  for (int k = 0; k < 1500; ++k) {
+    limb.follow_lines(to);
+    result.drift_rad = std::max(result.drift_rad, apart_rad(pose_of(limb.world), settled));
+  }
+  result.error_rad = apart_rad(pose_of(limb.world), wanted);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("the arm has the eleven muscles, two of them over both joints") {
+  const erp::Robot robot = arm();
+  REQUIRE(robot.actuators.size() == 11);
+  int biarticular = 0;
+  for (const auto& actuator : robot.actuators) {
+    bool torso = false, forearm = false;
+    for (const auto& element : actuator.tendon.path)
+      std::visit([&](const auto& e) { torso |= e.body == "torso", forearm |= e.body == "forearm"; },
+                 element);
+    biarticular += torso && forearm;
+  }
+  CHECK(biarticular == 2);
+}
+
+TEST_CASE("no muscle's point comes inside a pulley in any of the poses") {
+  const erp::Robot robot = arm();
+  sim::World world(robot);
+  for (const sim::Pose& pose : sim::arm_poses()) {
+    world.set_joint(0, {erp::JointType::spherical, pose[0], {}});
+    world.set_joint(1, {erp::JointType::revolute, pose[1], {}});
+    for (std::size_t k = 0; k < robot.actuators.size(); ++k)
+      for (int e = 0; e < world.path(int(k)).elements; ++e)
+        CHECK_FALSE(world.path(int(k)).inside[e]);
+  }
+}
+
+TEST_CASE("under length control the arm stands at its start") {
+  const erp::Robot robot = arm();
+  Limb limb(robot);
+  const std::vector<double> start(11, 0.0);
+  const Hold stands = hold(limb, start, start, sim::starting_pose(robot));
+  CAPTURE(stands.drift_rad / degree, stands.error_rad / degree);
+  CHECK(limb.all_running());
+  CHECK(stands.drift_rad < 0.05 * degree);
+  CHECK(stands.error_rad < 1 * degree);
+}
+
+TEST_CASE("under length control of all muscles the arm holds fifteen poses without drift") {
+  erp::Robot robot = arm();
+  const bool joints_rub = GENERATE(true, false);  // without, the muscles alone hold it, and it swings longer
+  if (!joints_rub)
+    for (auto& joint : robot.skeletons[0].joints) joint.coulomb_Nm = 0;
+  const auto poses = sim::arm_poses();
+  REQUIRE(poses.size() == 15);
+  Limb limb(robot);
+  std::vector<double> from(11, 0.0);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const auto to = sim::hold_pose(robot, poses[k]).line_m;
+    const Hold held = hold(limb, from, to, poses[k], joints_rub ? 1 : 4);
+    CAPTURE(k, held.drift_rad / degree, held.error_rad / degree);
+    CHECK(limb.all_running());
+    CHECK(held.drift_rad < 0.2 * degree);
+    CHECK(held.error_rad < 3 * degree);
+    from = to;
+  }
+}
+
+TEST_CASE("configs/arm/poses.csv holds the line lengths of the fifteen poses") {
+  std::ifstream file(rigs::config("arm/poses.csv"));
+  std::string line;
+  REQUIRE(std::getline(file, line));
+  const erp::Robot robot = arm();
+  const auto poses = sim::arm_poses();
+  std::size_t checked = 0;
+  while (std::getline(file, line)) {
+    std::istringstream row(line);
+    std::string cell;
+    std::getline(row, cell, ',');
+    const double pose = (std::stod(cell) - 1.5) / 3;  // each ramp ends 1.5 s into its 3 s
+    if (std::abs(pose - std::round(pose)) > 1e-9) continue;
+    const auto wanted = sim::hold_pose(robot, poses.at(std::size_t(std::lround(pose)))).line_m;
+    for (double want : wanted) {
+      std::getline(row, cell, ',');
+      REQUIRE(cell == "length");
+      std::getline(row, cell, ',');
+      REQUIRE(std::abs(std::stod(cell) - want) < 1e-6);
+    }
+    ++checked;
+  }
+  CHECK(checked == 15);
+}

@@ -1,0 +1,99 @@
+#pragma once
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/system/command.hpp"
+
+namespace tests {
+
+using namespace std::chrono_literals;
+
+/// Waits until `happened`, or until a minute has passed (then false: the test fails, not hangs).
+template <class Happened>
+bool wait_until(Happened&& happened) {
+  for (int i = 0; i < 6000; ++i) {
+    if (happened()) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
+}
+
+/// `erp launch …` in the background, ended by its process id.
+class Background {
+ public:
+  Background(const std::vector<std::string>& arguments, std::string output) : output_(std::move(output)) {
+    pid_ = fork();
+    if (pid_ != 0) return;
+    const int file = open(output_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
+    dup2(file, 1), dup2(file, 2);
+    if (chdir(ERP_SOURCE_DIR) != 0) _exit(126);
+    std::vector<char*> argv{const_cast<char*>(ERP_BIN_DIR "/erp")};
+    for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  ~Background() {
+    if (pid_ > 0) stop(SIGTERM);
+  }
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  bool says(const std::string& words) const {
+    return wait_until([&] { return content(output_).find(words) != std::string::npos; });
+  }
+  std::string output() const { return content(output_); }
+
+  /// The live child of that program name; 0 when there is none.
+  pid_t child(const std::string& program) const {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::ifstream stat(entry.path() / "stat");
+      std::string line;
+      if (!std::getline(stat, line)) continue;
+      const auto open = line.find('('), close = line.rfind(')');
+      std::istringstream rest(line.substr(close + 2));
+      char state;
+      pid_t parent;
+      rest >> state >> parent;
+      if (parent == pid_ && state != 'Z' && line.substr(open + 1, close - open - 1) == program.substr(0, 15))
+        return static_cast<pid_t>(std::stol(line));
+    }
+    return 0;
+  }
+  std::vector<pid_t> children() const {
+    std::vector<pid_t> all;
+    std::ifstream file("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) + "/children");
+    for (pid_t child; file >> child;) all.push_back(child);
+    return all;
+  }
+  /// Asks it to end and waits; returns its exit code, 128 + signal when it was killed.
+  int stop(int signal = SIGINT) {
+    kill(pid_, signal);
+    return wait();
+  }
+  int wait() {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  std::string output_;
+  pid_t pid_ = 0;
+};
+
+inline std::int64_t wall_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace tests
