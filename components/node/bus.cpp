@@ -43,6 +43,8 @@ Entity::Entity(dds_entity_t id, const char* operation) : id_(id) {
   if (id < 0) throw std::runtime_error(std::string(operation) + ": " + dds_strretcode(-id));
 }
 
+const char* loopback_config() { return loopback; }
+
 Entity join(const std::string& name) {
   const dds_domainid_t id = domain_id();
   open_domain(id);

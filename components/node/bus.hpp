@@ -31,6 +31,9 @@ class Entity {
 /// Without CYCLONEDDS_URI the bus is this machine's loopback; ERP_DOMAIN (0…230) separates graphs.
 Entity join(const std::string& name);
 
+/// The Cyclone DDS configuration of that bus, for other tools that want to be on it.
+const char* loopback_config();
+
 /// Reliable, volatile, keep the last `depth` samples a key. Every topic of ours uses it.
 struct Qos {
   explicit Qos(int depth = 1);

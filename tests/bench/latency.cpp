@@ -1,0 +1,133 @@
+// From a device's frame to the command that answers it, through the real processes, beside
+// ddsperf's round trip of a message of the same size in the same run. Prints JSON.
+//
+//   erp_latency [GRAPH.xml] [SECONDS]
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <regex>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include "components/node/bus.hpp"
+#include "components/node/clock.hpp"
+
+#include <poll.h>
+
+namespace {
+
+struct Quantiles {
+  double p50_us = 0, p99_us = 0;
+  std::size_t count = 0;
+};
+
+Quantiles quantiles(std::vector<double> us) {
+  if (us.empty()) return {};
+  std::sort(us.begin(), us.end());
+  const auto at = [&](double q) { return us[static_cast<std::size_t>(q * static_cast<double>(us.size() - 1))]; };
+  return {at(0.5), at(0.99), us.size()};
+}
+
+pid_t start(const std::vector<std::string>& words, const std::string& output) {
+  const pid_t pid = fork();
+  if (pid) return pid;
+  if (!freopen(output.c_str(), "w", stdout)) _exit(126);
+  std::vector<char*> argv;
+  for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  execvp(argv[0], argv.data());
+  _exit(127);
+}
+
+std::string content(const std::string& file) {
+  std::FILE* in = std::fopen(file.c_str(), "r");
+  std::string text;
+  std::array<char, 4096> buffer;
+  while (in) {
+    const auto n = std::fread(buffer.data(), 1, buffer.size(), in);
+    if (n == 0) break;
+    text.append(buffer.data(), n);
+  }
+  if (in) std::fclose(in);
+  return text;
+}
+
+/// Stands beside the device: hears its frames' stamps and the commands that answer them.
+Quantiles observe(const std::string& graph, const std::string& seconds, const std::string& folder) {
+  const auto participant = node::join("latency");
+  node::Wake wake;
+  node::Reader<erp::EcuFrame> frames(participant, wake, 64);
+  node::Reader<erp::EcuCommand> commands(participant, wake, 64);
+  const pid_t erp = start({ERP_BIN_DIR "/erp", "launch", graph, "--for", seconds + "s", "--out", folder + "/run"},
+                          folder + "/launch.txt");
+  std::map<std::uint64_t, std::int64_t> sent_ns;
+  std::vector<double> us;
+  int status = 0;
+  while (waitpid(erp, &status, WNOHANG) == 0) {
+    pollfd waiting{wake.descriptor(), POLLIN, 0};
+    poll(&waiting, 1, 100);
+    wake.clear();
+    frames.take([&](const erp::EcuFrame& frame) { sent_ns[frame.sequence] = frame.stamp_ns; });
+    commands.take([&](const erp::EcuCommand& command) {
+      const auto sent = sent_ns.find(command.answers);
+      if (sent == sent_ns.end()) return;
+      us.push_back(1e-3 * static_cast<double>(node::wall_ns() - sent->second));
+      sent_ns.erase(sent_ns.begin(), std::next(sent));
+    });
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) std::cerr << content(folder + "/launch.txt");
+  us.erase(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 10));  // the start
+  return quantiles(us);
+}
+
+/// ddsperf prints half round trips; the medians of its one-second lines.
+Quantiles peer(const std::string& seconds, int bytes, const std::string& folder) {
+  const std::string domain = std::getenv("ERP_DOMAIN");
+  const auto size = std::to_string(bytes);
+  const auto pong = start({"ddsperf", "-i", domain, "-D", std::to_string(std::stoi(seconds) + 2), "pong"}, folder + "/pong.txt");
+  const auto ping = start({"ddsperf", "-i", domain, "-D", seconds, "ping", "500Hz", "size", size}, folder + "/ping.txt");
+  waitpid(ping, nullptr, 0), waitpid(pong, nullptr, 0);
+  const auto text = content(folder + "/ping.txt");
+  const std::regex line(R"(50% ([0-9.]+)us .*99% ([0-9.]+)us)");
+  std::vector<double> p50, p99;
+  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it)
+    p50.push_back(2 * std::stod((*it)[1])), p99.push_back(2 * std::stod((*it)[2]));
+  return {quantiles(p50).p50_us, quantiles(p99).p50_us, p50.size()};
+}
+
+void print(const char* name, const Quantiles& q) {
+  std::printf("  \"%s\": {\"p50_us\": %.1f, \"p99_us\": %.1f, \"count\": %zu},\n", name, q.p50_us, q.p99_us, q.count);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string graph = argc > 1 ? argv[1] : ERP_SOURCE_DIR "/launch/hinge_rig.xml";
+  const std::string seconds = argc > 2 ? argv[2] : "10";
+  setenv("ERP_DOMAIN", std::to_string(1 + getpid() % 200).c_str(), 0);
+  auto folder = (std::filesystem::temp_directory_path() / "erp_latency_XXXXXX").string();
+  if (!mkdtemp(folder.data())) return 1;
+  const std::string loopback = folder + "/cyclonedds.xml";
+  if (std::FILE* file = std::fopen(loopback.c_str(), "w")) {
+    std::fputs(node::loopback_config(), file);
+    std::fclose(file);
+  }
+  const auto loop = observe(graph, seconds, folder);
+  setenv("CYCLONEDDS_URI", ("file://" + loopback).c_str(), 1);
+  const auto round_trip = peer(seconds, 256, folder);
+  std::printf("{\n");
+  print("frame_to_command", loop);
+  print("ddsperf_round_trip", round_trip);
+  std::printf("  \"hops\": 4, \"ddsperf_hops\": 2, \"bytes\": 256,\n");
+  std::printf("  \"ratio_p50\": %.2f, \"ratio_p99\": %.2f\n}\n", loop.p50_us / round_trip.p50_us,
+              loop.p99_us / round_trip.p99_us);
+  std::filesystem::remove_all(folder);
+  return loop.count > 0 && round_trip.count > 0 ? 0 : 1;
+}

@@ -1,0 +1,56 @@
+// How fast the pure parts are: the simulator's step, a control law's step. Google Benchmark; ask
+// for JSON with --benchmark_format=json.
+#include <benchmark/benchmark.h>
+
+#include "components/plant/plant.hpp"
+#include "firmware/core/laws.h"
+#include "interfaces/robot/robot.hpp"
+#include "sim/world/world.hpp"
+
+namespace {
+
+/// One physics step of 1 ms, motors and tendons included, no ECUs.
+void world_step(benchmark::State& state, const char* robot) {
+  sim::World world(erp::read_robot(std::string(ERP_SOURCE_DIR "/configs/") + robot + "/robot.xml"));
+  const std::vector<double> voltage_V(world.actuators().size(), 0.1);
+  for (auto _ : state) world.step(voltage_V, 0.001);
+  state.counters["steps_per_s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(world_step, hinge_rig, "hinge_rig");
+BENCHMARK_CAPTURE(world_step, arm, "arm");
+
+void force_law(benchmark::State& state) {
+  const law_force_gains gains{0.1F, 0.2F, 0.5F, 0.6F};
+  float tension_N = 2;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(tension_N);
+    benchmark::DoNotOptimize(law_force_V(&gains, 40, 0.1F, 0.2F, tension_N));
+  }
+}
+BENCHMARK(force_law);
+
+/// A frame sensed and a command decided, for all of a robot's actuators.
+void plant_cycle(benchmark::State& state, const char* name) {
+  const auto robot = erp::read_robot(std::string(ERP_SOURCE_DIR "/configs/") + name + "/robot.xml");
+  plant::Plant plant({}, robot);
+  erp::EcuFrame frame;
+  for (const auto& actuator : robot.actuators) {
+    erp::EcuChannelSample channel{};
+    channel.ecu = static_cast<std::uint8_t>(actuator.ecu);
+    channel.channel = static_cast<std::uint8_t>(actuator.channel);
+    channel.fresh = true;
+    erp::append(frame.channels, channel);
+  }
+  std::int64_t now_ns = 0;
+  for (auto _ : state) {
+    now_ns += 2'000'000;
+    plant.sense(frame, now_ns);
+    benchmark::DoNotOptimize(plant.command(now_ns));
+  }
+}
+BENCHMARK_CAPTURE(plant_cycle, hinge_rig, "hinge_rig");
+BENCHMARK_CAPTURE(plant_cycle, arm, "arm");
+
+}  // namespace
+
+BENCHMARK_MAIN();
