@@ -16,10 +16,14 @@ std::string_view without_plus(std::string_view text) {
   return text;
 }
 
+/// Without an exponent where that is readable; XSD's integers know none.
 template <class Float>
 std::string shortest(Float value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  const Float size = std::abs(value);
+  const bool plain = size == 0 || (size >= Float(1e-4) && size < Float(1e20));
+  char text[40];
+  const auto format = plain ? std::chars_format::fixed : std::chars_format::scientific;
+  return {text, std::to_chars(text, text + sizeof text, value, format).ptr};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "launch/erp/launch.hpp"
 
-#include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <set>
 
 #include "components/node/clock.hpp"
@@ -11,6 +11,7 @@
 #include "launch/erp/program.hpp"
 #include "launch/erp/run.hpp"
 #include "launch/erp/run_folder.hpp"
+#include "launch/erp/summary.hpp"
 
 namespace launch {
 namespace {
@@ -51,7 +52,10 @@ int launch_graph(const LaunchOptions& options) {
   for (const auto& setting : options.settings) wishes.settings.push_back(parse_setting(setting));
   make_plan(graph, wishes, find);  // refuses bad input before a folder is made
   wishes.folder = make_run_folder(options.folder, graph.name, node::wall_ns());
-  return Run(graph, robot.name, make_plan(graph, wishes, find), wishes.folder).execute();
+  const Plan plan = make_plan(graph, wishes, find);
+  const int exit_code = Run(graph, robot.name, plan, wishes.folder).execute();
+  if (std::filesystem::exists(plan.recording)) print_summary(plan.recording, std::cout);
+  return exit_code;
 }
 
 }  // namespace launch

@@ -10,9 +10,9 @@ namespace launch {
 
 struct LaunchOptions {
   std::string graph_file;
-  std::string device;             ///< sim, can, replay:FILE; empty: the graph's
-  std::optional<erp::Time> time;  ///< absent: the graph's
-  std::string duration;           ///< "20s"; empty: the graph's
+  std::string device;                 ///< sim, can, replay:FILE; empty: the graph's
+  std::optional<erp::Time> time;      ///< absent: the graph's
+  std::string duration;               ///< "20s"; empty: the graph's
   std::vector<std::string> settings;  ///< component.key=value
   std::string folder;                 ///< of the run; empty: erp_runs/<graph>/<UTC time>
 };

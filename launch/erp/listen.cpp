@@ -100,7 +100,8 @@ int show_rate(const ListenOptions& options, std::ostream& out) {
       [&] {
         if (!window.due()) return;
         char rate[32];
-        std::snprintf(rate, sizeof rate, "%8.1f Hz", static_cast<double>(heard) / window.elapsed_s());
+        std::snprintf(rate, sizeof rate, "%8.1f Hz",
+                      static_cast<double>(heard) / window.elapsed_s());
         out << rate << "   intervals: least " << microseconds(intervals_us.quantile(0)) << ", p50 "
             << microseconds(intervals_us.quantile(0.5)) << ", p99 "
             << microseconds(intervals_us.quantile(0.99)) << ", most "
@@ -114,7 +115,8 @@ int show_rate(const ListenOptions& options, std::ostream& out) {
 int show_delay(const ListenOptions& options, std::ostream& out) {
   Listener listener("delay", options);
   if (!listener.type().root().find("stamp_ns"))
-    throw std::invalid_argument("\"" + options.topic + "\" has no field stamp_ns; its age is unknown");
+    throw std::invalid_argument("\"" + options.topic +
+                                "\" has no field stamp_ns; its age is unknown");
   Every window;
   Spread ages_us;
   std::size_t all_heard = 0;

@@ -8,8 +8,8 @@ namespace launch {
 
 struct ListenOptions {
   std::string topic;
-  long messages = 0;    ///< `echo -n`: end after so many; 0: never
-  double for_s = 0;     ///< end after so long; 0: never
+  long messages = 0;  ///< `echo -n`: end after so many; 0: never
+  double for_s = 0;   ///< end after so long; 0: never
 };
 
 /// `erp echo`: every message as YAML, `---` between them.

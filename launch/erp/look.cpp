@@ -22,11 +22,16 @@ std::string name_of(const node::Endpoint& endpoint) {
 
 std::string word_of(std::uint8_t lifecycle) {
   switch (static_cast<erp::Lifecycle>(lifecycle)) {
-    case erp::Lifecycle::unconfigured: return "unconfigured";
-    case erp::Lifecycle::inactive: return "inactive";
-    case erp::Lifecycle::active: return "active";
-    case erp::Lifecycle::error: return "error";
-    case erp::Lifecycle::finalized: return "finalized";
+    case erp::Lifecycle::unconfigured:
+      return "unconfigured";
+    case erp::Lifecycle::inactive:
+      return "inactive";
+    case erp::Lifecycle::active:
+      return "active";
+    case erp::Lifecycle::error:
+      return "error";
+    case erp::Lifecycle::finalized:
+      return "finalized";
   }
   return "?";
 }
@@ -113,7 +118,8 @@ int show_topics(std::ostream& out) {
   if (!onlooker.settle()) return 1;
   const auto endpoints = onlooker.endpoints();
   if (endpoints.empty()) out << "no topic is on the bus\n";
-  else for (const auto& line : topic_table(endpoints)) out << line << '\n';
+  else
+    for (const auto& line : topic_table(endpoints)) out << line << '\n';
   return 0;
 }
 

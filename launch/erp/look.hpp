@@ -8,8 +8,8 @@
 /// Verbs that look at the running graph once.
 namespace launch {
 
-int show_components(std::ostream& out);  ///< `erp ps`
-int show_topics(std::ostream& out);      ///< `erp ls`
+int show_components(std::ostream& out);       ///< `erp ps`
+int show_topics(std::ostream& out);           ///< `erp ls`
 int show_graph(bool all, std::ostream& out);  ///< `erp graph`: DOT
 
 /// Components and topics in DOT. Without `all`, the topics that every component has by being one

@@ -16,12 +16,13 @@ constexpr auto reserved = std::to_array<std::string_view>(
     {"sim", "plant", "gateway", "replay", "logger", "reference", "target", "length_control",
      "force_control", "controller", "erp", "node", "main", "test"});
 constexpr auto keywords = std::to_array<std::string_view>(
-    {"auto", "bool", "break", "case", "catch", "char", "class", "const", "continue", "default",
-     "delete", "do", "double", "else", "enum", "explicit", "export", "extern", "false", "float",
-     "for", "friend", "goto", "if", "inline", "int", "long", "mutable", "namespace", "new",
-     "operator", "private", "protected", "public", "register", "return", "short", "signed",
-     "sizeof", "static", "struct", "switch", "template", "this", "throw", "true", "try", "typedef",
-     "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "while"});
+    {"auto",      "bool",    "break",    "case",    "catch",     "char",   "class",    "const",
+     "continue",  "default", "delete",   "do",      "double",    "else",   "enum",     "explicit",
+     "export",    "extern",  "false",    "float",   "for",       "friend", "goto",     "if",
+     "inline",    "int",     "long",     "mutable", "namespace", "new",    "operator", "private",
+     "protected", "public",  "register", "return",  "short",     "signed", "sizeof",   "static",
+     "struct",    "switch",  "template", "this",    "throw",     "true",   "try",      "typedef",
+     "typename",  "union",   "unsigned", "using",   "virtual",   "void",   "volatile", "while"});
 
 bool is_snake_case(const std::string& name) {
   const auto allowed = [](char c) {

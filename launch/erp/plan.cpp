@@ -17,9 +17,12 @@ const char* word_of(erp::Time time) {
 
 const char* device_type(erp::Device device) {
   switch (device) {
-    case erp::Device::sim: return "sim";
-    case erp::Device::can: return "gateway";
-    case erp::Device::replay: break;
+    case erp::Device::sim:
+      return "sim";
+    case erp::Device::can:
+      return "gateway";
+    case erp::Device::replay:
+      break;
   }
   return "replay";
 }

@@ -31,7 +31,9 @@ double ProcessorShare::measure(pid_t pid, std::int64_t now_ns) {
   if (pid == pid_ && now_ns - last_ns_ < shortest_interval_ns) return percent_;
   const auto busy = busy_s(pid);
   if (!busy) return pid_ = 0, percent_ = -1;
-  percent_ = pid == pid_ ? 100 * (*busy - last_busy_s_) / (1e-9 * static_cast<double>(now_ns - last_ns_)) : -1;
+  percent_ = pid == pid_
+                 ? 100 * (*busy - last_busy_s_) / (1e-9 * static_cast<double>(now_ns - last_ns_))
+                 : -1;
   pid_ = pid, last_ns_ = now_ns, last_busy_s_ = *busy;
   return percent_;
 }

@@ -120,8 +120,8 @@ void Run::refuse_stranger(const erp::ComponentState& state) {
 }
 
 void Run::hear(const erp::Event& event) {
-  std::string text = std::string(event.component) + ": " +
-                     word_of(static_cast<erp::Severity>(event.severity));
+  std::string text =
+      std::string(event.component) + ": " + word_of(static_cast<erp::Severity>(event.severity));
   if (event.subject[0] && std::string(event.subject) != event.component)
     text += std::string(event.subject) + ": ";
   say(text + event.text);
@@ -159,7 +159,9 @@ void Run::carry_out() {
   for (const auto& action : supervisor_.take_actions()) {
     auto& process = members_[action.member].process;
     switch (action.kind) {
-      case Action::Kind::spawn: spawn(action.member); break;
+      case Action::Kind::spawn:
+        spawn(action.member);
+        break;
       case Action::Kind::activate:
         bus_.command(plan_.processes[action.member].name, erp::Lifecycle::active);
         break;
@@ -169,8 +171,12 @@ void Run::carry_out() {
       case Action::Kind::kill:
         if (process) process->send(SIGKILL);
         break;
-      case Action::Kind::say: say(action.text); break;
-      case Action::Kind::show_log: show_log(action.member); break;
+      case Action::Kind::say:
+        say(action.text);
+        break;
+      case Action::Kind::show_log:
+        show_log(action.member);
+        break;
     }
   }
 }
@@ -203,8 +209,8 @@ void Run::say(const std::string& text) {
 }
 
 void Run::say_end() {
-  std::string text = graph_.name + ": ended after " +
-                     to_text_s(1e-9 * static_cast<double>(now_ns_ - started_ns_));
+  std::string text =
+      graph_.name + ": ended after " + to_text_s(1e-9 * static_cast<double>(now_ns_ - started_ns_));
   if (simulated_s_ >= 0) text += ", " + to_text_s(simulated_s_) + " simulated";
   say(text + ", exit code " + std::to_string(supervisor_.exit_code()));
   std::error_code ignored;

@@ -15,11 +15,16 @@ using Values = std::vector<double>;
 /// What a mode measures.
 const char* measured_signal(erp::Mode mode) {
   switch (mode) {
-    case erp::Mode::voltage: return ".voltage_V";
-    case erp::Mode::length: return ".line_m";
-    case erp::Mode::current: return ".current_A";
-    case erp::Mode::force: return ".tension_N";
-    case erp::Mode::off: break;
+    case erp::Mode::voltage:
+      return ".voltage_V";
+    case erp::Mode::length:
+      return ".line_m";
+    case erp::Mode::current:
+      return ".current_A";
+    case erp::Mode::force:
+      return ".tension_N";
+    case erp::Mode::off:
+      break;
   }
   return "";
 }
@@ -128,10 +133,11 @@ int print_summary(const std::string& recording, std::ostream& out) try {
     out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", t.actuator, erp::name_of(t.mode),
                        amount(t.rms, t.mode), amount(t.largest, t.mode));
   for (const auto& s : step_responses(table))
-    out << fmt::format("{} steps {} -> {} at {:.3f} s: rise (10-90 %) {}, overshoot {}, steady RMS {}\n",
-                       s.actuator, amount(s.from, s.mode), amount(s.to, s.mode), s.at_s,
-                       s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "never reached",
-                       amount(s.overshoot, s.mode), amount(s.steady_rms, s.mode));
+    out << fmt::format(
+        "{} steps {} -> {} at {:.3f} s: rise (10-90 %) {}, overshoot {}, steady RMS {}\n",
+        s.actuator, amount(s.from, s.mode), amount(s.to, s.mode), s.at_s,
+        s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "never reached",
+        amount(s.overshoot, s.mode), amount(s.steady_rms, s.mode));
   return 0;
 } catch (const recording::RecordingError& error) {
   std::cerr << error.what() << '\n';

@@ -206,25 +206,38 @@ std::vector<Action> Supervisor::take_actions() { return std::exchange(actions_, 
 
 const char* name_of(Phase phase) {
   switch (phase) {
-    case Phase::waiting: return "waiting";
-    case Phase::starting: return "starting";
-    case Phase::inactive: return "inactive";
-    case Phase::active: return "active";
-    case Phase::backing_off: return "restarting";
-    case Phase::stopping: return "stopping";
-    case Phase::ended: return "ended";
-    case Phase::failed: break;
+    case Phase::waiting:
+      return "waiting";
+    case Phase::starting:
+      return "starting";
+    case Phase::inactive:
+      return "inactive";
+    case Phase::active:
+      return "active";
+    case Phase::backing_off:
+      return "restarting";
+    case Phase::stopping:
+      return "stopping";
+    case Phase::ended:
+      return "ended";
+    case Phase::failed:
+      break;
   }
   return "failed";
 }
 
 const char* name_of(Stage stage) {
   switch (stage) {
-    case Stage::starting: return "starting";
-    case Stage::activating: return "activating";
-    case Stage::running: return "running";
-    case Stage::stopping: return "stopping";
-    case Stage::done: break;
+    case Stage::starting:
+      return "starting";
+    case Stage::activating:
+      return "activating";
+    case Stage::running:
+      return "running";
+    case Stage::stopping:
+      return "stopping";
+    case Stage::done:
+      break;
   }
   return "done";
 }

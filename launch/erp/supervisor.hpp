@@ -33,8 +33,8 @@ struct Heartbeat {
 
 /// Chosen, all of them.
 struct Tuning {
-  std::int64_t settle_ns = 200'000'000;         ///< links unchanged for so long
-  std::int64_t resend_ns = 200'000'000;         ///< an activation nobody followed is sent again
+  std::int64_t settle_ns = 200'000'000;  ///< links unchanged for so long
+  std::int64_t resend_ns = 200'000'000;  ///< an activation nobody followed is sent again
   std::int64_t start_patience_ns = 60'000'000'000;
   std::int64_t stop_patience_ns = 5'000'000'000;  ///< from SIGTERM to SIGKILL
   BackOff::Tuning restart;

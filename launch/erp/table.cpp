@@ -11,8 +11,8 @@ namespace {
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(),
-                                                [](char c) { return !continues_character(c); }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return !continues_character(c); }));
 }
 
 std::string decimal(const char* format, double value) {
@@ -64,9 +64,9 @@ std::vector<std::string> render_rows(const std::vector<Row>& rows) {
                                                "restarts", "cpu", "note"}};
   for (const auto& row : rows)
     cells.push_back({row.name, row.state, row.pid > 0 ? std::to_string(row.pid) : "-",
-                     rate(row.rate_Hz), microseconds(row.age_p50_us),
-                     microseconds(row.age_p99_us), microseconds(row.jitter_p99_us),
-                     std::to_string(row.overruns), std::to_string(row.missed),
+                     rate(row.rate_Hz), microseconds(row.age_p50_us), microseconds(row.age_p99_us),
+                     microseconds(row.jitter_p99_us), std::to_string(row.overruns),
+                     std::to_string(row.missed),
                      row.restarts < 0 ? "-" : std::to_string(row.restarts),
                      row.cpu_percent < 0 ? "-" : decimal("%.0f %%", row.cpu_percent), row.note});
   return align(cells, {false, false, true, true, true, true, true, true, true, true, true, false});

@@ -46,12 +46,10 @@ std::string to_yaml(const recording::Members& message, int indent) {
   for (std::size_t i = 0; i < message.fields.size(); ++i) {
     const auto& value = message.fields[i];
     yaml += std::string(static_cast<std::size_t>(indent), ' ') + message.type->fields[i].name + ":";
-    if (const auto* members = value.members())
-      yaml += "\n" + to_yaml(*members, indent + 2);
+    if (const auto* members = value.members()) yaml += "\n" + to_yaml(*members, indent + 2);
     else if (const auto* values = value.elements(); values && holds_structures(*values))
       yaml += "\n" + list_of_structures(*values, indent + 2);
-    else
-      yaml += " " + scalar(value) + "\n";
+    else yaml += " " + scalar(value) + "\n";
   }
   return yaml;
 }

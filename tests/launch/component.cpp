@@ -30,8 +30,7 @@ class Component {
     if (params.fault == Fault::refuse) throw std::invalid_argument("fault must be none");
     if (params.fault == Fault::crash) throw std::runtime_error("crashing as told");
     if (node.options().type == "sim") make_time();
-    else
-      node.subscribe<erp::Clock>([this](const erp::Clock& clock) { step(clock.stamp_ns); });
+    else node.subscribe<erp::Clock>([this](const erp::Clock& clock) { step(clock.stamp_ns); });
     node.on_activate([this] { report_active(); });
     node.on_deactivate([this] {
       while (params_.fault == Fault::hang) pause();
@@ -69,9 +68,13 @@ class Component {
 
 }  // namespace
 
-template <> struct xml::Names<Fault> {
-  static constexpr auto list = std::to_array<std::pair<const char*, Fault>>(
-      {{"none", Fault::none}, {"crash", Fault::crash}, {"refuse", Fault::refuse}, {"hang", Fault::hang}});
+template <>
+struct xml::Names<Fault> {
+  static constexpr auto list =
+      std::to_array<std::pair<const char*, Fault>>({{"none", Fault::none},
+                                                    {"crash", Fault::crash},
+                                                    {"refuse", Fault::refuse},
+                                                    {"hang", Fault::hang}});
 };
 
 int main(int argc, char** argv) { return node::run<Component>(argc, argv); }

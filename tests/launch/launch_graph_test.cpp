@@ -69,7 +69,8 @@ struct Graph {
     std::vector<pid_t> found;
     for (const auto& entry : fs::directory_iterator("/proc")) {
       const auto name = entry.path().filename().string();
-      if (!std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; })) continue;
+      if (!std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }))
+        continue;
       if (text_of(entry.path() / "cmdline").find(folder.string()) != std::string::npos)
         found.push_back(std::stoi(name));
     }

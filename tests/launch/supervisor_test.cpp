@@ -209,7 +209,8 @@ TEST_CASE("a killed component is started again after a back-off and activated wh
   CHECK(run.supervisor.stage() == Stage::running);
 }
 
-TEST_CASE("the back-off doubles up to its longest, and the sixth failure in the window ends the run") {
+TEST_CASE(
+    "the back-off doubles up to its longest, and the sixth failure in the window ends the run") {
   Run run;
   run.get_running();
   for (const std::int64_t delay_ns : {100 * ms, 200 * ms, 400 * ms, 800 * ms, 1600 * ms}) {

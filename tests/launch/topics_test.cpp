@@ -31,8 +31,8 @@ TEST_CASE("a writer that gave no name is shown as unknown, a topic without reade
 TEST_CASE("the drawn graph has the components' own topics, all of them when asked") {
   const auto dot = launch::to_dot(rig, false);
   CHECK_THAT(dot, Contains("\"plant\" -> \"/sensor_frame\"") &&
-                      Contains("\"/sensor_frame\" -> \"force_control\"") &&
-                      !Contains("event") && !Contains("-> \"erp\""));
+                      Contains("\"/sensor_frame\" -> \"force_control\"") && !Contains("event") &&
+                      !Contains("-> \"erp\""));
   CHECK_THAT(launch::to_dot(rig, true), Contains("\"plant\" -> \"/event\""));
 }
 

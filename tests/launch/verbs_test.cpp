@@ -71,7 +71,8 @@ TEST_CASE("the verbs show a running bus") {
                           !Contains("erp ls"));
 
   const auto graph = bus.erp({"graph"});
-  CHECK_THAT(graph.text, Contains("\"sim\" -> \"/clock\"") && Contains("\"/clock\" -> \"listener\"") &&
+  CHECK_THAT(graph.text, Contains("\"sim\" -> \"/clock\"") &&
+                             Contains("\"/clock\" -> \"listener\"") &&
                              !Contains("component_state"));
 
   const auto hz = bus.erp({"hz", "clock", "--for", "1500ms"});

@@ -22,10 +22,10 @@ TEST_CASE("a message is a line a field, and its samples a list") {
   const auto frame = structure({"robot", "sequence", "gains", "actuators"});
   const Members flexor{&sample, {Value{std::string("flexor")}, Value{2.5}}};
   const Members extensor{&sample, {Value{std::string("extensor")}, Value{-1.0}}};
-  const Members message{&frame,
-                        {Value{std::string("rig")}, Value{std::uint64_t{7}},
-                         Value{Values{Value{1.0}, Value{2.0}}},
-                         Value{Values{Value{flexor}, Value{extensor}}}}};
+  const Members message{
+      &frame,
+      {Value{std::string("rig")}, Value{std::uint64_t{7}}, Value{Values{Value{1.0}, Value{2.0}}},
+       Value{Values{Value{flexor}, Value{extensor}}}}};
   CHECK(launch::to_yaml(message) ==
         "robot: rig\n"
         "sequence: 7\n"

@@ -138,7 +138,7 @@ TEST_CASE("a flushed message is in the file although the recording was never clo
   CHECK(reader.contents().messages == 1);
   CHECK_FALSE(reader.complete());
   writer.flush();
-  writer.flush();
+  writer.write(channel, 8, 2, 2, view("after"));
   writer.close();
   CHECK(McapReader(folder / "a.mcap").complete());
 }

@@ -1,6 +1,7 @@
 #include "interfaces/xml/schema.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <filesystem>
 
 #include "tests/interfaces/xml/example.hpp"
@@ -28,6 +29,8 @@ struct Numbers {
   double x = 0;
   std::optional<double> open, closed;
   int i = 0;
+  int large = 0;
+  std::uint64_t seed = 0;
   bool b = false;
   std::string s;
   xml::Vec3 v{0, 0, 0};
@@ -37,6 +40,8 @@ struct Numbers {
     visitor("open", open, xml::Range{0, 1, true, true});
     visitor("closed", closed, xml::Range{0, 1});
     visitor("i", i);
+    visitor("large", large, xml::Range{0, 1e9});
+    visitor("seed", seed);
     visitor("b", b);
     visitor("s", s);
     visitor("v", v, xml::at_least_zero);
@@ -67,6 +72,9 @@ TEST_CASE("reader and XSD agree on what a value is") {
   CHECK_FALSE(with("closed", "1.0000001"));
   for (const char* good : {"0", " -7 ", "+7", "007"}) CHECK(with("i", good));
   for (const char* bad : {"1.0", "", "3000000000", "1e3"}) CHECK_FALSE(with("i", bad));
+  CHECK(with("large", "1000000000"));
+  CHECK_FALSE(with("large", "1000000001"));
+  CHECK_FALSE(with("seed", "-1"));
   for (const char* bad : {"1", "TRUE", "", "yes"}) CHECK_FALSE(with("b", bad));
   CHECK(with("b", " true "));
   CHECK(with("s", ""));

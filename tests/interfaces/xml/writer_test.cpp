@@ -1,6 +1,8 @@
 #include "interfaces/xml/writer.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <random>
 
@@ -40,6 +42,13 @@ TEST_CASE("any finite number is read back to the same bits") {
   double back = 1;
   REQUIRE_FALSE(xml::read_number(xml::write_number(-0.0), back, xml::any));
   CHECK(same_bits(back, -0.0));
+}
+
+TEST_CASE("numbers of everyday size are written without an exponent") {
+  CHECK(xml::write_number(1e9) == "1000000000");
+  CHECK(xml::write_number(-0.0004) == "-0.0004");
+  CHECK(xml::write_number(57.3e-6) == "5.73e-05");
+  CHECK(xml::write_number(0.1f) == "0.1");
 }
 
 TEST_CASE("any text is read back, markup and line breaks included") {

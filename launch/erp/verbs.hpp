@@ -1,0 +1,18 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+
+/// The parts of the command line. Each adds its verbs to `app`; parsing one sets `chosen`.
+namespace launch {
+
+/// What the chosen verb does; returns the exit code.
+using Chosen = std::function<int()>;
+
+void add_launch(CLI::App& app, Chosen& chosen);
+void add_check(CLI::App& app, Chosen& chosen);
+void add_look(CLI::App& app, Chosen& chosen);    ///< ps, ls, graph
+void add_listen(CLI::App& app, Chosen& chosen);  ///< hz, echo, delay
+void add_log(CLI::App& app, Chosen& chosen);
+void add_new(CLI::App& app, Chosen& chosen);
+
+}  // namespace launch
