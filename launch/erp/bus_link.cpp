@@ -11,7 +11,7 @@ BusLink::BusLink(std::string robot)
       participant_(node::join("erp")),
       states_(participant_, wake_),
       events_(participant_, wake_, event_depth),
-      clock_(participant_, wake_),
+      clock_(participant_, unheeded_),
       commands_(participant_) {}
 
 void BusLink::poll(const Hearing& hearing) {

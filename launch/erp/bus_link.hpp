@@ -26,6 +26,7 @@ class BusLink {
   std::string robot_;
   node::Entity participant_;
   node::Wake wake_;
+  node::Wake unheeded_;  ///< the clock's: thousands of ticks a second need not wake us
   node::Reader<erp::ComponentState> states_;
   node::Reader<erp::Event> events_;
   node::Reader<erp::Clock> clock_;

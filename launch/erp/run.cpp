@@ -1,8 +1,10 @@
 #include "launch/erp/run.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +19,7 @@ namespace launch {
 namespace {
 
 constexpr int tick_ms = 20;                         // chosen: start-up advances by ticks
+constexpr std::int64_t change_ns = 20'000'000;      // chosen
 constexpr std::int64_t redraw_ns = 200'000'000;     // chosen
 constexpr std::int64_t silence_ns = 1'000'000'000;  // ten heartbeats
 constexpr std::size_t shown_log_lines = 12;
@@ -71,10 +74,9 @@ int Run::execute() {
     reap();
     supervisor_.tick(now_ns_);
     carry_out();
-    if (!screen_.is_terminal() || now_ns_ - drawn_ns_ >= redraw_ns) {
-      screen_.show(status());
-      drawn_ns_ = now_ns_;
-    }
+    if (now_ns_ - drawn_ns_ < (screen_.is_terminal() ? redraw_ns : change_ns)) continue;
+    screen_.show(status());
+    drawn_ns_ = now_ns_;
   }
   hear_bus();
   screen_.show(status());
@@ -124,7 +126,15 @@ void Run::hear(const erp::Event& event) {
       std::string(event.component) + ": " + word_of(static_cast<erp::Severity>(event.severity));
   if (event.subject[0] && std::string(event.subject) != event.component)
     text += std::string(event.subject) + ": ";
-  say(text + event.text);
+  if (is_ending()) note(text + event.text);
+  else say(text + event.text);
+}
+
+/// From the device's last word on, the others miss it: worth keeping, but no news.
+bool Run::is_ending() const {
+  const auto& device = members_.back().heard;
+  return supervisor_.stage() == Stage::stopping ||
+         (device && device->lifecycle == static_cast<std::uint8_t>(erp::Lifecycle::finalized));
 }
 
 void Run::hear(const erp::Clock& clock) {
@@ -201,11 +211,13 @@ void Run::show_log(std::size_t index) {
   for (const auto& line : last_lines(file, shown_log_lines)) say("  | " + line);
 }
 
+void Run::note(const std::string& text) {
+  log_ << fmt::format("{:8.2f}  {}", elapsed_s(), text) << std::endl;
+}
+
 void Run::say(const std::string& text) {
-  char time[24];
-  std::snprintf(time, sizeof time, "%8.2f  ", 1e-9 * static_cast<double>(now_ns_ - started_ns_));
-  log_ << time << text << std::endl;
-  screen_.say(time + text);
+  note(text);
+  screen_.say(elapsed_s(), text);
 }
 
 void Run::say_end() {
@@ -248,7 +260,7 @@ Status Run::status() {
                 .device = word_of(graph_.device, xml::Names<erp::Device>::list),
                 .time = word_of(graph_.time, xml::Names<erp::Time>::list),
                 .stage = name_of(supervisor_.stage()),
-                .elapsed_s = 1e-9 * static_cast<double>(now_ns_ - started_ns_),
+                .elapsed_s = elapsed_s(),
                 .simulated_s = simulated_s_,
                 .left_s = left_s()};
   for (std::size_t i = 0; i < members_.size(); ++i) status.rows.push_back(row(i));

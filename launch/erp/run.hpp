@@ -41,16 +41,19 @@ class Run {
   void refuse_stranger(const erp::ComponentState& state);
   void hear(const erp::Event& event);
   void hear(const erp::Clock& clock);
+  bool is_ending() const;
   void reap();
   void obey_signals();
   void carry_out();
   void spawn(std::size_t index);
   void show_log(std::size_t index);
-  void say(const std::string& text);
+  void note(const std::string& text);  ///< to erp.log alone
+  void say(const std::string& text);   ///< to erp.log and the screen
   void say_end();
   Row row(std::size_t index);
   std::string state_of(std::size_t index) const;
   Status status();
+  double elapsed_s() const { return 1e-9 * static_cast<double>(now_ns_ - started_ns_); }
   double left_s() const;
 
   const erp::Graph& graph_;

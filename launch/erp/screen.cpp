@@ -22,9 +22,9 @@ Size size_of(std::FILE* out) {
 
 Screen::Screen(std::FILE* out) : out_(out), terminal_(isatty(fileno(out)) != 0) {}
 
-void Screen::say(const std::string& line) {
+void Screen::say(double time_s, const std::string& text) {
   clear();
-  std::fprintf(out_, "%s\n", line.c_str());
+  std::fprintf(out_, "%8.2f  %s\n", time_s, text.c_str());
   draw();
   std::fflush(out_);
 }
@@ -41,7 +41,7 @@ void Screen::show(const Status& status) {
     auto& said = states_[row.name];
     if (said == row.state) continue;
     said = row.state;
-    say(row.name + ": " + row.state);
+    say(status.elapsed_s, row.name + ": " + row.state);
   }
 }
 

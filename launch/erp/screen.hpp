@@ -17,7 +17,8 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  void say(const std::string& line);
+  /// `time_s`: since the run began.
+  void say(double time_s, const std::string& text);
   void show(const Status& status);
   bool is_terminal() const { return terminal_; }
 

@@ -40,6 +40,7 @@ void Supervisor::heard(std::size_t index, const Heartbeat& heartbeat, std::int64
   Member& member = members_[index];
   if (heartbeat.links != member.heartbeat.links) member.links_since_ns = now_ns;
   member.heartbeat = heartbeat;
+  member.finalized = heartbeat.lifecycle == erp::Lifecycle::finalized;
   const bool starting = member.phase == Phase::starting;
   if (starting && heartbeat.lifecycle == erp::Lifecycle::inactive) {
     member.phase = Phase::inactive;
@@ -105,7 +106,7 @@ void Supervisor::stop(const std::string& why, int exit_code, std::int64_t now_ns
   say(why + "; stopping");
   stage_ = Stage::stopping;
   for (auto& member : members_) {
-    member.asked_ns = 0;
+    member.asked_ns.reset();
     if (member.phase == Phase::waiting || member.phase == Phase::backing_off)
       member.phase = Phase::ended;
   }
@@ -118,7 +119,6 @@ void Supervisor::kill_now() {
   for (auto& member : members_) {
     if (!alive(member)) continue;
     member.phase = Phase::stopping;
-    member.asked_ns = std::max<std::int64_t>(member.asked_ns, 1);
     member.killed = true;
     act(Action::Kind::kill, index_of(member));
   }
@@ -143,7 +143,8 @@ void Supervisor::spawn_due(std::int64_t now_ns) {
     if (now_ns < member.spawn_due_ns) continue;
     member.phase = Phase::starting;
     member.heartbeat = {};
-    member.asked_ns = 0;
+    member.finalized = false;
+    member.asked_ns.reset();
     act(Action::Kind::spawn, index_of(member));
   }
 }
@@ -166,7 +167,7 @@ void Supervisor::activate_next(std::int64_t now_ns) {
   for (auto& member : members_) {
     if (member.phase == Phase::active || member.phase == Phase::ended) continue;
     all_active = false;
-    const bool asked_lately = member.asked_ns && now_ns - member.asked_ns < tuning_.resend_ns;
+    const bool asked_lately = member.asked_ns && now_ns - *member.asked_ns < tuning_.resend_ns;
     if (ready(member, now_ns) && !asked_lately) {
       member.asked_ns = now_ns;
       act(Action::Kind::activate, index_of(member));
@@ -180,22 +181,29 @@ void Supervisor::activate_next(std::int64_t now_ns) {
 }
 
 void Supervisor::stop_next(std::int64_t now_ns) {
-  const auto last = std::find_if(members_.rbegin(), members_.rend(),
-                                 [this](const Member& member) { return alive(member); });
-  if (last == members_.rend()) {
-    stage_ = Stage::done;
-    return;
+  bool waiting = false;  // for one that is still at work
+  bool all_gone = true;
+  for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
+    if (!alive(*member)) continue;
+    all_gone = false;
+    if (!member->asked_ns && !waiting) {
+      member->phase = Phase::stopping;
+      member->asked_ns = now_ns;
+      act(Action::Kind::terminate, index_of(*member));
+    }
+    waiting |= !member->finalized;
+    kill_if_late(*member, now_ns);
   }
-  if (!last->asked_ns) {
-    last->phase = Phase::stopping;
-    last->asked_ns = std::max<std::int64_t>(now_ns, 1);
-    return act(Action::Kind::terminate, index_of(*last));
-  }
-  if (now_ns - last->asked_ns < tuning_.stop_patience_ns || last->killed) return;
-  last->killed = true;
-  say(last->charge.name + " did not stop within " + seconds(tuning_.stop_patience_ns) +
+  if (all_gone) stage_ = Stage::done;
+}
+
+void Supervisor::kill_if_late(Member& member, std::int64_t now_ns) {
+  if (member.killed || !member.asked_ns) return;
+  if (now_ns - *member.asked_ns < tuning_.stop_patience_ns) return;
+  member.killed = true;
+  say(member.charge.name + " did not stop within " + seconds(tuning_.stop_patience_ns) +
       "; killing it");
-  act(Action::Kind::kill, index_of(*last));
+  act(Action::Kind::kill, index_of(member));
 }
 
 void Supervisor::act(Action::Kind kind, std::size_t index, std::string text) {

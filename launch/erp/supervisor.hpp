@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@
 ///
 /// A component is ready when it is inactive, sees every other process and the launcher on the bus,
 /// and its links have not changed for a while. Members are activated in the order given and
-/// stopped in reverse, each waiting for the one before.
+/// stopped in reverse, each waiting until the one before has said that it is finalized, or is gone.
 namespace launch {
 
 /// One process to look after.
@@ -77,10 +78,11 @@ class Supervisor {
     BackOff back_off;
     Phase phase = Phase::waiting;
     Heartbeat heartbeat;
-    std::int64_t links_since_ns = 0;  ///< when the links last changed
-    std::int64_t asked_ns = 0;        ///< when it was last told something; 0: never
+    std::int64_t links_since_ns = 0;       ///< when the links last changed
+    std::optional<std::int64_t> asked_ns;  ///< when it was last told to activate or to end
     std::int64_t spawn_due_ns = 0;
     bool killed = false;
+    bool finalized = false;  ///< has said its last word; the process only has to end
     std::size_t restarts = 0;
   };
 
@@ -90,6 +92,7 @@ class Supervisor {
   void await_all(std::int64_t now_ns);
   void activate_next(std::int64_t now_ns);
   void stop_next(std::int64_t now_ns);
+  void kill_if_late(Member& member, std::int64_t now_ns);
   void restart(std::size_t index, const Ending& ending, std::int64_t now_ns);
   void fail(std::size_t index, const std::string& why, int exit_code, std::int64_t now_ns);
   void act(Action::Kind kind, std::size_t index = 0, std::string text = "");

@@ -38,8 +38,7 @@ Discrete hold(const ForceModel& model, double t) {
 Poles default_poles(const ForceModel& model, double bandwidth_per_s) {
   const auto own = model.a.eigenvalues();
   Poles poles{own[0], own[1], own[2]};
-  std::sort(poles.begin(), poles.end(),
-            [](auto x, auto y) { return std::abs(x) < std::abs(y); });
+  std::sort(poles.begin(), poles.end(), [](auto x, auto y) { return std::abs(x) < std::abs(y); });
   if (poles[0].imag() != 0)
     throw std::invalid_argument(
         "the tendon and its motor oscillate; give force_poles_per_s explicitly");
@@ -48,8 +47,7 @@ Poles default_poles(const ForceModel& model, double bandwidth_per_s) {
 }
 
 Poles wanted_poles(const ForceModel& model, const DesignOptions& options) {
-  const bool given = std::any_of(options.force_poles_per_s.begin(),
-                                 options.force_poles_per_s.end(),
+  const bool given = std::any_of(options.force_poles_per_s.begin(), options.force_poles_per_s.end(),
                                  [](auto p) { return p != std::complex<double>(); });
   const Poles poles =
       given ? options.force_poles_per_s : default_poles(model, options.force_bandwidth_per_s);
@@ -73,9 +71,9 @@ Matrix3d polynomial(const Matrix3d& phi, const Poles& poles, double t) {
 double mechanical_pole_per_s(const erp::MotorType& m) {
   // Without inductance: λ_m = (e N² (K_T K_E / R + µ_M) + µ_G) / J
   const double n2 = m.gear_ratio * m.gear_ratio, eta = m.gear_efficiency;
-  const double damping = eta * n2 * (m.torque_Nm_per_A * m.back_emf_V_s_per_rad /
-                                         m.resistance_ohm +
-                                     m.rotor_viscous_Nm_s_per_rad) +
+  const double damping = eta * n2 *
+                             (m.torque_Nm_per_A * m.back_emf_V_s_per_rad / m.resistance_ohm +
+                              m.rotor_viscous_Nm_s_per_rad) +
                          m.gear_viscous_Nm_s_per_rad;
   return damping / (eta * n2 * m.rotor_inertia_kg_m2 + m.gear_inertia_kg_m2);
 }

@@ -25,8 +25,8 @@
 ///   F_ref + (R + k_i) (i_0 − i_down) / k_F   let out to it:   i_down the current that just holds
 ///
 /// with i_0 = r F_ref / (η N K_T), the current the design counts on. On hinge_rig at 40 N that is
-/// −0.01 N and +0.05 N. Letting out, the moving masses weigh 1/η² = 2.9 times as much in the model's
-/// terms; the loop stays stable (design_test.cpp).
+/// −0.01 N and +0.05 N. Letting out, the moving masses weigh 1/η² = 2.9 times as much in the
+/// model's terms; the loop stays stable (design_test.cpp).
 ///
 /// Length, V = kp (θ_ref − θ): kp = K_E N λ_m / 4, λ_m the mechanical pole: critically damped.
 /// Current, PID: kp = L b, ki = R b, kd = 0, which cancels R/L; b = 0.3 / period: at 500 Hz the
@@ -37,11 +37,11 @@
 namespace sim {
 
 struct DesignOptions {
-  double period_s = 0.002;          ///< paper, 5.1: 500 Hz
+  double period_s = 0.002;            ///< paper, 5.1: 500 Hz
   double force_bandwidth_per_s = 35;  ///< where the slow pole goes; chosen, see design_test.cpp
   /// All three poles of the force loop, s-plane; all zero: the motor's own and the bandwidth.
   std::array<std::complex<double>, 3> force_poles_per_s{};
-  double line_travel_m = 0.2;       ///< chosen; fits the 22 bits of a CAN set-point
+  double line_travel_m = 0.2;  ///< chosen; fits the 22 bits of a CAN set-point
 };
 
 using EcuParameters = std::array<float, ECU_PARAMETER_COUNT>;

@@ -16,8 +16,9 @@ Motor::Motor(const erp::MotorType& type, double spindle_radius_m, double usual_s
   // T ~ N J_G (K_T i − µ_M N ω − s τ_CM) + J_M N² (µ_G ω + s τ_CG + r F)
   const double n = type.gear_ratio, j_g = type.gear_inertia_kg_m2;
   mesh_slope_ = {n * j_g * type.torque_Nm_per_A,
-                 n * n * (type.rotor_inertia_kg_m2 * type.gear_viscous_Nm_s_per_rad -
-                          j_g * type.rotor_viscous_Nm_s_per_rad)};
+                 n * n *
+                     (type.rotor_inertia_kg_m2 * type.gear_viscous_Nm_s_per_rad -
+                      j_g * type.rotor_viscous_Nm_s_per_rad)};
 }
 
 Motor::Branch Motor::branch(double e) const {
@@ -35,8 +36,7 @@ Motor::Branch Motor::branch(double e) const {
 Vec2 Motor::input(const Branch& b, double voltage_V, double tension_N, int direction) const {
   const double friction = direction * (b.efficiency * type_.gear_ratio * type_.rotor_coulomb_Nm +
                                        type_.gear_coulomb_Nm);
-  return {voltage_V / type_.inductance_H,
-          -(friction + radius_m_ * tension_N) / b.inertia_kg_m2};
+  return {voltage_V / type_.inductance_H, -(friction + radius_m_ * tension_N) / b.inertia_kg_m2};
 }
 
 double Motor::mesh_constant(double tension_N, int direction) const {
@@ -47,8 +47,8 @@ double Motor::mesh_constant(double tension_N, int direction) const {
 }
 
 bool Motor::drives(const MotorState& x, double tension_N, int direction) const {
-  const double mesh = mesh_slope_.dot(Vec2(x.current_A, x.speed_rad_per_s)) +
-                      mesh_constant(tension_N, direction);
+  const double mesh =
+      mesh_slope_.dot(Vec2(x.current_A, x.speed_rad_per_s)) + mesh_constant(tension_N, direction);
   return mesh * direction >= 0;
 }
 
@@ -117,7 +117,8 @@ class MotorRun {
   static constexpr int max_events = 16;
 
   PlaneMotion slide_motion(const Motor::Branch& b, int direction) const {
-    return {b.system, {x_.current_A, x_.speed_rad_per_s},
+    return {b.system,
+            {x_.current_A, x_.speed_rad_per_s},
             motor_.input(b, voltage_V_, tension_N_, direction)};
   }
   MotorState moved(const PlaneMotion& motion, const Vec2& end, double t_s) const {

@@ -61,10 +61,8 @@ double falling_root(const Function& g, double low, double high) {
     const bool inside = i % 3 != 2 && secant > low && secant < high;
     const double t = inside ? secant : 0.5 * (low + high);
     const double g_t = g(t);
-    if (g_t >= 0)
-      low = t, g_low = g_t;
-    else
-      high = t, g_high = g_t;
+    if (g_t >= 0) low = t, g_low = g_t;
+    else high = t, g_high = g_t;
     if (g_t == 0) break;
   }
   return low;

@@ -29,7 +29,9 @@ class PlaneSystem {
   /// Any t ≥ 0; does not overflow.
   PlaneExponential exponential(double t_s) const;
   /// e^(A t) y.
-  Vec2 apply(const PlaneExponential& e, const Vec2& y) const { return e.c * y + e.s * (shifted_ * y); }
+  Vec2 apply(const PlaneExponential& e, const Vec2& y) const {
+    return e.c * y + e.s * (shifted_ * y);
+  }
   /// The first t > after_s where u c(t) + w s(t) = 0; none: never again.
   std::optional<double> first_zero(double u, double w, double after_s) const;
   const Mat2& shifted() const { return shifted_; }  ///< A − m I

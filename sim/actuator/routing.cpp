@@ -26,8 +26,8 @@ Routing::Routing(const erp::Tendon& tendon, std::span<const std::string> names) 
     } else {
       const auto& pulley = std::get<erp::Pulley>(element);
       if (!(pulley.radius_m > 0)) throw std::invalid_argument("pulley radius_m must be positive");
-      elements_.push_back({index_of(pulley.body, names), vec(pulley.center_m), pulley.radius_m,
-                           vec(pulley.side)});
+      elements_.push_back(
+          {index_of(pulley.body, names), vec(pulley.center_m), pulley.radius_m, vec(pulley.side)});
     }
   }
   if (elements_.size() < 2 || elements_.size() > max_path_elements)
@@ -92,9 +92,8 @@ double Routing::wrap_one(PathShape& shape, std::span<const BodyPose> poses, int 
   while (!shape.touches[after]) ++after;
   const PathElement& pulley = elements_[k];
   const Vec3& center = shape.pulls[k].at_m;
-  const SphereWrap wrap =
-      wrap_sphere(shape.exit_m[before] - center, shape.entry_m[after] - center, pulley.radius_m,
-                  poses[pulley.body].rotation * pulley.side);
+  const SphereWrap wrap = wrap_sphere(shape.exit_m[before] - center, shape.entry_m[after] - center,
+                                      pulley.radius_m, poses[pulley.body].rotation * pulley.side);
   const Vec3 entry = wrap.touches ? Vec3(center + wrap.entry_m) : center;
   const Vec3 exit = wrap.touches ? Vec3(center + wrap.exit_m) : center;
   const double moved = std::max((entry - shape.entry_m[k]).lpNorm<Eigen::Infinity>(),

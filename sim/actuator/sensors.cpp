@@ -31,12 +31,12 @@ ActuatorSensors::ActuatorSensors(const erp::MotorType& motor, const erp::SensorT
 ActuatorCounts ActuatorSensors::read(double shaft_rad, double current_A, double tension_N) {
   const double current = current_A + current_noise_A_ * noise_.normal();
   const double tension = tension_N + tension_noise_N_ * noise_.normal();
-  return {static_cast<std::int32_t>(std::floor(shaft_rad / scale_.shaft_rad_per_count + 0.5)),
-          static_cast<std::int16_t>(convert(current, scale_.current_A_per_count,
-                                            -scale_.current_counts_max - 1,
-                                            scale_.current_counts_max)),
-          static_cast<std::uint16_t>(
-              convert(tension, scale_.tension_N_per_count, 0, scale_.tension_counts_max))};
+  return {
+      static_cast<std::int32_t>(std::floor(shaft_rad / scale_.shaft_rad_per_count + 0.5)),
+      static_cast<std::int16_t>(convert(current, scale_.current_A_per_count,
+                                        -scale_.current_counts_max - 1, scale_.current_counts_max)),
+      static_cast<std::uint16_t>(
+          convert(tension, scale_.tension_N_per_count, 0, scale_.tension_counts_max))};
 }
 
 JointAngleSensor::JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed)

@@ -19,10 +19,10 @@ using Vec3 = Eigen::Vector3d;
 
 struct SphereWrap {
   double length_m = 0;
-  double angle_rad = 0;     ///< on the sphere; 0 when the line does not touch
+  double angle_rad = 0;  ///< on the sphere; 0 when the line does not touch
   bool touches = false;
-  Vec3 entry_m, exit_m;     ///< where it touches, from the centre; unset when it does not
-  bool inside = false;      ///< an end lies inside the sphere: no answer, the straight line is given
+  Vec3 entry_m, exit_m;  ///< where it touches, from the centre; unset when it does not
+  bool inside = false;   ///< an end lies inside the sphere: no answer, the straight line is given
 };
 
 /// A, B and side relative to the sphere's centre, in one frame. `side` zero: the shorter way.

@@ -42,9 +42,8 @@ struct TendonLaw {
                    double speed_rad_per_s) const {
     const double stretch = stretch_m(length_m, shaft_rad);
     const double rate = length_rate_m_per_s + radius_m * speed_rad_per_s;
-    return stretch > 0
-               ? std::max(0.0, stiffness_N_per_m * stretch + damping_N_s_per_m * rate)
-               : 0.0;
+    return stretch > 0 ? std::max(0.0, stiffness_N_per_m * stretch + damping_N_s_per_m * rate)
+                       : 0.0;
   }
 };
 

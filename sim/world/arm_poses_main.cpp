@@ -1,6 +1,6 @@
-// arm_poses csv ROBOT.xml          the fifteen poses as a reference trajectory (configs/arm/poses.csv)
-// arm_poses pretension ROBOT.xml   the pretensions that balance the starting pose
-// arm_poses tensions ROBOT.xml     the tension of each muscle in each pose
+// arm_poses csv ROBOT.xml          the fifteen poses as a reference trajectory
+// (configs/arm/poses.csv) arm_poses pretension ROBOT.xml   the pretensions that balance the
+// starting pose arm_poses tensions ROBOT.xml     the tension of each muscle in each pose
 #include <cstdio>
 #include <cstring>
 #include <exception>

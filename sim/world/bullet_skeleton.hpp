@@ -10,9 +10,15 @@
 
 /// The robot's bones and joints in Bullet: one btMultiBody a tree, double precision.
 ///
-/// Bullet gives the articulated-body dynamics and the semi-implicit step; ours are the joints'
-/// friction and limits (joint_rows.hpp), solved after Bullet has applied forces and before it
-/// moves the bodies. Bullet's own damping and sleeping are off.
+/// Bullet gives the articulated-body dynamics and the semi-implicit step. Ours, between its forces
+/// and its motion, are
+///
+///   v⁺ = v + dt a(q, (v + v¹)/2),  v¹ = v + dt a(q, v)     velocity-dependent forces at mid-step
+///   joint friction and limits                             joint_rows.hpp
+///
+/// Bullet's step alone (v⁺ = v¹) feeds energy into ball joints: 7 J in 10 s into the free arm at
+/// 1 ms, against 0.07 J with the correction, for one more pass of the articulated-body algorithm.
+/// Bullet's own damping and sleeping are off.
 namespace sim {
 
 /// Position: revolute [0] rad; spherical a unit quaternion w x y z from child to parent.

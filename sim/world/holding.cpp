@@ -51,7 +51,9 @@ Slopes slopes_at(World& world, const Pose& pose) {
   for (std::size_t j = 0; j < pose.size(); ++j) {
     const int joint = static_cast<int>(j);
     const auto type = world.joint_list()[j].type;
-    const int axes = type == erp::JointType::spherical ? 3 : type == erp::JointType::revolute ? 1 : 0;
+    const int axes = type == erp::JointType::spherical  ? 3
+                     : type == erp::JointType::revolute ? 1
+                                                        : 0;
     for (int axis = 0; axis < axes; ++axis) {
       world.set_joint(joint, moved(world, joint, pose[j], axis, h));
       const VectorXd after = lengths(world);
@@ -77,8 +79,7 @@ VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& opt
   for (int k = 0; k < 200; ++k) {
     const VectorXd f = tensions(lambda), missing = b - j.transpose() * f;
     if (missing.norm() < 1e-10) break;
-    const VectorXd pulls =
-        ((j * lambda).array() > options.least_N - options.rest_N).cast<double>();
+    const VectorXd pulls = ((j * lambda).array() > options.least_N - options.rest_N).cast<double>();
     MatrixXd slope = j.transpose() * pulls.asDiagonal() * j;
     slope.diagonal().array() += 1e-9 + 1e-6 * slope.diagonal().maxCoeff();
     const VectorXd newton = slope.fullPivLu().solve(missing);
@@ -112,9 +113,9 @@ Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOption
   for (std::size_t k = 0; k < robot.actuators.size(); ++k) {
     const erp::Tendon& tendon = robot.actuators[k].tendon;
     holding.tension_N.push_back(f[static_cast<Eigen::Index>(k)]);
-    holding.line_m.push_back(now[static_cast<Eigen::Index>(k)] - start[static_cast<Eigen::Index>(k)] -
-                             (holding.tension_N[k] - tendon.pretension_N) /
-                                 tendon.stiffness_N_per_m);
+    holding.line_m.push_back(
+        now[static_cast<Eigen::Index>(k)] - start[static_cast<Eigen::Index>(k)] -
+        (holding.tension_N[k] - tendon.pretension_N) / tendon.stiffness_N_per_m);
   }
   return holding;
 }

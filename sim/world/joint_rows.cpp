@@ -70,8 +70,7 @@ double relax(const JointLimit& limit, double& impulse, const Eigen::MatrixXd& w,
   const auto d = limit.direction.head(limit.dofs);
   const double own = d.dot(w.block(limit.first, limit.first, limit.dofs, limit.dofs) * d);
   const double speed = d.dot(v.segment(limit.first, limit.dofs));
-  const double allowed =
-      (limit.gap_rad >= 0 ? limit.gap_rad : erp_of_overrun * limit.gap_rad) / dt;
+  const double allowed = (limit.gap_rad >= 0 ? limit.gap_rad : erp_of_overrun * limit.gap_rad) / dt;
   const double wanted = std::min(0.0, impulse + (allowed - speed) / own);
   const double change = wanted - impulse;
   impulse = wanted;

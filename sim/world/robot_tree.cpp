@@ -21,7 +21,8 @@ int joint_that_moves(const std::vector<erp::Joint>& joints, const std::string& b
 
 void check(const erp::Body& body, bool moved) {
   const auto& inertia = body.inertia_kg_m2;
-  const bool has_inertia = std::all_of(inertia.begin(), inertia.end(), [](double i) { return i > 0; });
+  const bool has_inertia =
+      std::all_of(inertia.begin(), inertia.end(), [](double i) { return i > 0; });
   if (moved && !(body.mass_kg > 0 && has_inertia))
     refuse("body \"" + body.name + "\" is moved by a joint and needs mass and inertia");
   if (!moved && body.mass_kg > 0)

@@ -27,14 +27,18 @@ VirtualEcus::VirtualEcus(const erp::Robot& robot, const VirtualEcuOptions& optio
   std::uint64_t seed = options.seed << 16;
   for (const erp::Actuator& actuator : robot.actuators) {
     const erp::MotorType& motor = robot.motor_of(actuator);
-    channels_.push_back({actuator.ecu, actuator.channel, motor.supply_V,
-                         ActuatorSensors(motor, robot.sensors_of(actuator), ++seed), {}, {}});
+    channels_.push_back({actuator.ecu,
+                         actuator.channel,
+                         motor.supply_V,
+                         ActuatorSensors(motor, robot.sensors_of(actuator), ++seed),
+                         {},
+                         {}});
     ecu_init(&channels_.back().firmware);
   }
   const std::vector<erp::Joint> joints = robot.joints();
   for (const erp::JointSensor& sensor : robot.joint_sensors)
-    analogs_.push_back({sensor.ecu, sensor.input, joint_of(joints, sensor),
-                        JointAngleSensor(sensor, ++seed), 0});
+    analogs_.push_back(
+        {sensor.ecu, sensor.input, joint_of(joints, sensor), JointAngleSensor(sensor, ++seed), 0});
   for (Channel& channel : channels_) channel_pointers_.push_back(&channel.firmware);
   voltage_V_.assign(channels_.size(), 0.0);
 }
@@ -60,8 +64,8 @@ void VirtualEcus::accept(const erp::EcuParameter& parameters) {
 void VirtualEcus::measure(const World& world) {
   const auto actuators = world.actuators();
   for (std::size_t k = 0; k < channels_.size(); ++k)
-    channels_[k].counts = channels_[k].sensors.read(
-        actuators[k].shaft_rad, actuators[k].current_A, actuators[k].tension_N);
+    channels_[k].counts = channels_[k].sensors.read(actuators[k].shaft_rad, actuators[k].current_A,
+                                                    actuators[k].tension_N);
   for (Analog& analog : analogs_)
     analog.counts = analog.sensor.read(world.joints()[analog.joint].position[0]);
   measured_ = true;
@@ -72,8 +76,8 @@ void VirtualEcus::tick(World& world) {
   for (std::size_t k = 0; k < channels_.size(); ++k) {
     const ActuatorCounts& counts = channels_[k].counts;
     const ecu_inputs inputs{counts.encoder, counts.current, counts.tension};
-    voltage_V_[k] = channels_[k].supply_V * ecu_tick(&channels_[k].firmware, &inputs) /
-                    ECU_DUTY_MAX;
+    voltage_V_[k] =
+        channels_[k].supply_V * ecu_tick(&channels_[k].firmware, &inputs) / ECU_DUTY_MAX;
   }
   const double dt_s = tick_s / options_.substeps;
   for (int k = 0; k < options_.substeps; ++k) world.step(voltage_V_, dt_s);
@@ -84,13 +88,12 @@ void VirtualEcus::fill(erp::EcuFrame& frame) const {
   frame.channels._length = frame.analogs._length = 0;
   for (const Channel& c : channels_)
     erp::append(frame.channels,
-                erp::EcuChannelSample{static_cast<std::uint8_t>(c.ecu),
-                                      static_cast<std::uint8_t>(c.number), measured_,
-                                      static_cast<std::uint8_t>(c.firmware.state),
-                                      static_cast<std::uint8_t>(c.firmware.fault),
-                                      static_cast<std::uint8_t>(c.firmware.request),
-                                      c.firmware.setpoint, c.counts.encoder, c.firmware.duty,
-                                      c.counts.current, c.counts.tension});
+                erp::EcuChannelSample{
+                    static_cast<std::uint8_t>(c.ecu), static_cast<std::uint8_t>(c.number),
+                    measured_, static_cast<std::uint8_t>(c.firmware.state),
+                    static_cast<std::uint8_t>(c.firmware.fault),
+                    static_cast<std::uint8_t>(c.firmware.request), c.firmware.setpoint,
+                    c.counts.encoder, c.firmware.duty, c.counts.current, c.counts.tension});
   for (const Analog& a : analogs_)
     erp::append(frame.analogs,
                 erp::EcuAnalogSample{static_cast<std::uint8_t>(a.ecu),

@@ -10,7 +10,8 @@
 /// The ECUs of a simulated robot: firmware/core on one channel an actuator, between the world's
 /// sensors and its motors. Pure: no clock, no bus; a tick is 2 ms of the world's time.
 ///
-///   measure -> counts -> ecu_tick -> duty -> V = duty / 1023 · supply, held over the tick -> measure
+///   measure -> counts -> ecu_tick -> duty -> V = duty / 1023 · supply, held over the tick ->
+///   measure
 ///
 /// A duty of 0 shorts the motor (it brakes), as the H-bridge of the ECU does.
 namespace sim {

@@ -40,13 +40,13 @@ void World::read() {
     chain.routing.solve(poses(), chain.shape);
     const double rate = length_rate_m_per_s(chain.shape, poses(), twists());
     const MotorState& motor = chain.state;
-    readings_[k] = {chain.tendon.tension_N(chain.shape.length_m, rate, motor.shaft_rad,
-                                           motor.speed_rad_per_s),
-                    chain.shape.length_m,
-                    motor.current_A,
-                    motor.speed_rad_per_s,
-                    motor.shaft_rad,
-                    chain.tendon.line_m(motor.shaft_rad)};
+    readings_[k] = {
+        chain.tendon.tension_N(chain.shape.length_m, rate, motor.shaft_rad, motor.speed_rad_per_s),
+        chain.shape.length_m,
+        motor.current_A,
+        motor.speed_rad_per_s,
+        motor.shaft_rad,
+        chain.tendon.line_m(motor.shaft_rad)};
   }
 }
 

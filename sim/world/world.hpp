@@ -27,7 +27,7 @@ struct ActuatorReading {
   double tension_N = 0;
   double length_m = 0;  ///< of the tendon's path
   double current_A = 0, speed_rad_per_s = 0, shaft_rad = 0;
-  double line_m = 0;    ///< change since the start; negative: wound up
+  double line_m = 0;  ///< change since the start; negative: wound up
 };
 
 class World {

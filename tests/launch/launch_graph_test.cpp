@@ -92,17 +92,27 @@ std::size_t at(const std::string& text, const std::string& part) {
   return text.find(part);
 }
 
+/// The stamp of the line `[stamp] [info] active: …` in a component's log.
+std::string time_of_activation(const std::string& log) {
+  const auto line = log.rfind('\n', at(log, "] active:")) + 1;
+  return log.substr(line, log.find(']', line) - line);
+}
+
 }  // namespace
 
 TEST_CASE("a graph starts in order, runs as long as it was told, and leaves nothing behind") {
   const Graph graph(R"(<component name="worker"/><component name="logger"/>)");
   CHECK(graph.run({"--for", "300ms"}) == 0);
+  std::string before;
+  for (const char* name : {"logger", "plant", "worker", "sim"}) {
+    const auto time =
+        time_of_activation(text_of(graph.folder / "run" / (name + std::string(".log"))));
+    CHECK(before <= time);
+    before = time;
+  }
   const auto screen = graph.screen();
-  CHECK(at(screen, "all components are ready") < at(screen, "logger is up"));
-  CHECK(at(screen, "logger is up") < at(screen, "plant is up"));
-  CHECK(at(screen, "plant is up") < at(screen, "worker is up"));
-  CHECK(at(screen, "worker is up") < at(screen, "sim is up"));
-  CHECK(at(screen, "sim is up") < at(screen, "sim has reached the end of the run"));
+  CHECK(at(screen, "all components are ready") < at(screen, "all components are active"));
+  CHECK(at(screen, "all components are active") < at(screen, "sim has reached the end of the run"));
   CHECK_THAT(screen, Contains("exit code 0"));
   CHECK(graph.processes().empty());
   for (const char* name : {"plant.log", "sim.log", "worker.log", "logger.log", "erp.log"})

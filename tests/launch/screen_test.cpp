@@ -32,6 +32,10 @@ TEST_CASE("without a terminal only changes are written, as plain lines") {
   screen.show(status("starting", "starting"));
   screen.show(status("starting", "starting"));
   screen.show(status("active", "starting"));
-  screen.say("done");
-  CHECK(capture.text() == "plant: starting\nsim: starting\nplant: active\ndone\n");
+  screen.say(1.5, "done");
+  CHECK(capture.text() ==
+        "    0.00  plant: starting\n"
+        "    0.00  sim: starting\n"
+        "    0.00  plant: active\n"
+        "    1.50  done\n");
 }

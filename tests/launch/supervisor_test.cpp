@@ -165,6 +165,34 @@ TEST_CASE("an ordered stop begins with the device and waits for each") {
   CHECK(run.supervisor.exit_code() == 0);
 }
 
+TEST_CASE("a stop goes on once a component has said its last word, and ends when all are gone") {
+  Run run;
+  run.get_running();
+  run.supervisor.stop("interrupted", 0, run.now_ns);
+  CHECK(run.wanted() == Strings{"terminate sim"});
+  run.hear(2, Lifecycle::finalized);
+  run.wait(1 * ms);
+  CHECK(run.wanted() == Strings{"terminate plant"});
+  run.hear(1, Lifecycle::finalized);
+  run.wait(1 * ms);
+  CHECK(run.wanted() == Strings{"terminate logger"});
+  run.end(0);
+  CHECK_FALSE(run.supervisor.done());
+  run.end(1);
+  run.end(2);
+  CHECK(run.supervisor.done());
+}
+
+TEST_CASE("a component that does not end after its last word is killed too") {
+  Run run;
+  run.get_running();
+  run.supervisor.stop("interrupted", 0, run.now_ns);
+  run.hear(2, Lifecycle::finalized);
+  run.wanted();
+  run.wait(5 * s);
+  CHECK(run.wanted() == Strings{"kill sim", "terminate plant"});
+}
+
 TEST_CASE("a component that does not stop is killed after a grace time, and the run has failed") {
   Run run;
   run.get_running();

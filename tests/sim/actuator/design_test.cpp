@@ -37,7 +37,8 @@ class Bench {
   explicit Bench(const erp::Robot& robot = rig(), std::uint64_t seed = 1)
       : robot_(robot),
         motor_(robot_.motor_types[0], rigs::spindle_radius_m),
-        tendon_(sim::TendonLaw::at_rest(robot_.actuators[0].tendon, robot_.actuators[0].spindle, 0.3)),
+        tendon_(
+            sim::TendonLaw::at_rest(robot_.actuators[0].tendon, robot_.actuators[0].spindle, 0.3)),
         sensors_(robot_.motor_types[0], robot_.sensor_types[0], seed) {
     ecu_init(&ecu_);
     const auto gains = sim::design_parameters(robot_, robot_.actuators[0], {});
@@ -74,8 +75,8 @@ class Bench {
 }  // namespace
 
 TEST_CASE("the model has the published poles, and a slow one where the tendon is wound up") {
-  const auto model = sim::force_model(rigs::without_friction(rigs::caliper()),
-                                      rigs::hinge_tendon(), rigs::spindle_radius_m);
+  const auto model = sim::force_model(rigs::without_friction(rigs::caliper()), rigs::hinge_tendon(),
+                                      rigs::spindle_radius_m);
   auto poles = Eigen::Vector3d(model.a.eigenvalues().real());
   std::sort(poles.begin(), poles.end());
   CHECK(poles[0] == Approx(-8825).epsilon(1e-3));
@@ -83,13 +84,25 @@ TEST_CASE("the model has the published poles, and a slow one where the tendon is
   CHECK(std::abs(poles[2]) < 1.0);
 }
 
+TEST_CASE("the model's tension changes as the tendon's law does") {
+  erp::Tendon tendon = rigs::hinge_tendon();
+  tendon.damping_N_s_per_m = 300;
+  const double r = rigs::spindle_radius_m, h = 1e-6;
+  const auto model = sim::force_model(rigs::caliper(), tendon, r);
+  const auto law = sim::TendonLaw::at_rest(tendon, {{}, r}, 0.3);
+  const double shaft = 1.2, speed = 3, current = 2;
+  const Eigen::Vector3d x(current, speed, law.tension_N(0.3, 0, shaft, speed));
+  const Eigen::Vector3d rate = model.a * x;
+  const double later = law.tension_N(0.3, 0, shaft + h * speed, speed + h * rate.y());
+  CHECK(rate.z() == Approx((later - x.z()) / h).epsilon(1e-6));
+}
+
 TEST_CASE("Ackermann's formula puts the discrete poles where they were wanted") {
   const auto model =
       sim::force_model(rigs::caliper(), rigs::hinge_tendon(), rigs::spindle_radius_m);
   DesignOptions options;
-  const auto poles = GENERATE(
-      std::array<std::complex<double>, 3>{-40.0, -200.0, -900.0},
-      std::array<std::complex<double>, 3>{{{-60, 20}, {-60, -20}, -800.0}});
+  const auto poles = GENERATE(std::array<std::complex<double>, 3>{-40.0, -200.0, -900.0},
+                              std::array<std::complex<double>, 3>{{{-60, 20}, {-60, -20}, -800.0}});
   options.force_poles_per_s = poles;
   const auto gains = sim::design_force(model, options);
   // Φ − Γ k from the differential equation alone: column by column, by fine Euler–Heun steps.
@@ -119,8 +132,8 @@ TEST_CASE("the prefilter makes the frictionless loop rest exactly at its referen
   const auto gains = sim::design_force(model, {});
   // At rest ω = 0, V = R i, i = r F / (η N K_T); the law must give that V.
   const double force = 40, current = rigs::spindle_radius_m * force / (0.59 * 128 * 11.5e-3);
-  const double voltage = gains.prefilter_V_per_N * force - gains.feedback.x() * current -
-                         gains.feedback.z() * force;
+  const double voltage =
+      gains.prefilter_V_per_N * force - gains.feedback.x() * current - gains.feedback.z() * force;
   CHECK(voltage == Approx(0.516 * current).epsilon(1e-6));
 }
 
@@ -168,8 +181,7 @@ TEST_CASE("without noise the tension rests inside the stated band, from below an
   bench.hold_force(force, 2.0);
   const auto gains = sim::design_force(
       sim::force_model(rigs::caliper(), rigs::hinge_tendon(), rigs::spindle_radius_m), {});
-  const auto band =
-      sim::resting_band(rigs::caliper(), rigs::spindle_radius_m, gains, force);
+  const auto band = sim::resting_band(rigs::caliper(), rigs::spindle_radius_m, gains, force);
   const double half_quanta = 0.5 * 200 / 4095 + 0.5 * 12.0 / 1023 / gains.feedback.z();
   CAPTURE(force, from, bench.tension_N() - force, band.below_N, band.above_N);
   CHECK(bench.tension_N() > force - band.below_N - half_quanta);
@@ -182,7 +194,8 @@ TEST_CASE("letting out, where the load drives the motor, the force loop stays st
   Bench bench;
   bench.hold_force(60, 1.5);
   double lowest = 60;
-  for (int k = 0; k < 500; ++k) bench.hold_force(10, 0.002), lowest = std::min(lowest, bench.tension_N());
+  for (int k = 0; k < 500; ++k)
+    bench.hold_force(10, 0.002), lowest = std::min(lowest, bench.tension_N());
   CHECK(lowest > 9.4);
   CHECK(std::abs(bench.tension_N() - 10) < 0.4);
 }
@@ -204,7 +217,8 @@ TEST_CASE("the current law settles within ten periods on a shaft that sticks") {
   Bench bench;
   for (int k = 0; k < 25; ++k) bench.tick(ECU_REQUEST_CURRENT, 25);
   double mean = 0;
-  for (int k = 0; k < 500; ++k) bench.tick(ECU_REQUEST_CURRENT, 25), mean += bench.current_A() / 500;
+  for (int k = 0; k < 500; ++k)
+    bench.tick(ECU_REQUEST_CURRENT, 25), mean += bench.current_A() / 500;
   CHECK(mean == Approx(0.025).margin(0.002));
 }
 

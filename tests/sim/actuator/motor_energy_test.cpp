@@ -17,12 +17,11 @@ struct Powers {
 Powers powers(const erp::MotorType& m, const MotorState& x, double v, double f) {
   const double i = x.current_A, w = x.speed_rad_per_s, n = m.gear_ratio;
   const double sign = w > 0 ? 1 : w < 0 ? -1 : 0;
-  const double rotor = m.torque_Nm_per_A * i - m.rotor_viscous_Nm_s_per_rad * n * w -
-                       sign * m.rotor_coulomb_Nm;
-  const double load = m.gear_viscous_Nm_s_per_rad * w + sign * m.gear_coulomb_Nm +
-                      spindle_radius_m * f;
-  const double mesh =
-      n * rotor * m.gear_inertia_kg_m2 + m.rotor_inertia_kg_m2 * n * n * load;
+  const double rotor =
+      m.torque_Nm_per_A * i - m.rotor_viscous_Nm_s_per_rad * n * w - sign * m.rotor_coulomb_Nm;
+  const double load =
+      m.gear_viscous_Nm_s_per_rad * w + sign * m.gear_coulomb_Nm + spindle_radius_m * f;
+  const double mesh = n * rotor * m.gear_inertia_kg_m2 + m.rotor_inertia_kg_m2 * n * n * load;
   const double e = mesh * w >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
   const double inertia = e * m.rotor_inertia_kg_m2 * n * n + m.gear_inertia_kg_m2;
   const double torque_out = e * mesh / inertia;
@@ -56,8 +55,9 @@ TEST_CASE("the motor's energy adds up and nothing is gained, in all four quadran
   for (int k = 0; k < 25000; ++k) {
     const MotorState middle = step(motor, x, q.v, q.f, h / 2), end = step(motor, x, q.v, q.f, h);
     const auto simpson = [&](double Powers::*p) {
-      return h / 6 * (powers(m, x, q.v, q.f).*p + 4 * (powers(m, middle, q.v, q.f).*p) +
-                      powers(m, end, q.v, q.f).*p);
+      return h / 6 *
+             (powers(m, x, q.v, q.f).*p + 4 * (powers(m, middle, q.v, q.f).*p) +
+              powers(m, end, q.v, q.f).*p);
     };
     electrical += simpson(&Powers::electrical), copper += simpson(&Powers::copper);
     friction += simpson(&Powers::friction), line += simpson(&Powers::line);

@@ -46,16 +46,16 @@ std::vector<BodyPose> poses(const Coordinates& q) {
 }  // namespace
 
 TEST_CASE("a quarter turn over a pulley: moment arm r, length linear in the angle") {
-  const Routing routing(tendon({attach("base", {-0.2, 0, 0.025}), pulley("base", {0, 0, 0}, 0.025, {0, 0, 1}),
-                                attach("upper", {0.2, 0, 0.025})}),
-                        bodies);
+  const Routing routing(
+      tendon({attach("base", {-0.2, 0, 0.025}), pulley("base", {0, 0, 0}, 0.025, {0, 0, 1}),
+              attach("upper", {0.2, 0, 0.025})}),
+      bodies);
   const auto length = [&](double q) {
     std::vector<BodyPose> p(3);
     p[1].rotation = Eigen::AngleAxisd(q, Vec3::UnitY()).toRotationMatrix();
     return routing.solve(p).length_m;
   };
-  for (double q = 0; q < 1.5; q += 0.1)
-    CHECK(std::abs(length(q) - length(0) - 0.025 * q) < 1e-12);
+  for (double q = 0; q < 1.5; q += 0.1) CHECK(std::abs(length(q) - length(0) - 0.025 * q) < 1e-12);
 }
 
 TEST_CASE("the length's rate is what the moving bodies give, by central differences") {
@@ -99,10 +99,10 @@ TEST_CASE("the pulls on all bodies balance, pulleys included") {
 }
 
 TEST_CASE("a path over two pulleys is the shortest there is") {
-  const Routing routing(tendon({attach("base", {0, 0.002, 0.2}), pulley("base", {0, 0, 0.05}, 0.03),
-                                pulley("base", {0.01, 0, -0.05}, 0.03),
-                                attach("base", {0, -0.002, -0.2})}),
-                        bodies);
+  const Routing routing(
+      tendon({attach("base", {0, 0.002, 0.2}), pulley("base", {0, 0, 0.05}, 0.03),
+              pulley("base", {0.01, 0, -0.05}, 0.03), attach("base", {0, -0.002, -0.2})}),
+      bodies);
   const std::vector<BodyPose> p(3);
   const PathShape shape = routing.solve(p);
   REQUIRE(shape.touches[1]);
@@ -123,9 +123,9 @@ TEST_CASE("a path that makes no sense is refused") {
                   std::invalid_argument);
   CHECK_THROWS_AS(Routing(tendon({attach("base", {}), attach("nobody", {})}), bodies),
                   std::invalid_argument);
-  CHECK_THROWS_AS(Routing(tendon({attach("base", {}), pulley("base", {}, 0), attach("base", {})}),
-                          bodies),
-                  std::invalid_argument);
+  CHECK_THROWS_AS(
+      Routing(tendon({attach("base", {}), pulley("base", {}, 0), attach("base", {})}), bodies),
+      std::invalid_argument);
 }
 
 TEST_CASE("a point inside a pulley is refused at the start") {

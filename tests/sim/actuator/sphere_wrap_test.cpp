@@ -68,6 +68,14 @@ TEST_CASE("towards opposite ends the length stays exact, and at π itself") {
                    wrapped_length(std::numbers::pi - gap)) < 1e-12);
 }
 
+TEST_CASE("exactly opposite ends take some way round, or the side's") {
+  const auto across = [](const Vec3& side) { return wrap_sphere({0, 0, a}, {0, 0, -b}, r, side); };
+  CHECK(std::abs(across(Vec3::Zero()).length_m - wrapped_length(std::numbers::pi)) < 1e-12);
+  CHECK(across(Vec3::Zero()).entry_m.norm() == Approx(r).epsilon(1e-13));
+  CHECK(across({0, 1, 0}).entry_m.y() > 0);
+  CHECK(across({0, -1, 0}).entry_m.y() < 0);
+}
+
 TEST_CASE("with a side the line stays on it beyond π") {
   const Vec3 side = Vec3::UnitY();
   for (double angle = lift_off + 1e-3; angle < 2 * std::numbers::pi - 1e-3; angle += 1e-3)

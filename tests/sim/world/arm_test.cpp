@@ -92,7 +92,8 @@ TEST_CASE("under length control the arm stands at its start") {
 
 TEST_CASE("under length control of all muscles the arm holds fifteen poses without drift") {
   erp::Robot robot = arm();
-  const bool joints_rub = GENERATE(true, false);  // without, the muscles alone hold it, and it swings longer
+  const bool joints_rub =
+      GENERATE(true, false);  // without, the muscles alone hold it, and it swings longer
   if (!joints_rub)
     for (auto& joint : robot.skeletons[0].joints) joint.coulomb_Nm = 0;
   const auto poses = sim::arm_poses();

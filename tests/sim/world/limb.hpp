@@ -15,9 +15,9 @@ class Limb {
       const auto gains = sim::design_parameters(robot_, actuator, {});
       erp::EcuParameter message;
       for (std::size_t k = 0; k < gains.size(); ++k)
-        erp::append(message.values,
-                    erp::EcuParameterValue{std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
-                                           std::uint8_t(k), k + 1 == gains.size(), gains[k]});
+        erp::append(message.values, erp::EcuParameterValue{
+                                        std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
+                                        std::uint8_t(k), k + 1 == gains.size(), gains[k]});
       ecus.accept(message);
     }
     command(ECU_REQUEST_ARM, std::vector<double>(robot_.actuators.size(), 0.0));
@@ -28,10 +28,10 @@ class Limb {
     erp::EcuCommand message;
     for (std::size_t k = 0; k < setpoints.size(); ++k) {
       const erp::Actuator& actuator = robot_.actuators[k];
-      erp::append(message.channels,
-                  erp::EcuChannelCommand{std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
-                                         std::uint8_t(request),
-                                         std::int32_t(std::lround(setpoints[k]))});
+      erp::append(
+          message.channels,
+          erp::EcuChannelCommand{std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
+                                 std::uint8_t(request), std::int32_t(std::lround(setpoints[k]))});
     }
     ecus.accept(message);
   }

@@ -36,8 +36,8 @@ TEST_CASE("the hinge rig's moment arm is 25 mm over the whole range") {
   for (int actuator : {0, 1}) {
     const double sign = actuator == 0 ? -1 : 1;  // flexion shortens the flexor
     for (double q = -1.2 + h; q <= 1.6 - h; q += 0.01) {
-      const double slope = (length_at(world, actuator, q + h) - length_at(world, actuator, q - h)) /
-                           (2 * h);
+      const double slope =
+          (length_at(world, actuator, q + h) - length_at(world, actuator, q - h)) / (2 * h);
       REQUIRE(std::abs(slope - sign * 0.025) < 1e-6);
     }
   }

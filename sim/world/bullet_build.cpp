@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "sim/world/bullet_inside.hpp"
+
+namespace sim {
+
+BulletSkeleton::Bullet::Bullet(const RobotTree& tree_of_robot, const Vec3& g,
+                               std::span<const std::string> lock)
+    : robot(tree_of_robot), gravity(g) {
+  world.setGravity(bt(g));
+  place_bodies(lock);
+  for (BulletTree& tree : trees) build(tree);
+  poses.resize(robot.bodies.size());
+  twists.resize(robot.bodies.size());
+  coms.resize(robot.bodies.size());
+  joints.resize(robot.joints.size());
+  read();
+}
+
+void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
+  for (const std::string& name : lock)
+    if (std::none_of(robot.joints.begin(), robot.joints.end(),
+                     [&](const erp::Joint& j) { return j.name == name; }))
+      throw std::invalid_argument("cannot lock joint \"" + name + "\": the robot has none such");
+  for (std::size_t k = 0; k < robot.bodies.size(); ++k) {
+    const TreeBody& body = robot.bodies[k];
+    if (body.parent < 0) {
+      places.push_back({static_cast<int>(trees.size()), -1, false});
+      trees.emplace_back();
+      continue;
+    }
+    BulletTree& tree = trees[places[body.parent].tree];
+    const std::string& joint = robot.joints[body.joint].name;
+    const bool locked = std::find(lock.begin(), lock.end(), joint) != lock.end();
+    places.push_back({places[body.parent].tree, static_cast<int>(tree.links.size()), locked});
+    tree.links.push_back(static_cast<int>(k));
+  }
+}
+
+void BulletSkeleton::Bullet::build(BulletTree& tree) {
+  const int links = static_cast<int>(tree.links.size());
+  tree.body = std::make_unique<btMultiBody>(links, 0, btVector3(0, 0, 0), true, false);
+  for (int link = 0; link < links; ++link) add_link(tree, link, tree.links[link]);
+  btMultiBody& b = *tree.body;
+  b.finalizeMultiDof();
+  b.setLinearDamping(0);
+  b.setAngularDamping(0);
+  b.setMaxCoordinateVelocity(1e9);
+  b.setMaxAppliedImpulse(1e9);
+  std::vector<JointFriction> frictions;
+  for (int link = 0; link < links; ++link) {
+    const erp::Joint& joint = robot.joints[robot.bodies[tree.links[link]].joint];
+    const btMultibodyLink& l = b.getLink(link);
+    if (l.m_dofCount > 0 && (joint.viscous_Nm_s_per_rad > 0 || joint.coulomb_Nm > 0))
+      frictions.push_back(
+          {l.m_dofOffset, l.m_dofCount, joint.viscous_Nm_s_per_rad, joint.coulomb_Nm});
+    if (l.m_jointType == btMultibodyLink::eRevolute) b.setJointPos(link, joint.initial_rad);
+  }
+  const int n = b.getNumDofs();
+  tree.rows = JointRows(std::move(frictions), n);
+  tree.limits.reserve(static_cast<std::size_t>(2 * n));
+  tree.inverse_inertia.resize(n, n);
+  tree.velocity.resize(n);
+  const auto size = static_cast<std::size_t>(6 + n);
+  if (unit.size() < size) unit.resize(size), response.resize(size);
+  if (links > 0) world.addMultiBody(&b);
+}
+
+void BulletSkeleton::Bullet::add_link(BulletTree& tree, int link, int index) {
+  const TreeBody& body = robot.bodies[index];
+  const erp::Joint& joint = robot.joints[body.joint];
+  const btVector3 inertia = bt(body.body.inertia_kg_m2), com = bt(body.body.com_m);
+  const btVector3 pivot = bt(joint.at_m) - (robot.bodies[body.parent].parent < 0
+                                                ? btVector3(0, 0, 0)
+                                                : bt(robot.bodies[body.parent].body.com_m));
+  const int parent = places[body.parent].link;
+  const btQuaternion same = btQuaternion::getIdentity();
+  const btVector3 axis = bt(joint.axis).normalized();
+  if (joint.type == erp::JointType::revolute && !places[index].locked)
+    tree.body->setupRevolute(link, body.body.mass_kg, inertia, parent, same, axis, pivot, com);
+  else if (joint.type == erp::JointType::spherical && !places[index].locked)
+    tree.body->setupSpherical(link, body.body.mass_kg, inertia, parent, same, pivot, com);
+  else
+    tree.body->setupFixed(
+        link, body.body.mass_kg, inertia, parent,
+        joint.type == erp::JointType::revolute ? btQuaternion(axis, -joint.initial_rad) : same,
+        pivot, com);
+}
+
+}  // namespace sim
