@@ -1,6 +1,10 @@
 #include "components/logger/logger_node.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -34,11 +38,27 @@ std::vector<recording::Attachment> attachments(const std::string& files) {
   return all;
 }
 
+/// A recording that stands there already, of an earlier run or of a logger that was killed, is
+/// kept under the next free name: run.mcap becomes run.1.mcap.
+std::string keep_earlier(const std::string& file) {
+  namespace fs = std::filesystem;
+  const fs::path path(file);
+  if (!fs::exists(path)) return file;
+  for (int k = 1;; ++k) {
+    auto kept = path;
+    kept.replace_extension("." + std::to_string(k) + path.extension().string());
+    if (fs::exists(kept)) continue;
+    fs::rename(path, kept);
+    spdlog::info("the recording that was there is now {}", kept.string());
+    return file;
+  }
+}
+
 }  // namespace
 
 LoggerNode::LoggerNode(const Params& params, const erp::Robot&, node::Node& node)
     : node_(node),
-      recorder_(params.file, attachments(params.attach)),
+      recorder_(keep_earlier(params.file), attachments(params.attach)),
       discovery_(node.participant(), node.wake()) {
   add_known<erp::ActuatorCommand>();
   add_known<erp::ActuatorTarget>();
@@ -115,11 +135,12 @@ void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
   recording::Sample sample;
   sample.writer = {writer, static_cast<std::size_t>(end - writer)};
   sample.publish_time_ns = static_cast<std::uint64_t>(stamp.stamp_ns.value_or(raw.source_ns));
-  sample.log_time_ns = sample.publish_time_ns;
+  // Simulated time, such as `clock` carries, beside the wall's would tear the time line apart.
+  if (node_.clock().lockstep()) node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
+  sample.log_time_ns = static_cast<std::uint64_t>(node_.clock().now_ns());
   sample.sequence = stamp.sequence;
   sample.cdr = raw.cdr;
   recorder_.write(topic.handle, sample);
-  node_.clock().advance(raw.source_ns);
   node_.count_step(raw.source_ns);
 }
 

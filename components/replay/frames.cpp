@@ -49,6 +49,8 @@ erp::EcuAnalogSample analog_of(const recording::Members& m) {
 }  // namespace
 
 Frames::Frames(const std::string& file) {
+  if (file.empty())
+    throw std::invalid_argument("replay: no recording is named; give --set file=RECORDING.mcap");
   const recording::McapReader reader(file);
   reader.for_each([&](const recording::Message& message) {
     if (message.channel.topic != erp::Topic<erp::EcuFrame>::name) return;

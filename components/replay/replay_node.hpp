@@ -12,8 +12,8 @@ namespace replay {
 class ReplayNode {
  public:
   struct Params {
-    std::string file;  ///< the recording
-    void visit(auto& v) { v.required("file", file); }
+    std::string file;  ///< the recording; must be given
+    void visit(auto& v) { v("file", file); }
   };
   ReplayNode(const Params& params, const erp::Robot& robot, node::Node& node);
 

@@ -9,6 +9,7 @@ namespace can {
 namespace {
 
 constexpr std::int64_t tick_ns = 2'000'000;     // the ECUs' period
+constexpr std::int64_t late_ns = 3'000'000;     // chosen: what an ECU may lag behind the others
 constexpr std::int64_t say_ns = 1'000'000'000;  // counters are said once a second at most
 constexpr std::uint64_t clock_period = 50;      // ticks: 10 Hz
 
@@ -30,6 +31,7 @@ GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::No
   node.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
   node.watch(bus_->fd(), [this] { receive(); });
   node.every(say_ns, [this] { say_counters(); });
+  if (!node.clock().lockstep()) node.every(tick_ns, [this] { close_late_tick(); });
 }
 
 void GatewayNode::send(std::span<const erp::CanFrame> frames) { bus_->send(frames); }
@@ -49,12 +51,21 @@ void GatewayNode::receive() {
     for (std::size_t i = 0; i < n; ++i) switch (gateway_.hear(frames[i])) {
         case erp::Heard::tick: publish_tick(); break;
         case erp::Heard::tick_repeated: send(gateway_.again()); break;
-        case erp::Heard::nothing: break;
+        case erp::Heard::nothing:
+          if (!open_since_ns_) open_since_ns_ = node::monotonic_ns();
+          break;
       }
   say_emergencies();
 }
 
+void GatewayNode::close_late_tick() {
+  if (!open_since_ns_ || node::monotonic_ns() - *open_since_ns_ < late_ns) return;
+  gateway_.close_tick();
+  publish_tick();
+}
+
 void GatewayNode::publish_tick() {
+  open_since_ns_.reset();
   auto& frame = gateway_.frame();
   // Simulated time begins at the first tick, as it does in the simulator itself.
   node_.clock().advance(static_cast<std::int64_t>(frame.sequence - 1) * tick_ns);

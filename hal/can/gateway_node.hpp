@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "components/node/node.hpp"
@@ -20,6 +21,8 @@ class GatewayNode {
 
  private:
   void receive();
+  /// A silent ECU must not hold back what the others said.
+  void close_late_tick();
   void publish_tick();
   void on_command(const erp::EcuCommand& command);
   void send(std::span<const erp::CanFrame> frames);
@@ -35,6 +38,7 @@ class GatewayNode {
   std::uint64_t end_sequence_;
   erp::GatewayCounters said_;
   std::uint64_t refused_said_ = 0;
+  std::optional<std::int64_t> open_since_ns_;  ///< when the tick at hand began to be heard
 };
 
 }  // namespace can

@@ -95,7 +95,8 @@ void fill_command_line(PlannedProcess& process, const erp::Graph& graph, const W
   add("--robot", graph.robot);
   if (!config.empty()) add("--config", config);
   add("--time", word_of(graph.time));
-  if (process.role == Role::device && graph.duration_s > 0)
+  // In lockstep the device counts the run's ticks; otherwise the launcher's clock ends the run.
+  if (process.role == Role::device && graph.duration_s > 0 && graph.time == erp::Time::lockstep)
     add("--duration", number(graph.duration_s));
   for (const auto& setting : settings_of(graph, wishes, process)) add("--set", setting);
   argv.push_back("--managed");

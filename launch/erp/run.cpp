@@ -72,6 +72,7 @@ int Run::execute() {
     hear_bus();
     obey_signals();
     reap();
+    end_when_due();
     supervisor_.tick(now_ns_);
     carry_out();
     if (now_ns_ - drawn_ns_ < (screen_.is_terminal() ? redraw_ns : change_ns)) continue;
@@ -163,6 +164,15 @@ void Run::obey_signals() {
       supervisor_.stop(number == SIGINT ? "interrupted" : "told to stop", 0, now_ns_);
     }
   }
+}
+
+/// In real time the run lasts so long, whatever is restarted meanwhile.
+void Run::end_when_due() {
+  if (graph_.duration_s <= 0 || graph_.time == erp::Time::lockstep) return;
+  if (supervisor_.stage() != Stage::running) return;
+  if (!running_since_ns_) running_since_ns_ = now_ns_;
+  if (1e-9 * static_cast<double>(now_ns_ - *running_since_ns_) >= graph_.duration_s)
+    supervisor_.stop("the end of the run", 0, now_ns_);
 }
 
 void Run::carry_out() {

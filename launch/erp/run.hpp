@@ -44,6 +44,7 @@ class Run {
   bool is_ending() const;
   void reap();
   void obey_signals();
+  void end_when_due();
   void carry_out();
   void spawn(std::size_t index);
   void show_log(std::size_t index);
@@ -68,6 +69,7 @@ class Run {
   std::map<std::string, std::size_t> index_of_;
   std::int64_t started_ns_ = 0, now_ns_ = 0, drawn_ns_ = 0;
   std::optional<std::int64_t> first_clock_ns_;
+  std::optional<std::int64_t> running_since_ns_;
   double simulated_s_ = -1, real_time_factor_ = 0;
 };
 
