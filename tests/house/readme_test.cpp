@@ -31,7 +31,7 @@ TEST_CASE("the controller in the README is the one that erp new controller write
 
 TEST_CASE("every file that the README names is there") {
   const auto readme = content("README.md");
-  const std::regex path(R"((launch|configs|tests|components|interfaces|sim|hal|firmware)/[a-z_0-9/.]+\.(xml|sh|svg|md|hpp))");
+  const std::regex path(R"((launch|configs|tests|components|interfaces|sim|hal|firmware)/[a-z_0-9/.]+\.(xml|sh|png|md|hpp))");
   int count = 0;
   for (std::sregex_iterator it(readme.begin(), readme.end(), path), end; it != end; ++it, ++count) {
     INFO(it->str());
