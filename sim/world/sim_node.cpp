@@ -97,9 +97,9 @@ void SimNode::measure_and_say() {
   ecus_.fill(frame_);
   frame_.sequence = ticks_;
   frame_.stamp_ns = node_.clock().now_ns();
+  say_frame();  // first: the control loop waits for it
   publish_truth();
   if (ticks_ % clock_period == 0) publish_clock(false);
-  say_frame();
 }
 
 void SimNode::say_frame() {

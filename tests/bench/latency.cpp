@@ -109,7 +109,7 @@ void print(const char* name, const Quantiles& q) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string graph = argc > 1 ? argv[1] : ERP_SOURCE_DIR "/launch/hinge_rig.xml";
+  const std::string graph = argc > 1 ? argv[1] : ERP_SOURCE_DIR "/tests/bench/latency.xml";
   const std::string seconds = argc > 2 ? argv[2] : "10";
   setenv("ERP_DOMAIN", std::to_string(1 + getpid() % 200).c_str(), 0);
   auto folder = (std::filesystem::temp_directory_path() / "erp_latency_XXXXXX").string();

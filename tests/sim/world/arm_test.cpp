@@ -106,7 +106,7 @@ TEST_CASE("under length control of all muscles the arm holds fifteen poses witho
     CAPTURE(k, held.drift_rad / degree, held.error_rad / degree);
     CHECK(limb.all_running());
     CHECK(held.drift_rad < 0.2 * degree);
-    CHECK(held.error_rad < 3 * degree);
+    CHECK(held.error_rad < 0.5 * degree);
     from = to;
   }
 }
