@@ -35,7 +35,10 @@ void open_domain(dds_domainid_t id) {
   static const Entity domain(dds_create_domain(id, loopback), "open DDS domain on loopback");
 }
 
-void on_data(dds_entity_t, void* wake) { static_cast<Wake*>(wake)->raise(); }
+void on_data(dds_entity_t, void* with) {
+  const auto& arrival = *static_cast<const Arrival*>(with);
+  arrival.act(arrival.with);
+}
 
 }  // namespace
 
@@ -69,10 +72,15 @@ Entity make_writer(const Entity& participant, const Entity& topic) {
   return {dds_create_writer(participant.id(), topic.id(), qos.qos, nullptr), "create writer"};
 }
 
-Entity make_reader(const Entity& participant, const Entity& topic, int depth, Wake& wake) {
+Arrival waking(Wake& wake) {
+  return {[](void* with) { static_cast<Wake*>(with)->raise(); }, &wake};
+}
+
+Entity make_reader(const Entity& participant, const Entity& topic, int depth,
+                   const Arrival& arrival) {
   const Qos qos(depth);
   const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
-      dds_create_listener(&wake), dds_delete_listener);
+      dds_create_listener(const_cast<Arrival*>(&arrival)), dds_delete_listener);
   dds_lset_data_available(listener.get(), on_data);
   return {dds_create_reader(participant.id(), topic.id(), qos.qos, listener.get()),
           "create reader"};

@@ -43,8 +43,17 @@ struct Qos {
 
 Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type, const char* name);
 Entity make_writer(const Entity& participant, const Entity& topic);
-/// The listener only raises `wake`; it is attached at creation so that no sample is missed.
-Entity make_reader(const Entity& participant, const Entity& topic, int depth, Wake& wake);
+
+/// What happens, on DDS's thread, when samples are there.
+struct Arrival {
+  void (*act)(void* with);
+  void* with;
+};
+/// Only raises the wake: the loop takes the samples.
+Arrival waking(Wake& wake);
+/// The listener is attached at creation so that no sample is missed; `arrival` must outlive it.
+Entity make_reader(const Entity& participant, const Entity& topic, int depth,
+                   const Arrival& arrival);
 
 /// Publishes messages of one type.
 template <class M>
@@ -82,8 +91,13 @@ template <class M>
 class Reader {
  public:
   Reader(const Entity& participant, Wake& wake, int depth = 1)
-      : topic_(make_topic(participant, *erp::Topic<M>::type, erp::Topic<M>::name)),
-        reader_(make_reader(participant, topic_, depth, wake)) {}
+      : Reader(participant, waking(wake), depth) {}
+  Reader(const Entity& participant, const Arrival& arrival, int depth = 1)
+      : arrival_(arrival),
+        topic_(make_topic(participant, *erp::Topic<M>::type, erp::Topic<M>::name)),
+        reader_(make_reader(participant, topic_, depth, arrival_)) {}
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
 
   /// Hands every waiting sample to `use`, oldest first; touches no heap of ours.
   template <class Use>
@@ -117,10 +131,11 @@ class Reader {
     last_.emplace_back(writer, sequence);
   }
 
-  Entity topic_, reader_;
+  Arrival arrival_;
   M message_{};
   std::vector<std::pair<dds_instance_handle_t, std::uint64_t>> last_;
   std::uint64_t missed_ = 0;
+  Entity topic_, reader_;  // last: samples may arrive as soon as they exist
 };
 
 }  // namespace node

@@ -48,26 +48,28 @@ Node::Node(Options options, std::string robot_name)
       "read participants");
   state_out_ = &advertise<erp::ComponentState>();
   event_out_ = &advertise<erp::Event>();
-  lifecycle_in_ = new Subscription<erp::LifecycleCommand>(
-      participant_, wake_, 4, identity_,
-      [this](const erp::LifecycleCommand& command) { obey(command); });
-  ports_.emplace_back(lifecycle_in_);
+  lifecycle_in_ = &subscribe<erp::LifecycleCommand>(
+      [this](const erp::LifecycleCommand& command) { obey(command); }, 4, Where::in_loop);
   state_.pid = getpid();
 }
 
-Node::~Node() { close(signals_); }
+Node::~Node() {
+  gate_.close();
+  close(signals_);
+}
 
 void Node::every(std::int64_t period_ns, std::function<void()> act) {
   timers_.push_back({period_ns, monotonic_ns() + period_ns, std::move(act)});
 }
 
 void Node::watch(int descriptor, std::function<void()> act) {
-  watches_.push_back({descriptor, std::move(act)});
+  watches_.push_back({descriptor, false, std::move(act)});
 }
 
 void Node::set_lifecycle(erp::Lifecycle lifecycle) {
   if (lifecycle == lifecycle_) return;
   lifecycle_ = lifecycle;
+  active_ = lifecycle == erp::Lifecycle::active;
   heartbeat();
 }
 
@@ -78,6 +80,7 @@ void Node::obey(const erp::LifecycleCommand& command) {
   if (target == erp::Lifecycle::active && !active()) {
     const auto now_ns = monotonic_ns();
     for (auto& timer : timers_) timer.due_ns = now_ns + timer.period_ns;
+    for (const auto& port : ports_) port->poll(false);  // what came while inactive is old
     set_lifecycle(erp::Lifecycle::active);
     for (auto& act : activate_) act();
   }
@@ -112,8 +115,10 @@ void Node::report(erp::Severity severity, const std::string& subject, const std:
 }
 
 void Node::finish(int exit_code) {
-  finished_ = true;
+  gate_.close();
   exit_code_ = std::max(exit_code_, exit_code);
+  finished_ = true;
+  wake_.raise();
 }
 
 std::uint32_t Node::count_peers() {
@@ -174,13 +179,25 @@ void Node::wait() {
   ppoll(polled.data(), n, &timeout, nullptr);
   if (polled[0].revents) wake_.clear();
   if (polled[1].revents) finish();
-  for (nfds_t i = 2; i < n; ++i)
-    if (polled[i].revents) watches_[i - 2].act();
+  for (nfds_t i = 2; i < n; ++i) watches_[i - 2].ready = polled[i].revents != 0;
+}
+
+void Node::serve() {
+  const auto lock = gate_.lock();
+  gate_.rethrow();
+  for (auto& watch : watches_)
+    if (std::exchange(watch.ready, false) && active()) watch.act();
+  lifecycle_in_->poll(true);
+  for (const auto& port : ports_)
+    if (port.get() != lifecycle_in_ && port->where() == Where::in_loop) port->poll(active());
+  if (!finished_) run_timers();
 }
 
 int Node::spin() try {
   set_lifecycle(erp::Lifecycle::inactive);
+  gate_.open();
   if (!options_.managed) {
+    const auto lock = gate_.lock();
     erp::LifecycleCommand start;
     erp::assign(start.component, identity_.component);
     start.target = static_cast<std::uint8_t>(erp::Lifecycle::active);
@@ -188,16 +205,15 @@ int Node::spin() try {
   }
   while (!finished_) {
     wait();
-    lifecycle_in_->poll(true);
-    for (const auto& port : ports_)
-      if (port.get() != lifecycle_in_) port->poll(active());
-    run_timers();
+    serve();
   }
+  gate_.close();
   if (active())
     for (auto& act : deactivate_) act();
   set_lifecycle(erp::Lifecycle::finalized);
   return exit_code_;
 } catch (const std::exception& error) {
+  gate_.close();
   report(erp::Severity::fault, identity_.component, "exception", error.what());
   set_lifecycle(erp::Lifecycle::error);
   return 1;

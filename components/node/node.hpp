@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,7 +16,9 @@
 ///   unconfigured --constructor--> inactive --activate--> active --finish--> finalized
 ///                                            <-deactivate-        any --throw--> error
 ///
-/// Single-threaded: handlers, timers and activation all run inside `spin`.
+/// One at a time: handlers run on DDS's thread where their message arrives (or in the loop, if they
+/// ask for it), timers, descriptors and activation inside `spin`; a gate keeps them apart. A handler
+/// must be short: while it runs, nothing else of this process is heard.
 namespace node {
 
 class Node {
@@ -29,17 +32,18 @@ class Node {
   Clock& clock() { return clock_; }
   const Entity& participant() const { return participant_; }  ///< for raw readers and discovery
   Wake& wake() { return wake_; }
-  bool active() const { return lifecycle_ == erp::Lifecycle::active; }
+  bool active() const { return active_; }
 
   template <class M>
   Publisher<M>& advertise() {
     return own(std::make_unique<Publisher<M>>(participant_, identity_));
   }
-  /// Handlers are called only while active; ports are polled in the order they were made.
+  /// Handlers are called only while active.
   template <class M>
-  Subscription<M>& subscribe(std::function<void(const M&)> use, int depth = 1) {
-    return own(std::make_unique<Subscription<M>>(participant_, wake_, depth, identity_,
-                                                 std::move(use)));
+  Subscription<M>& subscribe(std::function<void(const M&)> use, int depth = 1,
+                             Where where = Where::on_arrival) {
+    return own(std::make_unique<Subscription<M>>(participant_, wake_, gate_, active_, where, depth,
+                                                 identity_, std::move(use)));
   }
   /// Calls `act` each period of real time while active. A tick that is late by more than a period
   /// counts as an overrun, and the ticks it swallowed are left out.
@@ -54,7 +58,7 @@ class Node {
   /// Says a thing once, to the log and on the `event` topic.
   void report(erp::Severity severity, const std::string& subject, const std::string& code,
               const std::string& text);
-  /// Ends `spin` after the current handler.
+  /// Ends `spin` after the current handler; no other handler begins.
   void finish(int exit_code = 0);
   /// Runs until finished, SIGINT or SIGTERM. Returns the process's exit code.
   int spin();
@@ -66,6 +70,7 @@ class Node {
   };
   struct Watch {
     int descriptor;
+    bool ready;
     std::function<void()> act;
   };
 
@@ -79,6 +84,7 @@ class Node {
   void obey(const erp::LifecycleCommand& command);
   void run_timers();
   void wait();
+  void serve();
   void heartbeat();
   std::uint32_t count_peers();
 
@@ -87,6 +93,7 @@ class Node {
   Clock clock_;
   Entity participant_, participants_reader_;
   Wake wake_;
+  Gate gate_{wake_};
   int signals_;
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Timer> timers_;
@@ -96,12 +103,13 @@ class Node {
   Publisher<erp::Event>* event_out_;
   Subscription<erp::LifecycleCommand>* lifecycle_in_;
   erp::Lifecycle lifecycle_ = erp::Lifecycle::unconfigured;
+  bool active_ = false;
   erp::ComponentState state_;
   Histogram age_, jitter_;
   std::uint64_t steps_at_heartbeat_ = 0;
   std::int64_t heartbeat_due_ns_ = 0, heartbeat_last_ns_ = 0;
   std::int64_t last_step_ns_ = 0, last_interval_ns_ = 0;
-  bool finished_ = false;
+  std::atomic<bool> finished_ = false;
   int exit_code_ = 0;
 };
 

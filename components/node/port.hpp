@@ -4,9 +4,16 @@
 #include <string>
 
 #include "components/node/bus.hpp"
+#include "components/node/gate.hpp"
 
 /// The typed ends of a component: what a Node owns and polls.
 namespace node {
+
+/// Where a subscription's handler runs.
+enum class Where {
+  on_arrival,  ///< on DDS's thread, at once: for control
+  in_loop      ///< in the component's loop: for what may take its time
+};
 
 /// One reader or writer, seen without its type.
 class Port {
@@ -14,6 +21,7 @@ class Port {
   virtual ~Port() = default;
   virtual std::uint32_t matched() const = 0;
   virtual void poll(bool) {}
+  virtual Where where() const { return Where::on_arrival; }
   virtual std::uint64_t missed() const { return 0; }
 };
 
@@ -57,26 +65,41 @@ class Publisher final : public Port {
   const Identity& identity_;
 };
 
-/// Hands arriving messages of this robot to a function.
+/// Hands arriving messages of this robot to a function, one at a time.
 template <class M>
 class Subscription final : public Port {
  public:
-  Subscription(const Entity& participant, Wake& wake, int depth, const Identity& identity,
-               std::function<void(const M&)> use)
-      : reader_(participant, wake, depth), identity_(identity), use_(std::move(use)) {}
+  Subscription(const Entity& participant, Wake& wake, Gate& gate, const bool& deliver, Where where,
+               int depth, const Identity& identity, std::function<void(const M&)> use)
+      : identity_(identity),
+        use_(std::move(use)),
+        gate_(gate),
+        deliver_(deliver),
+        where_(where),
+        reader_(participant, where == Where::in_loop ? waking(wake) : Arrival{arrived, this}, depth) {}
 
+  /// In the gate: hands over what waits, or drops it while the component is not active.
   void poll(bool deliver) override {
     reader_.take([&](const M& message) {
       if (deliver && identity_.robot == message.robot) use_(message);
     });
   }
+  Where where() const override { return where_; }
   std::uint32_t matched() const override { return reader_.matched(); }
   std::uint64_t missed() const override { return reader_.missed(); }
 
  private:
-  Reader<M> reader_;
+  static void arrived(void* with) {
+    auto& self = *static_cast<Subscription*>(with);
+    self.gate_.enter([&self] { self.poll(self.deliver_); });
+  }
+
   const Identity& identity_;
   std::function<void(const M&)> use_;
+  Gate& gate_;
+  const bool& deliver_;
+  Where where_;
+  Reader<M> reader_;  // last: messages may arrive as soon as it exists
 };
 
 }  // namespace node

@@ -110,8 +110,9 @@ Descriptor Discovery::type_of(const std::string& topic) {
 
 RawReader::RawReader(const Entity& participant, Wake& wake, const dds_topic_descriptor_t& type,
                      const std::string& topic, int depth)
-    : topic_(make_topic(participant, type, topic.c_str())),
-      reader_(make_reader(participant, topic_, depth, wake)) {}
+    : arrival_(std::make_unique<Arrival>(waking(wake))),
+      topic_(make_topic(participant, type, topic.c_str())),
+      reader_(make_reader(participant, topic_, depth, *arrival_)) {}
 
 std::optional<RawSample> RawReader::next() {
   ddsi_serdata* data = nullptr;

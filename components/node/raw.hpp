@@ -71,8 +71,9 @@ class RawReader {
  private:
   std::optional<RawSample> next();
 
-  Entity topic_, reader_;
+  std::unique_ptr<Arrival> arrival_;  // stays where it is when the reader is moved
   std::vector<std::byte> bytes_;
+  Entity topic_, reader_;
 };
 
 }  // namespace node

@@ -14,6 +14,7 @@ constexpr std::uint64_t clock_period = 50;      // ticks: 10 Hz
 
 WorldOptions world_options(const SimNode::Params& params) {
   WorldOptions options;
+  options.usual_step_s = 1 / params.physics_Hz;
   for (const auto& lock : params.locks) options.lock.push_back(lock.joint);
   return options;
 }
