@@ -185,6 +185,7 @@ void Node::wait() {
 void Node::serve() {
   const auto lock = gate_.lock();
   gate_.rethrow();
+  if (finished_) return;
   for (auto& watch : watches_)
     if (std::exchange(watch.ready, false) && active()) watch.act();
   lifecycle_in_->poll(true);

@@ -172,7 +172,7 @@ void Run::end_when_due() {
   if (supervisor_.stage() != Stage::running) return;
   if (!running_since_ns_) running_since_ns_ = now_ns_;
   if (1e-9 * static_cast<double>(now_ns_ - *running_since_ns_) >= graph_.duration_s)
-    supervisor_.stop("the end of the run", 0, now_ns_);
+    supervisor_.stop(to_text_s(graph_.duration_s) + " are over", 0, now_ns_);
 }
 
 void Run::carry_out() {
@@ -259,10 +259,13 @@ Row Run::row(std::size_t index) {
 }
 
 double Run::left_s() const {
-  if (graph_.duration_s <= 0 || supervisor_.stage() != Stage::running || simulated_s_ < 0)
-    return -1;
-  const double to_simulate_s = std::max(0.0, graph_.duration_s - simulated_s_);
-  return real_time_factor_ > 0 ? to_simulate_s / real_time_factor_ : to_simulate_s;
+  if (graph_.duration_s <= 0 || supervisor_.stage() != Stage::running) return -1;
+  if (graph_.time == erp::Time::lockstep)
+    return real_time_factor_ > 0
+               ? std::max(0.0, graph_.duration_s - simulated_s_) / real_time_factor_
+               : -1;
+  const auto since_ns = now_ns_ - running_since_ns_.value_or(now_ns_);
+  return std::max(0.0, graph_.duration_s - 1e-9 * static_cast<double>(since_ns));
 }
 
 Status Run::status() {

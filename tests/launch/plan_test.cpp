@@ -79,9 +79,10 @@ TEST_CASE("every component is told its name, robot, config and time, and waits t
   CHECK(values(plan, "plant", "--config").empty());
 }
 
-TEST_CASE("the duration goes to the device alone, for it ends the run") {
+TEST_CASE("in lockstep the duration goes to the device alone, for it ends the run") {
   auto graph = rig();
   graph.duration_s = 0.5;
+  graph.time = erp::Time::lockstep;
   const auto plan = plan_of(graph);
   CHECK(values(plan, "sim", "--duration") == Strings{"0.5"});
   CHECK(values(plan, "plant", "--duration").empty());
