@@ -97,8 +97,7 @@ struct Message : WireStruct {
      ...);
   }
 
-  std::tuple<
-      std::array<detail::element_of<Members>, capacity_of<detail::element_of<Members>>>...>
+  std::tuple<std::array<detail::element_of<Members>, capacity_of<detail::element_of<Members>>>...>
       storage_;
 };
 

@@ -32,17 +32,22 @@ using JointStateSample = erp_JointStateSample;
 using BodyPoseSample = erp_BodyPoseSample;
 using ActuatorOwnerSample = erp_ActuatorOwnerSample;
 
-template <> inline constexpr std::size_t capacity_of<JointSample> = 128;
-template <> inline constexpr std::size_t capacity_of<EcuAnalogSample> = 128;
-template <> inline constexpr std::size_t capacity_of<JointStateSample> = 128;
-template <> inline constexpr std::size_t capacity_of<BodyPoseSample> = 128;
-template <> inline constexpr std::size_t capacity_of<EcuParameterValue> = 2048;
-template <> inline constexpr std::size_t capacity_of<GainValue> = 2048;
+template <>
+inline constexpr std::size_t capacity_of<JointSample> = 128;
+template <>
+inline constexpr std::size_t capacity_of<EcuAnalogSample> = 128;
+template <>
+inline constexpr std::size_t capacity_of<JointStateSample> = 128;
+template <>
+inline constexpr std::size_t capacity_of<BodyPoseSample> = 128;
+template <>
+inline constexpr std::size_t capacity_of<EcuParameterValue> = 2048;
+template <>
+inline constexpr std::size_t capacity_of<GainValue> = 2048;
 
 using ActuatorCommand = Message<erp_ActuatorCommand, &erp_ActuatorCommand::actuators>;
 using ActuatorTarget = Message<erp_ActuatorTarget, &erp_ActuatorTarget::actuators>;
-using SensorFrame =
-    Message<erp_SensorFrame, &erp_SensorFrame::actuators, &erp_SensorFrame::joints>;
+using SensorFrame = Message<erp_SensorFrame, &erp_SensorFrame::actuators, &erp_SensorFrame::joints>;
 using EcuCommand = Message<erp_EcuCommand, &erp_EcuCommand::channels>;
 using EcuFrame = Message<erp_EcuFrame, &erp_EcuFrame::channels, &erp_EcuFrame::analogs>;
 using EcuParameter = Message<erp_EcuParameter, &erp_EcuParameter::values>;
@@ -56,11 +61,13 @@ using Clock = Message<erp_Clock>;
 using Event = Message<erp_Event>;
 
 /// A message's topic: `name` on the bus, `type` its descriptor.
-template <class M> struct Topic;
-#define ERP_TOPIC(M, topic)                          \
-  template <> struct Topic<M> {                      \
-    static constexpr const char* name = topic;       \
-    static constexpr auto* type = &erp_##M##_desc;   \
+template <class M>
+struct Topic;
+#define ERP_TOPIC(M, topic)                        \
+  template <>                                      \
+  struct Topic<M> {                                \
+    static constexpr const char* name = topic;     \
+    static constexpr auto* type = &erp_##M##_desc; \
   };
 ERP_TOPIC(ActuatorCommand, "actuator_command")    // controllers -> plant
 ERP_TOPIC(ActuatorTarget, "actuator_target")      // reference -> controllers
@@ -79,9 +86,8 @@ ERP_TOPIC(Event, "event")                         // all
 #undef ERP_TOPIC
 
 /// Every message, for those who look at the bus as a whole.
-using Messages =
-    std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame, EcuParameter,
-               GainCommand, JointState, BodyPose, ActuatorOwner, ComponentState, LifecycleCommand,
-               Clock, Event>;
+using Messages = std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame,
+                            EcuParameter, GainCommand, JointState, BodyPose, ActuatorOwner,
+                            ComponentState, LifecycleCommand, Clock, Event>;
 
 }  // namespace erp

@@ -17,29 +17,52 @@ inline constexpr std::uint8_t all = 31, joint_angle = 1;
 }  // namespace valid
 
 /// State of one ECU channel; same numbers as `ecu_state` in firmware/core.
-enum class EcuState : std::uint8_t { boot = 0, idle = 1, armed = 2, running = 3, fault = 4, unknown = 255 };
+enum class EcuState : std::uint8_t {
+  boot = 0,
+  idle = 1,
+  armed = 2,
+  running = 3,
+  fault = 4,
+  unknown = 255
+};
 
-enum class Lifecycle : std::uint8_t { unconfigured = 0, inactive = 1, active = 2, error = 3, finalized = 4 };
+enum class Lifecycle : std::uint8_t {
+  unconfigured = 0,
+  inactive = 1,
+  active = 2,
+  error = 3,
+  finalized = 4
+};
 enum class Severity : std::uint8_t { info = 0, warning = 1, fault = 2 };
 
 constexpr const char* unit_of(Mode mode) {
   switch (mode) {
-    case Mode::voltage: return "V";
-    case Mode::length: return "m";
-    case Mode::current: return "A";
-    case Mode::force: return "N";
-    case Mode::off: break;
+    case Mode::voltage:
+      return "V";
+    case Mode::length:
+      return "m";
+    case Mode::current:
+      return "A";
+    case Mode::force:
+      return "N";
+    case Mode::off:
+      break;
   }
   return "";
 }
 
 constexpr const char* name_of(Mode mode) {
   switch (mode) {
-    case Mode::voltage: return "voltage";
-    case Mode::length: return "length";
-    case Mode::current: return "current";
-    case Mode::force: return "force";
-    case Mode::off: break;
+    case Mode::voltage:
+      return "voltage";
+    case Mode::length:
+      return "length";
+    case Mode::current:
+      return "current";
+    case Mode::force:
+      return "force";
+    case Mode::off:
+      break;
   }
   return "off";
 }

@@ -37,7 +37,8 @@ struct Channel {
 };
 
 /// `Law` has `static constexpr erp::Mode mode` and
-/// `static float voltage_V(const Channel&, float reference, const erp::ActuatorSample&, float speed_rad_per_s)`.
+/// `static float voltage_V(const Channel&, float reference, const erp::ActuatorSample&, float
+/// speed_rad_per_s)`.
 template <class Law>
 class Follow {
  public:
@@ -45,9 +46,9 @@ class Follow {
 
   Follow(const Params& params, const erp::Robot& robot) : params_(params) {
     for (const auto& actuator : robot.actuators)
-      channels_.emplace_back(actuator.name,
-                             Channel{sim::design_parameters(robot, actuator, {}),
-                                     actuator.spindle.radius_m, {}});
+      channels_.emplace_back(
+          actuator.name,
+          Channel{sim::design_parameters(robot, actuator, {}), actuator.spindle.radius_m, {}});
   }
 
   /// Nothing while there is no fresh target: the plant then takes its safe action.
@@ -69,7 +70,8 @@ class Follow {
     if (params_.where == Where::ecu) return wanted;
     const std::size_t i = index_of(sample.name);
     const Channel& channel = channels_[i].second;
-    const float voltage = Law::voltage_V(channel, static_cast<float>(wanted.reference), sample, speeds_[i]);
+    const float voltage =
+        Law::voltage_V(channel, static_cast<float>(wanted.reference), sample, speeds_[i]);
     wanted.mode = static_cast<std::uint8_t>(erp::Mode::voltage);
     wanted.reference = law_limit_current_V(
         voltage, speeds_[i], channel.gain(ECU_PARAMETER_RESISTANCE),
@@ -107,7 +109,8 @@ class Follow {
 
 }  // namespace follow
 
-template <> struct xml::Names<follow::Where> {
+template <>
+struct xml::Names<follow::Where> {
   static constexpr auto list = std::to_array<std::pair<const char*, follow::Where>>(
       {{"ecu", follow::Where::ecu}, {"host", follow::Where::host}});
 };

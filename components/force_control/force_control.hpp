@@ -7,10 +7,9 @@ struct ForceLaw {
   static constexpr erp::Mode mode = erp::Mode::force;
   static float voltage_V(const follow::Channel& channel, float force_ref_N,
                          const erp::ActuatorSample& sample, float speed_rad_per_s) {
-    const law_force_gains gains{channel.gain(ECU_PARAMETER_FORCE_K_CURRENT),
-                                channel.gain(ECU_PARAMETER_FORCE_K_SPEED),
-                                channel.gain(ECU_PARAMETER_FORCE_K_TENSION),
-                                channel.gain(ECU_PARAMETER_FORCE_PREFILTER)};
+    const law_force_gains gains{
+        channel.gain(ECU_PARAMETER_FORCE_K_CURRENT), channel.gain(ECU_PARAMETER_FORCE_K_SPEED),
+        channel.gain(ECU_PARAMETER_FORCE_K_TENSION), channel.gain(ECU_PARAMETER_FORCE_PREFILTER)};
     return law_force_V(&gains, force_ref_N, static_cast<float>(sample.current_A), speed_rad_per_s,
                        static_cast<float>(sample.tension_N));
   }

@@ -96,7 +96,8 @@ void LoggerNode::add(const std::string& name, const dds_topic_descriptor_t& type
   Topic topic{0, node::describe(type), nullptr, std::move(owner)};
   topic.handle = recorder_.add_topic(
       name, {topic.type.name(), recording::ros2msg_text(topic.type), idl_text(topic.type.name())});
-  topic.reader = std::make_unique<node::RawReader>(node_.participant(), node_.wake(), type, name, depth);
+  topic.reader =
+      std::make_unique<node::RawReader>(node_.participant(), node_.wake(), type, name, depth);
   topics_.emplace(name, std::move(topic));
 }
 
@@ -122,8 +123,9 @@ void LoggerNode::take_all() {
   recorder_.tick(node::monotonic_ns());
   if (const auto missing = recorder_.missing(); missing > missing_said_) {
     if (!missing_said_)
-      node_.report(erp::Severity::warning, "", "dropped",
-                   std::to_string(missing) + " messages never came; erp log info counts them by topic");
+      node_.report(
+          erp::Severity::warning, "", "dropped",
+          std::to_string(missing) + " messages never came; erp log info counts them by topic");
     missing_said_ = missing;
   }
 }
@@ -136,7 +138,8 @@ void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
   sample.writer = {writer, static_cast<std::size_t>(end - writer)};
   sample.publish_time_ns = static_cast<std::uint64_t>(stamp.stamp_ns.value_or(raw.source_ns));
   // Simulated time, such as `clock` carries, beside the wall's would tear the time line apart.
-  if (node_.clock().lockstep()) node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
+  if (node_.clock().lockstep())
+    node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
   sample.log_time_ns = static_cast<std::uint64_t>(node_.clock().now_ns());
   sample.sequence = stamp.sequence;
   sample.cdr = raw.cdr;

@@ -13,14 +13,17 @@
 /// The only DDS plumbing of the house: owned entities, typed writers and readers.
 namespace node {
 
-/// Owns one Cyclone DDS entity. Throws std::runtime_error with the operation's name when DDS refuses.
+/// Owns one Cyclone DDS entity. Throws std::runtime_error with the operation's name when DDS
+/// refuses.
 class Entity {
  public:
   Entity() = default;
   Entity(dds_entity_t id, const char* operation);
   Entity(Entity&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
   Entity& operator=(Entity&& other) noexcept { return std::swap(id_, other.id_), *this; }
-  ~Entity() { if (id_ > 0) dds_delete(id_); }
+  ~Entity() {
+    if (id_ > 0) dds_delete(id_);
+  }
   dds_entity_t id() const { return id_; }
 
  private:

@@ -27,9 +27,12 @@ int open_signals() {
 
 spdlog::level::level_enum level_of(erp::Severity severity) {
   switch (severity) {
-    case erp::Severity::info: return spdlog::level::info;
-    case erp::Severity::warning: return spdlog::level::warn;
-    case erp::Severity::fault: break;
+    case erp::Severity::info:
+      return spdlog::level::info;
+    case erp::Severity::warning:
+      return spdlog::level::warn;
+    case erp::Severity::fault:
+      break;
   }
   return spdlog::level::err;
 }
@@ -95,8 +98,7 @@ void Node::count_step(std::int64_t stamp_ns) {
   ++state_.steps;
   age_.add_ns(clock_.now_ns() - stamp_ns);
   const auto interval_ns = now_ns - last_step_ns_;
-  if (last_step_ns_ && last_interval_ns_)
-    jitter_.add_ns(std::abs(interval_ns - last_interval_ns_));
+  if (last_step_ns_ && last_interval_ns_) jitter_.add_ns(std::abs(interval_ns - last_interval_ns_));
   last_interval_ns_ = last_step_ns_ ? interval_ns : 0;
   last_step_ns_ = now_ns;
 }
@@ -124,8 +126,8 @@ void Node::finish(int exit_code) {
 std::uint32_t Node::count_peers() {
   void* samples[256] = {};
   dds_sample_info_t info[256];
-  const auto n = dds_read_mask(participants_reader_.id(), samples, info, 256, 256,
-                               DDS_ALIVE_INSTANCE_STATE);
+  const auto n =
+      dds_read_mask(participants_reader_.id(), samples, info, 256, 256, DDS_ALIVE_INSTANCE_STATE);
   if (n <= 0) return 0;
   dds_return_loan(participants_reader_.id(), samples, n);
   return static_cast<std::uint32_t>(n - 1);

@@ -17,8 +17,8 @@
 ///                                            <-deactivate-        any --throw--> error
 ///
 /// One at a time: handlers run on DDS's thread where their message arrives (or in the loop, if they
-/// ask for it), timers, descriptors and activation inside `spin`; a gate keeps them apart. A handler
-/// must be short: while it runs, nothing else of this process is heard.
+/// ask for it), timers, descriptors and activation inside `spin`; a gate keeps them apart. A
+/// handler must be short: while it runs, nothing else of this process is heard.
 namespace node {
 
 class Node {

@@ -56,9 +56,11 @@ class Publisher final : public Port {
       erp::assign(message.controller, identity_.component);
     if constexpr (requires { message.component; } && !std::same_as<M, erp::LifecycleCommand>)
       erp::assign(message.component, identity_.component);
-    if constexpr (requires { message.source; })
-      erp::assign(message.source, identity_.component);
-    if constexpr (requires { message.controller; message.priority; })
+    if constexpr (requires { message.source; }) erp::assign(message.source, identity_.component);
+    if constexpr (requires {
+                    message.controller;
+                    message.priority;
+                  })
       message.priority = identity_.priority;
   }
   Writer<M> writer_;
@@ -76,7 +78,8 @@ class Subscription final : public Port {
         gate_(gate),
         deliver_(deliver),
         where_(where),
-        reader_(participant, where == Where::in_loop ? waking(wake) : Arrival{arrived, this}, depth) {}
+        reader_(participant, where == Where::in_loop ? waking(wake) : Arrival{arrived, this},
+                depth) {}
 
   /// In the gate: hands over what waits, or drops it while the component is not active.
   void poll(bool deliver) override {

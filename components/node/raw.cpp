@@ -27,8 +27,7 @@ void for_each_alive(const Entity& reader, Use&& use) {
 
 Entity builtin(const Entity& participant, dds_entity_t topic, Wake& wake) {
   dds_listener_t* listener = dds_create_listener(&wake);
-  dds_lset_data_available(listener,
-                          [](dds_entity_t, void* w) { static_cast<Wake*>(w)->raise(); });
+  dds_lset_data_available(listener, [](dds_entity_t, void* w) { static_cast<Wake*>(w)->raise(); });
   const dds_entity_t reader = dds_create_reader(participant.id(), topic, nullptr, listener);
   dds_delete_listener(listener);
   return {reader, "read a built-in topic"};
@@ -135,7 +134,8 @@ std::uint32_t RawReader::matched() const {
 
 std::uint64_t RawReader::lost() const {
   dds_sample_lost_status_t status{};
-  return dds_get_sample_lost_status(reader_.id(), &status) == DDS_RETCODE_OK ? status.total_count : 0;
+  return dds_get_sample_lost_status(reader_.id(), &status) == DDS_RETCODE_OK ? status.total_count
+                                                                             : 0;
 }
 
 }  // namespace node

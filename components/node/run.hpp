@@ -8,7 +8,8 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
 
-/// A component's whole main:  int main(int argc, char** argv) { return node::run<MyController>(argc, argv); }
+/// A component's whole main:  int main(int argc, char** argv) { return
+/// node::run<MyController>(argc, argv); }
 ///
 /// A component is a class with `Params`, a constructor (Params) or (Params, const erp::Robot&) and
 ///   Out step(const In& in, double dt_s, const node::Latest<More>&… more)
@@ -30,8 +31,14 @@ struct Latest {
 
 namespace detail {
 
-template <class Out> struct Unwrapped { using type = Out; };
-template <class M> struct Unwrapped<std::optional<M>> { using type = M; };
+template <class Out>
+struct Unwrapped {
+  using type = Out;
+};
+template <class M>
+struct Unwrapped<std::optional<M>> {
+  using type = M;
+};
 
 constexpr std::int64_t answer_patience_ns = 500'000'000;  // chosen: a lost controller in lockstep
 
@@ -44,7 +51,9 @@ class Stepper {
   Stepper(Node& node, T& component, Step step)
       : node_(node), component_(component), step_(step), out_(node.advertise<OutMessage>()) {
     more_ports_ = std::make_tuple(&node.subscribe<More>([this](const More& m) { hear(m); }, 1)...);
-    node.subscribe<In>([this](const In& in) { pending_ = in, waiting_ = true, since_ns_ = monotonic_ns(), try_step(); });
+    node.subscribe<In>([this](const In& in) {
+      pending_ = in, waiting_ = true, since_ns_ = monotonic_ns(), try_step();
+    });
     if (sizeof...(More) && node.clock().lockstep())
       node.every(answer_patience_ns / 5, [this] { try_step(); });
   }
@@ -79,7 +88,8 @@ class Stepper {
     node_.clock().advance(pending_.stamp_ns);
     [[maybe_unused]] const auto now_ns = node_.clock().now_ns();
     ((std::get<Latest<More>>(more_).age_s =
-          1e-9 * static_cast<double>(now_ns - std::get<Latest<More>>(more_).arrived_ns)), ...);
+          1e-9 * static_cast<double>(now_ns - std::get<Latest<More>>(more_).arrived_ns)),
+     ...);
     const double dt_s = last_ns_ ? 1e-9 * static_cast<double>(pending_.stamp_ns - *last_ns_) : 0.0;
     last_ns_ = pending_.stamp_ns;
     publish((component_.*step_)(pending_, dt_s, std::get<Latest<More>>(more_)...));
@@ -141,8 +151,7 @@ int run_component(const Options& options) {
     T component = [&] {
       if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&>)
         return T(params, robot);
-      else
-        return T(params);
+      else return T(params);
     }();
     const auto stepper = make_stepper(node, component, &T::step);
     return node.spin();

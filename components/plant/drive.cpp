@@ -67,12 +67,15 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
   if (state_ != ECU_STATE_RUNNING || offer) safe_now_ = erp::SafeAction::none;
   switch (state_) {
     case ECU_STATE_BOOT:
-    case ECU_STATE_COUNT: return {};
-    case ECU_STATE_IDLE: return {offer && !wants_off ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
+    case ECU_STATE_COUNT:
+      return {};
+    case ECU_STATE_IDLE:
+      return {offer && !wants_off ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
     case ECU_STATE_ARMED:
       if (!offer || wants_off) return {};
       return offer->received_ns > armed_ns_ ? drive(*offer, dt_s) : Demand{ECU_REQUEST_ARM, 0};
-    case ECU_STATE_RUNNING: return wants_off ? Demand{} : offer ? drive(*offer, dt_s) : stay_safe();
+    case ECU_STATE_RUNNING:
+      return wants_off ? Demand{} : offer ? drive(*offer, dt_s) : stay_safe();
     case ECU_STATE_FAULT:
       return {was_silence(fault_) || wants_off ? ECU_REQUEST_CLEAR : ECU_REQUEST_OFF, 0};
   }
@@ -96,11 +99,13 @@ Demand Drive::stay_safe() {
   if (safe_now_ == erp::SafeAction::none) hold_counts_ = encoder_counts_;
   safe_now_ = safe_action_;
   switch (safe_action_) {
-    case erp::SafeAction::hold: return {ECU_REQUEST_LENGTH, hold_counts_};
+    case erp::SafeAction::hold:
+      return {ECU_REQUEST_LENGTH, hold_counts_};
     case erp::SafeAction::relax:
       return {ECU_REQUEST_FORCE, units_.setpoint(erp::Mode::force, relax_tension_N_)};
     case erp::SafeAction::damp:
-    case erp::SafeAction::none: break;
+    case erp::SafeAction::none:
+      break;
   }
   return {ECU_REQUEST_VOLTAGE, 0};
 }

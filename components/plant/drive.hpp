@@ -36,7 +36,8 @@ class Drive {
   Checked accept(std::string_view controller, std::int32_t priority, erp::Mode mode,
                  double reference, std::int64_t now_ns, std::int64_t stale_ns);
   /// What the ECU reported.
-  void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts, std::int64_t now_ns);
+  void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts,
+               std::int64_t now_ns);
   /// The device fell silent: nothing is known until it speaks again.
   void lose();
   /// What to ask of the ECU now; `dt_s` since the last call.

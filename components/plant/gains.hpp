@@ -10,7 +10,8 @@
 namespace plant {
 
 /// The whole set, designed from robot.xml; the last value commits it.
-std::vector<erp::EcuParameterValue> gain_set(const erp::Robot& robot, const erp::Actuator& actuator);
+std::vector<erp::EcuParameterValue> gain_set(const erp::Robot& robot,
+                                             const erp::Actuator& actuator);
 
 /// The place of a gain by its name, e.g. `length_gain_V_per_rad`; nothing when there is none.
 std::optional<std::size_t> gain_index(std::string_view name);

@@ -28,11 +28,16 @@ static Checked within(double reference, double min, double max, std::string_view
 
 Checked Limits::check(erp::Mode mode, double reference) const {
   switch (mode) {
-    case erp::Mode::off: return {Verdict::accepted, 0, {}};
-    case erp::Mode::voltage: return within(reference, -supply_V_, supply_V_, "limited to the supply");
-    case erp::Mode::length: return within(reference, -max_line_m, max_line_m, "limited to the line on the spindle");
-    case erp::Mode::current: return within(reference, -current_A_, current_A_, "limited to the motor's current limit");
-    case erp::Mode::force: return within(reference, 0, tension_N_, "limited to max_tension_N");
+    case erp::Mode::off:
+      return {Verdict::accepted, 0, {}};
+    case erp::Mode::voltage:
+      return within(reference, -supply_V_, supply_V_, "limited to the supply");
+    case erp::Mode::length:
+      return within(reference, -max_line_m, max_line_m, "limited to the line on the spindle");
+    case erp::Mode::current:
+      return within(reference, -current_A_, current_A_, "limited to the motor's current limit");
+    case erp::Mode::force:
+      return within(reference, 0, tension_N_, "limited to max_tension_N");
   }
   return {Verdict::refused, 0, "unknown mode"};
 }

@@ -7,10 +7,14 @@ namespace {
 std::string owner_text(const Drive& drive, const std::string& before) {
   if (!drive.owner().empty()) return "driven by " + std::string(drive.owner());
   switch (drive.safe_action()) {
-    case erp::SafeAction::hold: return before + " went stale; holding the line";
-    case erp::SafeAction::relax: return before + " went stale; relaxing the tendon";
-    case erp::SafeAction::damp: return before + " went stale; damping";
-    case erp::SafeAction::none: break;
+    case erp::SafeAction::hold:
+      return before + " went stale; holding the line";
+    case erp::SafeAction::relax:
+      return before + " went stale; relaxing the tendon";
+    case erp::SafeAction::damp:
+      return before + " went stale; damping";
+    case erp::SafeAction::none:
+      break;
   }
   return before + " went stale";
 }
@@ -34,7 +38,8 @@ void Plant::notice_changes() {
     // The first of a row is said; the counters on actuator_owner carry the rest.
     const bool first = (drive.limited() && !said.limited) || (drive.refused() && !said.refused);
     if (first)
-      notices_.push_back({erp::Severity::warning, drive.name(), "reference", std::string(drive.reason())});
+      notices_.push_back(
+          {erp::Severity::warning, drive.name(), "reference", std::string(drive.reason())});
     said.limited = drive.limited(), said.refused = drive.refused();
   }
 }

@@ -24,9 +24,10 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
     erp::ActuatorOwnerSample owner{};
     erp::assign(owner.name, actuator.name);
     erp::append(owners_.actuators, owner);
-    erp::append(command_.channels, erp::EcuChannelCommand{
-        static_cast<std::uint8_t>(actuator.ecu), static_cast<std::uint8_t>(actuator.channel),
-        ECU_REQUEST_OFF, 0});
+    erp::append(
+        command_.channels,
+        erp::EcuChannelCommand{static_cast<std::uint8_t>(actuator.ecu),
+                               static_cast<std::uint8_t>(actuator.channel), ECU_REQUEST_OFF, 0});
   }
   for (const auto& sensor : robot.joint_sensors) {
     joint_at_[static_cast<std::size_t>(sensor.ecu)][static_cast<std::size_t>(sensor.input)] =
@@ -48,7 +49,8 @@ void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now
   sample.valid = channel.fresh ? erp::valid::all : 0;
   boots_[i] = channel.fresh && channel.state == ECU_STATE_BOOT;
   if (!channel.fresh) return;
-  drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts, now_ns);
+  drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts,
+                now_ns);
   const Units& units = drive.units();
   sample.ecu_state = channel.state;
   sample.ecu_fault = channel.fault;
@@ -99,7 +101,8 @@ void Plant::accept(const erp::ActuatorCommand& command, std::int64_t now_ns) {
 }
 
 const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
-  const double dt_s = last_decision_ns_ ? 1e-9 * static_cast<double>(now_ns - last_decision_ns_) : 0;
+  const double dt_s =
+      last_decision_ns_ ? 1e-9 * static_cast<double>(now_ns - last_decision_ns_) : 0;
   last_decision_ns_ = now_ns;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const Demand demand = drives_[i].decide(now_ns, stale_ns_, dt_s);
@@ -119,7 +122,8 @@ bool Plant::check_device(std::int64_t now_ns) {
   for (auto& drive : drives_) drive.lose();
   for (auto& sample : erp::samples(frame_.actuators))
     sample.valid = 0, sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
-  notices_.push_back({erp::Severity::fault, "", "device_lost", "no frame from the device; its ECUs stop by themselves"});
+  notices_.push_back({erp::Severity::fault, "", "device_lost",
+                      "no frame from the device; its ECUs stop by themselves"});
   return true;
 }
 

@@ -23,8 +23,8 @@ struct Notice {
 class Plant {
  public:
   struct Params {
-    double stale_s = 0.020;         ///< a command older than this no longer drives
-    double device_lost_s = 0.050;   ///< without a frame for so long nothing is known
+    double stale_s = 0.020;        ///< a command older than this no longer drives
+    double device_lost_s = 0.050;  ///< without a frame for so long nothing is known
     void visit(auto& v) {
       v("stale_s", stale_s, xml::positive);
       v("device_lost_s", device_lost_s, xml::positive);

@@ -56,10 +56,8 @@ void PlantNode::on_command(const erp::ActuatorCommand& command) {
   const auto known = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
     return a.controller == command.controller;
   });
-  if (known == answers_.end())
-    answers_.push_back({command.controller, command.answers});
-  else
-    known->answers = command.answers;
+  if (known == answers_.end()) answers_.push_back({command.controller, command.answers});
+  else known->answers = command.answers;
   if (!owes_answer_) {
     if (!node_.clock().lockstep() && heard_) answer();
     return;
@@ -68,11 +66,9 @@ void PlantNode::on_command(const erp::ActuatorCommand& command) {
 }
 
 bool PlantNode::all_answered() const {
-  const auto answered = static_cast<std::size_t>(
-      std::count_if(answers_.begin(), answers_.end(),
-                    [&](const Answer& a) { return a.answers >= frame_; }));
-  return answered >= command_in_->matched() ||
-         node::monotonic_ns() - owed_since_ns_ > patience_ns;
+  const auto answered = static_cast<std::size_t>(std::count_if(
+      answers_.begin(), answers_.end(), [&](const Answer& a) { return a.answers >= frame_; }));
+  return answered >= command_in_->matched() || node::monotonic_ns() - owed_since_ns_ > patience_ns;
 }
 
 void PlantNode::answer() {
@@ -117,7 +113,8 @@ void PlantNode::send_gains() {
 
 void PlantNode::say_notices() {
   for (const auto& notice : plant_.take_notices())
-    node_.report(notice.severity, std::string(notice.subject), std::string(notice.code), notice.text);
+    node_.report(notice.severity, std::string(notice.subject), std::string(notice.code),
+                 notice.text);
 }
 
 void PlantNode::publish_owners() {

@@ -16,11 +16,16 @@ Units::Units(const erp::MotorType& motor, const erp::SensorType& sensors,
 
 ecu_request Units::request(erp::Mode mode) {
   switch (mode) {
-    case erp::Mode::voltage: return ECU_REQUEST_VOLTAGE;
-    case erp::Mode::length: return ECU_REQUEST_LENGTH;
-    case erp::Mode::current: return ECU_REQUEST_CURRENT;
-    case erp::Mode::force: return ECU_REQUEST_FORCE;
-    case erp::Mode::off: break;
+    case erp::Mode::voltage:
+      return ECU_REQUEST_VOLTAGE;
+    case erp::Mode::length:
+      return ECU_REQUEST_LENGTH;
+    case erp::Mode::current:
+      return ECU_REQUEST_CURRENT;
+    case erp::Mode::force:
+      return ECU_REQUEST_FORCE;
+    case erp::Mode::off:
+      break;
   }
   return ECU_REQUEST_OFF;
 }
@@ -33,11 +38,16 @@ std::int32_t Units::setpoint(erp::Mode mode, double reference) const {
 
 erp::Mode Units::mode(std::uint8_t request) {
   switch (request) {
-    case ECU_REQUEST_VOLTAGE: return erp::Mode::voltage;
-    case ECU_REQUEST_LENGTH: return erp::Mode::length;
-    case ECU_REQUEST_CURRENT: return erp::Mode::current;
-    case ECU_REQUEST_FORCE: return erp::Mode::force;
-    default: return erp::Mode::off;
+    case ECU_REQUEST_VOLTAGE:
+      return erp::Mode::voltage;
+    case ECU_REQUEST_LENGTH:
+      return erp::Mode::length;
+    case ECU_REQUEST_CURRENT:
+      return erp::Mode::current;
+    case ECU_REQUEST_FORCE:
+      return erp::Mode::force;
+    default:
+      return erp::Mode::off;
   }
 }
 

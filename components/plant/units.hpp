@@ -17,7 +17,9 @@ struct Units {
 
   Units(const erp::MotorType& motor, const erp::SensorType& sensors, const erp::Spindle& spindle);
 
-  double shaft_rad(std::int32_t encoder_counts) const { return encoder_counts * shaft_rad_per_count; }
+  double shaft_rad(std::int32_t encoder_counts) const {
+    return encoder_counts * shaft_rad_per_count;
+  }
   double line_m(double shaft) const { return -radius_m * shaft; }
   double voltage_V(std::int16_t duty) const { return duty * supply_V / ECU_DUTY_MAX; }
 

@@ -15,7 +15,7 @@ namespace reference {
 
 struct Params {
   xml::Place place;
-  std::string file;    ///< a trajectory, relative to the config that names it
+  std::string file;  ///< a trajectory, relative to the config that names it
   bool loop = false;
   std::vector<Signal> signals;
   void visit(auto& v) {
@@ -56,10 +56,10 @@ class Reference {
   static void check(const erp::Robot& robot, const std::string& actuator) {
     for (const auto& known : robot.actuators)
       if (known.name == actuator) return;
-    throw std::invalid_argument("reference: robot \"" + robot.name + "\" has no actuator \"" + actuator + "\"");
+    throw std::invalid_argument("reference: robot \"" + robot.name + "\" has no actuator \"" +
+                                actuator + "\"");
   }
-  static void add(OutMessage& out, const std::string& name, erp::Mode mode,
-                  double value) {
+  static void add(OutMessage& out, const std::string& name, erp::Mode mode, double value) {
     erp::ActuatorReference reference{};
     erp::assign(reference.name, name);
     reference.mode = static_cast<std::uint8_t>(mode);

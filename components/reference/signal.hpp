@@ -1,6 +1,6 @@
 #pragma once
-#include <numbers>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "interfaces/values.hpp"
@@ -22,8 +22,8 @@ struct Signal {
   std::string actuator;
   erp::Mode mode = erp::Mode::force;
   Shape shape = Shape::constant;
-  double offset = 0, amplitude = 0;   ///< V, m, A or N, after `mode`
-  double start_s = 0, duration_s = 0; ///< duration 0: without end; afterwards the offset stands
+  double offset = 0, amplitude = 0;    ///< V, m, A or N, after `mode`
+  double start_s = 0, duration_s = 0;  ///< duration 0: without end; afterwards the offset stands
   double frequency_Hz = 1, end_frequency_Hz = 1;
 
   void visit(auto& v) {
@@ -42,26 +42,37 @@ struct Signal {
     const double t = t_s - start_s;
     if (t < 0 || (duration_s > 0 && t >= duration_s)) return offset;
     switch (shape) {
-      case Shape::constant: return offset;
-      case Shape::step: return offset + amplitude;
-      case Shape::sine: return offset + amplitude * std::sin(2 * std::numbers::pi * frequency_Hz * t);
-      case Shape::sweep: break;
+      case Shape::constant:
+        return offset;
+      case Shape::step:
+        return offset + amplitude;
+      case Shape::sine:
+        return offset + amplitude * std::sin(2 * std::numbers::pi * frequency_Hz * t);
+      case Shape::sweep:
+        break;
     }
     // φ(t) = 2π ∫ f dt with f = f0 + (f1 − f0) t / T
     const double rise = duration_s > 0 ? (end_frequency_Hz - frequency_Hz) / duration_s : 0;
-    return offset + amplitude * std::sin(2 * std::numbers::pi * (frequency_Hz + 0.5 * rise * t) * t);
+    return offset +
+           amplitude * std::sin(2 * std::numbers::pi * (frequency_Hz + 0.5 * rise * t) * t);
   }
 };
 
 }  // namespace reference
 
-template <> struct xml::Names<reference::Shape> {
+template <>
+struct xml::Names<reference::Shape> {
   static constexpr auto list = std::to_array<std::pair<const char*, reference::Shape>>(
-      {{"constant", reference::Shape::constant}, {"step", reference::Shape::step},
-       {"sine", reference::Shape::sine}, {"sweep", reference::Shape::sweep}});
+      {{"constant", reference::Shape::constant},
+       {"step", reference::Shape::step},
+       {"sine", reference::Shape::sine},
+       {"sweep", reference::Shape::sweep}});
 };
-template <> struct xml::Names<erp::Mode> {
-  static constexpr auto list = std::to_array<std::pair<const char*, erp::Mode>>(
-      {{"voltage", erp::Mode::voltage}, {"length", erp::Mode::length},
-       {"current", erp::Mode::current}, {"force", erp::Mode::force}});
+template <>
+struct xml::Names<erp::Mode> {
+  static constexpr auto list =
+      std::to_array<std::pair<const char*, erp::Mode>>({{"voltage", erp::Mode::voltage},
+                                                        {"length", erp::Mode::length},
+                                                        {"current", erp::Mode::current},
+                                                        {"force", erp::Mode::force}});
 };

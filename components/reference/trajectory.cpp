@@ -14,7 +14,8 @@ Trajectory::Column column_of(const recording::Table& table, const std::string& a
   const auto* mode = table.find(actuator + ".mode");
   const auto* value = table.find(actuator + ".reference");
   if (!mode)
-    throw std::invalid_argument(file + ": no column \"" + actuator + ".mode\" beside \"" + actuator +
+    throw std::invalid_argument(file + ": no column \"" + actuator + ".mode\" beside \"" +
+                                actuator +
                                 ".reference\"; add one with voltage, length, current or force");
   Trajectory::Column column{actuator, {}, {}, {}};
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -34,8 +35,7 @@ Trajectory::Trajectory(const std::string& file) {
   const auto table = recording::read_table(file);
   for (const auto& actuator : table.owners("reference"))
     columns_.push_back(column_of(table, actuator, file));
-  if (columns_.empty())
-    throw std::invalid_argument(file + ": no column \"<actuator>.reference\"");
+  if (columns_.empty()) throw std::invalid_argument(file + ": no column \"<actuator>.reference\"");
   duration_s_ = table.find("time_s")->values.back();
 }
 

@@ -16,6 +16,7 @@ class Trajectory {
     std::vector<erp::Mode> mode;
     double at(double t_s) const;
     erp::Mode mode_at(double t_s) const;
+
    private:
     std::size_t row_before(double t_s) const;
   };

@@ -36,14 +36,17 @@ ReplayNode::ReplayNode(const Params& params, const erp::Robot&, node::Node& node
     if (node_.clock().lockstep() && next_ > 0 && command.answers == frame_.sequence) play_next();
   });
   if (node.clock().lockstep())
-    node.every(repeat_ns, [this] { if (next_ > 0) frame_out_.publish_numbered(frame_); });
-  else
-    node.every(poll_ns, [this] { play_due(); });
+    node.every(repeat_ns, [this] {
+      if (next_ > 0) frame_out_.publish_numbered(frame_);
+    });
+  else node.every(poll_ns, [this] { play_due(); });
 }
 
 void ReplayNode::play_due() {
   while (next_ <= end_) {
-    if (next_ < end_ && frames_.at(next_).stamp_ns - recorded_start_ns_ > node::monotonic_ns() - began_ns_) return;
+    if (next_ < end_ &&
+        frames_.at(next_).stamp_ns - recorded_start_ns_ > node::monotonic_ns() - began_ns_)
+      return;
     play_next();
   }
 }
@@ -54,8 +57,7 @@ void ReplayNode::play_next() {
     frame_ = frames_.at(next_);
     if (node_.clock().lockstep())
       frame_.stamp_ns -= recorded_start_ns_, node_.clock().advance(frame_.stamp_ns);
-    else
-      frame_.stamp_ns = node_.clock().now_ns();
+    else frame_.stamp_ns = node_.clock().now_ns();
     frame_out_.publish_numbered(frame_);
   }
   ++next_;

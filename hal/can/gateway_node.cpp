@@ -49,8 +49,12 @@ void GatewayNode::receive() {
   std::array<erp::CanFrame, 64> frames;
   while (const auto n = bus_->receive(frames, 0))
     for (std::size_t i = 0; i < n; ++i) switch (gateway_.hear(frames[i])) {
-        case erp::Heard::tick: publish_tick(); break;
-        case erp::Heard::tick_repeated: send(gateway_.again()); break;
+        case erp::Heard::tick:
+          publish_tick();
+          break;
+        case erp::Heard::tick_repeated:
+          send(gateway_.again());
+          break;
         case erp::Heard::nothing:
           if (!open_since_ns_) open_since_ns_ = node::monotonic_ns();
           break;
@@ -81,10 +85,10 @@ void GatewayNode::publish_tick() {
 void GatewayNode::say_emergencies() {
   for (const auto& emergency : gateway_.emergencies()) {
     const bool boot = emergency.said.boot;
-    node_.report(boot ? erp::Severity::info : erp::Severity::fault,
-                 "ecu " + std::to_string(emergency.ecu), boot ? "boot" : "emergency",
-                 boot ? "the ECU has started"
-                      : "fault code " + std::to_string(emergency.said.fault));
+    node_.report(
+        boot ? erp::Severity::info : erp::Severity::fault, "ecu " + std::to_string(emergency.ecu),
+        boot ? "boot" : "emergency",
+        boot ? "the ECU has started" : "fault code " + std::to_string(emergency.said.fault));
   }
   gateway_.clear_emergencies();
 }

@@ -7,10 +7,10 @@
 namespace sim {
 namespace {
 
-constexpr std::int64_t tick_ns = 2'000'000;     // the ECUs' period
-constexpr std::int64_t repeat_ns = 200'000'000; // chosen: lockstep, for an answer that got lost
-constexpr std::uint64_t pose_period = 10;       // ticks: pictures at 50 Hz
-constexpr std::uint64_t clock_period = 50;      // ticks: 10 Hz
+constexpr std::int64_t tick_ns = 2'000'000;      // the ECUs' period
+constexpr std::int64_t repeat_ns = 200'000'000;  // chosen: lockstep, for an answer that got lost
+constexpr std::uint64_t pose_period = 10;        // ticks: pictures at 50 Hz
+constexpr std::uint64_t clock_period = 50;       // ticks: 10 Hz
 
 WorldOptions world_options(const SimNode::Params& params) {
   WorldOptions options;
@@ -40,10 +40,8 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
       bodies_out_(node.advertise<erp::BodyPose>()),
       clock_out_(node.advertise<erp::Clock>()),
       end_ticks_(ticks_in(node.options().duration_s)) {
-  if (params.bus.empty())
-    join_bus_as_device();
-  else
-    stand_behind(params.bus, robot);
+  if (params.bus.empty()) join_bus_as_device();
+  else stand_behind(params.bus, robot);
   node.on_activate([this] {
     began_ns_ = node::monotonic_ns();
     ecus_.measure(world_);
@@ -54,13 +52,13 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     node.every(repeat_ns, [this] {
       if (node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
     });
-  else
-    node.every(tick_ns, [this] { tick(); });
+  else node.every(tick_ns, [this] { tick(); });
 }
 
 void SimNode::join_bus_as_device() {
   frame_out_ = &node_.advertise<erp::EcuFrame>();
-  parameter_in_ = &node_.subscribe<erp::EcuParameter>([this](const auto& m) { ecus_.accept(m); }, 8);
+  parameter_in_ =
+      &node_.subscribe<erp::EcuParameter>([this](const auto& m) { ecus_.accept(m); }, 8);
   node_.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
 }
 
@@ -105,18 +103,14 @@ void SimNode::measure_and_say() {
 
 void SimNode::say_frame() {
   said_ns_ = node::monotonic_ns();
-  if (bus_)
-    bus_->say(frame_);
-  else
-    frame_out_->publish_numbered(frame_);
+  if (bus_) bus_->say(frame_);
+  else frame_out_->publish_numbered(frame_);
 }
 
 void SimNode::say_again() {
   said_ns_ = node::monotonic_ns();
-  if (bus_)
-    bus_->say_again();
-  else
-    frame_out_->publish_numbered(frame_);
+  if (bus_) bus_->say_again();
+  else frame_out_->publish_numbered(frame_);
 }
 
 void SimNode::publish_truth() {

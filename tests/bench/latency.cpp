@@ -4,6 +4,7 @@
 //   erp_latency [GRAPH.xml] [SECONDS]
 #include <sys/wait.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -13,7 +14,6 @@
 #include <map>
 #include <regex>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include "components/node/bus.hpp"
@@ -31,7 +31,9 @@ struct Quantiles {
 Quantiles quantiles(std::vector<double> us) {
   if (us.empty()) return {};
   std::sort(us.begin(), us.end());
-  const auto at = [&](double q) { return us[static_cast<std::size_t>(q * static_cast<double>(us.size() - 1))]; };
+  const auto at = [&](double q) {
+    return us[static_cast<std::size_t>(q * static_cast<double>(us.size() - 1))];
+  };
   return {at(0.5), at(0.99), us.size()};
 }
 
@@ -65,8 +67,9 @@ Quantiles observe(const std::string& graph, const std::string& seconds, const st
   node::Wake wake;
   node::Reader<erp::EcuFrame> frames(participant, wake, 64);
   node::Reader<erp::EcuCommand> commands(participant, wake, 64);
-  const pid_t erp = start({ERP_BIN_DIR "/erp", "launch", graph, "--for", seconds + "s", "--out", folder + "/run"},
-                          folder + "/launch.txt");
+  const pid_t erp =
+      start({ERP_BIN_DIR "/erp", "launch", graph, "--for", seconds + "s", "--out", folder + "/run"},
+            folder + "/launch.txt");
   std::map<std::uint64_t, std::int64_t> sent_ns;
   std::vector<double> us;
   int status = 0;
@@ -91,8 +94,11 @@ Quantiles observe(const std::string& graph, const std::string& seconds, const st
 Quantiles peer(const std::string& seconds, int bytes, const std::string& folder) {
   const std::string domain = std::getenv("ERP_DOMAIN");
   const auto size = std::to_string(bytes);
-  const auto pong = start({"ddsperf", "-i", domain, "-D", std::to_string(std::stoi(seconds) + 2), "pong"}, folder + "/pong.txt");
-  const auto ping = start({"ddsperf", "-i", domain, "-D", seconds, "ping", "500Hz", "size", size}, folder + "/ping.txt");
+  const auto pong =
+      start({"ddsperf", "-i", domain, "-D", std::to_string(std::stoi(seconds) + 2), "pong"},
+            folder + "/pong.txt");
+  const auto ping = start({"ddsperf", "-i", domain, "-D", seconds, "ping", "500Hz", "size", size},
+                          folder + "/ping.txt");
   waitpid(ping, nullptr, 0), waitpid(pong, nullptr, 0);
   const auto text = content(folder + "/ping.txt");
   const std::regex line(R"(50% ([0-9.]+)us .*99% ([0-9.]+)us)");
@@ -103,7 +109,8 @@ Quantiles peer(const std::string& seconds, int bytes, const std::string& folder)
 }
 
 void print(const char* name, const Quantiles& q) {
-  std::printf("  \"%s\": {\"p50_us\": %.1f, \"p99_us\": %.1f, \"count\": %zu},\n", name, q.p50_us, q.p99_us, q.count);
+  std::printf("  \"%s\": {\"p50_us\": %.1f, \"p99_us\": %.1f, \"count\": %zu},\n", name, q.p50_us,
+              q.p99_us, q.count);
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ void world_step(benchmark::State& state, const char* robot) {
   sim::World world(erp::read_robot(std::string(ERP_SOURCE_DIR "/configs/") + robot + "/robot.xml"));
   const std::vector<double> voltage_V(world.actuators().size(), 0.1);
   for (auto _ : state) world.step(voltage_V, 0.001);
-  state.counters["steps_per_s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["steps_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK_CAPTURE(world_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(world_step, arm, "arm");

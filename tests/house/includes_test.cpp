@@ -22,9 +22,12 @@ const std::vector<Rule> rules{
     {"firmware/", {}},
     {"components/node/", {"interfaces/"}},
     {"components/follow/", {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/"}},
-    {"components/length_control/", {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
-    {"components/force_control/", {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
-    {"components/", {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
+    {"components/length_control/",
+     {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
+    {"components/force_control/",
+     {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
+    {"components/",
+     {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/"}},
     {"sim/skeleton/", {"interfaces/"}},
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
@@ -34,12 +37,9 @@ const std::vector<Rule> rules{
 
 // Headers of others that have one home.
 const std::vector<Rule> homes{
-    {"dds/", {"components/node/"}},
-    {"bt", {"sim/world/"}},
-    {"Bullet", {"sim/world/"}},
-    {"linux/can", {"hal/can/"}},
-    {"Eigen/", {"sim/", "components/"}},
-    {"tinyxml2.h", {"interfaces/xml/"}},
+    {"dds/", {"components/node/"}},      {"bt", {"sim/world/"}},
+    {"Bullet", {"sim/world/"}},          {"linux/can", {"hal/can/"}},
+    {"Eigen/", {"sim/", "components/"}}, {"tinyxml2.h", {"interfaces/xml/"}},
 };
 
 bool starts(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
@@ -74,7 +74,8 @@ std::vector<std::string> violations(const std::string& file, std::istream& text)
     for (const auto& home : homes)
       if (starts(header, home.room) && !starts_any(file, home.may_include))
         found.push_back(file + " includes " + header);
-    const bool ours = starts_any(header, {"interfaces/", "components/", "sim/", "hal/", "firmware/", "launch/", "tests/"});
+    const bool ours = starts_any(
+        header, {"interfaces/", "components/", "sim/", "hal/", "firmware/", "launch/", "tests/"});
     if (rule && ours && !starts(header, home_of(file)) && !starts_any(header, rule->may_include))
       found.push_back(file + " includes " + header);
   }
@@ -109,7 +110,8 @@ TEST_CASE("a forbidden include is found") {
 }
 
 TEST_CASE("every folder of the house says in a README what it is") {
-  for (const auto* top : {"interfaces", "components", "sim", "hal", "firmware", "launch", "configs", "tests"})
+  for (const auto* top :
+       {"interfaces", "components", "sim", "hal", "firmware", "launch", "configs", "tests"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERP_SOURCE_DIR) / top)) {
       if (!is_source(entry.path())) continue;
       auto folder = entry.path().parent_path();

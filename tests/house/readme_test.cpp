@@ -25,13 +25,16 @@ std::string named(std::string text) {
 
 TEST_CASE("the controller in the README is the one that erp new controller writes") {
   const auto readme = content("README.md");
-  CHECK(readme.find(named(content("launch/erp/templates/controller/controller.hpp"))) != std::string::npos);
-  CHECK(readme.find(named(content("launch/erp/templates/controller/main.cpp"))) != std::string::npos);
+  CHECK(readme.find(named(content("launch/erp/templates/controller/controller.hpp"))) !=
+        std::string::npos);
+  CHECK(readme.find(named(content("launch/erp/templates/controller/main.cpp"))) !=
+        std::string::npos);
 }
 
 TEST_CASE("every file that the README names is there") {
   const auto readme = content("README.md");
-  const std::regex path(R"((launch|configs|tests|components|interfaces|sim|hal|firmware)/[a-z_0-9/.]+\.(xml|sh|png|md|hpp))");
+  const std::regex path(
+      R"((launch|configs|tests|components|interfaces|sim|hal|firmware)/[a-z_0-9/.]+\.(xml|sh|png|md|hpp))");
   int count = 0;
   for (std::sregex_iterator it(readme.begin(), readme.end(), path), end; it != end; ++it, ++count) {
     INFO(it->str());

@@ -102,7 +102,7 @@ std::string time_of_activation(const std::string& log) {
 
 TEST_CASE("a graph starts in order, runs as long as it was told, and leaves nothing behind") {
   const Graph graph(R"(<component name="worker"/><component name="logger"/>)");
-  CHECK(graph.run({"--for", "300ms"}) == 0);
+  CHECK(graph.run({"--lockstep", "--for", "300ms"}) == 0);
   std::string before;
   for (const char* name : {"logger", "plant", "worker", "sim"}) {
     const auto time =
@@ -117,6 +117,17 @@ TEST_CASE("a graph starts in order, runs as long as it was told, and leaves noth
   CHECK(graph.processes().empty());
   for (const char* name : {"plant.log", "sim.log", "worker.log", "logger.log", "erp.log"})
     CHECK(fs::exists(graph.folder / "run" / name));
+}
+
+TEST_CASE("in real time a run lasts as long as it was told, though the device was restarted") {
+  const Graph graph;
+  auto launcher = graph.start({"--for", "2s"});
+  graph.wait_for_line("all components are active");
+  kill(graph.pid_of("sim"), SIGKILL);
+  CHECK(Graph::wait_for(launcher) == 0);
+  const auto screen = graph.screen();
+  CHECK(at(screen, "sim: killed by signal 9") < at(screen, "2.00 s are over; stopping"));
+  CHECK(graph.processes().empty());
 }
 
 TEST_CASE("Ctrl-C stops a graph in order with exit code 0") {

@@ -79,7 +79,7 @@ TEST_CASE("every component is told its name, robot, config and time, and waits t
   CHECK(values(plan, "plant", "--config").empty());
 }
 
-TEST_CASE("in lockstep the duration goes to the device alone, for it ends the run") {
+TEST_CASE("in lockstep the duration goes to the device alone, for its ticks end the run") {
   auto graph = rig();
   graph.duration_s = 0.5;
   graph.time = erp::Time::lockstep;
@@ -87,6 +87,12 @@ TEST_CASE("in lockstep the duration goes to the device alone, for it ends the ru
   CHECK(values(plan, "sim", "--duration") == Strings{"0.5"});
   CHECK(values(plan, "plant", "--duration").empty());
   CHECK(plan.processes.back().role == launch::Role::device);
+}
+
+TEST_CASE("in real time nobody is told the duration: the launcher's clock ends the run") {
+  auto graph = rig();
+  graph.duration_s = 0.5;
+  CHECK(values(plan_of(graph), "sim", "--duration").empty());
 }
 
 TEST_CASE("a line for the plant or the simulator configures it and does not start a second one") {

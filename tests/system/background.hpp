@@ -29,7 +29,8 @@ bool wait_until(Happened&& happened) {
 /// `erp launch …` in the background, ended by its process id.
 class Background {
  public:
-  Background(const std::vector<std::string>& arguments, std::string output) : output_(std::move(output)) {
+  Background(const std::vector<std::string>& arguments, std::string output)
+      : output_(std::move(output)) {
     pid_ = fork();
     if (pid_ != 0) return;
     const int file = open(output_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
@@ -63,14 +64,16 @@ class Background {
       char state;
       pid_t parent;
       rest >> state >> parent;
-      if (parent == pid_ && state != 'Z' && line.substr(open + 1, close - open - 1) == program.substr(0, 15))
+      if (parent == pid_ && state != 'Z' &&
+          line.substr(open + 1, close - open - 1) == program.substr(0, 15))
         return static_cast<pid_t>(std::stol(line));
     }
     return 0;
   }
   std::vector<pid_t> children() const {
     std::vector<pid_t> all;
-    std::ifstream file("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) + "/children");
+    std::ifstream file("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(pid_) +
+                       "/children");
     for (pid_t child; file >> child;) all.push_back(child);
     return all;
   }
@@ -93,7 +96,8 @@ class Background {
 
 inline std::int64_t wall_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch()).count();
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace tests

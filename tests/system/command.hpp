@@ -1,13 +1,13 @@
 #pragma once
 #include <sys/wait.h>
 
+#include <unistd.h>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 #include "tests/components/node/domain.hpp"
 
@@ -21,7 +21,8 @@ struct Outcome {
 
 /// Runs a shell command with the built programs on PATH, and waits for it.
 inline Outcome run(const std::string& command) {
-  const std::string line = "PATH=" ERP_BIN_DIR ":$PATH; cd " ERP_SOURCE_DIR " && { " + command + "; } 2>&1";
+  const std::string line =
+      "PATH=" ERP_BIN_DIR ":$PATH; cd " ERP_SOURCE_DIR " && { " + command + "; } 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
   if (!pipe) throw std::runtime_error("popen");
   std::string output;

@@ -11,8 +11,9 @@ TEST_CASE("a new controller builds out of tree, passes its test and drives a run
   const auto prefix = folder / "erp", project = folder / "my_controller";
   REQUIRE(run("cmake --install " ERP_BUILD_DIR " --prefix " + prefix).exit_code == 0);
   REQUIRE(run("erp new controller my_controller " + project).exit_code == 0);
-  const auto build = run("cmake -S " + project + " -B " + project + "/build -DCMAKE_PREFIX_PATH=" + prefix +
-                         " -DCMAKE_CXX_FLAGS='" ERP_CXX_FLAGS "' && cmake --build " + project + "/build");
+  const auto build =
+      run("cmake -S " + project + " -B " + project + "/build -DCMAKE_PREFIX_PATH=" + prefix +
+          " -DCMAKE_CXX_FLAGS='" ERP_CXX_FLAGS "' && cmake --build " + project + "/build");
   INFO(build.output);
   REQUIRE(build.exit_code == 0);
   const auto test = run("ctest --test-dir " + project + "/build --output-on-failure");
@@ -22,8 +23,8 @@ TEST_CASE("a new controller builds out of tree, passes its test and drives a run
   // Only logger, plant and simulator: the robot waits for somebody to drive it.
   Background graph({"launch", "launch/idle.xml", "--out", folder / "run"}, folder / "run.txt");
   REQUIRE(graph.says("all components are active"));
-  const auto attached = run("timeout --signal=INT 3 " + project + "/build/my_controller --robot " + prefix +
-                            "/share/erp/configs/hinge_rig/robot.xml");
+  const auto attached = run("timeout --signal=INT 3 " + project + "/build/my_controller --robot " +
+                            prefix + "/share/erp/configs/hinge_rig/robot.xml");
   INFO(attached.output);
   CHECK(graph.says("driven by my_controller"));
   CHECK(graph.stop() == 0);

@@ -26,7 +26,8 @@ std::string record(const Folder& folder, const std::string& name, const std::str
                    const std::string& more) {
   const auto out = folder / name;
   const auto file = out + ".mcap";
-  const auto outcome = run("erp launch " + graph + " " + more + " --out " + out + " --set logger.file=" + file);
+  const auto outcome =
+      run("erp launch " + graph + " " + more + " --out " + out + " --set logger.file=" + file);
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   return file;
@@ -70,7 +71,8 @@ TEST_CASE("every device says every channel, numbered without a gap, at the ECUs'
 TEST_CASE("a repeated lockstep run exports the same bytes, and so does the robot behind the bus") {
   Folder folder;
   const auto step = [&](const std::string& name, const std::string& device) {
-    return exported(record(folder, name, "launch/force_step.xml", "--lockstep --for 2s " + choice(device, "")));
+    return exported(
+        record(folder, name, "launch/force_step.xml", "--lockstep --for 2s " + choice(device, "")));
   };
   const auto first = step("first", "sim");
   CHECK(first.size() > 100000);
@@ -87,14 +89,16 @@ TEST_CASE("a replayed recording gives the sensor readings it was made of") {
 }
 
 TEST_CASE("the force step rises within 318 ms and rests within 0.236 N") {
-  const auto outcome = run("erp launch launch/force_step.xml --lockstep --for 5s --out $(mktemp -d)/run");
+  const auto outcome =
+      run("erp launch launch/force_step.xml --lockstep --for 5s --out $(mktemp -d)/run");
   CHECK(outcome.exit_code == 0);
   INFO(outcome.output);
   const auto at = outcome.output.find("flexor steps");
   REQUIRE(at != std::string::npos);
   double from, to, start, rise_ms, overshoot, steady;
   REQUIRE(std::sscanf(outcome.output.c_str() + at,
-                      "flexor steps %lf N -> %lf N at %lf s: rise (10-90 %%) %lf ms, overshoot %lf N, steady RMS %lf N",
+                      "flexor steps %lf N -> %lf N at %lf s: rise (10-90 %%) %lf ms, overshoot %lf "
+                      "N, steady RMS %lf N",
                       &from, &to, &start, &rise_ms, &overshoot, &steady) == 6);
   CHECK(rise_ms <= 318);
   CHECK(steady <= 0.236);
@@ -107,7 +111,8 @@ TEST_CASE("the arm holds 15 poses under length control without drift") {
   // poses.csv: 1.5 s on the way, 1.5 s held. Drift: over the last half second of each hold.
   std::map<int, const recording::Members*> at_tick;
   for (const auto& state : joints.messages())
-    if (text(state, "source") == "sim") at_tick[static_cast<int>(number(state, "sequence"))] = &state;
+    if (text(state, "source") == "sim")
+      at_tick[static_cast<int>(number(state, "sequence"))] = &state;
   const auto elbow_rad = [&](double time_s) {
     const auto& all = elements(*at_tick.at(static_cast<int>(std::lround(time_s * 500))), "joints");
     for (const auto& joint : all)

@@ -1,4 +1,5 @@
-// A component is killed in mid-run: its actuators are safe in time, the graph resumes, nothing stays.
+// A component is killed in mid-run: its actuators are safe in time, the graph resumes, nothing
+// stays.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <iostream>
@@ -34,7 +35,10 @@ Killed run_and_kill(const std::string& program, const std::string& folder,
   Killed killed;
   killed.at_ns = wall_ns();
   kill(first, SIGKILL);
-  REQUIRE(wait_until([&] { const auto now = graph.child(program); return now > 0 && now != first; }));
+  REQUIRE(wait_until([&] {
+    const auto now = graph.child(program);
+    return now > 0 && now != first;
+  }));
   std::this_thread::sleep_for(2s);
   const auto children = graph.children();
   killed.exit_code = graph.stop();
@@ -50,13 +54,16 @@ std::optional<double> safe_after_ms(const Recorded& frames, std::int64_t from_ns
     const double stamp_ns = number(frame, "stamp_ns");
     if (stamp_ns < static_cast<double>(from_ns)) continue;
     bool all = true;
-    for (const auto& channel : elements(frame, "channels")) all = all && is_safe(*channel.members());
+    for (const auto& channel : elements(frame, "channels"))
+      all = all && is_safe(*channel.members());
     if (all) return (stamp_ns - static_cast<double>(from_ns)) / ms;
   }
   return std::nullopt;
 }
 
-bool is_running(const recording::Members& channel) { return number(channel, "state") == int{ECU_STATE_RUNNING}; }
+bool is_running(const recording::Members& channel) {
+  return number(channel, "state") == int{ECU_STATE_RUNNING};
+}
 
 /// The graph tracks again: the last frame's channels all run under a controller.
 void check_resumed(const std::string& file) {
@@ -112,7 +119,8 @@ TEST_CASE("a killed simulator is noticed within 52 ms and comes back disarmed") 
   REQUIRE(lost_ms);
   std::cout << "simulator killed: noticed after " << *lost_ms << " ms\n";
   CHECK(*lost_ms < 52 + scheduling_ms);
-  const auto disarmed_ms = safe_after_ms(frames, killed.at_ns + static_cast<std::int64_t>(20 * ms),
+  const auto disarmed_ms = safe_after_ms(
+      frames, killed.at_ns + static_cast<std::int64_t>(20 * ms),
       [](const recording::Members& c) { return number(c, "duty_counts") == 0 && !is_running(c); });
   CHECK(disarmed_ms);
   check_resumed(file_in(folder));
@@ -121,8 +129,9 @@ TEST_CASE("a killed simulator is noticed within 52 ms and comes back disarmed") 
 TEST_CASE("a killed gateway leaves every ECU behind the bus safe, and the graph resumes") {
   Folder folder;
   const std::string bus = "udp:239.255.42.7:" + std::to_string(21000 + own_domain);
-  const auto killed = run_and_kill("gateway", folder / "run",
-                                   {"--device", "can", "--set", "gateway.bus=" + bus, "--set", "sim.bus=" + bus});
+  const auto killed =
+      run_and_kill("gateway", folder / "run",
+                   {"--device", "can", "--set", "gateway.bus=" + bus, "--set", "sim.bus=" + bus});
   CHECK(killed.exit_code == 0);
   const Recorded events(file_in(folder), "event");
   bool tripped = false;
@@ -136,7 +145,8 @@ TEST_CASE("a killed launcher leaves no process behind") {
   Folder folder;
   std::vector<pid_t> children;
   {
-    Background graph({"launch", "launch/hinge_rig.xml", "--out", folder / "run"}, folder / "run.txt");
+    Background graph({"launch", "launch/hinge_rig.xml", "--out", folder / "run"},
+                     folder / "run.txt");
     REQUIRE(graph.says("all components are active"));
     children = graph.children();
     CHECK(graph.stop(SIGKILL) == 128 + SIGKILL);

@@ -31,8 +31,12 @@ class Recorded {
   std::vector<recording::Members> messages_;
 };
 
-inline double number(const recording::Members& m, const char* name) { return m.find(name)->number().value(); }
-inline std::string text(const recording::Members& m, const char* name) { return *m.find(name)->text(); }
+inline double number(const recording::Members& m, const char* name) {
+  return m.find(name)->number().value();
+}
+inline std::string text(const recording::Members& m, const char* name) {
+  return *m.find(name)->text();
+}
 inline const recording::Values& elements(const recording::Members& m, const char* name) {
   return *m.find(name)->elements();
 }
