@@ -8,8 +8,10 @@ namespace plant {
 namespace {
 
 constexpr std::int64_t patience_ns = 500'000'000;  // chosen: a controller lost in lockstep
-constexpr std::uint64_t owner_period = 50;         // frames: owners are published at 10 Hz
-constexpr std::uint64_t gains_period = 50;         // frames between attempts to set gains
+constexpr std::int64_t device_check_ns =
+    1'000'000;                              // the device is lost 50 … 51 ms after its last word
+constexpr std::uint64_t owner_period = 50;  // frames: owners are published at 10 Hz
+constexpr std::uint64_t gains_period = 50;  // frames between attempts to set gains
 
 }  // namespace
 
@@ -27,7 +29,7 @@ PlantNode::PlantNode(const Params& params, const erp::Robot& robot, node::Node& 
   command_in_ = &node.subscribe<erp::ActuatorCommand>([this](const auto& m) { on_command(m); });
   node.subscribe<erp::GainCommand>([this](const auto& m) { on_gains(m); });
   node.subscribe<erp::EcuFrame>([this](const auto& m) { on_frame(m); });
-  node.every(10'000'000, [this] {
+  node.every(device_check_ns, [this] {
     if (node_.clock().lockstep() ? owes_answer_ && all_answered()
                                  : plant_.check_device(node_.clock().now_ns()))
       answer();

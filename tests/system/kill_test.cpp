@@ -141,6 +141,22 @@ TEST_CASE("a killed gateway leaves every ECU behind the bus safe, and the graph 
   check_resumed(file_in(folder));
 }
 
+TEST_CASE("a killed logger loses at most a second, and its file can be mended") {
+  Folder folder;
+  const auto killed = run_and_kill("logger", folder / "run");
+  CHECK(killed.exit_code == 0);
+  const auto kept = folder / "run/hinge_rig.1.mcap", mended = folder / "mended.mcap";
+  CHECK_FALSE(recording::McapReader(kept).complete());
+  CHECK(run("erp log recover " + kept + " --out " + mended).exit_code == 0);
+  CHECK(recording::McapReader(mended).complete());
+  const Recorded before(mended, "ecu_frame"), after(file_in(folder), "ecu_frame");
+  const double lost_ms =
+      (static_cast<double>(killed.at_ns) - number(before.messages().back(), "stamp_ns")) / ms;
+  std::cout << "logger killed: the last " << lost_ms << " ms are lost\n";
+  CHECK(lost_ms < 1000 + scheduling_ms);
+  CHECK(after.messages().size() > 500);
+}
+
 TEST_CASE("a killed launcher leaves no process behind") {
   Folder folder;
   std::vector<pid_t> children;
