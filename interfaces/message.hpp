@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -38,7 +37,7 @@ void assign(char (&field)[N], std::string_view text) {
   if (text.size() >= N)
     throw std::length_error("\"" + std::string(text) + "\" is longer than " +
                             std::to_string(N - 1) + " characters");
-  std::memcpy(field, text.data(), text.size());
+  std::copy(text.begin(), text.end(), field);
   std::fill(field + text.size(), field + N, '\0');
 }
 

@@ -44,6 +44,8 @@ std::string keep_earlier(const std::string& file) {
   namespace fs = std::filesystem;
   const fs::path path(file);
   if (!fs::exists(path)) return file;
+  if (!fs::is_regular_file(path))
+    throw std::invalid_argument("logger: " + file + " is no ordinary file; name another");
   for (int k = 1;; ++k) {
     auto kept = path;
     kept.replace_extension("." + std::to_string(k) + path.extension().string());

@@ -37,8 +37,9 @@ const Offer* Arbiter::winner(std::int64_t now_ns, std::int64_t stale_ns) {
   for (int i = 0; slot(i) < count_; ++i) {
     const Offer& offer = offers_[slot(i)];
     if (now_ns - offer.received_ns > stale_ns) continue;
-    const auto rank = best < 0 ? 0 : offer.priority - offers_[slot(best)].priority;
-    if (best < 0 || rank > 0 || (rank == 0 && i == owner_)) best = i;
+    const bool first = best < 0;
+    const auto other = first ? 0 : offers_[slot(best)].priority;
+    if (first || offer.priority > other || (offer.priority == other && i == owner_)) best = i;
   }
   owner_ = best;
   return best < 0 ? nullptr : &offers_[slot(best)];

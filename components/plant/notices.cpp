@@ -1,5 +1,6 @@
 // What the plant says, once a change: who drives, what was limited or refused, what an ECU reports.
 #include "components/plant/plant.hpp"
+#include "firmware/core/fault_names.h"
 
 namespace plant {
 namespace {
@@ -33,7 +34,7 @@ void Plant::notice_changes() {
     }
     if (drive.state() != said.state && drive.state() == ECU_STATE_FAULT)
       notices_.push_back({erp::Severity::fault, drive.name(), "ecu_fault",
-                          "fault code " + std::to_string(frame_.actuators._buffer[i].ecu_fault)});
+                          ecu_fault_name(frame_.actuators._buffer[i].ecu_fault)});
     said.state = drive.state();
     // The first of a row is said; the counters on actuator_owner carry the rest.
     const bool first = (drive.limited() && !said.limited) || (drive.refused() && !said.refused);

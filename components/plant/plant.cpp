@@ -93,11 +93,16 @@ void Plant::accept(const erp::ActuatorCommand& command, std::int64_t now_ns) {
     if (found)
       found->accept(command.controller, command.priority, static_cast<erp::Mode>(reference.mode),
                     reference.reference, now_ns, stale_ns_);
-    else
-      notices_.push_back({erp::Severity::warning, "", "unknown_actuator",
-                          std::string(command.controller) + " names \"" + reference.name +
-                              "\", which this robot does not have"});
+    else say_unknown(command.controller, reference.name);
   }
+}
+
+void Plant::say_unknown(const std::string& controller, const std::string& name) {
+  if (!unknown_said_.insert(controller + " " + name).second) return;
+  std::string known;
+  for (const auto& drive : drives_) known += (known.empty() ? "" : ", ") + drive.name();
+  notices_.push_back({erp::Severity::warning, "", "unknown_actuator",
+                      controller + " names \"" + name + "\"; this robot has " + known});
 }
 
 const erp::EcuCommand& Plant::command(std::int64_t now_ns) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,7 @@ class Plant {
  private:
   void sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns);
   void sense_joint(const erp::EcuAnalogSample& analog);
+  void say_unknown(const std::string& controller, const std::string& name);
   void notice_changes();
 
   struct Said {
@@ -70,6 +72,7 @@ class Plant {
   std::int64_t last_frame_ns_ = 0, last_decision_ns_ = 0;
   bool device_heard_ = false;
   std::vector<Notice> notices_;
+  std::set<std::string> unknown_said_;  ///< controller and actuator: said once
 };
 
 }  // namespace plant

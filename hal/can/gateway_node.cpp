@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "firmware/core/ecu.h"
+#include "firmware/core/fault_names.h"
 
 namespace can {
 namespace {
@@ -85,10 +85,9 @@ void GatewayNode::publish_tick() {
 void GatewayNode::say_emergencies() {
   for (const auto& emergency : gateway_.emergencies()) {
     const bool boot = emergency.said.boot;
-    node_.report(
-        boot ? erp::Severity::info : erp::Severity::fault, "ecu " + std::to_string(emergency.ecu),
-        boot ? "boot" : "emergency",
-        boot ? "the ECU has started" : "fault code " + std::to_string(emergency.said.fault));
+    node_.report(boot ? erp::Severity::info : erp::Severity::fault,
+                 "ecu " + std::to_string(emergency.ecu), boot ? "boot" : "emergency",
+                 boot ? "the ECU has started" : ecu_fault_name(emergency.said.fault));
   }
   gateway_.clear_emergencies();
 }
@@ -98,7 +97,8 @@ void GatewayNode::say_counters() {
   const auto say = [&](std::uint64_t count, std::uint64_t before, const char* what) {
     if (count > before)
       node_.report(erp::Severity::warning, "bus", what,
-                   std::to_string(count - before) + " more, " + std::to_string(count) + " in all");
+                   std::to_string(count - before) + " " + what + " more, " + std::to_string(count) +
+                       " in all");
   };
   say(now.corrupt, said_.corrupt, "corrupt_frames");
   say(now.lost, said_.lost, "lost_frames");

@@ -26,7 +26,7 @@ inline RecordingError error_at(std::string_view path, std::uint64_t byte, std::s
 
 /// For what a wrong byte in a recording calls for.
 inline std::string mend(std::string_view path) {
-  return "save what can be read with: erp log recover " + std::string(path) + " OUT.mcap";
+  return "save what can be read with: erp log recover " + std::string(path) + " --out OUT.mcap";
 }
 
 }  // namespace recording

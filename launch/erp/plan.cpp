@@ -1,5 +1,7 @@
 #include "launch/erp/plan.hpp"
 
+#include <cstdlib>
+
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
@@ -29,6 +31,13 @@ const char* device_type(erp::Device device) {
 
 bool is_device_type(const std::string& type) {
   return type == "sim" || type == "gateway" || type == "replay";
+}
+
+/// The default bus is shared by the whole machine, so each ERP_DOMAIN gets a port of its own.
+std::string bus_of(const erp::Graph& graph) {
+  if (graph.bus != erp::Graph{}.bus) return graph.bus;
+  const char* domain = std::getenv("ERP_DOMAIN");
+  return "udp:239.255.42.1:" + std::to_string(20000 + (domain ? std::atoi(domain) : 0));
 }
 
 bool needs_robot_behind_bus(const erp::Graph& graph) {
@@ -62,7 +71,7 @@ std::vector<std::string> settings_of(const erp::Graph& graph, const Wishes& wish
                                      const PlannedProcess& process) {
   std::vector<std::string> settings;
   if (process.type == "gateway" || process.role == Role::robot_behind_bus)
-    settings.push_back("bus=" + graph.bus);
+    settings.push_back("bus=" + bus_of(graph));
   if (process.type == "replay") settings.push_back("file=" + graph.replay);
   if (process.role == Role::logger) {
     const auto& stem = process.name == "logger" ? graph.name : process.name;

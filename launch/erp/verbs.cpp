@@ -21,7 +21,7 @@ void add_launch(CLI::App& app, Chosen& chosen) {
   verb->add_option("--device", options->device, "sim, can or replay:FILE, instead of the graph's");
   auto* lockstep = verb->add_flag_callback(
       "--lockstep", [options] { options->time = erp::Time::lockstep; },
-      "as fast as it goes; every repetition is identical");
+      "as fast as it goes; a repetition exports the same, bit by bit");
   verb->add_flag_callback(
           "--realtime", [options] { options->time = erp::Time::realtime; },
           "at the pace of the clock")
@@ -102,7 +102,8 @@ void add_new(CLI::App& app, Chosen& chosen) {
     chosen = [name, folder] {
       for (const auto& file : new_controller(*name, *folder)) std::cout << file.string() << '\n';
       std::cout << "next: cd " << *folder
-                << " && cmake -B build && cmake --build build && ctest --test-dir build\n";
+                << " && cmake -B build -DCMAKE_PREFIX_PATH=<where erp is installed>"
+                   " && cmake --build build && ctest --test-dir build\n";
       return 0;
     };
   });
