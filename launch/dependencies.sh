@@ -6,7 +6,8 @@ set -euo pipefail
 build=(git ca-certificates g++ gcc cmake ninja-build pkg-config cyclonedds-dev cyclonedds-tools
   libbullet-dev libeigen3-dev libtinyxml2-dev libspdlog-dev libcli11-dev zlib1g-dev libzstd-dev
   gnuplot-nox)
-test=(catch2 libbenchmark-dev libxml2-utils user-mode-linux kmod iproute2 nodejs npm procps)
+test=(catch2 libbenchmark-dev libxml2-utils user-mode-linux kmod iproute2 can-utils
+  nodejs npm procps)
 
 wanted=("${build[@]}")
 [ "${1:-build}" = test ] && wanted+=("${test[@]}")

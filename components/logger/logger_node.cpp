@@ -58,8 +58,9 @@ std::string keep_earlier(const std::string& file) {
 
 }  // namespace
 
-LoggerNode::LoggerNode(const Params& params, const erp::Robot&, node::Node& node)
+LoggerNode::LoggerNode(const Params& params, const erp::Robot& robot, node::Node& node)
     : node_(node),
+      robot_(robot.name),
       recorder_(keep_earlier(params.file), attachments(params.attach)),
       discovery_(node.participant(), node.wake()) {
   add_known<erp::ActuatorCommand>();
@@ -133,17 +134,18 @@ void LoggerNode::take_all() {
 }
 
 void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
+  const auto header = recording::header_of(topic.type, raw.cdr);
+  if (!robot_.empty() && header.robot && *header.robot != robot_) return;
   char writer[20];
   const auto end = std::to_chars(writer, writer + sizeof writer, raw.writer, 16).ptr;
-  const auto stamp = recording::stamp_of(topic.type, raw.cdr);
   recording::Sample sample;
   sample.writer = {writer, static_cast<std::size_t>(end - writer)};
-  sample.publish_time_ns = static_cast<std::uint64_t>(stamp.stamp_ns.value_or(raw.source_ns));
+  sample.publish_time_ns = static_cast<std::uint64_t>(header.stamp_ns.value_or(raw.source_ns));
   // Simulated time, such as `clock` carries, beside the wall's would tear the time line apart.
   if (node_.clock().lockstep())
     node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
   sample.log_time_ns = static_cast<std::uint64_t>(node_.clock().now_ns());
-  sample.sequence = stamp.sequence;
+  sample.sequence = header.sequence;
   sample.cdr = raw.cdr;
   recorder_.write(topic.handle, sample);
   node_.count_step(raw.source_ns);

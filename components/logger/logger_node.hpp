@@ -9,7 +9,7 @@
 #include "interfaces/recording/type_description.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// Records every topic of the bus to one MCAP file.
+/// Records every topic of the bus to one MCAP file; of messages that name a robot, its own robot's.
 namespace logger {
 
 class LoggerNode {
@@ -41,6 +41,7 @@ class LoggerNode {
   void close();
 
   node::Node& node_;
+  std::string robot_;  ///< empty: record every robot
   recording::Recorder recorder_;
   node::Discovery discovery_;
   std::map<std::string, Topic> topics_;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/node/peer.hpp"
 #include "components/node/wake.hpp"
 #include "interfaces/topics.hpp"
 
@@ -30,8 +31,10 @@ class Entity {
   dds_entity_t id_ = 0;
 };
 
-/// Joins the bus under a name that other processes can read (participant user data).
+/// Joins the bus, saying who we are in the participant's user data, which others can read.
 /// Without CYCLONEDDS_URI the bus is this machine's loopback; ERP_DOMAIN (0…230) separates graphs.
+Entity join(const Peer& self);
+/// As a tool, of no robot.
 Entity join(const std::string& name);
 
 /// The Cyclone DDS configuration of that bus, for other tools that want to be on it.
@@ -57,6 +60,8 @@ Arrival waking(Wake& wake);
 /// The listener is attached at creation so that no sample is missed; `arrival` must outlive it.
 Entity make_reader(const Entity& participant, const Entity& topic, int depth,
                    const Arrival& arrival);
+/// The same for one of DDS's own topics, which tell who is on the bus.
+Entity make_builtin_reader(const Entity& participant, dds_entity_t topic, const Arrival& arrival);
 
 /// Publishes messages of one type.
 template <class M>

@@ -1,6 +1,5 @@
 #include "components/node/node.hpp"
 
-#include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
@@ -14,9 +13,12 @@ namespace node {
 namespace {
 
 constexpr std::int64_t heartbeat_ns = 100'000'000;
+constexpr std::int64_t discovery_ns = 300'000'000;  // measured: who is on the machine is found
 
-/// SIGINT and SIGTERM become readable on a descriptor. Must run before DDS starts its threads.
-int open_signals() {
+/// SIGINT and SIGTERM become readable on a descriptor, and sleepers wake within a microsecond of a
+/// deadline, not fifty. Must run before DDS starts its threads, which inherit both.
+int prepare_process() {
+  prctl(PR_SET_TIMERSLACK, 1000);
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
@@ -43,12 +45,12 @@ Node::Node(Options options, std::string robot_name)
     : options_(std::move(options)),
       identity_{std::move(robot_name), options_.name, options_.priority},
       clock_(options_.time),
-      signals_(open_signals()) {
-  prctl(PR_SET_TIMERSLACK, 1000);  // wake within a microsecond of a deadline, not fifty
-  participant_ = join(options_.name);
-  participants_reader_ = Entity(
-      dds_create_reader(participant_.id(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr),
-      "read participants");
+      signals_(prepare_process()),
+      self_(own_peer(options_.name, identity_.robot)),
+      participant_(join(self_)),
+      peers_(participant_, wake_, self_),
+      polled_{{wake_.descriptor(), POLLIN, 0}, {signals_, POLLIN, 0}} {
+  if (!options_.managed) start_due_ns_ = monotonic_ns() + discovery_ns;
   state_out_ = &advertise<erp::ComponentState>();
   event_out_ = &advertise<erp::Event>();
   lifecycle_in_ = &subscribe<erp::LifecycleCommand>(
@@ -66,7 +68,8 @@ void Node::every(std::int64_t period_ns, std::function<void()> act) {
 }
 
 void Node::watch(int descriptor, std::function<void()> act) {
-  watches_.push_back({descriptor, false, std::move(act)});
+  watches_.push_back({descriptor, std::move(act)});
+  polled_.push_back({descriptor, POLLIN, 0});
 }
 
 void Node::set_lifecycle(erp::Lifecycle lifecycle) {
@@ -80,17 +83,23 @@ void Node::obey(const erp::LifecycleCommand& command) {
   if (identity_.component != command.component) return;
   const auto target = static_cast<erp::Lifecycle>(command.target);
   if (target == erp::Lifecycle::finalized) return finish();
-  if (target == erp::Lifecycle::active && !active()) {
-    const auto now_ns = monotonic_ns();
-    for (auto& timer : timers_) timer.due_ns = now_ns + timer.period_ns;
-    for (const auto& port : ports_) port->poll(false);  // what came while inactive is old
-    set_lifecycle(erp::Lifecycle::active);
-    for (auto& act : activate_) act();
-  }
-  if (target == erp::Lifecycle::inactive && active()) {
-    for (auto& act : deactivate_) act();
-    set_lifecycle(erp::Lifecycle::inactive);
-  }
+  if (target == erp::Lifecycle::active && !active()) activate();
+  if (target == erp::Lifecycle::inactive && active()) deactivate();
+}
+
+void Node::activate() {
+  look_around();
+  if (finished_) return;
+  const auto now_ns = monotonic_ns();
+  for (auto& timer : timers_) timer.due_ns = now_ns + timer.period_ns;
+  for (const auto& port : ports_) port->poll(false);  // what came while inactive is old
+  set_lifecycle(erp::Lifecycle::active);
+  for (auto& act : activate_) act();
+}
+
+void Node::deactivate() {
+  for (auto& act : deactivate_) act();
+  set_lifecycle(erp::Lifecycle::inactive);
 }
 
 void Node::count_step(std::int64_t stamp_ns) {
@@ -123,14 +132,19 @@ void Node::finish(int exit_code) {
   wake_.raise();
 }
 
-std::uint32_t Node::count_peers() {
-  void* samples[256] = {};
-  dds_sample_info_t info[256];
-  const auto n =
-      dds_read_mask(participants_reader_.id(), samples, info, 256, 256, DDS_ALIVE_INSTANCE_STATE);
-  if (n <= 0) return 0;
-  dds_return_loan(participants_reader_.id(), samples, n);
-  return static_cast<std::uint32_t>(n - 1);
+void Node::look_around() {
+  peers_.look();
+  state_.peers = peers_.count();
+  if (const auto& predecessor = peers_.predecessor(); predecessor && !finished_)
+    leave_to(*predecessor);
+}
+
+void Node::leave_to(const Peer& predecessor) {
+  report(erp::Severity::fault, identity_.component, "namesake",
+         "pid " + std::to_string(predecessor.pid) + " on " + predecessor.host + " is already \"" +
+             identity_.component + "\" of robot \"" + identity_.robot +
+             "\"; end it, take another --name, or set ERP_DOMAIN to a number of your own");
+  finish(2);
 }
 
 void Node::heartbeat() {
@@ -139,7 +153,7 @@ void Node::heartbeat() {
   state_.stamp_ns = clock_.now_ns();
   state_.links = 0, state_.missed = 0;
   for (const auto& port : ports_) state_.links += port->matched(), state_.missed += port->missed();
-  state_.peers = count_peers();
+  look_around();
   if (heartbeat_last_ns_ && now_ns - heartbeat_last_ns_ > heartbeat_ns / 2) {
     state_.rate_Hz = 1e9 * static_cast<double>(state_.steps - steps_at_heartbeat_) /
                      static_cast<double>(now_ns - heartbeat_last_ns_);
@@ -155,6 +169,7 @@ void Node::heartbeat() {
 void Node::run_timers() {
   const auto now_ns = monotonic_ns();
   if (now_ns >= heartbeat_due_ns_) heartbeat();
+  if (start_due_ns_ && now_ns >= *start_due_ns_) start_due_ns_.reset(), activate();
   if (!active()) return;
   for (auto& timer : timers_) {
     if (now_ns < timer.due_ns) continue;
@@ -166,30 +181,24 @@ void Node::run_timers() {
 }
 
 void Node::wait() {
-  std::int64_t due_ns = heartbeat_due_ns_;
+  std::int64_t due_ns = std::min(heartbeat_due_ns_, start_due_ns_.value_or(heartbeat_due_ns_));
   if (active())
     for (const auto& timer : timers_) due_ns = std::min(due_ns, timer.due_ns);
   const auto left_ns = std::max<std::int64_t>(0, due_ns - monotonic_ns());
   const timespec timeout{left_ns / 1'000'000'000, left_ns % 1'000'000'000};
-  std::array<pollfd, 8> polled{};
-  nfds_t n = 0;
-  polled[n++] = {wake_.descriptor(), POLLIN, 0};
-  polled[n++] = {signals_, POLLIN, 0};
-  if (active())
-    for (const auto& watch : watches_)
-      if (n < polled.size()) polled[n++] = {watch.descriptor, POLLIN, 0};
-  ppoll(polled.data(), n, &timeout, nullptr);
-  if (polled[0].revents) wake_.clear();
-  if (polled[1].revents) finish();
-  for (nfds_t i = 2; i < n; ++i) watches_[i - 2].ready = polled[i].revents != 0;
+  const auto n = active() ? polled_.size() : polled_.size() - watches_.size();
+  for (auto& one : polled_) one.revents = 0;
+  ppoll(polled_.data(), n, &timeout, nullptr);
+  if (polled_[0].revents) wake_.clear();
+  if (polled_[1].revents) finish();
 }
 
 void Node::serve() {
   const auto lock = gate_.lock();
   gate_.rethrow();
   if (finished_) return;
-  for (auto& watch : watches_)
-    if (std::exchange(watch.ready, false) && active()) watch.act();
+  for (std::size_t i = 0; i < watches_.size(); ++i)
+    if (polled_[i + 2].revents && active()) watches_[i].act();
   lifecycle_in_->poll(true);
   for (const auto& port : ports_)
     if (port.get() != lifecycle_in_ && port->where() == Where::in_loop) port->poll(active());
@@ -199,13 +208,6 @@ void Node::serve() {
 int Node::spin() try {
   set_lifecycle(erp::Lifecycle::inactive);
   gate_.open();
-  if (!options_.managed) {
-    const auto lock = gate_.lock();
-    erp::LifecycleCommand start;
-    erp::assign(start.component, identity_.component);
-    start.target = static_cast<std::uint8_t>(erp::Lifecycle::active);
-    obey(start);
-  }
   while (!finished_) {
     wait();
     serve();

@@ -1,13 +1,17 @@
 #pragma once
+#include <poll.h>
+
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/node/clock.hpp"
 #include "components/node/histogram.hpp"
 #include "components/node/options.hpp"
+#include "components/node/peers.hpp"
 #include "components/node/port.hpp"
 #include "interfaces/values.hpp"
 
@@ -60,7 +64,8 @@ class Node {
               const std::string& text);
   /// Ends `spin` after the current handler; no other handler begins.
   void finish(int exit_code = 0);
-  /// Runs until finished, SIGINT or SIGTERM. Returns the process's exit code.
+  /// Runs until finished, SIGINT or SIGTERM. Returns the process's exit code: 0; 1 when a handler
+  /// threw; 2 when a namesake was on the bus before us, because two of one part would both drive.
   int spin();
 
  private:
@@ -70,7 +75,6 @@ class Node {
   };
   struct Watch {
     int descriptor;
-    bool ready;
     std::function<void()> act;
   };
 
@@ -82,28 +86,35 @@ class Node {
   }
   void set_lifecycle(erp::Lifecycle lifecycle);
   void obey(const erp::LifecycleCommand& command);
+  void activate();
+  void deactivate();
   void run_timers();
   void wait();
   void serve();
   void heartbeat();
-  std::uint32_t count_peers();
+  void look_around();
+  void leave_to(const Peer& predecessor);
 
   Options options_;
   Identity identity_;
   Clock clock_;
-  Entity participant_, participants_reader_;
+  int signals_;  // before the participant, whose threads inherit the mask
+  Peer self_;
   Wake wake_;
+  Entity participant_;
+  Peers peers_;
   Gate gate_{wake_};
-  int signals_;
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Timer> timers_;
   std::vector<Watch> watches_;
+  std::vector<pollfd> polled_;  ///< wake, signals, then one a watch
   std::vector<std::function<void()>> activate_, deactivate_;
   Publisher<erp::ComponentState>* state_out_;
   Publisher<erp::Event>* event_out_;
   Subscription<erp::LifecycleCommand>* lifecycle_in_;
   erp::Lifecycle lifecycle_ = erp::Lifecycle::unconfigured;
   bool active_ = false;
+  std::optional<std::int64_t> start_due_ns_;  ///< unmanaged: when to become active by itself
   erp::ComponentState state_;
   Histogram age_, jitter_;
   std::uint64_t steps_at_heartbeat_ = 0;

@@ -25,7 +25,7 @@ Options parse_options(int argc, char** argv, const std::string& parameters, int&
   app.add_option("--duration", options.duration_s, "devices: end after so many seconds")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--priority", options.priority, "controllers: the higher number drives");
-  app.add_option("--check", options.check, "check a config file and exit");
+  app.add_flag("--check", options.check, "only check --config and --set, then exit");
   exit_code = -1;
   try {
     app.parse(argc, argv);

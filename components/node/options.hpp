@@ -19,7 +19,7 @@ struct Options {
   bool managed = false;   ///< wait for the launcher before becoming active
   double duration_s = 0;  ///< for devices: end the run by yourself; 0: never
   int priority = 0;       ///< of a controller: the higher number drives
-  std::string check;      ///< only check this config file, then exit
+  bool check = false;     ///< only check config and settings, then exit
 };
 
 /// Reads the command line; prints help, or a mistake with its remedy, and sets `exit_code` when

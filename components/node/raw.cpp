@@ -5,42 +5,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "components/node/builtin.hpp"
+#include "components/node/peer.hpp"
+
 namespace node {
 namespace {
 
-constexpr std::uint32_t max_samples = 1024;
 constexpr dds_duration_t type_patience = DDS_MSECS(200);
-
-/// Reads every alive instance of a built-in topic without taking it.
-template <class Sample, class Use>
-void for_each_alive(const Entity& reader, Use&& use) {
-  std::vector<void*> samples(max_samples, nullptr);
-  std::vector<dds_sample_info_t> info(max_samples);
-  const auto n = dds_read_mask(reader.id(), samples.data(), info.data(), max_samples, max_samples,
-                               DDS_ALIVE_INSTANCE_STATE);
-  for (int i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (info[k].valid_data) use(*static_cast<Sample*>(samples[k]), info[k]);
-  }
-  if (n > 0) dds_return_loan(reader.id(), samples.data(), n);
-}
-
-Entity builtin(const Entity& participant, dds_entity_t topic, Wake& wake) {
-  dds_listener_t* listener = dds_create_listener(&wake);
-  dds_lset_data_available(listener, [](dds_entity_t, void* w) { static_cast<Wake*>(w)->raise(); });
-  const dds_entity_t reader = dds_create_reader(participant.id(), topic, nullptr, listener);
-  dds_delete_listener(listener);
-  return {reader, "read a built-in topic"};
-}
-
-std::string user_data(const dds_qos_t* qos) {
-  void* value = nullptr;
-  std::size_t size = 0;
-  if (!qos || !dds_qget_userdata(qos, &value, &size) || !value) return {};
-  std::string text(static_cast<const char*>(value), size);
-  dds_free(value);
-  return text;
-}
 
 /// The descriptor of one of our own messages, null for any other type. Cyclone 0.10 could not
 /// rebuild these from their type information: their key is a bounded string ("Unsupported").
@@ -55,23 +26,17 @@ const dds_topic_descriptor_t* own_type(const std::string& name, std::tuple<M...>
 
 Discovery::Discovery(const Entity& participant, Wake& wake)
     : participant_(participant),
-      participants_(builtin(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, wake)),
-      writers_(builtin(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, wake)),
-      readers_(builtin(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, wake)) {}
+      arrival_(waking(wake)),
+      participants_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, arrival_)),
+      writers_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, arrival_)),
+      readers_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, arrival_)) {}
 
 std::string Discovery::participant_name(const dds_guid_t& key) {
   std::string name;
   for_each_alive<dds_builtintopic_participant_t>(participants_, [&](const auto& p, const auto&) {
-    if (std::memcmp(&p.key, &key, sizeof key) == 0) name = user_data(p.qos);
+    if (std::memcmp(&p.key, &key, sizeof key) == 0) name = parse_peer(user_data(p.qos)).component;
   });
   return name;
-}
-
-std::vector<std::string> Discovery::participants() {
-  std::vector<std::string> names;
-  for_each_alive<dds_builtintopic_participant_t>(
-      participants_, [&](const auto& p, const auto&) { names.push_back(user_data(p.qos)); });
-  return names;
 }
 
 std::vector<Endpoint> Discovery::endpoints() {

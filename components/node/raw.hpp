@@ -31,8 +31,6 @@ class Discovery {
 
   /// Every writer and reader that is alive now, also our own process's.
   std::vector<Endpoint> endpoints();
-  /// The names of all participants alive now.
-  std::vector<std::string> participants();
   /// The type of a topic that somebody in another process writes or reads; null while unknown.
   Descriptor type_of(const std::string& topic);
 
@@ -42,6 +40,7 @@ class Discovery {
   void for_each_endpoint(Use&& use);
 
   const Entity& participant_;
+  Arrival arrival_;
   Entity participants_, writers_, readers_;
 };
 

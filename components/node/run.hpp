@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "components/node/node.hpp"
+#include "interfaces/recording/error.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
 
@@ -164,19 +165,21 @@ int run_component(const Options& options) {
 template <class T>
 int run(int argc, char** argv) {
   int exit_code = -1;
-  Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
+  const Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
   if (exit_code >= 0) return exit_code;
   try {
-    if (!options.check.empty()) {
-      options.config = options.check;
-      detail::read_params<typename T::Params>(options);
-      return 0;
-    }
+    if (options.check) return detail::read_params<typename T::Params>(options), 0;
     return detail::run_component<T>(options);
   } catch (const xml::Errors& error) {
     std::cerr << error.what() << '\n';
     return 2;
   } catch (const std::invalid_argument& error) {
+    std::cerr << options.name << ": " << error.what() << '\n';
+    return 2;
+  } catch (const recording::WriteError& error) {
+    std::cerr << options.name << ": " << error.what() << '\n';
+    return 1;
+  } catch (const recording::RecordingError& error) {
     std::cerr << options.name << ": " << error.what() << '\n';
     return 2;
   } catch (const std::exception& error) {

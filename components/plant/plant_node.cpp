@@ -1,6 +1,7 @@
 #include "components/plant/plant_node.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/plant/gains.hpp"
 
@@ -12,6 +13,15 @@ constexpr std::int64_t device_check_ns =
     1'000'000;                              // the device is lost 50 … 51 ms after its last word
 constexpr std::uint64_t owner_period = 50;  // frames: owners are published at 10 Hz
 constexpr std::uint64_t gains_period = 50;  // frames between attempts to set gains
+
+/// Each channel takes over its gains together, with the last of them.
+void commit_last(erp::EcuParameter& parameters) {
+  std::set<std::pair<int, int>> committed;
+  for (auto i = parameters.values._length; i-- > 0;) {
+    auto& value = parameters.values._buffer[i];
+    value.commit = committed.insert({value.ecu, value.channel}).second;
+  }
+}
 
 }  // namespace
 
@@ -89,19 +99,29 @@ void PlantNode::on_gains(const erp::GainCommand& command) {
   for (const auto& gain : erp::samples(command.gains)) {
     const auto actuator = std::find(names_.begin(), names_.end(), gain.name);
     const auto index = gain_index(gain.parameter);
-    if (actuator == names_.end() || !index) {
-      node_.report(erp::Severity::warning, gain.name, "gain_refused",
-                   std::string("no such gain: ") + gain.parameter);
+    if (actuator == names_.end() || !index || !std::isfinite(gain.value)) {
+      refuse_gain(gain);
       continue;
     }
     auto& value = gains_[static_cast<std::size_t>(actuator - names_.begin())][*index];
     value.value = static_cast<float>(gain.value);
-    auto committed = value;
-    committed.commit = true;
-    erp::append(out.values, committed);
+    auto sent = value;
+    sent.commit = false;
+    erp::append(out.values, sent);
   }
+  commit_last(out);
   out.stamp_ns = node_.clock().now_ns();
   if (out.values._length) parameter_out_.publish(out);
+}
+
+/// A gain that is refused again and again is said once.
+void PlantNode::refuse_gain(const erp::GainValue& gain) {
+  const std::string parameter = gain.parameter, name = gain.name;
+  if (!refused_gains_.insert(name + "." + parameter).second) return;
+  const bool number = std::isfinite(gain.value);
+  node_.report(erp::Severity::warning, name, "gain_refused",
+               number ? "there is no gain " + parameter + " of " + name
+                      : parameter + " must be a number, got " + std::to_string(gain.value));
 }
 
 void PlantNode::send_gains() {

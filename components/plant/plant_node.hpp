@@ -1,4 +1,5 @@
 #pragma once
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ class PlantNode {
   bool all_answered() const;
   void answer();
   void repeat_answer();
+  void refuse_gain(const erp::GainValue& gain);
   void send_gains();
   void say_notices();
   void publish_owners();
@@ -43,6 +45,7 @@ class PlantNode {
   node::Publisher<erp::ActuatorOwner>& owner_out_;
   node::Subscription<erp::ActuatorCommand>* command_in_;
   std::vector<Answer> answers_;
+  std::set<std::string> refused_gains_;  ///< said already
   std::uint64_t frame_ = 0, frames_ = 0;
   bool heard_ = false, owes_answer_ = false;
   std::int64_t owed_since_ns_ = 0;

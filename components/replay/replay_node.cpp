@@ -37,9 +37,14 @@ ReplayNode::ReplayNode(const Params& params, const erp::Robot&, node::Node& node
   });
   if (node.clock().lockstep())
     node.every(repeat_ns, [this] {
-      if (next_ > 0) frame_out_.publish_numbered(frame_);
+      if (next_ > 0 && node::monotonic_ns() - said_ns_ > repeat_ns) say_frame();
     });
   else node.every(poll_ns, [this] { play_due(); });
+}
+
+void ReplayNode::say_frame() {
+  said_ns_ = node::monotonic_ns();
+  frame_out_.publish_numbered(frame_);
 }
 
 void ReplayNode::play_due() {
@@ -58,7 +63,7 @@ void ReplayNode::play_next() {
     if (node_.clock().lockstep())
       frame_.stamp_ns -= recorded_start_ns_, node_.clock().advance(frame_.stamp_ns);
     else frame_.stamp_ns = node_.clock().now_ns();
-    frame_out_.publish_numbered(frame_);
+    say_frame();
   }
   ++next_;
   if (finished || next_ % 50 == 0) {

@@ -20,13 +20,14 @@ class ReplayNode {
  private:
   void play_due();
   void play_next();
+  void say_frame();
 
   node::Node& node_;
   Frames frames_;
   node::Publisher<erp::EcuFrame>& frame_out_;
   node::Publisher<erp::Clock>& clock_out_;
   std::size_t next_ = 0, end_;
-  std::int64_t recorded_start_ns_ = 0, began_ns_ = 0;
+  std::int64_t recorded_start_ns_ = 0, began_ns_ = 0, said_ns_ = 0;
   erp::EcuFrame frame_;
 };
 

@@ -30,6 +30,7 @@ GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::No
       [this](const auto& m) { send(gateway_.parameters(m)); }, 8);
   node.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
   node.watch(bus_->fd(), [this] { receive(); });
+  node.on_deactivate([this] { publish_clock(); });
   node.every(say_ns, [this] { say_counters(); });
   if (!node.clock().lockstep()) node.every(tick_ns, [this] { close_late_tick(); });
 }
@@ -74,12 +75,15 @@ void GatewayNode::publish_tick() {
   // Simulated time begins at the first tick, as it does in the simulator itself.
   node_.clock().advance(static_cast<std::int64_t>(frame.sequence - 1) * tick_ns);
   frame.stamp_ns = node_.clock().now_ns();
-  if (frame.sequence % clock_period == 1) {
-    erp::Clock clock;
-    clock.stamp_ns = static_cast<std::int64_t>(frame.sequence - 1) * tick_ns;
-    clock_out_.publish(clock);
-  }
+  if (frame.sequence % clock_period == 1) publish_clock();
   frame_out_.publish_numbered(frame);
+}
+
+void GatewayNode::publish_clock() {
+  erp::Clock clock;
+  const auto sequence = gateway_.frame().sequence;
+  clock.stamp_ns = sequence ? static_cast<std::int64_t>(sequence - 1) * tick_ns : 0;
+  clock_out_.publish(clock);
 }
 
 void GatewayNode::say_emergencies() {

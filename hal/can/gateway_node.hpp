@@ -24,6 +24,7 @@ class GatewayNode {
   /// A silent ECU must not hold back what the others said.
   void close_late_tick();
   void publish_tick();
+  void publish_clock();
   void on_command(const erp::EcuCommand& command);
   void send(std::span<const erp::CanFrame> frames);
   void say_emergencies();

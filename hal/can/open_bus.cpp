@@ -14,7 +14,7 @@ int port_of(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
   const bool whole = error == std::errc() && end == text.data() + text.size();
   if (!whole || port < 1 || port > 65535)
-    throw std::runtime_error("port \"" + text + "\" is not a number from 1 to 65535; " + usage);
+    throw std::invalid_argument("port \"" + text + "\" is not a number from 1 to 65535; " + usage);
   return port;
 }
 
@@ -23,25 +23,28 @@ std::unique_ptr<CanBus> open_by_name(const std::string& specification) {
   const std::string backend = specification.substr(0, colon);
   const std::string rest = colon == std::string::npos ? "" : specification.substr(colon + 1);
   if (backend == "socketcan") {
-    if (rest.empty()) throw std::runtime_error(std::string("names no interface; ") + usage);
+    if (rest.empty()) throw std::invalid_argument(std::string("names no interface; ") + usage);
     return can::open_socketcan(rest);
   }
   if (backend == "udp") {
     const auto last = rest.rfind(':');
     if (last == std::string::npos)
-      throw std::runtime_error(std::string("names no group and port; ") + usage);
+      throw std::invalid_argument(std::string("names no group and port; ") + usage);
     return can::open_udp(rest.substr(0, last), port_of(rest.substr(last + 1)));
   }
-  throw std::runtime_error("unknown back end \"" + backend + "\"; " + usage);
+  throw std::invalid_argument("unknown back end \"" + backend + "\"; " + usage);
 }
 
 }  // namespace
 
 std::unique_ptr<CanBus> open_bus(const std::string& specification) {
+  const std::string place = "CAN bus \"" + specification + "\": ";
   try {
     return open_by_name(specification);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(place + error.what());
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error("CAN bus \"" + specification + "\": " + error.what());
+    throw std::runtime_error(place + error.what());
   }
 }
 

@@ -19,16 +19,16 @@ Descriptor raw_socket() {
   const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (fd >= 0) return Descriptor(fd);
   if (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)
-    throw std::runtime_error("this kernel has no SocketCAN; use udp:239.255.42.1:20000");
+    throw std::invalid_argument("this kernel has no SocketCAN; use udp:239.255.42.1:20000");
   throw std::runtime_error(std::string("no CAN socket: ") + std::strerror(errno));
 }
 
 unsigned index_of(const std::string& interface) {
   const unsigned index = ::if_nametoindex(interface.c_str());
   if (index == 0)
-    throw std::runtime_error("no interface \"" + interface +
-                             "\"; `ip -br link show type can` lists them, `ip link add " +
-                             "vcan0 type vcan` makes a virtual one");
+    throw std::invalid_argument("no interface \"" + interface +
+                                "\"; `ip -br link show type can` lists them, `ip link add " +
+                                "vcan0 type vcan` makes a virtual one");
   return index;
 }
 
@@ -74,8 +74,9 @@ class SocketCanBus final : public CanBus {
         can_err_mask_t{CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL | CAN_ERR_ACK |
                        CAN_ERR_BUSERROR});
     if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0)
-      throw std::runtime_error("\"" + interface + "\" is no CAN interface (" +
-                               std::strerror(errno) + "); `ip -br link show type can` lists them");
+      throw std::invalid_argument("\"" + interface + "\" is no CAN interface (" +
+                                  std::strerror(errno) +
+                                  "); `ip -br link show type can` lists them");
     if (pending_error(socket_) == ENETDOWN)
       throw std::runtime_error("interface \"" + interface + "\" is down; `ip link set " +
                                interface + " up type can bitrate 1000000`");

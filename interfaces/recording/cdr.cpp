@@ -27,12 +27,13 @@ class Decoder {
     return members;
   }
 
-  Stamp stamp() {
-    Stamp found;
+  Header header() {
+    Header found;
     for (const Field& field : type_.root().fields) {
       if (field.count != Count::one || field.kind == Kind::structure) break;
       field_ = &field;
       const Value value = one(field);
+      if (field.name == "robot" && field.kind == Kind::string) found.robot = *value.text();
       if (field.name == "stamp_ns" && field.kind == Kind::int64)
         found.stamp_ns = std::get<std::int64_t>(value.data);
       if (field.name == "sequence" && field.kind == Kind::uint64)
@@ -165,8 +166,8 @@ Members decode_cdr(const TypeDescription& type, ByteView message) {
   return Decoder(type, message).message();
 }
 
-Stamp stamp_of(const TypeDescription& type, ByteView message) {
-  return Decoder(type, message).stamp();
+Header header_of(const TypeDescription& type, ByteView message) {
+  return Decoder(type, message).header();
 }
 
 }  // namespace recording

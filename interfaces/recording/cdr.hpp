@@ -38,13 +38,14 @@ struct Value {
 /// The result lends names from `type`, which must outlive it and must have been `check`ed.
 Members decode_cdr(const TypeDescription& type, ByteView message);
 
-/// Two fields that every message of ours has, without decoding the rest.
-struct Stamp {
+/// What every message of ours begins with, without decoding the rest.
+struct Header {
+  std::optional<std::string> robot;
   std::optional<std::int64_t> stamp_ns;
   std::optional<std::uint64_t> sequence;
 };
-/// Reads up to both fields; stops at the first sequence or array in front of them.
-Stamp stamp_of(const TypeDescription& type, ByteView message);
+/// Reads up to `stamp_ns` and `sequence`; stops at the first sequence or array in front of them.
+Header header_of(const TypeDescription& type, ByteView message);
 
 /// The value as text that reads back equal; text as it is; arrays and structures as JSON.
 std::string to_text(const Value& value);

@@ -14,7 +14,7 @@
 ///   <a>.shaft_rad             gearbox output, positive = winding up
 ///   <a>.tension_N
 ///   <a>.line_m                change of line length since the start (on request)
-///   <a>.target_mode, .target  what was asked for in answer to this row's frame (on request)
+///   <a>.target_mode, .target  what a planner asked for in answer to this row's frame (on request)
 ///   <j>.angle_rad             a revolute joint
 ///   <j>.qw … <j>.qz           a spherical joint
 namespace recording {
@@ -55,8 +55,7 @@ Table read_table(const std::string& path, const TableOptions& options = {});
 class McapReader;
 /// One row per sensor_frame, in the order of stamps. A joint that sensor_frame does not carry and
 /// that is spherical comes from joint_state: its last sample stamped after the row before and not
-/// after this row. Targets are joined where `answers` is the frame's sequence; actuator_target
-/// before actuator_command, among commands the highest priority.
+/// after this row. An actuator_target is joined where its `answers` is the frame's sequence.
 Table table_of(const McapReader& recording, const TableOptions& options = {});
 
 }  // namespace recording

@@ -4,7 +4,8 @@
 #include <optional>
 #include <set>
 
-#include "interfaces/recording/cdr.hpp"
+#include "interfaces/recording/column_group.hpp"
+#include "interfaces/recording/fields.hpp"
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/ros2msg.hpp"
 #include "interfaces/recording/table.hpp"
@@ -28,53 +29,6 @@ constexpr Source actuator_sources[] = {{"mode", "mode", 0},
 constexpr Source line_source{"line_m", "line_m", erp::valid::line};
 constexpr Source joint_source{"angle_rad", "angle_rad", erp::valid::joint_angle};
 
-double number_in(const Members& members, std::string_view field) {
-  const Value* value = members.find(field);
-  return value ? value->number().value_or(not_taken) : not_taken;
-}
-std::string text_in(const Members& members, std::string_view field) {
-  const Value* value = members.find(field);
-  return value && value->text() ? *value->text() : std::string();
-}
-template <class Use>
-void each_in(const Members& members, std::string_view field, Use&& use) {
-  const Value* value = members.find(field);
-  if (!value || !value->elements()) return;
-  for (const Value& element : *value->elements())
-    if (element.members()) use(*element.members());
-}
-template <class Integer>
-Integer integer_in(const Members& members, std::string_view field) {
-  const Value* value = members.find(field);
-  const Integer* number = value ? std::get_if<Integer>(&value->data) : nullptr;
-  return number ? *number : Integer{0};
-}
-
-/// The columns of one actuator or joint, found by name and signal, all as long as the table.
-class Group {
- public:
-  void set(const std::string& owner, const char* signal, std::size_t row, double value) {
-    auto& columns = by_owner_[owner];
-    if (columns.empty()) order_.push_back(owner);
-    auto column = std::ranges::find(columns, signal, &Column::name);
-    if (column == columns.end()) column = columns.insert(columns.end(), Column{signal, {}});
-    column->values.resize(std::max(column->values.size(), row + 1), not_taken);
-    column->values[row] = value;
-  }
-  bool has(const std::string& owner) const { return by_owner_.contains(owner); }
-  void move_into(Table& table, std::size_t rows) {
-    for (const std::string& owner : order_)
-      for (Column& column : by_owner_[owner]) {
-        column.values.resize(rows, not_taken);
-        table.columns.push_back({owner + "." + column.name, std::move(column.values)});
-      }
-  }
-
- private:
-  std::map<std::string, std::vector<Column>> by_owner_;
-  std::vector<std::string> order_;
-};
-
 struct Row {
   std::int64_t stamp_ns;
   std::uint64_t sequence, log_time_ns;
@@ -82,7 +36,7 @@ struct Row {
 
 struct Target {
   std::string actuator;
-  double mode, reference, rank;
+  double mode, reference;
   std::uint64_t answers, log_time_ns;
 };
 
@@ -117,7 +71,7 @@ class Builder {
  private:
   bool wanted(const std::string& topic) const {
     return topic == "sensor_frame" || topic == "joint_state" ||
-           (options_.targets && (topic == "actuator_target" || topic == "actuator_command"));
+           (options_.targets && topic == "actuator_target");
   }
 
   void take(const Message& message) {
@@ -128,7 +82,7 @@ class Builder {
     if (!of_our_robot(text_in(members, "robot"), topic)) return;
     if (topic == "sensor_frame") take_frame(members, message.log_time_ns);
     else if (topic == "joint_state") take_joints(members);
-    else take_targets(members, topic, message.log_time_ns);
+    else take_targets(members, message.log_time_ns);
   }
 
   bool of_our_robot(const std::string& robot, const std::string& topic) {
@@ -159,18 +113,16 @@ class Builder {
     });
   }
 
-  static void set(Group& group, const std::string& owner, const Source& source, std::size_t row,
-                  const Members& sample, bool taken) {
+  static void set(ColumnGroup& group, const std::string& owner, const Source& source,
+                  std::size_t row, const Members& sample, bool taken) {
     group.set(owner, source.signal, row, taken ? number_in(sample, source.field) : not_taken);
   }
 
-  void take_targets(const Members& command, const std::string& topic, std::uint64_t log_time_ns) {
-    const bool target = topic == "actuator_target";
-    const double rank = target ? 1e12 : number_in(command, "priority");
+  void take_targets(const Members& command, std::uint64_t log_time_ns) {
     const auto answers = integer_in<std::uint64_t>(command, "answers");
     each_in(command, "actuators", [&](const Members& sample) {
       targets_.push_back({text_in(sample, "name"), number_in(sample, "mode"),
-                          number_in(sample, "reference"), rank, answers, log_time_ns});
+                          number_in(sample, "reference"), answers, log_time_ns});
     });
   }
 
@@ -193,7 +145,6 @@ class Builder {
   void join_targets() {
     std::multimap<std::uint64_t, std::size_t> by_sequence;
     for (std::size_t i = 0; i < rows_.size(); ++i) by_sequence.emplace(rows_[i].sequence, i);
-    std::ranges::stable_sort(targets_, {}, &Target::rank);
     for (const Target& target : targets_) {
       if (!actuators_.has(target.actuator)) continue;
       const auto [first, last] = by_sequence.equal_range(target.answers);
@@ -267,7 +218,7 @@ class Builder {
   std::map<std::uint16_t, TypeDescription> types_;
   std::set<std::string> robots_;
   std::vector<Row> rows_;
-  Group actuators_, joints_, balls_;
+  ColumnGroup actuators_, joints_, balls_;
   std::vector<Target> targets_;
   std::map<std::string, std::map<std::string, std::vector<Pose>>> poses_;
 };

@@ -55,7 +55,11 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
   return known.empty() ? "remove it" : "known here: " + joined(known);
 }
 
-std::string quote(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string quote(std::string_view text) {
+  constexpr std::size_t longest = 120;  // chosen: fits a message
+  const std::size_t end = std::min({text.find('\n'), text.size(), longest});
+  return "\"" + std::string(text.substr(0, end)) + (end < text.size() ? "…\"" : "\"");
+}
 
 std::string joined(const std::vector<std::string>& words, std::string_view separator) {
   std::string text;

@@ -16,6 +16,7 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
 /// `did you mean "x"?`, or the whole list of known names when none is close.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
+/// In quotation marks; of a long or many-lined text the beginning.
 std::string quote(std::string_view text);
 std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 std::string_view trimmed(std::string_view text);

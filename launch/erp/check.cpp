@@ -1,11 +1,5 @@
 #include "launch/erp/check.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
 #include <filesystem>
 #include <ostream>
 #include <set>
@@ -14,6 +8,7 @@
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
+#include "launch/erp/ask.hpp"
 
 namespace launch {
 namespace {
@@ -73,37 +68,6 @@ class Checker {
   bool sound_ = true;
 };
 
-struct Finished {
-  int status = 0;
-  std::string complaints;
-};
-
-/// Runs a program to its end and collects what it writes to stderr.
-Finished run_to_end(std::vector<std::string> argv) {
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::system_error(errno, std::generic_category(), "pipe");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  std::vector<char*> pointers;
-  pointers.reserve(argv.size() + 1);
-  for (std::string& argument : argv) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  pid_t pid = -1;
-  const int fault = posix_spawn(&pid, pointers[0], &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  Finished finished;
-  std::array<char, 4096> buffer{};
-  for (ssize_t n; (n = read(ends[0], buffer.data(), buffer.size())) > 0;)
-    finished.complaints.append(buffer.data(), static_cast<std::size_t>(n));
-  close(ends[0]);
-  if (fault != 0) throw std::system_error(fault, std::generic_category(), argv[0]);
-  waitpid(pid, &finished.status, 0);
-  return finished;
-}
-
 }  // namespace
 
 CheckComponent ask_program(std::function<std::string(const std::string&)> find) {
@@ -111,10 +75,7 @@ CheckComponent ask_program(std::function<std::string(const std::string&)> find) 
                                   const std::string& file) -> std::optional<std::string> {
     const std::string program = find(type);
     if (program.empty()) return std::nullopt;
-    const Finished finished = run_to_end({program, "--check", file});
-    if (finished.status == 0) return "";
-    if (!finished.complaints.empty()) return finished.complaints;
-    return file + ": " + program + " --check failed without a word; run it by hand";
+    return ask_to_check({program, "--config", file});
   };
 }
 

@@ -13,8 +13,8 @@ namespace launch {
 using CheckComponent =
     std::function<std::optional<std::string>(const std::string& type, const std::string& file)>;
 
-/// Asks the component's own program: `PROGRAM --check FILE`, which ends with 0 or 2 and names the
-/// mistakes on stderr. `find` gives the program of a type, or "".
+/// Asks the component's own program: `PROGRAM --config FILE --check`. `find` gives the program of a
+/// type, or "".
 CheckComponent ask_program(std::function<std::string(const std::string& type)> find);
 
 /// Checks each file by its root element: a robot, a graph with the robot and the configs it names,

@@ -6,6 +6,7 @@
 
 #include "components/node/clock.hpp"
 #include "interfaces/robot/robot.hpp"
+#include "launch/erp/ask.hpp"
 #include "launch/erp/duration.hpp"
 #include "launch/erp/plan.hpp"
 #include "launch/erp/program.hpp"
@@ -14,6 +15,7 @@
 #include "launch/erp/summary.hpp"
 
 namespace launch {
+namespace fs = std::filesystem;
 namespace {
 
 erp::Graph graph_of(const LaunchOptions& options) {
@@ -35,8 +37,39 @@ std::vector<std::string> sources(const erp::Graph& graph, const erp::Robot& robo
   for (const auto& component : graph.components) files.insert(component.config);
   std::set<std::string> unique;
   for (const auto& file : files)
-    if (!file.empty()) unique.insert(std::filesystem::weakly_canonical(file).string());
+    if (!file.empty()) unique.insert(fs::weakly_canonical(file).string());
   return {unique.begin(), unique.end()};
+}
+
+/// Mistakes in configs and settings, said by the programs that will read them, before any of them
+/// starts. Throws std::invalid_argument with all of them.
+void ask_components(const Plan& plan) {
+  std::string mistakes;
+  for (const auto& process : plan.processes) {
+    const std::string said = ask_to_check(process.argv);
+    if (!said.empty()) mistakes += (mistakes.empty() ? "" : "\n") + process.name + ": " + said;
+  }
+  while (mistakes.ends_with('\n')) mistakes.pop_back();
+  if (!mistakes.empty()) throw std::invalid_argument(mistakes);
+}
+
+/// The run's recordings, oldest first: a restarted logger has moved what was there out of its way.
+std::vector<std::string> parts_of(const std::string& recording, fs::file_time_type since) {
+  std::vector<std::string> parts;
+  std::error_code ignored;
+  const auto ours = [&](const fs::path& path) {
+    return fs::exists(path, ignored) && fs::file_size(path, ignored) > 0 &&
+           fs::last_write_time(path, ignored) >= since;
+  };
+  const fs::path last(recording);
+  for (int k = 1;; ++k) {
+    auto part = last;
+    part.replace_extension("." + std::to_string(k) + last.extension().string());
+    if (!fs::exists(part, ignored)) break;
+    if (ours(part)) parts.push_back(part.string());
+  }
+  if (ours(last)) parts.push_back(recording);
+  return parts;
 }
 
 }  // namespace
@@ -44,17 +77,19 @@ std::vector<std::string> sources(const erp::Graph& graph, const erp::Robot& robo
 int launch_graph(const LaunchOptions& options) {
   const erp::Graph graph = graph_of(options);
   const erp::Robot robot = erp::read_robot(graph.robot);
-  const std::string graph_folder =
-      std::filesystem::absolute(options.graph_file).parent_path().string();
+  const std::string graph_folder = fs::absolute(options.graph_file).parent_path().string();
   const auto find = [&](const std::string& type) { return find_program(type, graph_folder); };
 
   Wishes wishes{{}, ".", sources(graph, robot)};
   for (const auto& setting : options.settings) wishes.settings.push_back(parse_setting(setting));
-  make_plan(graph, wishes, find);  // refuses bad input before a folder is made
+  ask_components(make_plan(graph, wishes, find));  // refuses bad input before a folder is made
   wishes.folder = make_run_folder(options.folder, graph.name, node::wall_ns());
   const Plan plan = make_plan(graph, wishes, find);
-  const int exit_code = Run(graph, robot.name, plan, wishes.folder).execute();
-  if (std::filesystem::exists(plan.recording)) print_summary(plan.recording, std::cout);
+  const auto since = fs::file_time_type::clock::now();
+  Run run(graph, robot.name, plan, wishes.folder);
+  const int exit_code = run.execute();
+  const auto parts = parts_of(plan.recording, since);
+  if (!parts.empty()) print_summary({parts, robot.name, run.device_s()}, std::cout);
   return exit_code;
 }
 

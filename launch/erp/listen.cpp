@@ -122,7 +122,7 @@ int show_delay(const ListenOptions& options, std::ostream& out) {
   std::size_t all_heard = 0;
   listener.each(
       [&](recording::ByteView cdr) {
-        const auto stamp_ns = recording::stamp_of(listener.type(), cdr).stamp_ns;
+        const auto stamp_ns = recording::header_of(listener.type(), cdr).stamp_ns;
         if (stamp_ns) ages_us.add(1e-3 * static_cast<double>(node::wall_ns() - *stamp_ns));
         ++all_heard;
         return false;

@@ -143,7 +143,7 @@ int log_recover(const std::string& in, const std::string& out, std::ostream& sai
     for (const std::string& problem : recovered.problems) said << problem << '\n';
     said << out << ": " << recovered.messages << " messages and " << recovered.attachments
          << " attachments\n";
-    return 0;
+    return recovered.messages + recovered.attachments > 0 ? 0 : 1;
   });
 }
 

@@ -27,7 +27,8 @@ int log_info(const std::string& path, std::ostream& out);
 /// The recording (MCAP or CSV) as CSV.
 int log_export(const std::string& path, std::ostream& out, const LogExportOptions& options = {});
 
-/// Copies what can be read of `in` into the new file `out`, and says what could not.
+/// Copies what can be read of `in` into the new file `out`, and says what could not. Returns 1 when
+/// there was nothing.
 int log_recover(const std::string& in, const std::string& out, std::ostream& said);
 
 /// Draws the recording (MCAP or CSV) into `out`, an .svg or .png file. Needs gnuplot.

@@ -4,10 +4,12 @@
 #include <ostream>
 #include <set>
 
-#include "interfaces/values.hpp"
+#include "components/node/clock.hpp"
 #include "interfaces/xml/words.hpp"
 #include "launch/erp/component_row.hpp"
+#include "launch/erp/meaning.hpp"
 #include "launch/erp/onlooker.hpp"
+#include "launch/erp/processor_share.hpp"
 
 namespace launch {
 namespace {
@@ -18,22 +20,6 @@ constexpr std::int64_t heartbeats_ns = 1'000'000'000;  // ten of them
 
 std::string name_of(const node::Endpoint& endpoint) {
   return endpoint.component.empty() ? "?" : endpoint.component;
-}
-
-std::string word_of(std::uint8_t lifecycle) {
-  switch (static_cast<erp::Lifecycle>(lifecycle)) {
-    case erp::Lifecycle::unconfigured:
-      return "unconfigured";
-    case erp::Lifecycle::inactive:
-      return "inactive";
-    case erp::Lifecycle::active:
-      return "active";
-    case erp::Lifecycle::error:
-      return "error";
-    case erp::Lifecycle::finalized:
-      return "finalized";
-  }
-  return "?";
 }
 
 std::string joined(const Names& names) {
@@ -93,11 +79,13 @@ int show_components(std::ostream& out) {
   Onlooker onlooker("ps");
   node::Reader<erp::ComponentState> states(onlooker.participant(), onlooker.wake());
   std::map<std::string, std::map<std::string, Row>> robots;
+  std::map<pid_t, ProcessorShare> shares;
   const auto listen = [&] {
     states.take([&](const erp::ComponentState& state) {
       Row& row = robots[state.robot][state.component];
       row.name = state.component;
-      row.state = word_of(state.lifecycle);
+      row.state = meaning_of("erp/msg/ComponentState", "lifecycle", state.lifecycle);
+      row.cpu_percent = shares[state.pid].measure(state.pid, node::monotonic_ns());
       fill_figures(row, state);
     });
     return false;

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <system_error>
 #include <utility>
@@ -30,9 +29,10 @@ struct Descriptor {
 };
 
 /// From here to exec only async-signal-safe calls: the launcher has threads of DDS.
-[[noreturn]] void become(char* const* argv, pid_t parent, int input, int log, int complaint) {
+[[noreturn]] void become(char* const* argv, pid_t parent, int death_signal, int input, int log,
+                         int complaint) {
   setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_PDEATHSIG, death_signal);
   if (getppid() != parent) _exit(1);  // the launcher died before the line above
   sigset_t none;
   sigemptyset(&none);
@@ -56,7 +56,8 @@ std::string to_string(const Ending& ending) {
          ")";
 }
 
-Process::Process(const std::vector<std::string>& argv, const std::string& log_file) {
+Process::Process(const std::vector<std::string>& argv, const std::string& log_file,
+                 int death_signal) {
   const Descriptor input{open("/dev/null", O_RDONLY | O_CLOEXEC)};
   const Descriptor log{open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)};
   if (log.number < 0) fail(errno, log_file);
@@ -70,7 +71,8 @@ Process::Process(const std::vector<std::string>& argv, const std::string& log_fi
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) fail(errno, "fork");
-  if (pid_ == 0) become(words.data(), parent, input.number, log.number, complaint_in.number);
+  if (pid_ == 0)
+    become(words.data(), parent, death_signal, input.number, log.number, complaint_in.number);
   setpgid(pid_, pid_);  // both sides set it, so that neither has to wait for the other
   complaint_in.close();
 

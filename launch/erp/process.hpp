@@ -1,6 +1,7 @@
 #pragma once
 #include <sys/types.h>
 
+#include <csignal>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,15 +21,16 @@ std::string to_string(const Ending& ending);
 
 /// Owns a running program in a process group of its own.
 ///
-/// The program dies with the launcher (PR_SET_PDEATHSIG), inherits no descriptor but its log, reads
-/// nothing, and has no signal blocked. What it leaves behind in its group is killed when it ends.
-/// Must be created on the thread that lives as long as the launcher: the kernel ties the death
-/// signal to that thread.
+/// The program gets `death_signal` when the launcher dies (PR_SET_PDEATHSIG), inherits no
+/// descriptor but its log, reads nothing, and has no signal blocked. What it leaves behind in its
+/// group is killed when it ends. Must be created on the thread that lives as long as the launcher:
+/// the kernel ties the death signal to that thread.
 class Process {
  public:
   /// Appends stdout and stderr to `log_file`. Throws std::system_error when the log cannot be
   /// opened or the program cannot be executed.
-  Process(const std::vector<std::string>& argv, const std::string& log_file);
+  Process(const std::vector<std::string>& argv, const std::string& log_file,
+          int death_signal = SIGKILL);
   ~Process();  ///< kills what still runs, and reaps it
   Process(Process&& other) noexcept;
   Process& operator=(Process&& other) noexcept;

@@ -11,17 +11,15 @@
 #include <system_error>
 
 #include "components/node/clock.hpp"
-#include "launch/erp/component_row.hpp"
 #include "launch/erp/duration.hpp"
 #include "launch/erp/run_folder.hpp"
 
 namespace launch {
 namespace {
 
-constexpr int tick_ms = 20;                         // chosen: start-up advances by ticks
-constexpr std::int64_t change_ns = 20'000'000;      // chosen
-constexpr std::int64_t redraw_ns = 200'000'000;     // chosen
-constexpr std::int64_t silence_ns = 1'000'000'000;  // ten heartbeats
+constexpr int tick_ms = 20;                      // chosen: start-up advances by ticks
+constexpr std::int64_t change_ns = 20'000'000;   // chosen
+constexpr std::int64_t redraw_ns = 200'000'000;  // chosen
 constexpr std::size_t shown_log_lines = 12;
 
 std::vector<Charge> charges_of(const Plan& plan) {
@@ -37,13 +35,6 @@ std::string word_of(erp::Severity severity) {
   return severity == erp::Severity::warning ? "warning: " : "fault: ";
 }
 
-template <class Enum>
-std::string word_of(Enum value, const auto& names) {
-  for (const auto& [word, named] : names)
-    if (named == value) return word;
-  return "";
-}
-
 }  // namespace
 
 Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std::string& folder)
@@ -53,6 +44,7 @@ Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std
       log_(folder + "/erp.log", std::ios::trunc),
       bus_(robot),
       supervisor_(charges_of(plan_)),
+      time_(graph.duration_s, graph.time == erp::Time::lockstep),
       screen_(stdout),
       members_(plan_.processes.size()) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -62,22 +54,22 @@ Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std
 }
 
 int Run::execute() {
-  started_ns_ = now_ns_ = node::monotonic_ns();
+  time_.start(node::monotonic_ns());
   say(graph_.name + ": " + std::to_string(members_.size()) + " processes, logs in " + folder_);
-  supervisor_.start(now_ns_);
+  supervisor_.start(time_.now_ns());
   carry_out();
   while (!supervisor_.done()) {
     wait();
-    now_ns_ = node::monotonic_ns();
+    time_.tick(node::monotonic_ns());
     hear_bus();
     obey_signals();
     reap();
     end_when_due();
-    supervisor_.tick(now_ns_);
+    supervisor_.tick(time_.now_ns());
     carry_out();
-    if (now_ns_ - drawn_ns_ < (screen_.is_terminal() ? redraw_ns : change_ns)) continue;
+    if (time_.now_ns() - drawn_ns_ < (screen_.is_terminal() ? redraw_ns : change_ns)) continue;
     screen_.show(status());
-    drawn_ns_ = now_ns_;
+    drawn_ns_ = time_.now_ns();
   }
   hear_bus();
   screen_.show(status());
@@ -107,10 +99,10 @@ void Run::hear(const erp::ComponentState& state) {
   if (group < 0) return;  // a last word of one that is gone
   if (!member.process || group != member.process->pid()) return refuse_stranger(state);
   member.heard = state;
-  member.heard_ns = now_ns_;
+  member.heard_ns = time_.now_ns();
   supervisor_.heard(found->second,
                     {static_cast<erp::Lifecycle>(state.lifecycle), state.peers, state.links},
-                    now_ns_);
+                    time_.now_ns());
 }
 
 /// Two graphs cannot drive one robot: the one that comes second gives way.
@@ -119,7 +111,7 @@ void Run::refuse_stranger(const erp::ComponentState& state) {
   supervisor_.stop("another \"" + std::string(state.component) + "\" of robot " + state.robot +
                        " is on this bus, pid " + std::to_string(state.pid) +
                        "; end it (erp ps), or set ERP_DOMAIN to a number of your own",
-                   2, now_ns_);
+                   2, time_.now_ns());
 }
 
 void Run::hear(const erp::Event& event) {
@@ -139,9 +131,7 @@ bool Run::is_ending() const {
 }
 
 void Run::hear(const erp::Clock& clock) {
-  if (!first_clock_ns_) first_clock_ns_ = clock.stamp_ns;
-  simulated_s_ = 1e-9 * static_cast<double>(clock.stamp_ns - *first_clock_ns_);
-  real_time_factor_ = clock.real_time_factor;
+  time_.hear_device(clock.stamp_ns, clock.real_time_factor);
 }
 
 void Run::reap() {
@@ -151,7 +141,7 @@ void Run::reap() {
     const auto ending = process->poll();
     if (!ending) continue;
     process.reset();
-    supervisor_.ended(i, *ending, now_ns_);
+    supervisor_.ended(i, *ending, time_.now_ns());
   }
 }
 
@@ -161,18 +151,14 @@ void Run::obey_signals() {
       say("interrupted again; killing what still runs");
       supervisor_.kill_now();
     } else {
-      supervisor_.stop(number == SIGINT ? "interrupted" : "told to stop", 0, now_ns_);
+      supervisor_.stop(number == SIGINT ? "interrupted" : "told to stop", 0, time_.now_ns());
     }
   }
 }
 
-/// In real time the run lasts so long, whatever is restarted meanwhile.
 void Run::end_when_due() {
-  if (graph_.duration_s <= 0 || graph_.time == erp::Time::lockstep) return;
-  if (supervisor_.stage() != Stage::running) return;
-  if (!running_since_ns_) running_since_ns_ = now_ns_;
-  if (1e-9 * static_cast<double>(now_ns_ - *running_since_ns_) >= graph_.duration_s)
-    supervisor_.stop(to_text_s(graph_.duration_s) + " are over", 0, now_ns_);
+  if (supervisor_.stage() == Stage::running) time_.running();
+  if (time_.over()) supervisor_.stop(to_text_s(graph_.duration_s) + " are over", 0, time_.now_ns());
 }
 
 void Run::carry_out() {
@@ -208,10 +194,12 @@ void Run::spawn(std::size_t index) {
   std::ofstream(planned.log_file, std::ios::app) << "$ " << line << '\n';
   members_[index].heard.reset();
   try {
-    members_[index].process.emplace(planned.argv, planned.log_file);
+    // A killed launcher must not cost the recording its end.
+    const int death_signal = planned.role == Role::logger ? SIGTERM : SIGKILL;
+    members_[index].process.emplace(planned.argv, planned.log_file, death_signal);
   } catch (const std::system_error& error) {
     say(planned.name + ": " + error.what());
-    supervisor_.ended(index, {1, 0}, now_ns_);
+    supervisor_.ended(index, {1, 0}, time_.now_ns());
   }
 }
 
@@ -222,62 +210,22 @@ void Run::show_log(std::size_t index) {
 }
 
 void Run::note(const std::string& text) {
-  log_ << fmt::format("{:8.2f}  {}", elapsed_s(), text) << std::endl;
+  log_ << fmt::format("{:8.2f}  {}", time_.elapsed_s(), text) << std::endl;
 }
 
 void Run::say(const std::string& text) {
   note(text);
-  screen_.say(elapsed_s(), text);
+  screen_.say(time_.elapsed_s(), text);
 }
 
 void Run::say_end() {
-  std::string text =
-      graph_.name + ": ended after " + to_text_s(1e-9 * static_cast<double>(now_ns_ - started_ns_));
-  if (simulated_s_ >= 0) text += ", " + to_text_s(simulated_s_) + " simulated";
+  std::string text = graph_.name + ": ended after " + to_text_s(time_.elapsed_s());
+  if (time_.device_s() >= 0) text += ", " + to_text_s(time_.device_s()) + " of the device's time";
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    if (const auto count = supervisor_.restarts(i))
+      text += ", " + plan_.processes[i].name + " restarted " + std::to_string(count) +
+              (count == 1 ? " time" : " times");
   say(text + ", exit code " + std::to_string(supervisor_.exit_code()));
-  std::error_code ignored;
-  if (std::filesystem::exists(plan_.recording, ignored)) say("recording " + plan_.recording);
-}
-
-std::string Run::state_of(std::size_t index) const {
-  const Phase phase = supervisor_.phase(index);
-  const bool on_bus = phase == Phase::active || phase == Phase::inactive;
-  if (on_bus && now_ns_ - members_[index].heard_ns > silence_ns) return "silent";
-  return name_of(phase);
-}
-
-Row Run::row(std::size_t index) {
-  Member& member = members_[index];
-  Row row{.name = plan_.processes[index].name, .state = state_of(index)};
-  row.restarts = static_cast<long>(supervisor_.restarts(index));
-  if (member.process) {
-    row.pid = member.process->pid();
-    row.cpu_percent = member.share.measure(member.process->pid(), now_ns_);
-  }
-  if (member.heard) fill_figures(row, *member.heard);
-  return row;
-}
-
-double Run::left_s() const {
-  if (graph_.duration_s <= 0 || supervisor_.stage() != Stage::running) return -1;
-  if (graph_.time == erp::Time::lockstep)
-    return real_time_factor_ > 0
-               ? std::max(0.0, graph_.duration_s - simulated_s_) / real_time_factor_
-               : -1;
-  const auto since_ns = now_ns_ - running_since_ns_.value_or(now_ns_);
-  return std::max(0.0, graph_.duration_s - 1e-9 * static_cast<double>(since_ns));
-}
-
-Status Run::status() {
-  Status status{.graph = graph_.name,
-                .device = word_of(graph_.device, xml::Names<erp::Device>::list),
-                .time = word_of(graph_.time, xml::Names<erp::Time>::list),
-                .stage = name_of(supervisor_.stage()),
-                .elapsed_s = elapsed_s(),
-                .simulated_s = simulated_s_,
-                .left_s = left_s()};
-  for (std::size_t i = 0; i < members_.size(); ++i) status.rows.push_back(row(i));
-  return status;
 }
 
 }  // namespace launch

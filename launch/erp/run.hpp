@@ -10,6 +10,7 @@
 #include "launch/erp/plan.hpp"
 #include "launch/erp/process.hpp"
 #include "launch/erp/processor_share.hpp"
+#include "launch/erp/run_time.hpp"
 #include "launch/erp/screen.hpp"
 #include "launch/erp/signals.hpp"
 #include "launch/erp/supervisor.hpp"
@@ -25,6 +26,7 @@ class Run {
   /// Until the run has ended. Returns 0 when all ended well, 1 when a component failed for good,
   /// 2 when one could not use its input.
   int execute();
+  double device_s() const { return time_.device_s(); }  ///< negative: the device was not heard
 
  private:
   /// What belongs to one planned process while it runs.
@@ -54,8 +56,6 @@ class Run {
   Row row(std::size_t index);
   std::string state_of(std::size_t index) const;
   Status status();
-  double elapsed_s() const { return 1e-9 * static_cast<double>(now_ns_ - started_ns_); }
-  double left_s() const;
 
   const erp::Graph& graph_;
   Plan plan_;
@@ -64,13 +64,11 @@ class Run {
   Signals signals_;  // before the bus, whose threads inherit the mask
   BusLink bus_;
   Supervisor supervisor_;
+  RunTime time_;
   Screen screen_;
   std::vector<Member> members_;
   std::map<std::string, std::size_t> index_of_;
-  std::int64_t started_ns_ = 0, now_ns_ = 0, drawn_ns_ = 0;
-  std::optional<std::int64_t> first_clock_ns_;
-  std::optional<std::int64_t> running_since_ns_;
-  double simulated_s_ = -1, real_time_factor_ = 0;
+  std::int64_t drawn_ns_ = 0;
 };
 
 }  // namespace launch

@@ -36,26 +36,43 @@ struct Followed {
   Values time_s, target, measured;
 };
 
+/// The columns that say what an actuator was to do: a planner's target, or, when nobody published
+/// one, what the ECU itself followed. A voltage is no target: nothing measures it.
+struct Wanted {
+  const recording::Column *mode = nullptr, *value = nullptr;
+  explicit operator bool() const { return mode && value; }
+};
+
+Wanted wanted(const recording::Table& table, const std::string& actuator) {
+  const Wanted planned{table.find(actuator + ".target_mode"), table.find(actuator + ".target")};
+  if (planned) return planned;
+  return {table.find(actuator + ".mode"), table.find(actuator + ".reference")};
+}
+
+Followed follow(const recording::Table& table, const std::string& actuator) {
+  Followed one{actuator, erp::Mode::off, {}, {}, {}};
+  const auto [modes, values] = wanted(table, actuator);
+  const auto* running = table.find(actuator + ".mode");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (std::isnan(values->values[row]) || std::isnan(modes->values[row])) continue;
+    const auto mode = static_cast<erp::Mode>(std::lround(modes->values[row]));
+    if (mode == erp::Mode::off || mode == erp::Mode::voltage) continue;
+    if (one.mode == erp::Mode::off) one.mode = mode;
+    const auto* measured = table.find(actuator + measured_signal(mode));
+    if (mode != one.mode || !measured || std::isnan(measured->values[row])) continue;
+    if (running && !(running->values[row] > 0)) continue;
+    one.time_s.push_back(table.columns.front().values[row]);
+    one.target.push_back(values->values[row]);
+    one.measured.push_back(measured->values[row]);
+  }
+  return one;
+}
+
 std::vector<Followed> followed(const recording::Table& table) {
   std::vector<Followed> all;
-  for (const auto& actuator : table.owners("target")) {
-    Followed one{actuator, erp::Mode::off, {}, {}, {}};
-    const auto& target = table.find(actuator + ".target")->values;
-    const auto* modes = table.find(actuator + ".target_mode");
-    const auto* running = table.find(actuator + ".mode");
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      if (std::isnan(target[row]) || !modes || std::isnan(modes->values[row])) continue;
-      const auto mode = static_cast<erp::Mode>(std::lround(modes->values[row]));
-      if (one.mode == erp::Mode::off) one.mode = mode;
-      const auto* measured = table.find(actuator + measured_signal(mode));
-      if (mode != one.mode || !measured || std::isnan(measured->values[row])) continue;
-      if (running && !(running->values[row] > 0)) continue;
-      one.time_s.push_back(table.columns.front().values[row]);
-      one.target.push_back(target[row]);
-      one.measured.push_back(measured->values[row]);
-    }
-    if (!one.target.empty()) all.push_back(std::move(one));
-  }
+  for (const auto& actuator : table.owners("mode"))
+    if (wanted(table, actuator))
+      if (auto one = follow(table, actuator); !one.target.empty()) all.push_back(std::move(one));
   return all;
 }
 
@@ -122,22 +139,51 @@ std::vector<StepResponse> step_responses(const recording::Table& table) {
   return all;
 }
 
-int print_summary(const std::string& recording, std::ostream& out) try {
-  recording::TableOptions options;
-  options.lines = options.targets = true;
-  const auto table = recording::read_table(recording, options);
-  const auto tracks = tracking(table);
-  if (!tracks.empty())
-    out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", "actuator", "mode", "RMS error", "largest");
+namespace {
+
+void print_tracking(const std::vector<Tracking>& tracks, std::ostream& out) {
+  if (tracks.empty()) return;
+  out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", "actuator", "mode", "RMS error", "largest");
   for (const auto& t : tracks)
     out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", t.actuator, erp::name_of(t.mode),
                        amount(t.rms, t.mode), amount(t.largest, t.mode));
-  for (const auto& s : step_responses(table))
+}
+
+void print_steps(const std::vector<StepResponse>& steps, std::ostream& out) {
+  for (const auto& s : steps)
     out << fmt::format(
         "{} steps {} -> {} at {:.3f} s: rise (10-90 %) {}, overshoot {}, steady RMS {}\n",
         s.actuator, amount(s.from, s.mode), amount(s.to, s.mode), s.at_s,
         s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "never reached",
         amount(s.overshoot, s.mode), amount(s.steady_rms, s.mode));
+}
+
+/// A logger that was killed leaves its part behind as NAME.1.mcap, NAME.2.mcap …
+void print_parts(const std::vector<std::string>& parts, std::ostream& out) {
+  if (parts.size() == 1) {
+    out << "recording " << parts.front() << '\n';
+    return;
+  }
+  out << "recording in " << parts.size() << " parts, because the logger was started again:\n";
+  for (const auto& part : parts) out << "  " << part << '\n';
+  out << "a part that was cut off is mended by: erp log recover PART\n";
+}
+
+}  // namespace
+
+int print_summary(const RecordedRun& run, std::ostream& out) try {
+  print_parts(run.parts, out);
+  if (run.device_s < 0) return 0;  // nothing moved
+  recording::TableOptions options;
+  options.lines = options.targets = true;
+  options.robot = run.robot;
+  const auto table = recording::read_table(run.parts.back(), options);
+  const double span_s = table.columns.front().values.back();
+  out << fmt::format("{} {:.2f} s", run.parts.size() > 1 ? "the last part covers" : "it covers",
+                     span_s)
+      << fmt::format(" of the run's {:.2f} s\n", run.device_s);
+  print_tracking(tracking(table), out);
+  print_steps(step_responses(table), out);
   return 0;
 } catch (const recording::RecordingError& error) {
   std::cerr << error.what() << '\n';

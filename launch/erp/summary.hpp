@@ -31,7 +31,14 @@ struct StepResponse {
 std::vector<Tracking> tracking(const recording::Table& table);
 std::vector<StepResponse> step_responses(const recording::Table& table);
 
-/// Reads the recording and prints both. Returns 0, or 1 when it cannot be read.
-int print_summary(const std::string& recording, std::ostream& out);
+/// What a run left.
+struct RecordedRun {
+  std::vector<std::string> parts;  ///< its recordings, oldest first; at least one
+  std::string robot;
+  double device_s = -1;  ///< how long it lasted in its device's time; negative: not known
+};
+/// Names the recordings and prints tracking and step responses of the last one. Returns 0, or 1
+/// when it cannot be read.
+int print_summary(const RecordedRun& run, std::ostream& out);
 
 }  // namespace launch

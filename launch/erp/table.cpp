@@ -75,7 +75,7 @@ std::vector<std::string> render_rows(const std::vector<Row>& rows) {
 std::vector<std::string> render(const Status& status) {
   std::string head = status.graph + "  " + status.stage + "  device " + status.device + ", " +
                      status.time + "  " + to_text_s(status.elapsed_s);
-  if (status.simulated_s >= 0) head += ", simulated " + to_text_s(status.simulated_s);
+  if (status.device_s >= 0) head += ", device at " + to_text_s(status.device_s);
   if (status.left_s >= 0) head += ", " + to_text_s(status.left_s) + " left";
   std::vector<std::string> lines{head};
   for (auto& line : render_rows(status.rows)) lines.push_back(std::move(line));

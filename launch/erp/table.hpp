@@ -20,9 +20,9 @@ struct Row {
 
 struct Status {
   std::string graph, device, time, stage;
-  double elapsed_s = 0;     ///< real time since the start
-  double simulated_s = -1;  ///< negative: no simulated clock
-  double left_s = -1;       ///< real time to go; negative: no end is set
+  double elapsed_s = 0;  ///< real time since the start
+  double device_s = -1;  ///< time of the device; negative: not heard
+  double left_s = -1;    ///< real time to go; negative: no end is set
   std::vector<Row> rows;
 };
 

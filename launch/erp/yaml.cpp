@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "launch/erp/meaning.hpp"
+
 namespace launch {
 namespace {
 
@@ -29,6 +31,14 @@ std::string scalar(const recording::Value& value) {
   return json.substr(1, json.size() - 2);
 }
 
+/// The word for a small number, behind it as a comment.
+std::string remark(const recording::Structure& type, std::size_t field,
+                   const recording::Value& value) {
+  const auto* number = std::get_if<std::uint64_t>(&value.data);
+  const std::string meaning = number ? meaning_of(type.name, type.fields[field].name, *number) : "";
+  return meaning.empty() ? "" : "  # " + meaning;
+}
+
 std::string list_of_structures(const recording::Values& values, int indent) {
   std::string yaml;
   for (const auto& value : values) {
@@ -49,7 +59,7 @@ std::string to_yaml(const recording::Members& message, int indent) {
     if (const auto* members = value.members()) yaml += "\n" + to_yaml(*members, indent + 2);
     else if (const auto* values = value.elements(); values && holds_structures(*values))
       yaml += "\n" + list_of_structures(*values, indent + 2);
-    else yaml += " " + scalar(value) + "\n";
+    else yaml += " " + scalar(value) + remark(*message.type, i, value) + "\n";
   }
   return yaml;
 }

@@ -48,6 +48,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     if (bus_) bus_->say_boot();
     measure_and_say();
   });
+  node.on_deactivate([this] { publish_clock(at_end()); });
   if (node.clock().lockstep())
     node.every(repeat_ns, [this] {
       if (node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
@@ -83,12 +84,8 @@ void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
   ecus_.tick(world_);
   ++ticks_;
-  if (end_ticks_ && ticks_ >= end_ticks_) {
-    publish_clock(true);
-    node_.finish();
-    return;
-  }
-  measure_and_say();
+  if (at_end()) node_.finish();
+  else measure_and_say();
 }
 
 void SimNode::measure_and_say() {

@@ -47,6 +47,7 @@ class SimNode {
   void join_bus_as_device();
   void stand_behind(const std::string& bus, const erp::Robot& robot);
   void tick();
+  bool at_end() const { return end_ticks_ && ticks_ >= end_ticks_; }
   void measure_and_say();
   void say_frame();
   void say_again();

@@ -130,6 +130,15 @@ TEST_CASE("in real time a run lasts as long as it was told, though the device wa
   CHECK(graph.processes().empty());
 }
 
+TEST_CASE("mistaken settings are all said before anything starts, with exit code 2") {
+  const Graph graph(R"(<component name="worker"/><component name="logger"/>)");
+  CHECK(graph.run({"--set", "worker.fault=yes", "--set", "sim.speed=2"}) == 2);
+  const auto screen = graph.screen();
+  CHECK_THAT(screen, Contains("worker: ") && Contains("fault=yes") && Contains("crash, refuse"));
+  CHECK_THAT(screen, Contains("sim: ") && Contains("unknown \"speed\""));
+  CHECK_FALSE(fs::exists(graph.folder / "run"));
+}
+
 TEST_CASE("Ctrl-C stops a graph in order with exit code 0") {
   const Graph graph;
   auto launcher = graph.start({});

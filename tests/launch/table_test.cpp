@@ -24,10 +24,10 @@ TEST_CASE("a line is clipped between characters") {
 
 TEST_CASE("the head of the table says where the run stands and how long it still takes") {
   launch::Status status{.graph = "rig", .device = "sim", .time = "lockstep", .stage = "running"};
-  status.elapsed_s = 2, status.simulated_s = 8, status.left_s = 3;
+  status.elapsed_s = 2, status.device_s = 8, status.left_s = 3;
   status.rows.push_back({.name = "plant", .state = "active", .pid = 7, .rate_Hz = 500});
   const auto lines = launch::render(status);
   REQUIRE(lines.size() == 3);
-  CHECK_THAT(lines[0], Contains("simulated 8.00 s") && Contains("3.00 s left"));
+  CHECK_THAT(lines[0], Contains("device at 8.00 s") && Contains("3.00 s left"));
   CHECK_THAT(lines[2], Contains("plant") && Contains("active") && Contains("500 Hz"));
 }

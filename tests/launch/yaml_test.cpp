@@ -37,6 +37,19 @@ TEST_CASE("a message is a line a field, and its samples a list") {
         "    tension_N: -1\n");
 }
 
+TEST_CASE("a small number of ours has its word beside it, one of others has none") {
+  auto ours = structure({"mode", "valid", "mode_of_others"});
+  auto theirs = ours;
+  ours.name = "erp/msg/ActuatorSample", theirs.name = "other/msg/ActuatorSample";
+  const Values numbers{Value{std::uint64_t{4}}, Value{std::uint64_t{6}}, Value{std::uint64_t{4}}};
+  CHECK(launch::to_yaml({&ours, numbers}) ==
+        "mode: 4  # force\nvalid: 6  # current shaft\nmode_of_others: 4\n");
+  CHECK(launch::to_yaml({&theirs, numbers}) == "mode: 4\nvalid: 6\nmode_of_others: 4\n");
+  ours.name = "erp/msg/JointSample";
+  CHECK(launch::to_yaml({&ours, {Value{std::uint64_t{9}}, Value{std::uint64_t{1}}, numbers[2]}}) ==
+        "mode: 9\nvalid: 1  # angle\nmode_of_others: 4\n");
+}
+
 TEST_CASE("an empty sequence and a nested structure keep their shape") {
   const auto inner = structure({"x"});
   const auto outer = structure({"list", "inner"});

@@ -39,6 +39,16 @@ std::string exported(const std::string& file) {
   return outcome.output;
 }
 
+/// In lockstep a device says its frame again when the answer does not come within 0.2 s, as it may
+/// on a busy machine.
+std::vector<recording::Members> without_repeats(const std::vector<recording::Members>& frames) {
+  std::vector<recording::Members> all;
+  for (const auto& frame : frames)
+    if (all.empty() || number(all.back(), "sequence") != number(frame, "sequence"))
+      all.push_back(frame);
+  return all;
+}
+
 }  // namespace
 
 TEST_CASE("every device says every channel, numbered without a gap, at the ECUs' period") {
@@ -49,7 +59,7 @@ TEST_CASE("every device says every channel, numbered without a gap, at the ECUs'
     const auto file = record(folder, device, "launch/force_step.xml",
                              "--lockstep --for 1s " + choice(device, original));
     const Recorded frames(file, "ecu_frame");
-    const auto& all = frames.messages();
+    const auto all = without_repeats(frames.messages());
     REQUIRE(all.size() == 500);
     for (std::size_t k = 0; k < all.size(); ++k) {
       CHECK(number(all[k], "stamp_ns") == Approx(2e6 * static_cast<double>(k)));

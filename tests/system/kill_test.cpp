@@ -155,9 +155,13 @@ TEST_CASE("a killed logger loses at most a second, and its file can be mended") 
   std::cout << "logger killed: the last " << lost_ms << " ms are lost\n";
   CHECK(lost_ms < 1000 + scheduling_ms);
   CHECK(after.messages().size() > 500);
+  INFO(killed.output);
+  CHECK(killed.output.find("logger restarted 1 time,") != std::string::npos);
+  CHECK(killed.output.find("recording in 2 parts") != std::string::npos);
+  CHECK(killed.output.find(kept) != std::string::npos);
 }
 
-TEST_CASE("a killed launcher leaves no process behind") {
+TEST_CASE("a killed launcher leaves no process behind, and a whole recording") {
   Folder folder;
   std::vector<pid_t> children;
   {
@@ -169,4 +173,5 @@ TEST_CASE("a killed launcher leaves no process behind") {
   }
   REQUIRE(children.size() == 5);
   for (const auto child : children) CHECK(wait_until([&] { return kill(child, 0) != 0; }));
+  CHECK(recording::McapReader(file_in(folder)).complete());
 }

@@ -131,8 +131,8 @@ TEST_CASE("stamp and sequence are found without decoding what follows") {
       type_of("string<=32 robot\nint64 stamp_ns\nuint64 sequence\nfloat64[] rest\n");
   test::CdrWriter cdr;
   cdr.string("rig").put<std::int64_t>(-5).put<std::uint64_t>(9);
-  const Stamp stamp = stamp_of(type, cdr.bytes);
+  const Header stamp = header_of(type, cdr.bytes);
   CHECK(stamp.stamp_ns == -5);
   CHECK(stamp.sequence == 9u);
-  CHECK_FALSE(stamp_of(type_of("uint8 x\n"), Bytes(8)).sequence);
+  CHECK_FALSE(header_of(type_of("uint8 x\n"), Bytes(8)).sequence);
 }

@@ -119,7 +119,7 @@ TEST_CASE("motion capture goes before the simulator's truth, unless another sour
   CHECK(read_table(folder / "a.mcap", {.pose_source = "nobody"}).find("s.qw") == nullptr);
 }
 
-TEST_CASE("targets stand in the row they answer; actuator_target before commands, then priority") {
+TEST_CASE("targets stand in the row they answer; a command is no target") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -128,15 +128,13 @@ TEST_CASE("targets stand in the row they answer; actuator_target before commands
                  test::frame(static_cast<std::int64_t>(i), i, {{.name = "m"}}, {}));
     file.write(file.commands, 5, test::target(1, "m", 1, 9.0, true, 100));
     file.write(file.targets, 6, test::target(1, "m", 4, 20.0));
-    file.write(file.commands, 7, test::target(2, "m", 4, 5.0, true, 3));
-    file.write(file.commands, 8, test::target(2, "m", 4, 6.0, true, 2));
     file.write(file.targets, 9, test::target(77, "m", 4, 1.0));
     file.write(file.targets, 9, test::target(0, "stranger", 4, 1.0));
   }
   const Table table = read_table(folder / "a.mcap", {.lines = true, .targets = true});
   std::string text;
   for (const double x : table.find("m.target")->values) text += csv_number(x) + "|";
-  CHECK(text == "|20|5||");
+  CHECK(text == "|20|||");
   CHECK(table.find("m.target_mode")->values[1] == 4);
   CHECK(table.find("m.line_m") != nullptr);
   CHECK(table.find("stranger.target") == nullptr);

@@ -122,7 +122,7 @@ TEST_CASE("stamp and sequence are found in every topic") {
   test::each_example(17, [&](const auto& m, const std::string& topic, const auto& descriptor) {
     using Wire = typename std::decay_t<decltype(m)>::Wire;
     const Bytes bytes = capture.bytes_of(descriptor, static_cast<const Wire*>(&m));
-    const Stamp stamp = stamp_of(through_text(descriptor), bytes);
+    const recording::Header stamp = header_of(through_text(descriptor), bytes);
     INFO(topic);
     CHECK(stamp.stamp_ns == m.stamp_ns);
     CHECK(stamp.sequence == 17u);

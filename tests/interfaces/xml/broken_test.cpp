@@ -144,6 +144,6 @@ TEST_CASE("a component's own program is asked about its config") {
     return answer.value();
   };
   CHECK(says("exit 0").empty());
-  CHECK(says("echo \"$2:1:1: $1\" >&2; exit 2") == "f.xml:1:1: --check\n");
+  CHECK(says("echo \"$2:1:1: $3\" >&2; exit 2") == "f.xml:1:1: --check\n");
   CHECK_THAT(says("exit 1"), Catch::Contains("failed without a word"));
 }

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "interfaces/recording/cdr.hpp"
+#include "interfaces/recording/table.hpp"
+
+/// A decoded message's fields by name; one that is not there reads as nothing.
+namespace recording {
+
+inline double number_in(const Members& members, std::string_view field) {
+  const Value* value = members.find(field);
+  return value ? value->number().value_or(not_taken) : not_taken;
+}
+inline std::string text_in(const Members& members, std::string_view field) {
+  const Value* value = members.find(field);
+  return value && value->text() ? *value->text() : std::string();
+}
+template <class Use>
+void each_in(const Members& members, std::string_view field, Use&& use) {
+  const Value* value = members.find(field);
+  if (!value || !value->elements()) return;
+  for (const Value& element : *value->elements())
+    if (element.members()) use(*element.members());
+}
+template <class Integer>
+Integer integer_in(const Members& members, std::string_view field) {
+  const Value* value = members.find(field);
+  const Integer* number = value ? std::get_if<Integer>(&value->data) : nullptr;
+  return number ? *number : Integer{0};
+}
+
+}  // namespace recording

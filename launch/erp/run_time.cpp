@@ -1,0 +1,25 @@
+#include "launch/erp/run_time.hpp"
+
+#include <algorithm>
+
+namespace launch {
+
+void RunTime::hear_device(std::int64_t stamp_ns, double real_time_factor) {
+  if (last_stamp_ns_ && stamp_ns > *last_stamp_ns_) device_ns_ += stamp_ns - *last_stamp_ns_;
+  last_stamp_ns_ = stamp_ns;
+  real_time_factor_ = real_time_factor;
+}
+
+double RunTime::device_s() const {
+  return last_stamp_ns_ ? 1e-9 * static_cast<double>(device_ns_) : -1;
+}
+
+double RunTime::left_s() const {
+  if (duration_s_ <= 0 || !running_since_ns_) return -1;
+  if (lockstep_)
+    return real_time_factor_ > 0 ? std::max(0.0, duration_s_ - device_s()) / real_time_factor_ : -1;
+  const double ran_s = 1e-9 * static_cast<double>(now_ns_ - *running_since_ns_);
+  return std::max(0.0, duration_s_ - ran_s);
+}
+
+}  // namespace launch
