@@ -1,5 +1,10 @@
-// From a device's frame to the command that answers it, through the real processes, beside
-// ddsperf's round trip of a message of the same size in the same run. Prints JSON.
+// How long a sensor frame takes through controller and plant to become the command at the device,
+// through the real processes, beside ddsperf's round trip of a message of the same size in the same
+// run. Prints JSON.
+//
+// An observer stands beside the device. When the device's frame reaches it, it reaches the plant
+// too, which publishes the sensor frame: from there to the command's arrival are three hops,
+// sensor_frame, actuator_command, ecu_command. From the device's stamp on it is four.
 //
 //   erp_latency [GRAPH.xml] [SECONDS]
 #include <sys/wait.h>
@@ -61,8 +66,22 @@ std::string content(const std::string& file) {
   return text;
 }
 
-/// Stands beside the device: hears its frames' stamps and the commands that answer them.
-Quantiles observe(const std::string& graph, const std::string& seconds, const std::string& folder) {
+/// One frame's way, seen from beside the device.
+struct Seen {
+  std::int64_t stamped_ns, arrived_ns;
+};
+struct Observed {
+  Quantiles three_hops, four_hops;
+};
+
+/// The start of a run is left out.
+Quantiles settled(std::vector<double> us) {
+  us.erase(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 10));
+  return quantiles(std::move(us));
+}
+
+/// Launches the graph and hears the device's frames and the commands that answer them.
+Observed observe(const std::string& graph, const std::string& seconds, const std::string& folder) {
   const auto participant = node::join("latency");
   node::Wake wake;
   node::Reader<erp::EcuFrame> frames(participant, wake, 64);
@@ -70,24 +89,27 @@ Quantiles observe(const std::string& graph, const std::string& seconds, const st
   const pid_t erp =
       start({ERP_BIN_DIR "/erp", "launch", graph, "--for", seconds + "s", "--out", folder + "/run"},
             folder + "/launch.txt");
-  std::map<std::uint64_t, std::int64_t> sent_ns;
-  std::vector<double> us;
+  std::map<std::uint64_t, Seen> sent;
+  std::vector<double> three_us, four_us;
   int status = 0;
   while (waitpid(erp, &status, WNOHANG) == 0) {
     pollfd waiting{wake.descriptor(), POLLIN, 0};
     poll(&waiting, 1, 100);
     wake.clear();
-    frames.take([&](const erp::EcuFrame& frame) { sent_ns[frame.sequence] = frame.stamp_ns; });
+    frames.take([&](const erp::EcuFrame& frame) {
+      sent[frame.sequence] = {frame.stamp_ns, node::wall_ns()};
+    });
     commands.take([&](const erp::EcuCommand& command) {
-      const auto sent = sent_ns.find(command.answers);
-      if (sent == sent_ns.end()) return;
-      us.push_back(1e-3 * static_cast<double>(node::wall_ns() - sent->second));
-      sent_ns.erase(sent_ns.begin(), std::next(sent));
+      const auto seen = sent.find(command.answers);
+      if (seen == sent.end()) return;
+      const auto now_ns = node::wall_ns();
+      three_us.push_back(1e-3 * static_cast<double>(now_ns - seen->second.arrived_ns));
+      four_us.push_back(1e-3 * static_cast<double>(now_ns - seen->second.stamped_ns));
+      sent.erase(sent.begin(), std::next(seen));
     });
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) std::cerr << content(folder + "/launch.txt");
-  us.erase(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 10));  // the start
-  return quantiles(us);
+  return {settled(std::move(three_us)), settled(std::move(four_us))};
 }
 
 /// ddsperf prints half round trips; the medians of its one-second lines.
@@ -130,11 +152,15 @@ int main(int argc, char** argv) {
   setenv("CYCLONEDDS_URI", ("file://" + loopback).c_str(), 1);
   const auto round_trip = peer(seconds, 256, folder);
   std::printf("{\n");
-  print("frame_to_command", loop);
+  print("sensor_frame_to_command", loop.three_hops);
+  print("device_frame_to_command", loop.four_hops);
   print("ddsperf_round_trip", round_trip);
-  std::printf("  \"hops\": 4, \"ddsperf_hops\": 2, \"bytes\": 256,\n");
-  std::printf("  \"ratio_p50\": %.2f, \"ratio_p99\": %.2f\n}\n", loop.p50_us / round_trip.p50_us,
-              loop.p99_us / round_trip.p99_us);
+  std::printf("  \"hops\": [3, 4, 2], \"bytes\": 256,\n");
+  std::printf("  \"ratio_p50\": %.2f, \"ratio_p99\": %.2f,\n",
+              loop.three_hops.p50_us / round_trip.p50_us,
+              loop.three_hops.p99_us / round_trip.p99_us);
+  std::printf("  \"ratio_from_device_p50\": %.2f, \"ratio_from_device_p99\": %.2f\n}\n",
+              loop.four_hops.p50_us / round_trip.p50_us, loop.four_hops.p99_us / round_trip.p99_us);
   std::filesystem::remove_all(folder);
-  return loop.count > 0 && round_trip.count > 0 ? 0 : 1;
+  return loop.three_hops.count > 0 && round_trip.count > 0 ? 0 : 1;
 }
