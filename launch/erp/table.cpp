@@ -59,16 +59,17 @@ std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows
 }
 
 std::vector<std::string> render_rows(const std::vector<Row>& rows) {
+  // what tells most stands left: a narrow terminal cuts off the right
   std::vector<std::vector<std::string>> cells{{"component", "state", "pid", "rate", "age p50",
-                                               "p99", "jitter p99", "overruns", "missed",
-                                               "restarts", "cpu", "note"}};
+                                               "p99", "cpu", "restarts", "missed", "overruns",
+                                               "jitter p99", "note"}};
   for (const auto& row : rows)
     cells.push_back({row.name, row.state, row.pid > 0 ? std::to_string(row.pid) : "-",
                      rate(row.rate_Hz), microseconds(row.age_p50_us), microseconds(row.age_p99_us),
-                     microseconds(row.jitter_p99_us), std::to_string(row.overruns),
-                     std::to_string(row.missed),
+                     row.cpu_percent < 0 ? "-" : decimal("%.0f %%", row.cpu_percent),
                      row.restarts < 0 ? "-" : std::to_string(row.restarts),
-                     row.cpu_percent < 0 ? "-" : decimal("%.0f %%", row.cpu_percent), row.note});
+                     std::to_string(row.missed), std::to_string(row.overruns),
+                     microseconds(row.jitter_p99_us), row.note});
   return align(cells, {false, false, true, true, true, true, true, true, true, true, true, false});
 }
 
