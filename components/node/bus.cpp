@@ -36,20 +36,27 @@ void open_domain(dds_domainid_t id) {
   static const Entity domain(dds_create_domain(id, loopback), "open DDS domain on loopback");
 }
 
-/// What was written before a listener was attached is seen by it. DDS's own locks say so too, but
-/// not to a thread sanitizer, which cannot look into DDS.
-std::atomic<unsigned> attached = 0;
+/// A listener sees what was written before it was attached, and who deletes its reader sees what it
+/// has done. DDS's own locks say so too, but not to a thread sanitizer, which cannot look into DDS.
+std::atomic<unsigned> attached = 0, handled = 0;
 
 void on_data(dds_entity_t, void* with) {
   attached.load(std::memory_order_acquire);
   const auto& arrival = *static_cast<const Arrival*>(with);
   arrival.act(arrival.with);
+  handled.fetch_add(1, std::memory_order_release);
 }
 
 }  // namespace
 
 Entity::Entity(dds_entity_t id, const char* operation) : id_(id) {
   if (id < 0) throw std::runtime_error(std::string(operation) + ": " + dds_strretcode(-id));
+}
+
+Entity::~Entity() {
+  if (id_ <= 0) return;
+  dds_delete(id_);  // waits for listeners that run
+  handled.load(std::memory_order_acquire);
 }
 
 const char* loopback_config() { return loopback; }

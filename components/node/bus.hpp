@@ -22,9 +22,7 @@ class Entity {
   Entity(dds_entity_t id, const char* operation);
   Entity(Entity&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
   Entity& operator=(Entity&& other) noexcept { return std::swap(id_, other.id_), *this; }
-  ~Entity() {
-    if (id_ > 0) dds_delete(id_);
-  }
+  ~Entity();
   dds_entity_t id() const { return id_; }
 
  private:
