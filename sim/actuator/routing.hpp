@@ -7,6 +7,7 @@
 
 #include "interfaces/robot/robot.hpp"
 #include "sim/actuator/sphere_wrap.hpp"
+#include "sim/skeleton/pose.hpp"
 
 /// A tendon's path over the bodies: points it passes and spherical pulleys it may wrap around.
 ///
@@ -18,17 +19,6 @@
 /// sum to zero, and their power is −F dL/dt. Several pulleys between two points are solved one
 /// after the other, in turns, until the path rests.
 namespace sim {
-
-/// Where a body's frame is, in the world.
-struct BodyPose {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Vec3 position_m = Vec3::Zero();
-};
-
-/// How it moves: angular velocity and the velocity of its frame's origin, world axes.
-struct BodyTwist {
-  Vec3 angular_rad_per_s = Vec3::Zero(), linear_m_per_s = Vec3::Zero();
-};
 
 inline constexpr int max_path_elements = 12;
 

@@ -46,6 +46,11 @@ struct BulletSkeleton::Bullet {
       }
     }
 
+    void pull_down() {
+      clearMultiBodyForces();
+      applyGravity();
+    }
+
    private:
     Bullet& owner_;
   };
@@ -65,6 +70,8 @@ struct BulletSkeleton::Bullet {
   void rub(BulletTree& tree, double dt);
   void find_limits(BulletTree& tree, double dt);
   void invert_inertia(BulletTree& tree);
+  std::vector<int> coordinates_of(int tree) const;
+  Response respond();
 
   RobotTree robot;
   Vec3 gravity;

@@ -39,6 +39,41 @@ void BulletSkeleton::Bullet::invert_inertia(BulletTree& tree) {
   }
 }
 
+/// Where a tree's coordinates stand among all, in the order of the bodies: Bullet keeps each tree's
+/// own together.
+std::vector<int> BulletSkeleton::Bullet::coordinates_of(int tree) const {
+  std::vector<int> ours;
+  int next = 0;
+  for (const BulletPlace& place : places) {
+    if (place.link < 0) continue;
+    const int dofs = trees[place.tree].body->getLink(place.link).m_dofCount;
+    for (int d = 0; d < dofs; ++d, ++next)
+      if (place.tree == tree) ours.push_back(next);
+  }
+  return ours;
+}
+
+BulletSkeleton::Response BulletSkeleton::Bullet::respond() {
+  int n = 0;
+  for (BulletTree& tree : trees) n += tree.body->getNumDofs();
+  Response all{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  world.pull_down();
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    btMultiBody& b = *trees[t].body;
+    const int own = b.getNumDofs();
+    if (own == 0) continue;
+    b.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r, scratch_v, scratch_m,
+                                                           false, false, false);
+    const Eigen::VectorXd a = Eigen::Map<const Eigen::VectorXd>(&scratch_r[own] + 6, own);
+    invert_inertia(trees[t]);
+    const std::vector<int> ours = coordinates_of(static_cast<int>(t));
+    all.inverse_inertia(ours, ours) = trees[t].inverse_inertia;
+    all.acceleration(ours) = a;
+  }
+  world.clearMultiBodyForces();
+  return all;
+}
+
 void BulletSkeleton::Bullet::correct(BulletTree& tree, double dt) {
   btMultiBody& b = *tree.body;
   const int n = b.getNumDofs();

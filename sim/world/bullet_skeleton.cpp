@@ -46,6 +46,8 @@ void BulletSkeleton::step(double dt_s) {
   bullet_->read();
 }
 
+BulletSkeleton::Response BulletSkeleton::respond() { return bullet_->respond(); }
+
 double BulletSkeleton::energy_J() const {
   double energy = 0;
   for (std::size_t k = 0; k < bullet_->robot.bodies.size(); ++k) {

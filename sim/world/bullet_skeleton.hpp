@@ -1,12 +1,12 @@
 #pragma once
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "sim/actuator/routing.hpp"
-#include "sim/world/robot_tree.hpp"
+#include "sim/skeleton/joint_reading.hpp"
+#include "sim/skeleton/pose.hpp"
+#include "sim/skeleton/robot_tree.hpp"
 
 /// The robot's bones and joints in Bullet: one btMultiBody a tree, double precision.
 ///
@@ -20,14 +20,6 @@
 /// 1 ms, against 0.07 J with the correction, for one more pass of the articulated-body algorithm.
 /// Bullet's own damping and sleeping are off.
 namespace sim {
-
-/// Position: revolute [0] rad; spherical a unit quaternion w x y z from child to parent.
-/// Velocity: revolute [0]; spherical x y z in the child's frame.
-struct JointReading {
-  erp::JointType type = erp::JointType::fixed;
-  std::array<double, 4> position{};
-  std::array<double, 3> velocity_rad_per_s{};
-};
 
 class BulletSkeleton {
  public:
@@ -45,6 +37,13 @@ class BulletSkeleton {
   /// A force at a world point of a body, until the next step.
   void push(int body, const Vec3& at_m, const Vec3& force_N);
   void step(double dt_s);
+  /// What all joint coordinates answer, in the order of SkeletonModel: the inverse of their inertia
+  /// and their accelerations under gravity, without friction and limits. Forgets what was pushed.
+  struct Response {
+    Eigen::MatrixXd inverse_inertia;
+    Eigen::VectorXd acceleration;
+  };
+  Response respond();
   /// Kinetic and potential energy.
   double energy_J() const;
 

@@ -6,6 +6,7 @@
 
 #include "interfaces/topics.hpp"
 #include "sim/actuator/motor.hpp"
+#include "sim/actuator/routing.hpp"
 #include "sim/actuator/tendon.hpp"
 #include "sim/world/bullet_skeleton.hpp"
 

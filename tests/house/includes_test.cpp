@@ -28,7 +28,7 @@ const std::vector<Rule> rules{
      {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
     {"components/",
      {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
-    {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/"}},
+    {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},
     {"sim/skeleton/", {"interfaces/"}},
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},

@@ -1,4 +1,4 @@
-#include "sim/world/robot_tree.hpp"
+#include "sim/skeleton/robot_tree.hpp"
 
 #include <algorithm>
 #include <stdexcept>

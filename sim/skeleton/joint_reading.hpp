@@ -1,0 +1,17 @@
+#pragma once
+#include <array>
+
+#include "interfaces/robot/robot.hpp"
+
+namespace sim {
+
+/// Where a joint is and how it moves.
+/// Position: revolute [0] rad; spherical a unit quaternion w x y z from child to parent.
+/// Velocity: revolute [0]; spherical x y z in the child's frame.
+struct JointReading {
+  erp::JointType type = erp::JointType::fixed;
+  std::array<double, 4> position{};
+  std::array<double, 3> velocity_rad_per_s{};
+};
+
+}  // namespace sim

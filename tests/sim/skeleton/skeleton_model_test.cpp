@@ -1,0 +1,152 @@
+#include "sim/skeleton/skeleton_model.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "sim/world/bullet_skeleton.hpp"
+#include "tests/sim/skeletons.hpp"
+
+using namespace sim;
+
+namespace {
+
+const Vec3 down(0.3, -0.2, -9.81);  // not along an axis
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  xml::Vec3 vector(double size) {
+    return {between(-size, size), between(-size, size), between(-size, size)};
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+/// Two trees of eight bodies, with branches, of every joint type.
+erp::Robot thicket(Draw& draw) {
+  std::vector<erp::Body> bodies{rigs::root("left"), rigs::root("right")};
+  std::vector<erp::Joint> joints;
+  for (int k = 0; k < 16; ++k) {
+    const std::string name = "bone_" + std::to_string(k);
+    const std::string parent = k < 2 ? bodies[k].name : "bone_" + std::to_string(k - 1 - k % 2);
+    const double a = draw.between(0.01, 0.02);
+    bodies.push_back(rigs::bone(name, draw.between(0.3, 3), draw.vector(0.1),
+                                {a, draw.between(0.01, 0.02), draw.between(0.012, 0.018)}));
+    const auto type = k % 5 == 4   ? erp::JointType::fixed
+                      : k % 3 == 0 ? erp::JointType::spherical
+                                   : erp::JointType::revolute;
+    joints.push_back(
+        rigs::joint("joint_" + std::to_string(k), type, parent, name, draw.vector(0.3)));
+    joints.back().axis = draw.vector(1);
+    joints.back().initial_rad = draw.between(-1, 1);
+  }
+  return rigs::robot(bodies, joints);
+}
+
+std::vector<JointReading> posture(const std::vector<erp::Joint>& joints, Draw& draw) {
+  std::vector<JointReading> all;
+  for (const auto& joint : joints) {
+    JointReading reading{.type = joint.type};
+    for (double& v : reading.velocity_rad_per_s) v = draw.between(-3, 3);
+    if (joint.type == erp::JointType::spherical) {
+      Eigen::Vector4d q(draw.between(-1, 1), draw.between(-1, 1), draw.between(-1, 1),
+                        draw.between(0.1, 1));
+      q.normalize();
+      for (int i = 0; i < 4; ++i) reading.position[static_cast<std::size_t>(i)] = q[i];
+    } else {
+      reading.position[0] =
+          joint.type == erp::JointType::fixed ? joint.initial_rad : draw.between(-2, 2);
+    }
+    all.push_back(reading);
+  }
+  return all;
+}
+
+Eigen::VectorXd random_vector(int n, Draw& draw) {
+  return Eigen::VectorXd::NullaryExpr(n, [&] { return draw.between(-5, 5); });
+}
+
+}  // namespace
+
+TEST_CASE("inverse and forward dynamics undo each other") {
+  Draw draw(1);
+  for (int i = 0; i < 20; ++i) {
+    const RobotTree tree(thicket(draw));
+    SkeletonModel model(tree, down);
+    model.place(posture(tree.joints, draw));
+    const Eigen::VectorXd a = random_vector(model.coordinates(), draw);
+    Eigen::VectorXd tau;
+    model.inverse(a, tau);
+    CHECK((model.forward(tau) - a).cwiseAbs().maxCoeff() < 1e-9);
+  }
+}
+
+TEST_CASE("inertia and acceleration agree with Bullet's to 1e-9") {
+  Draw draw(2);
+  for (int i = 0; i < 20; ++i) {
+    const RobotTree tree(thicket(draw));
+    SkeletonModel model(tree, down);
+    BulletSkeleton bullet(tree, down, {});
+    const auto joints = posture(tree.joints, draw);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      bullet.set_joint(static_cast<int>(j), joints[j]);
+    model.place(bullet.joints());
+    const auto response = bullet.respond();
+    Eigen::MatrixXd h;
+    model.inertia(h);
+    const auto n = model.coordinates();
+    REQUIRE(response.acceleration.size() == n);
+    CHECK((h * response.inverse_inertia - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <
+          1e-9);
+    const Eigen::VectorXd a = model.forward(Eigen::VectorXd::Zero(n));
+    CHECK((a - response.acceleration).norm() < 1e-9 * a.norm());
+    CHECK(model.energy_J() == Approx(bullet.energy_J()).epsilon(1e-12));
+    for (std::size_t k = 0; k < tree.bodies.size(); ++k) {
+      CHECK((model.poses()[k].position_m - bullet.poses()[k].position_m).norm() < 1e-12);
+      CHECK((model.twists()[k].linear_m_per_s - bullet.twists()[k].linear_m_per_s).norm() < 1e-11);
+    }
+  }
+}
+
+TEST_CASE("the torques of a force are its power over the joints' speeds") {
+  Draw draw(3);
+  const RobotTree tree(thicket(draw));
+  SkeletonModel model(tree, down);
+  const auto joints = posture(tree.joints, draw);
+  model.place(joints);
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(model.coordinates());
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (const int first = model.first_of(static_cast<int>(j)); first >= 0)
+      for (int d = 0; d < (joints[j].type == erp::JointType::spherical ? 3 : 1); ++d)
+        v[first + d] = joints[j].velocity_rad_per_s[static_cast<std::size_t>(d)];
+  for (int body = 0; body < static_cast<int>(tree.bodies.size()); ++body) {
+    const Vec3 at(0.2, -0.1, 0.4), force(3, 5, -2);
+    Eigen::VectorXd tau = Eigen::VectorXd::Zero(model.coordinates());
+    model.add_torques(body, at, force, tau);
+    const BodyTwist& twist = model.twists()[static_cast<std::size_t>(body)];
+    const Vec3 arm = at - model.poses()[static_cast<std::size_t>(body)].position_m;
+    const double power_W = force.dot(twist.linear_m_per_s + twist.angular_rad_per_s.cross(arm));
+    CHECK(tau.dot(v) == Approx(power_W).margin(1e-12));
+  }
+}
+
+TEST_CASE("a pendulum at rest needs m g l sin q, and a locked joint no coordinate") {
+  const RobotTree tree(rigs::pendulum(0.5));
+  SkeletonModel model(tree, Vec3(0, 0, -9.81));
+  Eigen::VectorXd tau;
+  model.gravity_torques(tau);
+  REQUIRE(tau.size() == 1);
+  CHECK(std::abs(tau[0]) ==
+        Approx(rigs::pendulum_mass_kg * 9.81 * rigs::pendulum_l_m * std::sin(0.5)));
+  const std::vector<std::string> lock{"hinge"};
+  SkeletonModel locked(tree, Vec3(0, 0, -9.81), lock);
+  CHECK(locked.coordinates() == 0);
+  CHECK((locked.poses()[1].rotation - model.poses()[1].rotation).norm() < 1e-15);
+  const std::vector<std::string> nobody{"knee"};
+  CHECK_THROWS_WITH(SkeletonModel(tree, down, nobody), Catch::Contains("knee"));
+}
