@@ -86,6 +86,14 @@ void SkeletonModel::place(std::span<const JointReading> joints) {
   }
 }
 
+void SkeletonModel::gather_velocity(std::span<const JointReading> joints,
+                                    Eigen::VectorXd& v) const {
+  v.resize(coordinates_);
+  for (const Link& link : links_)
+    for (int d = 0; d < link.dofs; ++d)
+      v[link.first + d] = joints[link.joint].velocity_rad_per_s[static_cast<std::size_t>(d)];
+}
+
 /// Gravity is the world falling upwards. What a joint's own speed adds to its acceleration as the
 /// child's frame sees it is v × S q̇ = v × (v − X v_parent).
 void SkeletonModel::newton_euler(const Eigen::VectorXd* a, bool moving, Eigen::VectorXd& tau) {

@@ -38,6 +38,8 @@ class SkeletonModel {
   std::span<const BodyPose> poses() const { return poses_; }
   std::span<const BodyTwist> twists() const { return twists_; }
 
+  /// The joints' velocities as one v.
+  void gather_velocity(std::span<const JointReading> joints, Eigen::VectorXd& v) const;
   /// The torques that accelerate by `a`.
   void inverse(const Eigen::VectorXd& a, Eigen::VectorXd& tau) { newton_euler(&a, true, tau); }
   /// C + τ_G.

@@ -8,13 +8,16 @@
 #include "sim/actuator/motor.hpp"
 #include "sim/actuator/routing.hpp"
 #include "sim/actuator/tendon.hpp"
+#include "sim/skeleton/skeleton_model.hpp"
 #include "sim/world/bullet_skeleton.hpp"
+#include "sim/world/tendon_solver.hpp"
 
 /// A robot, simulated: bones in Bullet, tendons over them, motors at their ends.
 ///
-/// One step from t to t + dt (paper, 4.2): the tensions F(t) follow from the paths; they pull on
-/// the bodies and load the motors; the motors move exactly with V and F held; Bullet moves the
-/// bones semi-implicitly. First order in dt. Explicit tendons: at 1 ms stable up to about 1e4 N/m.
+/// One step from t to t + dt (paper, 4.2): the tensions follow from the paths and from the motion
+/// they cause together (tendon_solver.hpp: stable for any stiffness); they pull on the bodies and
+/// load the motors; the motors move exactly with V and F held; Bullet moves the bones
+/// semi-implicitly. First order in dt.
 ///
 /// Same robot, options and voltages: bit-identical readings. No clock, no heap in `step`.
 namespace sim {
@@ -22,11 +25,12 @@ namespace sim {
 struct WorldOptions {
   std::vector<std::string> lock;  ///< joints held at their initial angle
   double usual_step_s = 0.001;    ///< other dt work too, more slowly
+  double theta = 0;               ///< of the tendons, ½ … 1; 0: each step chooses
 };
 
 struct ActuatorReading {
-  double tension_N = 0;
-  double length_m = 0;  ///< of the tendon's path
+  double tension_N = 0;  ///< over the last step
+  double length_m = 0;   ///< of the tendon's path
   double current_A = 0, speed_rad_per_s = 0, shaft_rad = 0;
   double line_m = 0;  ///< change since the start; negative: wound up
 };
@@ -70,12 +74,19 @@ class World {
     PathShape shape;
   };
   Chain make_chain(const erp::Actuator& actuator) const;
+  StretchedTendon stretched(const Chain& chain) const;
+  std::span<const double> pull(double dt_s);
   void read();
 
   erp::Robot robot_;
   WorldOptions options_;
   RobotTree tree_;
   std::unique_ptr<BulletSkeleton> skeleton_;
+  std::unique_ptr<SkeletonModel> model_;
+  std::unique_ptr<TendonSolver> solver_;
+  Eigen::MatrixXd inertia_, rows_;
+  Eigen::VectorXd row_, velocity_, bias_, momentum_;
+  std::vector<StretchedTendon> stretched_;
   std::vector<Chain> chains_;
   std::vector<ActuatorReading> readings_;
   double time_s_ = 0;
