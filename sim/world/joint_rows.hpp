@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <span>
 #include <vector>
 
@@ -38,11 +38,14 @@ class JointRows {
             Eigen::VectorXd& v);
 
  private:
-  double relax(const JointFriction& friction, Eigen::Vector3d& impulse, const Eigen::MatrixXd& w,
-               double dt_s, Eigen::VectorXd& v) const;
+  /// The axes in which W of a spherical joint is diagonal.
+  using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+  double relax(const JointFriction& friction, Eigen::Vector3d& impulse, const Axes& axes,
+               const Eigen::MatrixXd& w, double dt_s, Eigen::VectorXd& v) const;
 
   std::vector<JointFriction> frictions_;
   std::vector<Eigen::Vector3d> impulses_;
+  std::vector<Axes> axes_;
   std::vector<double> limit_impulses_;
 };
 
