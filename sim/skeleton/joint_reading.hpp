@@ -14,4 +14,9 @@ struct JointReading {
   std::array<double, 3> velocity_rad_per_s{};
 };
 
+/// How many velocities a joint of that type has.
+constexpr int coordinates_of(erp::JointType type) {
+  return type == erp::JointType::spherical ? 3 : type == erp::JointType::revolute ? 1 : 0;
+}
+
 }  // namespace sim

@@ -3,18 +3,13 @@
 
 #include "sim/skeleton/pose.hpp"
 
-/// Spatial vectors: angular part above, linear part below, about a frame's own origin and axes.
+/// Spatial vectors in the world's frame: angular part above, linear part below, both about the
+/// world's origin. What bodies have in common simply adds up: velocities along a limb, forces and
+/// inertias back to its root.
 /// Source: Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2.
 namespace sim {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-
-inline Eigen::Matrix3d skew(const Vec3& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 inline Vec6 spatial(const Vec3& angular, const Vec3& linear) {
   Vec6 v;
@@ -22,30 +17,13 @@ inline Vec6 spatial(const Vec3& angular, const Vec3& linear) {
   return v;
 }
 
-/// A child's frame in its parent's: turned by `rotation` (child to parent), its origin at `at_m`.
-struct Placement {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Vec3 at_m = Vec3::Zero();
+/// The motion of turning about an axis through a point.
+inline Vec6 turning(const Vec3& axis, const Vec3& at_m) { return spatial(axis, at_m.cross(axis)); }
 
-  /// A velocity or acceleration of the parent, as the child's frame sees it.
-  Vec6 motion_to_child(const Vec6& v) const {
-    const Vec3 angular = v.head<3>(), linear = v.tail<3>();
-    return spatial(rotation.transpose() * angular,
-                   rotation.transpose() * (linear + angular.cross(at_m)));
-  }
-  /// A moment and force on the child, as the parent feels them.
-  Vec6 force_to_parent(const Vec6& f) const {
-    const Vec3 force = rotation * f.tail<3>();
-    return spatial(rotation * f.head<3>() + at_m.cross(force), force);
-  }
-  /// The matrix of `motion_to_child`; its transpose is `force_to_parent`'s.
-  Mat6 matrix() const {
-    const Eigen::Matrix3d e = rotation.transpose();
-    Mat6 x;
-    x << e, Eigen::Matrix3d::Zero(), -e * skew(at_m), e;
-    return x;
-  }
-};
+/// A force at a point, as moment and force.
+inline Vec6 wrench(const Vec3& at_m, const Vec3& force_N) {
+  return spatial(at_m.cross(force_N), force_N);
+}
 
 /// v × m for motions.
 inline Vec6 cross_motion(const Vec6& v, const Vec6& m) {
@@ -59,13 +37,31 @@ inline Vec6 cross_force(const Vec6& v, const Vec6& f) {
   return spatial(w.cross(n) + l.cross(p), w.cross(p));
 }
 
-/// Of mass m with its centre at c and inertia I about it, about the frame's origin.
-inline Mat6 spatial_inertia(double mass_kg, const Vec3& com_m, const Vec3& inertia_kg_m2) {
-  const Eigen::Matrix3d c = skew(com_m);
-  Mat6 i;
-  i << Eigen::Matrix3d(inertia_kg_m2.asDiagonal()) + mass_kg * c * c.transpose(), mass_kg * c,
-      mass_kg * c.transpose(), mass_kg * Eigen::Matrix3d::Identity();
-  return i;
-}
+/// Of a rigid body, or of several that move as one: mass, first moment, second moment about the
+/// world's origin.
+struct SpatialInertia {
+  double mass_kg = 0;
+  Vec3 moment_kg_m = Vec3::Zero();                         ///< m c
+  Eigen::Matrix3d second_kg_m2 = Eigen::Matrix3d::Zero();  ///< I about the origin
+
+  /// Mass m with its centre at c and inertia about it in axes turned by `rotation`.
+  static SpatialInertia of(double mass_kg, const Vec3& com_m, const Eigen::Matrix3d& rotation,
+                           const Vec3& inertia_kg_m2) {
+    Eigen::Matrix3d second = rotation * inertia_kg_m2.asDiagonal() * rotation.transpose();
+    second +=
+        mass_kg * (com_m.squaredNorm() * Eigen::Matrix3d::Identity() - com_m * com_m.transpose());
+    return {mass_kg, mass_kg * com_m, second};
+  }
+  SpatialInertia& operator+=(const SpatialInertia& other) {
+    mass_kg += other.mass_kg;
+    moment_kg_m += other.moment_kg_m;
+    second_kg_m2 += other.second_kg_m2;
+    return *this;
+  }
+  Vec6 operator*(const Vec6& v) const {
+    const Vec3 w = v.head<3>(), l = v.tail<3>();
+    return spatial(second_kg_m2 * w + moment_kg_m.cross(l), mass_kg * l - moment_kg_m.cross(w));
+  }
+};
 
 }  // namespace sim

@@ -7,13 +7,10 @@ namespace sim {
 
 BulletSkeleton::Bullet::Bullet(const RobotTree& tree_of_robot, const Vec3& g,
                                std::span<const std::string> lock)
-    : robot(tree_of_robot), gravity(g) {
+    : robot(tree_of_robot) {
   world.setGravity(bt(g));
   place_bodies(lock);
   for (BulletTree& tree : trees) build(tree);
-  poses.resize(robot.bodies.size());
-  twists.resize(robot.bodies.size());
-  coms.resize(robot.bodies.size());
   joints.resize(robot.joints.size());
   read();
 }
@@ -23,6 +20,7 @@ void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
     if (std::none_of(robot.joints.begin(), robot.joints.end(),
                      [&](const erp::Joint& j) { return j.name == name; }))
       throw std::invalid_argument("cannot lock joint \"" + name + "\": the robot has none such");
+  int first = 0;
   for (std::size_t k = 0; k < robot.bodies.size(); ++k) {
     const TreeBody& body = robot.bodies[k];
     if (body.parent < 0) {
@@ -31,10 +29,12 @@ void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
       continue;
     }
     BulletTree& tree = trees[places[body.parent].tree];
-    const std::string& joint = robot.joints[body.joint].name;
-    const bool locked = std::find(lock.begin(), lock.end(), joint) != lock.end();
-    places.push_back({places[body.parent].tree, static_cast<int>(tree.links.size()), locked});
+    const erp::Joint& joint = robot.joints[body.joint];
+    const bool locked = std::find(lock.begin(), lock.end(), joint.name) != lock.end();
+    places.push_back(
+        {places[body.parent].tree, static_cast<int>(tree.links.size()), locked, first});
     tree.links.push_back(static_cast<int>(k));
+    if (!locked) first += coordinates_of(joint.type);
   }
 }
 
@@ -48,22 +48,9 @@ void BulletSkeleton::Bullet::build(BulletTree& tree) {
   b.setAngularDamping(0);
   b.setMaxCoordinateVelocity(1e9);
   b.setMaxAppliedImpulse(1e9);
-  std::vector<JointFriction> frictions;
-  for (int link = 0; link < links; ++link) {
-    const erp::Joint& joint = robot.joints[robot.bodies[tree.links[link]].joint];
-    const btMultibodyLink& l = b.getLink(link);
-    if (l.m_dofCount > 0 && (joint.viscous_Nm_s_per_rad > 0 || joint.coulomb_Nm > 0))
-      frictions.push_back(
-          {l.m_dofOffset, l.m_dofCount, joint.viscous_Nm_s_per_rad, joint.coulomb_Nm});
-    if (l.m_jointType == btMultibodyLink::eRevolute) b.setJointPos(link, joint.initial_rad);
-  }
-  const int n = b.getNumDofs();
-  tree.rows = JointRows(std::move(frictions), n);
-  tree.limits.reserve(static_cast<std::size_t>(2 * n));
-  tree.inverse_inertia.resize(n, n);
-  tree.velocity.resize(n);
-  const auto size = static_cast<std::size_t>(6 + n);
-  if (unit.size() < size) unit.resize(size), response.resize(size);
+  for (int link = 0; link < links; ++link)
+    if (b.getLink(link).m_jointType == btMultibodyLink::eRevolute)
+      b.setJointPos(link, robot.joints[robot.bodies[tree.links[link]].joint].initial_rad);
   if (links > 0) world.addMultiBody(&b);
 }
 

@@ -5,7 +5,6 @@
 
 #include "sim/world/bullet_headers.hpp"
 #include "sim/world/bullet_skeleton.hpp"
-#include "sim/world/joint_rows.hpp"
 
 /// The inside of BulletSkeleton; included by its own sources only.
 namespace sim {
@@ -13,46 +12,30 @@ namespace sim {
 inline btVector3 bt(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline btVector3 bt(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// One tree: its multibody, and the rows of its joints.
+/// One tree: its multibody, and the body index of each of its links.
 struct BulletTree {
   std::unique_ptr<btMultiBody> body;
-  JointRows rows{{}, 0};
-  std::vector<int> links;  ///< body index of each link
-  std::vector<JointLimit> limits;
-  Eigen::MatrixXd inverse_inertia;
-  Eigen::VectorXd velocity;
-  Eigen::VectorXd velocity_before;  ///< at the start of the step
+  std::vector<int> links;
 };
 
-/// Where a body lives in Bullet.
+/// Where a body lives in Bullet, and where its joint's coordinates begin in v.
 struct BulletPlace {
   int tree = 0, link = -1;  ///< link −1: the fixed base
   bool locked = false;
+  int first = 0;
 };
 
-/// Bullet's world with our joint rows between its forces and its motion.
 struct BulletSkeleton::Bullet {
+  /// Bullet's world without its own accelerations: it integrates the velocities it is given.
   class World : public btMultiBodyDynamicsWorld {
    public:
-    World(Bullet& owner)
-        : btMultiBodyDynamicsWorld(&owner.dispatcher, &owner.broadphase, &owner.solver,
-                                   &owner.configuration),
-          owner_(owner) {}
-    void solveInternalConstraints(btContactSolverInfo& info) override {
-      btMultiBodyDynamicsWorld::solveInternalConstraints(info);
-      for (BulletTree& tree : owner_.trees) {
-        owner_.correct(tree, info.m_timeStep);
-        owner_.rub(tree, info.m_timeStep);
-      }
-    }
-
+    using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
+    void solveExternalForces(btContactSolverInfo&) override {}
+    void solveInternalConstraints(btContactSolverInfo&) override {}
     void pull_down() {
       clearMultiBodyForces();
       applyGravity();
     }
-
-   private:
-    Bullet& owner_;
   };
 
   Bullet(const RobotTree& robot, const Vec3& gravity, std::span<const std::string> lock);
@@ -64,32 +47,18 @@ struct BulletSkeleton::Bullet {
   void build(BulletTree& tree);
   void add_link(BulletTree& tree, int link, int body);
   void read();
-  void read_pose(int body);
   void read_joint(int body);
-  void correct(BulletTree& tree, double dt);
-  void rub(BulletTree& tree, double dt);
-  void find_limits(BulletTree& tree, double dt);
-  void invert_inertia(BulletTree& tree);
-  std::vector<int> coordinates_of(int tree) const;
-  Response respond();
+  void respond(const BulletTree& tree, Response& all);
 
   RobotTree robot;
-  Vec3 gravity;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btMultiBodyConstraintSolver solver;
   std::vector<BulletTree> trees;
-  World world{*this};
+  World world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<BulletPlace> places;  ///< of the bodies
-  std::vector<BodyPose> poses;
-  std::vector<BodyTwist> twists;
-  std::vector<Vec3> coms;  ///< world
   std::vector<JointReading> joints;
-  std::vector<btScalar> unit, response;
-  btAlignedObjectArray<btScalar> scratch_r;
-  btAlignedObjectArray<btVector3> scratch_v;
-  btAlignedObjectArray<btMatrix3x3> scratch_m;
 };
 
 }  // namespace sim

@@ -1,7 +1,5 @@
 #include "sim/world/bullet_skeleton.hpp"
 
-#include <Eigen/Geometry>
-
 #include "sim/world/bullet_inside.hpp"
 
 namespace sim {
@@ -12,8 +10,6 @@ BulletSkeleton::BulletSkeleton(const RobotTree& tree, const Vec3& gravity,
 
 BulletSkeleton::~BulletSkeleton() = default;
 
-std::span<const BodyPose> BulletSkeleton::poses() const { return bullet_->poses; }
-std::span<const BodyTwist> BulletSkeleton::twists() const { return bullet_->twists; }
 std::span<const JointReading> BulletSkeleton::joints() const { return bullet_->joints; }
 
 void BulletSkeleton::set_joint(int joint, const JointReading& reading) {
@@ -30,40 +26,37 @@ void BulletSkeleton::set_joint(int joint, const JointReading& reading) {
   bullet_->read();
 }
 
-void BulletSkeleton::push(int body, const Vec3& at_m, const Vec3& force_N) {
-  const BulletPlace& place = bullet_->places[body];
-  if (place.link < 0) return;
-  btMultiBody& b = *bullet_->trees[place.tree].body;
-  b.addLinkForce(place.link, bt(force_N));  // acts at the centre of mass
-  b.addLinkTorque(place.link, bt((at_m - bullet_->coms[body]).cross(force_N)));
-}
-
-void BulletSkeleton::step(double dt_s) {
-  for (BulletTree& tree : bullet_->trees)
-    tree.velocity_before = Eigen::Map<const Eigen::VectorXd>(tree.body->getVelocityVector() + 6,
-                                                             tree.body->getNumDofs());
+void BulletSkeleton::move(const Eigen::VectorXd& v, double dt_s) {
+  for (const BulletPlace& place : bullet_->places)
+    if (place.link >= 0)
+      bullet_->trees[place.tree].body->setJointVelMultiDof(place.link, v.data() + place.first);
   bullet_->world.stepSimulation(dt_s, 0);
   bullet_->read();
 }
 
-BulletSkeleton::Response BulletSkeleton::respond() { return bullet_->respond(); }
+void BulletSkeleton::Bullet::read() {
+  for (std::size_t k = 0; k < robot.bodies.size(); ++k)
+    if (places[k].link >= 0) read_joint(static_cast<int>(k));
+}
 
-double BulletSkeleton::energy_J() const {
-  double energy = 0;
-  for (std::size_t k = 0; k < bullet_->robot.bodies.size(); ++k) {
-    if (bullet_->places[k].link < 0) continue;
-    const erp::Body& body = bullet_->robot.bodies[k].body;
-    const BodyTwist& twist = bullet_->twists[k];
-    const Vec3 spin = bullet_->poses[k].rotation.transpose() * twist.angular_rad_per_s;
-    const Vec3 velocity =
-        twist.linear_m_per_s +
-        twist.angular_rad_per_s.cross(bullet_->coms[k] - bullet_->poses[k].position_m);
-    const Vec3 inertia(body.inertia_kg_m2[0], body.inertia_kg_m2[1], body.inertia_kg_m2[2]);
-    energy += 0.5 * body.mass_kg * velocity.squaredNorm() +
-              0.5 * spin.dot(inertia.cwiseProduct(spin)) -
-              body.mass_kg * bullet_->gravity.dot(bullet_->coms[k]);
+void BulletSkeleton::Bullet::read_joint(int k) {
+  const int index = robot.bodies[k].joint;
+  const erp::Joint& joint = robot.joints[index];
+  JointReading& reading = joints[index];
+  reading.type = joint.type;
+  if (places[k].locked || joint.type == erp::JointType::fixed) {
+    reading.position = {joint.type == erp::JointType::spherical ? 1.0 : joint.initial_rad, 0, 0, 0};
+    return;
   }
-  return energy;
+  const btMultiBody& b = *trees[places[k].tree].body;
+  const btScalar* q = b.getJointPosMultiDof(places[k].link);
+  const btScalar* v = b.getJointVelMultiDof(places[k].link);
+  if (joint.type == erp::JointType::revolute) {
+    reading.position[0] = q[0], reading.velocity_rad_per_s[0] = v[0];
+  } else {
+    reading.position = {q[3], q[0], q[1], q[2]};
+    reading.velocity_rad_per_s = {v[0], v[1], v[2]};
+  }
 }
 
 }  // namespace sim

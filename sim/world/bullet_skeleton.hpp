@@ -8,17 +8,12 @@
 #include "sim/skeleton/pose.hpp"
 #include "sim/skeleton/robot_tree.hpp"
 
-/// The robot's bones and joints in Bullet: one btMultiBody a tree, double precision.
+/// The robot's bones and joints in Bullet: one btMultiBody a tree, double precision. Bullet holds
+/// where the joints are and moves them; which velocities they get is decided outside
+/// (step_solver.hpp), because Bullet's own step, explicit in all forces, would explode with stiff
+/// tendons and feeds energy into ball joints.
 ///
-/// Bullet gives the articulated-body dynamics and the semi-implicit step. Ours, between its forces
-/// and its motion, are
-///
-///   v⁺ = v + dt a(q, (v + v¹)/2),  v¹ = v + dt a(q, v)     velocity-dependent forces at mid-step
-///   joint friction and limits                             joint_rows.hpp
-///
-/// Bullet's step alone (v⁺ = v¹) feeds energy into ball joints: 7 J in 10 s into the free arm at
-/// 1 ms, against 0.07 J with the correction, for one more pass of the articulated-body algorithm.
-/// Bullet's own damping and sleeping are off.
+/// v: the joints' velocities in the order of SkeletonModel.
 namespace sim {
 
 class BulletSkeleton {
@@ -28,24 +23,20 @@ class BulletSkeleton {
                  std::span<const std::string> lock);
   ~BulletSkeleton();
 
-  std::span<const BodyPose> poses() const;
-  std::span<const BodyTwist> twists() const;
   std::span<const JointReading> joints() const;
   /// Puts a joint somewhere; readings follow. Ignored for a locked joint.
   void set_joint(int joint, const JointReading& reading);
+  /// Moves all joints with velocities v for a time step.
+  void move(const Eigen::VectorXd& v, double dt_s);
 
-  /// A force at a world point of a body, until the next step.
-  void push(int body, const Vec3& at_m, const Vec3& force_N);
-  void step(double dt_s);
-  /// What all joint coordinates answer, in the order of SkeletonModel: the inverse of their inertia
-  /// and their accelerations under gravity, without friction and limits. Forgets what was pushed.
+  /// What Bullet's own dynamics answer here: the inverse of the joints' inertia and their
+  /// accelerations under gravity, without friction and limits; and where the bodies are.
   struct Response {
     Eigen::MatrixXd inverse_inertia;
     Eigen::VectorXd acceleration;
+    std::vector<Vec3> com_m;  ///< of each body; a root's is 0
   };
   Response respond();
-  /// Kinetic and potential energy.
-  double energy_J() const;
 
  private:
   struct Bullet;

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "sim/actuator/muscle_jacobian.hpp"
+
 namespace sim {
 
 World::World(const erp::Robot& robot, const WorldOptions& options)
@@ -14,7 +16,7 @@ World::~World() = default;
 void World::reset() {
   const xml::Vec3 g = robot_.gravity_m_per_s2();
   const Vec3 gravity(g[0], g[1], g[2]);
-  skeleton_ = std::make_unique<BulletSkeleton>(tree_, gravity, options_.lock);
+  bones_ = std::make_unique<BulletSkeleton>(tree_, gravity, options_.lock);
   model_ = std::make_unique<SkeletonModel>(tree_, gravity, options_.lock);
   chains_.clear();
   for (const erp::Actuator& actuator : robot_.actuators) try {
@@ -23,13 +25,10 @@ void World::reset() {
       throw std::invalid_argument("actuator \"" + actuator.name + "\": " + error.what());
     }
   readings_.assign(chains_.size(), {});
-  stretched_.assign(chains_.size(), {});
-  const int tendons = static_cast<int>(chains_.size()), n = model_->coordinates();
-  solver_ = std::make_unique<TendonSolver>(tendons, n, options_.theta);
-  rows_.setZero(tendons, n);
-  row_.setZero(n), velocity_.setZero(n), momentum_.setZero(n);
+  make_solver();
   time_s_ = 0;
   read();
+  read_tensions();
 }
 
 World::Chain World::make_chain(const erp::Actuator& actuator) const {
@@ -41,46 +40,85 @@ World::Chain World::make_chain(const erp::Actuator& actuator) const {
           MotorState{}, shape};
 }
 
+void World::make_solver() {
+  std::vector<JointFriction> frictions;
+  for (int j = 0; j < static_cast<int>(tree_.joints.size()); ++j)
+    if (const erp::Joint& joint = tree_.joints[j]; model_->first_of(j) >= 0)
+      frictions.push_back({model_->first_of(j), coordinates_of(joint.type),
+                           joint.viscous_Nm_s_per_rad, joint.coulomb_Nm});
+  const int n = model_->coordinates();
+  limits_ = std::make_unique<JointLimits>(*model_, tree_.joints);
+  forces_.resize(chains_.size() + static_cast<std::size_t>(limits_->most()));
+  for (OneSidedForce& force : forces_) force.row.reserve(static_cast<std::size_t>(n));
+  solver_ = std::make_unique<StepSolver>(n, static_cast<int>(forces_.size()), frictions);
+  row_.setZero(n), velocity_.setZero(n), momentum_.setZero(n), middle_.setZero(n);
+  inertia_factor_ = Eigen::LLT<Eigen::MatrixXd>(n);
+}
+
 void World::read() {
+  model_->place(joints());
   for (std::size_t k = 0; k < chains_.size(); ++k) {
     Chain& chain = chains_[k];
     chain.routing.solve(poses(), chain.shape);
-    const double rate = length_rate_m_per_s(chain.shape, poses(), twists());
     const MotorState& motor = chain.state;
-    readings_[k] = {
-        chain.tendon.tension_N(chain.shape.length_m, rate, motor.shaft_rad, motor.speed_rad_per_s),
-        chain.shape.length_m,
-        motor.current_A,
-        motor.speed_rad_per_s,
-        motor.shaft_rad,
-        chain.tendon.line_m(motor.shaft_rad)};
+    readings_[k] = {readings_[k].tension_N, chain.shape.length_m,
+                    motor.current_A,        motor.speed_rad_per_s,
+                    motor.shaft_rad,        chain.tendon.line_m(motor.shaft_rad)};
   }
 }
 
-StretchedTendon World::stretched(const Chain& chain) const {
-  const double length_rate = length_rate_m_per_s(chain.shape, poses(), twists());
-  const double winding = chain.tendon.radius_m * chain.state.speed_rad_per_s;
-  return {chain.tendon.stiffness_N_per_m, chain.tendon.damping_N_s_per_m,
-          chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
-          length_rate + winding, winding};
-}
-
-/// The tensions over the next step.
-std::span<const double> World::pull(double dt_s) {
-  model_->place(joints());
-  model_->inertia(inertia_);
-  model_->bias(bias_);
-  model_->gather_velocity(joints(), velocity_);
-  momentum_.noalias() = inertia_ * velocity_;
-  momentum_ -= dt_s * bias_;
+/// Of this instant; a step gives those over the step.
+void World::read_tensions() {
   for (std::size_t k = 0; k < chains_.size(); ++k) {
-    stretched_[k] = stretched(chains_[k]);
-    row_.setZero();
-    for (const PathPull& pull : chains_[k].shape.pulled())
-      model_->add_torques(pull.body, pull.at_m, -pull.direction, row_);
-    rows_.row(static_cast<Eigen::Index>(k)) = row_;
+    const Chain& chain = chains_[k];
+    const double rate = length_rate_m_per_s(chain.shape, poses(), twists());
+    readings_[k].tension_N = chain.tendon.tension_N(
+        chain.shape.length_m, rate, chain.state.shaft_rad, chain.state.speed_rad_per_s);
   }
-  return solver_->solve(inertia_, rows_, momentum_, stretched_, dt_s);
+}
+
+void World::pull(std::size_t k, double dt_s) {
+  const Chain& chain = chains_[k];
+  length_gradient(chain.shape, *model_, row_);
+  OneSidedForce& force = forces_[k];
+  force.row.clear();
+  for (int d = 0; d < row_.size(); ++d)
+    if (row_[d] != 0) force.row.push_back({d, row_[d]});
+  const double winding = chain.tendon.radius_m * chain.state.speed_rad_per_s;
+  const StretchedTendon stretched{
+      chain.tendon.stiffness_N_per_m, chain.tendon.damping_N_s_per_m,
+      chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
+      row_.dot(model_->velocity()) + winding, winding};
+  double theta = options_.theta;
+  if (theta == 0) {
+    inertia_factor_.matrixL().solveInPlace(row_);
+    theta = theta_of(stretched.stiffness_N_per_m, row_.squaredNorm(), dt_s);
+  }
+  pull_implicitly(stretched, theta, dt_s, force);
+}
+
+void World::find_forces(double dt_s) {
+  if (options_.theta == 0) inertia_factor_.compute(inertia_);
+  for (std::size_t k = 0; k < chains_.size(); ++k) pull(k, dt_s);
+  const auto stops = std::span(forces_).subspan(chains_.size());
+  force_count_ =
+      chains_.size() + static_cast<std::size_t>(limits_->find(joints(), inertia_, dt_s, stops));
+}
+
+/// v⁺.
+void World::solve(double dt_s) {
+  const Eigen::VectorXd& v = model_->velocity();
+  model_->inertia(inertia_);
+  find_forces(dt_s);
+  solver_->begin(inertia_, std::span(forces_).first(force_count_), dt_s);
+  velocity_ = v;
+  for (int pass = 0; pass < 2; ++pass) {
+    middle_ = 0.5 * (v + velocity_);
+    model_->bias(middle_, bias_);
+    momentum_.noalias() = inertia_ * v;
+    momentum_ -= dt_s * bias_;
+    solver_->solve(momentum_, velocity_);
+  }
 }
 
 void World::step(std::span<const double> voltage_V, double dt_s) {
@@ -88,22 +126,21 @@ void World::step(std::span<const double> voltage_V, double dt_s) {
     throw std::invalid_argument("the robot has " + std::to_string(chains_.size()) +
                                 " actuators, got " + std::to_string(voltage_V.size()) +
                                 " voltages");
-  const auto tension_N = pull(dt_s);
+  solve(dt_s);
   for (std::size_t k = 0; k < chains_.size(); ++k) {
-    Chain& chain = chains_[k];
-    for (const PathPull& pull : chain.shape.pulled())
-      skeleton_->push(pull.body, pull.at_m, tension_N[k] * pull.direction);
-    chain.state = sim::step(chain.motor, chain.state, voltage_V[k], tension_N[k], dt_s);
+    const double tension_N = solver_->forces_N()[k];
+    readings_[k].tension_N = tension_N;
+    chains_[k].state = sim::step(chains_[k].motor, chains_[k].state, voltage_V[k], tension_N, dt_s);
   }
-  skeleton_->step(dt_s);
+  bones_->move(velocity_, dt_s);
   time_s_ += dt_s;
   read();
-  for (std::size_t k = 0; k < chains_.size(); ++k) readings_[k].tension_N = tension_N[k];
 }
 
 void World::set_joint(int joint, const JointReading& reading) {
-  skeleton_->set_joint(joint, reading);
+  bones_->set_joint(joint, reading);
   read();
+  read_tensions();
 }
 
 }  // namespace sim

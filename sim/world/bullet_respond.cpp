@@ -1,0 +1,48 @@
+#include <algorithm>
+
+#include "sim/world/bullet_inside.hpp"
+
+// Bullet's articulated-body algorithm, asked for what it would do.
+namespace sim {
+
+void BulletSkeleton::Bullet::respond(const BulletTree& tree, Response& all) {
+  btMultiBody& b = *tree.body;
+  const int n = b.getNumDofs();
+  btAlignedObjectArray<btScalar> scratch_r;
+  btAlignedObjectArray<btVector3> scratch_v;
+  btAlignedObjectArray<btMatrix3x3> scratch_m;
+  b.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r, scratch_v, scratch_m, false,
+                                                         false, false);
+  std::vector<int> ours;  // where the tree's coordinates stand among all
+  for (const int body : tree.links)
+    for (int d = 0; d < b.getLink(places[body].link).m_dofCount; ++d)
+      ours.push_back(places[body].first + d);
+  for (int d = 0; d < n; ++d) all.acceleration[ours[d]] = scratch_r[n + 6 + d];
+  std::vector<btScalar> unit(static_cast<std::size_t>(6 + n)), answer(unit.size());
+  for (int d = 0; d < n; ++d) {
+    std::fill(unit.begin(), unit.end(), 0.0);
+    unit[static_cast<std::size_t>(6 + d)] = 1;
+    b.calcAccelerationDeltasMultiDof(unit.data(), answer.data(), scratch_r, scratch_v);
+    for (int e = 0; e < n; ++e)
+      all.inverse_inertia(ours[e], ours[d]) = answer[static_cast<std::size_t>(6 + e)];
+  }
+}
+
+BulletSkeleton::Response BulletSkeleton::respond() {
+  int n = 0;
+  for (const BulletTree& tree : bullet_->trees) n += tree.body->getNumDofs();
+  Response all{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), {}};
+  bullet_->world.pull_down();
+  for (const BulletTree& tree : bullet_->trees)
+    if (tree.body->getNumDofs() > 0) bullet_->respond(tree, all);
+  bullet_->world.clearMultiBodyForces();
+  for (const BulletPlace& place : bullet_->places) {
+    const btVector3 at = place.link < 0 ? btVector3(0, 0, 0)
+                                        : bullet_->trees[place.tree].body->localPosToWorld(
+                                              place.link, btVector3(0, 0, 0));
+    all.com_m.emplace_back(at.x(), at.y(), at.z());
+  }
+  return all;
+}
+
+}  // namespace sim

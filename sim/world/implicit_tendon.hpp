@@ -1,0 +1,46 @@
+#pragma once
+#include <algorithm>
+
+#include "sim/world/step_solver.hpp"
+
+/// A tendon over a time step, implicit in the motion at its end.
+///
+///   f = κ (x + c₁ dt ẋ + c₂ dt ẋ⁺) + D ẋ⁺,   ẋ = J v + r ω     0 where the tendon is slack
+///     = a + G J v⁺,   G = κ c₂ dt + D,   a = κ (x + c₁ dt ẋ) + G r ω
+///
+/// x stretch and J its rate over the joints, at the start of the step. With positions moved by
+/// q⁺ = q + dt v⁺ an oscillator of k = dt² κ J W Jᵀ keeps (1 − k c₁)/(1 + k c₂) of its phase space
+/// each step, so
+///
+///   c₁ = (θ − 1)/2, c₂ = (3θ − 1)/2:   θ = ½ keeps all of it, θ = 1 is backward Euler;
+///   both are stable for any stiffness.
+///
+/// By default θ = ½ + ½ k/(4 + k): energy is kept where the step resolves the oscillation, to
+/// fourth order in dt, and drained where it does not.
+/// Source: linearised implicit integration (Baraff, Witkin 1998); c₁, c₂ and θ(k) are ours.
+namespace sim {
+
+struct StretchedTendon {
+  double stiffness_N_per_m = 0, damping_N_s_per_m = 0;
+  double stretch_m = 0;        ///< x
+  double rate_m_per_s = 0;     ///< ẋ
+  double winding_m_per_s = 0;  ///< r ω
+};
+
+inline double theta_of(double stiffness_N_per_m, double mobility_per_kg, double dt_s) {
+  const double k = dt_s * dt_s * stiffness_N_per_m * mobility_per_kg;
+  return 0.5 + 0.5 * k / (4 + k);
+}
+
+/// Sets a and G of a force whose row is J; one that is slack over the step does nothing.
+inline void pull_implicitly(const StretchedTendon& t, double theta, double dt_s,
+                            OneSidedForce& force) {
+  const double c1 = (theta - 1) / 2, c2 = (3 * theta - 1) / 2;
+  force.gain_N_s_per_m = t.stiffness_N_per_m * c2 * dt_s + t.damping_N_s_per_m;
+  force.start_N = t.stiffness_N_per_m * (t.stretch_m + c1 * dt_s * t.rate_m_per_s) +
+                  force.gain_N_s_per_m * t.winding_m_per_s;
+  const bool slack = t.stretch_m + dt_s * std::max(0.0, t.rate_m_per_s) <= 0;
+  if (slack) force.start_N = 0, force.row.clear();
+}
+
+}  // namespace sim

@@ -1,0 +1,182 @@
+#include "sim/world/step_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+namespace {
+
+constexpr int most_steps = 100;
+constexpr double balanced = 1e-13;     // of the largest impulse: what rounding leaves
+constexpr double least_share = 1e-12;  // of a step that does not descend as a whole
+constexpr double small_turn = 1e-6;    // Newton's error is then its square
+constexpr double level_slope = 1e-9;   // of the slope a step begins with: its end is the bottom
+// What a force or a joint does at some velocity.
+constexpr char idle = '-', acting = 'f', still = '0', up = '>', down = '<', turning = 'o',
+               unknown = '?';
+
+}  // namespace
+
+StepSolver::StepSolver(int coordinates, int forces, std::vector<JointFriction> frictions)
+    : frictions_(std::move(frictions)),
+      force_N_(static_cast<std::size_t>(forces)),
+      joints_(frictions_.size()),
+      start_(frictions_.size()),
+      system_(coordinates, coordinates),
+      gradient_(coordinates),
+      step_(coordinates),
+      before_(coordinates),
+      factor_(coordinates) {
+  pattern_.reserve(static_cast<std::size_t>(forces) + frictions_.size());
+  factored_.reserve(pattern_.capacity());
+}
+
+void StepSolver::begin(const Eigen::MatrixXd& h, std::span<const OneSidedForce> forces,
+                       double dt_s) {
+  h_ = &h, forces_ = forces, dt_s_ = dt_s;
+  pattern_.assign(forces.size() + frictions_.size(), idle);
+  factored_.assign(1, unknown);
+}
+
+/// The gradient at v, and the pattern there. At a corner, where a joint is still, it is the least
+/// of all: zero if friction holds the joint, else what it starts with.
+void StepSolver::differentiate(const Eigen::VectorXd& p, const Eigen::VectorXd& v) {
+  gradient_ = -p;
+  gradient_.noalias() += *h_ * v;
+  largest_ = p.lpNorm<Eigen::Infinity>();
+  curved_ = false;
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const OneSidedForce& force = forces_[k];
+    force_N_[k] = std::max(0.0, force.start_N + force.gain_N_s_per_m * force.along(v));
+    pattern_[k] = force_N_[k] > 0 ? acting : idle;
+    if (force_N_[k] == 0) continue;
+    for (const auto& term : force.row) {
+      const double impulse = dt_s_ * force_N_[k] * term.slope;
+      gradient_[term.coordinate] += impulse;
+      largest_ = std::max(largest_, std::abs(impulse));
+    }
+  }
+  for (std::size_t j = 0; j < frictions_.size(); ++j) rub(j, v);
+}
+
+void StepSolver::rub(std::size_t j, const Eigen::VectorXd& v) {
+  const JointFriction& joint = frictions_[j];
+  const auto own = v.segment(joint.first, joint.dofs);
+  auto slope = gradient_.segment(joint.first, joint.dofs);
+  slope += dt_s_ * joint.viscous_Nm_s_per_rad * own;
+  const double bound = dt_s_ * joint.coulomb_Nm;
+  char& pattern = pattern_[forces_.size() + j];
+  pattern = idle;
+  if (bound <= 0) return;
+  auto& [way, speed] = joints_[j];
+  way.setZero();
+  speed = own.norm();
+  if (speed > 0) {
+    way.head(joint.dofs) = own / speed;
+  } else if (const double load = slope.norm(); load > bound) {
+    way.head(joint.dofs) = -slope / load;
+    speed = (load - bound) / h_->block(joint.first, joint.first, joint.dofs, joint.dofs).trace();
+  } else {
+    pattern = still;
+    slope.setZero();
+    return;
+  }
+  slope += bound * way.head(joint.dofs);
+  pattern = joint.dofs == 3 ? turning : way[0] > 0 ? up : down;
+  curved_ = curved_ || pattern == turning;
+}
+
+void StepSolver::add_friction(std::size_t j) {
+  const JointFriction& joint = frictions_[j];
+  const char pattern = pattern_[forces_.size() + j];
+  for (int d = joint.first; d < joint.first + joint.dofs; ++d) {
+    system_(d, d) += dt_s_ * joint.viscous_Nm_s_per_rad;
+    if (pattern != still) continue;
+    system_.row(d).setZero(), system_.col(d).setZero();
+    system_(d, d) = 1;
+  }
+  if (pattern == turning)
+    system_.block<3, 3>(joint.first, joint.first) +=
+        dt_s_ * joint.coulomb_Nm / joints_[j].speed *
+        (Eigen::Matrix3d::Identity() - joints_[j].way * joints_[j].way.transpose());
+}
+
+void StepSolver::factor() {
+  system_ = *h_;
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    if (pattern_[k] != acting) continue;
+    for (const auto& a : forces_[k].row)
+      for (const auto& b : forces_[k].row)
+        system_(a.coordinate, b.coordinate) +=
+            dt_s_ * forces_[k].gain_N_s_per_m * a.slope * b.slope;
+  }
+  for (std::size_t j = 0; j < frictions_.size(); ++j) add_friction(j);
+  factor_.compute(system_);
+  factored_ = pattern_;
+}
+
+/// Newton's step from v. A joint that would start the wrong way, pushed by others, stays still.
+void StepSolver::aim(const Eigen::VectorXd& v) {
+  for (bool sound = false; !sound;) {
+    if (curved_ || pattern_ != factored_) factor();
+    step_ = factor_.solve(-gradient_);
+    sound = true;
+    for (std::size_t j = 0; j < frictions_.size(); ++j) {
+      const auto [first, dofs, viscous, coulomb] = frictions_[j];
+      char& pattern = pattern_[forces_.size() + j];
+      if (pattern == idle || pattern == still || !v.segment(first, dofs).isZero(0)) continue;
+      if (joints_[j].way.head(dofs).dot(step_.segment(first, dofs)) >= 0) continue;
+      pattern = still;
+      gradient_.segment(first, dofs).setZero();
+      sound = false;
+    }
+  }
+}
+
+/// Goes a share of the step. Joints that would turn back on the way stop instead; true if none does
+/// and no ball joint turns much.
+bool StepSolver::go(double share, Eigen::VectorXd& v) const {
+  v = before_ + share * step_;
+  bool whole = share == 1;
+  for (std::size_t j = 0; j < frictions_.size(); ++j) {
+    const auto [first, dofs, viscous, coulomb] = frictions_[j];
+    const char pattern = factored_[forces_.size() + j];
+    if (pattern == idle || pattern == still) continue;
+    auto own = v.segment(first, dofs);
+    const bool turns_back = start_[j].way.head(dofs).dot(own) <= 0;
+    if (turns_back) own.setZero();
+    whole = whole && !turns_back;
+    if (pattern == turning)
+      whole = whole && step_.segment(first, dofs).norm() <= small_turn * start_[j].speed;
+  }
+  return whole;
+}
+
+/// Goes the step, or less far until that is lower; true if it was a whole Newton step.
+/// By convexity the goal is lower where the function still falls towards it.
+bool StepSolver::descend(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
+  before_ = v;
+  start_ = joints_;
+  const double level = level_slope * std::abs(gradient_.dot(step_));
+  bool whole = false;
+  for (double share = 1; share > least_share; share /= 2) {
+    whole = go(share, v);
+    differentiate(p, v);
+    if (gradient_.dot(v - before_) <= level) break;
+  }
+  return whole;
+}
+
+bool StepSolver::solve(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
+  differentiate(p, v);
+  if (v.size() == 0) return true;
+  for (int k = 0; k < most_steps; ++k) {
+    aim(v);
+    const bool whole = descend(p, v);
+    const bool level = gradient_.lpNorm<Eigen::Infinity>() <= balanced * largest_;
+    if (level || (whole && pattern_ == factored_)) return true;
+  }
+  return false;
+}
+
+}  // namespace sim
