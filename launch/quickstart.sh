@@ -11,5 +11,6 @@ cmake --build --preset release
 out=erp_runs/quickstart
 rm -rf "$out"
 build/release/bin/erp launch launch/hinge_rig.xml --for "${1:-20s}" --out "$out"
-build/release/bin/erp log plot "$out/hinge_rig.mcap" --out "$out/hinge_rig.png"
+build/release/bin/erp log plot "$out/hinge_rig.mcap" --out "$out/hinge_rig.png" \
+  --title "hinge_rig under force control: measured, and what was asked for"
 echo "recording: $out/hinge_rig.mcap    plot: $out/hinge_rig.png"

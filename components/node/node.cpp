@@ -13,7 +13,6 @@ namespace node {
 namespace {
 
 constexpr std::int64_t heartbeat_ns = 100'000'000;
-constexpr std::int64_t discovery_ns = 300'000'000;  // measured: who is on the machine is found
 
 /// SIGINT and SIGTERM become readable on a descriptor, and sleepers wake within a microsecond of a
 /// deadline, not fifty. Must run before DDS starts its threads, which inherit both.
@@ -114,15 +113,19 @@ void Node::count_step(std::int64_t stamp_ns) {
 
 void Node::report(erp::Severity severity, const std::string& subject, const std::string& code,
                   const std::string& text) {
-  spdlog::log(level_of(severity), "{}{}{}: {}", subject, subject.empty() ? "" : " ", code, text);
+  const auto kept_back = damper_.admit(subject + ' ' + code, clock_.now_ns());
+  if (!kept_back) return;
+  const std::string said =
+      *kept_back ? text + " (" + std::to_string(*kept_back) + " more of these went unsaid)" : text;
+  spdlog::log(level_of(severity), "{}{}{}: {}", subject, subject.empty() ? "" : " ", code, said);
   erp::Event event;
   event.stamp_ns = clock_.now_ns();
   event.severity = static_cast<std::uint8_t>(severity);
   erp::assign_shortened(event.subject, subject);
   erp::assign_shortened(event.code, code);
-  erp::assign_shortened(event.text, text);
+  erp::assign_shortened(event.text, said);
   event_out_->publish(event);
-  erp::assign_shortened(state_.note, text);
+  erp::assign_shortened(state_.note, said);
 }
 
 void Node::finish(int exit_code) {
@@ -140,10 +143,11 @@ void Node::look_around() {
 }
 
 void Node::leave_to(const Peer& predecessor) {
-  report(erp::Severity::fault, identity_.component, "namesake",
-         "pid " + std::to_string(predecessor.pid) + " on " + predecessor.host + " is already \"" +
-             identity_.component + "\" of robot \"" + identity_.robot +
-             "\"; end it, take another --name, or set ERP_DOMAIN to a number of your own");
+  // Not on the bus: there it would be read as a word of the predecessor's.
+  spdlog::error(
+      "pid {} on {} is already \"{}\" of robot \"{}\"; end it, take another --name, or "
+      "set ERP_DOMAIN to a number of your own",
+      predecessor.pid, predecessor.host, identity_.component, identity_.robot);
   finish(2);
 }
 

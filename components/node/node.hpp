@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/node/clock.hpp"
+#include "components/node/damper.hpp"
 #include "components/node/histogram.hpp"
 #include "components/node/options.hpp"
 #include "components/node/peers.hpp"
@@ -117,6 +118,7 @@ class Node {
   std::optional<std::int64_t> start_due_ns_;  ///< unmanaged: when to become active by itself
   erp::ComponentState state_;
   Histogram age_, jitter_;
+  Damper damper_;
   std::uint64_t steps_at_heartbeat_ = 0;
   std::int64_t heartbeat_due_ns_ = 0, heartbeat_last_ns_ = 0;
   std::int64_t last_step_ns_ = 0, last_interval_ns_ = 0;

@@ -13,14 +13,16 @@ Options parse_options(int argc, char** argv, const std::string& parameters, int&
   CLI::App app(options.type + ": a component of a robot's graph", options.type);
   app.footer(parameters.empty() ? "" : "Parameters, for --config and --set:\n" + parameters);
   app.add_option("--name", options.name, "its name in the graph (default: the program's)");
-  app.add_option("--robot", options.robot, "robot.xml");
+  app.add_option("--robot", options.robot, "robot.xml of the robot it works for; needed");
   app.add_option("--config", options.config, "XML with its parameters");
   app.add_option("--set", settings, "key=value, overrides one parameter")->allow_extra_args(false);
   const std::map<std::string, erp::Time> times{{"realtime", erp::Time::realtime},
                                                {"lockstep", erp::Time::lockstep},
                                                {"wall", erp::Time::wall}};
   app.add_option("--time", options.time, "realtime, lockstep or wall")
-      ->transform(CLI::CheckedTransformer(times));
+      ->transform(CLI::CheckedTransformer(times).description(""))
+      ->type_name("TIME")
+      ->default_str("realtime");
   app.add_flag("--managed", options.managed, "wait for the launcher before becoming active");
   app.add_option("--duration", options.duration_s, "devices: end after so many seconds")
       ->check(CLI::NonNegativeNumber);

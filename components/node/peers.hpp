@@ -1,11 +1,15 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "components/node/bus.hpp"
 #include "components/node/peer.hpp"
 
 namespace node {
+
+/// Measured: within this time all who are on the machine are found.
+inline constexpr std::int64_t discovery_ns = 300'000'000;
 
 /// The other participants on the bus.
 class Peers {
@@ -16,6 +20,8 @@ class Peers {
   std::uint32_t count() const { return count_; }
   /// One that was here before us under our name and robot. Two of them would both drive.
   const std::optional<Peer>& predecessor() const { return predecessor_; }
+  /// Those of them that say who they are, and whose process may be alive.
+  const std::vector<Peer>& known() const { return known_; }
   void look();
 
  private:
@@ -23,6 +29,7 @@ class Peers {
   Arrival arrival_;
   Entity reader_;
   std::uint32_t count_ = 0;
+  std::vector<Peer> known_;
   std::optional<Peer> predecessor_;
 };
 

@@ -139,11 +139,17 @@ Params read_params(const Options& options) {
   return params;
 }
 
+/// A component may know more mistakes than its Params do: static void check(const Params&).
+template <class T>
+void check(const Options& options) {
+  const auto params = read_params<typename T::Params>(options);
+  if constexpr (requires { T::check(params); }) T::check(params);
+}
+
 template <class T>
 int run_component(const Options& options) {
   const auto params = read_params<typename T::Params>(options);
-  erp::Robot robot;
-  if (!options.robot.empty()) robot = erp::read_robot(options.robot);
+  const erp::Robot robot = erp::read_robot(options.robot);
   Node node(options, robot.name);
   if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&, Node&>) {
     T component(params, robot, node);
@@ -168,7 +174,9 @@ int run(int argc, char** argv) {
   const Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
   if (exit_code >= 0) return exit_code;
   try {
-    if (options.check) return detail::read_params<typename T::Params>(options), 0;
+    if (options.check) return detail::check<T>(options), 0;
+    if (options.robot.empty())
+      throw std::invalid_argument("--robot is missing: name the robot.xml it works for");
     return detail::run_component<T>(options);
   } catch (const xml::Errors& error) {
     std::cerr << error.what() << '\n';

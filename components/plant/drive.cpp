@@ -37,7 +37,7 @@ Checked Drive::accept(std::string_view controller, std::int32_t priority, erp::M
     checked = {Verdict::refused, 0, "too many controllers"};
   if (checked.verdict == Verdict::limited) ++limited_;
   if (checked.verdict != Verdict::refused && arbiter_.outranked(controller, priority))
-    checked = {Verdict::refused, 0, "another controller drives"};
+    checked = {Verdict::refused, 0, outranked_reason};
   if (checked.verdict == Verdict::refused) ++refused_;
   if (!checked.reason.empty()) reason_ = checked.reason;
   return checked;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "components/plant/arbiter.hpp"
 #include "components/plant/limits.hpp"
@@ -16,6 +17,8 @@
 ///   running     the safe action          its mode
 ///   fault       clear when it was the silence of the host, otherwise off until the driver says off
 namespace plant {
+
+inline constexpr std::string_view outranked_reason = "another controller drives";
 
 struct Demand {
   ecu_request request = ECU_REQUEST_OFF;

@@ -20,6 +20,13 @@ std::string owner_text(const Drive& drive, const std::string& before) {
   return before + " went stale";
 }
 
+/// Why a reference was changed or refused; of a controller that may not drive, who does.
+std::string limit_text(const Drive& drive) {
+  if (drive.reason() != outranked_reason) return std::string(drive.reason());
+  return std::string(drive.owner()) +
+         " drives, another controller would like to; the higher --priority wins";
+}
+
 }  // namespace
 
 void Plant::notice_changes() {
@@ -39,8 +46,7 @@ void Plant::notice_changes() {
     // The first of a row is said; the counters on actuator_owner carry the rest.
     const bool first = (drive.limited() && !said.limited) || (drive.refused() && !said.refused);
     if (first)
-      notices_.push_back(
-          {erp::Severity::warning, drive.name(), "reference", std::string(drive.reason())});
+      notices_.push_back({erp::Severity::warning, drive.name(), "reference", limit_text(drive)});
     said.limited = drive.limited(), said.refused = drive.refused();
   }
 }

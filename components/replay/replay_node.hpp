@@ -15,6 +15,8 @@ class ReplayNode {
     std::string file;  ///< the recording; must be given
     void visit(auto& v) { v("file", file); }
   };
+  /// The recording is there and holds frames.
+  static void check(const Params& params) { Frames frames(params.file); }
   ReplayNode(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:

@@ -55,7 +55,7 @@ class Check {
       const std::string root = xml::read_document(path_of(file)).name;
       if (root != expected)
         add(item, attribute + "=" + xml::quote(file) + " holds <" + root + ">",
-            "it must hold <" + expected + ">");
+            "it must hold <" + expected + ">, or this component's type is \"" + root + "\"");
     } catch (const xml::Errors& errors) {
       errors_.insert(errors_.end(), errors.all().begin(), errors.all().end());
     }

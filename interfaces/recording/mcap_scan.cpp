@@ -200,7 +200,7 @@ void Scanner::check_footer(ByteReader in, std::uint64_t length) {
 
 void Scanner::cut(const std::string& what, std::uint64_t place) {
   if (contents_.truncation.empty())
-    contents_.truncation = error_at(file_.path(), place, what, mend(file_.path())).what();
+    contents_.truncation = file_.path() + ": byte " + std::to_string(place) + ": " + what;
 }
 
 /// A record that reaches beyond the end: the recorder was killed, or the length is wrong.

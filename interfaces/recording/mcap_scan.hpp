@@ -29,7 +29,7 @@ struct Contents {
   std::map<std::uint16_t, ChannelStatistics> statistics;
   std::uint64_t chunks = 0, messages = 0;
   bool complete = false;
-  std::string truncation;             ///< why not complete: place, what, remedy
+  std::string truncation;             ///< why not complete: place and what
   std::vector<std::string> problems;  ///< damage that was stepped over (tolerant scans)
 };
 

@@ -41,6 +41,8 @@ Table read_table(const std::string& path, const TableOptions& options) {
   const Bytes start = file.read(0, std::min<std::uint64_t>(file.size(), magic.size()));
   if (std::ranges::equal(start, std::as_bytes(std::span(magic))))
     return table_of(McapReader(path), options);
+  if (path.ends_with(".mcap"))
+    throw RecordingError(path + ": byte 0: this is not an MCAP file; is it the right one?");
   return parse_csv(path, text(file.read(0, file.size())));
 }
 

@@ -4,7 +4,7 @@ namespace xml {
 
 Refused Setter::outcome() const {
   if (found_) return refused_;
-  return Refusal{"sets nothing: unknown " + quote(head_), did_you_mean(head_, known_)};
+  return Refusal{"unknown parameter " + quote(head_), did_you_mean(head_, known_)};
 }
 
 void Setter::finish(std::string_view path) const {

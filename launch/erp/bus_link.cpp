@@ -8,7 +8,9 @@ constexpr int event_depth = 64;  // chosen: a burst of notices from one componen
 
 BusLink::BusLink(std::string robot)
     : robot_(std::move(robot)),
-      participant_(node::join("erp")),
+      self_(node::own_peer("erp", "")),
+      participant_(node::join(self_)),
+      peers_(participant_, wake_, self_),
       states_(participant_, wake_),
       events_(participant_, wake_, event_depth),
       clock_(participant_, unheeded_),
@@ -24,6 +26,14 @@ void BusLink::poll(const Hearing& hearing) {
   states_.take(only_ours(hearing.state));
   events_.take(only_ours(hearing.event));
   clock_.take(only_ours(hearing.clock));
+}
+
+std::vector<node::Peer> BusLink::peers() {
+  peers_.look();
+  std::vector<node::Peer> ours;
+  for (const auto& peer : peers_.known())
+    if (peer.robot == robot_) ours.push_back(peer);
+  return ours;
 }
 
 void BusLink::command(const std::string& component, erp::Lifecycle target) {

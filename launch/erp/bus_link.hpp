@@ -3,6 +3,7 @@
 #include <string>
 
 #include "components/node/bus.hpp"
+#include "components/node/peers.hpp"
 #include "interfaces/values.hpp"
 
 /// The launcher's end of the bus: hears the components of one robot, and tells them to activate.
@@ -19,13 +20,17 @@ class BusLink {
   };
   /// Hands over everything that arrived since the last call.
   void poll(const Hearing& hearing);
+  /// Every participant of the robot that is on the bus, ours too.
+  std::vector<node::Peer> peers();
   void command(const std::string& component, erp::Lifecycle target);
   int descriptor() const { return wake_.descriptor(); }  ///< readable when something arrived
 
  private:
   std::string robot_;
+  node::Peer self_;
   node::Entity participant_;
   node::Wake wake_;
+  node::Peers peers_;
   node::Wake unheeded_;  ///< the clock's: thousands of ticks a second need not wake us
   node::Reader<erp::ComponentState> states_;
   node::Reader<erp::Event> events_;

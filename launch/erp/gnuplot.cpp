@@ -76,8 +76,8 @@ void draw(const PlotScript& script, const std::string& file) {
   const std::string part = file + ".part";
   const int out = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (out < 0)
-    throw recording::WriteError(part + ": cannot create: " + std::strerror(errno) +
-                                "; check the folder");
+    throw std::invalid_argument(file + ": cannot create: " + std::strerror(errno) +
+                                "; name another with --out");
   try {
     const int status = run_gnuplot(fileno(in.get()), out, fileno(err.get()));
     const off_t size = ::lseek(out, 0, SEEK_END);

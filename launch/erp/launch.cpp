@@ -84,12 +84,13 @@ int launch_graph(const LaunchOptions& options) {
   for (const auto& setting : options.settings) wishes.settings.push_back(parse_setting(setting));
   ask_components(make_plan(graph, wishes, find));  // refuses bad input before a folder is made
   wishes.folder = make_run_folder(options.folder, graph.name, node::wall_ns());
+  const FolderClaim claim(wishes.folder);
   const Plan plan = make_plan(graph, wishes, find);
   const auto since = fs::file_time_type::clock::now();
   Run run(graph, robot.name, plan, wishes.folder);
   const int exit_code = run.execute();
   const auto parts = parts_of(plan.recording, since);
-  if (!parts.empty()) print_summary({parts, robot.name, run.device_s()}, std::cout);
+  if (!parts.empty()) print_summary({parts, robot.name, run.lasted_s()}, std::cout);
   return exit_code;
 }
 

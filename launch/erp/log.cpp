@@ -55,7 +55,7 @@ struct TopicRow {
   std::uint64_t first_ns = UINT64_MAX, last_ns = 0;
 
   std::string rate() const {
-    if (messages < 2 || last_ns <= first_ns) return "-";
+    if (messages < 3 || last_ns <= first_ns) return "-";
     return decimal("%.1f Hz", static_cast<double>(messages - 1) * 1e9 /
                                   static_cast<double>(last_ns - first_ns));
   }
@@ -92,7 +92,9 @@ void print_head(const McapReader& reader, std::ostream& out) {
       << decimal("%.3f s, ", duration_s(rows_of(reader))) << reader.contents().messages
       << " messages in " << reader.contents().chunks << " chunks, by " << reader.contents().library
       << '\n';
-  if (!reader.complete()) out << "  " << reader.truncation() << '\n';
+  if (!reader.complete())
+    out << "  " << reader.truncation() << "; save what can be read with: erp log recover "
+        << reader.path() << '\n';
 }
 
 void print_topics(const McapReader& reader, std::ostream& out) {

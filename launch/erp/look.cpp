@@ -1,5 +1,6 @@
 #include "launch/erp/look.hpp"
 
+#include <iostream>
 #include <map>
 #include <ostream>
 #include <set>
@@ -15,6 +16,8 @@ namespace launch {
 namespace {
 
 using Names = std::set<std::string>;
+
+constexpr auto empty_hint = ": is a graph running, and in this ERP_DOMAIN?\n";
 
 constexpr std::int64_t heartbeats_ns = 1'000'000'000;  // ten of them
 
@@ -91,7 +94,7 @@ int show_components(std::ostream& out) {
     return false;
   };
   if (!onlooker.watch(heartbeats_ns, listen)) return 1;
-  if (robots.empty()) out << "no component is on the bus\n";
+  if (robots.empty()) out << "no component is on the bus" << empty_hint;
   for (const auto& [robot, components] : robots) {
     out << "robot " << (robot.empty() ? "-" : robot) << '\n';
     std::vector<Row> rows;
@@ -105,7 +108,7 @@ int show_topics(std::ostream& out) {
   Onlooker onlooker("ls");
   if (!onlooker.settle()) return 1;
   const auto endpoints = onlooker.endpoints();
-  if (endpoints.empty()) out << "no topic is on the bus\n";
+  if (endpoints.empty()) out << "no topic is on the bus" << empty_hint;
   else
     for (const auto& line : topic_table(endpoints)) out << line << '\n';
   return 0;
@@ -114,7 +117,9 @@ int show_topics(std::ostream& out) {
 int show_graph(bool all, std::ostream& out) {
   Onlooker onlooker("graph");
   if (!onlooker.settle()) return 1;
-  out << to_dot(onlooker.endpoints(), all);
+  const auto endpoints = onlooker.endpoints();
+  if (endpoints.empty()) std::cerr << "nothing is on the bus" << empty_hint;
+  out << to_dot(endpoints, all);
   return 0;
 }
 

@@ -6,7 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "interfaces/xml/errors.hpp"
 #include "interfaces/xml/words.hpp"
+#include "launch/erp/program.hpp"
 
 namespace launch {
 namespace {
@@ -121,6 +123,15 @@ void check_settings(const Plan& plan, const Wishes& wishes) {
                                   xml::did_you_mean(setting.component, names));
 }
 
+/// Of one that the graph does not name, such as its device, there is no place to tell.
+[[noreturn]] void refuse_missing(const erp::GraphComponent& component, const std::string& type) {
+  const std::string what = "component \"" + component.name + "\": no program \"" + type +
+                           "\" beside erp, in $ERP_COMPONENT_PATH or in $PATH";
+  const std::string remedy = xml::did_you_mean(type, own_programs());
+  if (component.place.file.empty()) throw std::invalid_argument(what + "; " + remedy);
+  throw xml::Errors({xml::error_in(erp::GraphComponent::element, component.place, what, remedy)});
+}
+
 std::string recording_of(const PlannedProcess& logger) {
   for (const auto& word : logger.argv)
     if (word.starts_with("file=")) return word.substr(5);
@@ -157,10 +168,7 @@ Plan make_plan(const erp::Graph& graph, const Wishes& wishes, const FindProgram&
   const auto add = [&](const erp::GraphComponent& component, Role role) {
     PlannedProcess process{component.name, type_of(component), role, component.restart, {}, {}};
     const std::string program = find_program(process.type);
-    if (program.empty())
-      throw std::invalid_argument("component \"" + process.name + "\": no program \"" +
-                                  process.type +
-                                  "\" beside erp, in $ERP_COMPONENT_PATH or in $PATH");
+    if (program.empty()) refuse_missing(component, process.type);
     process.argv.push_back(program);
     process.log_file = wishes.folder + "/" + process.name + ".log";
     fill_command_line(process, graph, wishes, component.config);

@@ -42,4 +42,13 @@ std::string find_program(const std::string& type, const std::string& graph_folde
   return "";
 }
 
+std::vector<std::string> own_programs() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(own_folder(), ignored))
+    if (is_program(entry.path()) && entry.path().filename() != "erp")
+      names.push_back(entry.path().filename().string());
+  return names;
+}
+
 }  // namespace launch

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 /// Where a component's program lies.
 namespace launch {
@@ -11,5 +12,8 @@ std::string own_folder();
 /// otherwise these are searched: $ERP_COMPONENT_PATH, the folder of `erp`, `../libexec/erp` beside
 /// it, $PATH. Returns "" when there is none.
 std::string find_program(const std::string& type, const std::string& graph_folder);
+
+/// What stands beside erp, without erp itself.
+std::vector<std::string> own_programs();
 
 }  // namespace launch

@@ -21,6 +21,7 @@ constexpr int tick_ms = 20;                      // chosen: start-up advances by
 constexpr std::int64_t change_ns = 20'000'000;   // chosen
 constexpr std::int64_t redraw_ns = 200'000'000;  // chosen
 constexpr std::size_t shown_log_lines = 12;
+constexpr double behind_s = 0.2;  // chosen: worth a word at the end
 
 std::vector<Charge> charges_of(const Plan& plan) {
   std::vector<Charge> charges;
@@ -33,6 +34,11 @@ std::vector<Charge> charges_of(const Plan& plan) {
 std::string word_of(erp::Severity severity) {
   if (severity == erp::Severity::info) return "";
   return severity == erp::Severity::warning ? "warning: " : "fault: ";
+}
+
+std::string rival_text(const std::string& component, const std::string& robot, long pid) {
+  return "\"" + component + "\" of robot " + robot + " runs already on this bus, pid " +
+         std::to_string(pid) + "; end its graph, or set ERP_DOMAIN to a number of your own";
 }
 
 }  // namespace
@@ -55,6 +61,7 @@ Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std
 
 int Run::execute() {
   time_.start(node::monotonic_ns());
+  if (finds_rival()) return 2;
   say(graph_.name + ": " + std::to_string(members_.size()) + " processes, logs in " + folder_);
   supervisor_.start(time_.now_ns());
   carry_out();
@@ -105,13 +112,24 @@ void Run::hear(const erp::ComponentState& state) {
                     time_.now_ns());
 }
 
-/// Two graphs cannot drive one robot: the one that comes second gives way.
+/// Two graphs cannot drive one robot: the one that comes second starts nothing.
+bool Run::finds_rival() {
+  for (const auto until_ns = time_.now_ns() + node::discovery_ns; time_.now_ns() < until_ns;
+       time_.tick(node::monotonic_ns())) {
+    wait();
+    for (const auto& peer : bus_.peers()) {
+      if (!index_of_.contains(peer.component)) continue;
+      say(rival_text(peer.component, peer.robot, peer.pid));
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Of one that came while we started: the one that comes second gives way.
 void Run::refuse_stranger(const erp::ComponentState& state) {
   if (supervisor_.stage() != Stage::starting && supervisor_.stage() != Stage::activating) return;
-  supervisor_.stop("another \"" + std::string(state.component) + "\" of robot " + state.robot +
-                       " is on this bus, pid " + std::to_string(state.pid) +
-                       "; end it (erp ps), or set ERP_DOMAIN to a number of your own",
-                   2, time_.now_ns());
+  supervisor_.stop(rival_text(state.component, state.robot, state.pid), 2, time_.now_ns());
 }
 
 void Run::hear(const erp::Event& event) {
@@ -220,6 +238,9 @@ void Run::say(const std::string& text) {
 
 void Run::say_end() {
   std::string text = graph_.name + ": ended after " + to_text_s(time_.elapsed_s());
+  if (time_.behind_s() > behind_s)
+    say("the device's time fell " + to_text_s(time_.behind_s()) +
+        " behind the clock: this machine was too busy for real time; --lockstep waits instead");
   if (time_.device_s() >= 0) text += ", " + to_text_s(time_.device_s()) + " of the device's time";
   for (std::size_t i = 0; i < members_.size(); ++i)
     if (const auto count = supervisor_.restarts(i))

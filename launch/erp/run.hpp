@@ -26,7 +26,7 @@ class Run {
   /// Until the run has ended. Returns 0 when all ended well, 1 when a component failed for good,
   /// 2 when one could not use its input.
   int execute();
-  double device_s() const { return time_.device_s(); }  ///< negative: the device was not heard
+  double lasted_s() const { return time_.lasted_s(); }  ///< see RunTime
 
  private:
   /// What belongs to one planned process while it runs.
@@ -40,6 +40,7 @@ class Run {
   void wait();
   void hear_bus();
   void hear(const erp::ComponentState& state);
+  bool finds_rival();
   void refuse_stranger(const erp::ComponentState& state);
   void hear(const erp::Event& event);
   void hear(const erp::Clock& clock);

@@ -1,5 +1,9 @@
 #include "launch/erp/run_folder.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <ctime>
 #include <deque>
 #include <filesystem>
@@ -32,6 +36,18 @@ std::string make_run_folder(const std::string& wished, const std::string& graph,
     throw std::invalid_argument(folder.string() + ": " + error.message() +
                                 "; name another folder with --out DIR");
   return fs::canonical(folder).string();
+}
+
+FolderClaim::FolderClaim(const std::string& folder)
+    : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  close(descriptor_);
+  throw std::invalid_argument(folder + ": another run is writing here; name another folder with " +
+                              "--out DIR");
+}
+
+FolderClaim::~FolderClaim() {
+  if (descriptor_ >= 0) close(descriptor_);
 }
 
 std::vector<std::string> last_lines(const std::string& file, std::size_t count) {

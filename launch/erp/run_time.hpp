@@ -20,6 +20,11 @@ class RunTime {
   std::int64_t now_ns() const { return now_ns_; }
   double elapsed_s() const { return 1e-9 * static_cast<double>(now_ns_ - started_ns_); }
   double device_s() const;  ///< negative: the device was not heard
+  /// Since all components were active: of the device's time in lockstep, else of real time.
+  /// Negative: the device was not heard.
+  double lasted_s() const;
+  /// How much less than real time the device's time went on; not of lockstep.
+  double behind_s() const;
   /// Real time to go; negative: no end is set, or nobody knows yet.
   double left_s() const;
   /// In real time the run lasts so long, whatever is restarted meanwhile. In lockstep the device
@@ -31,6 +36,7 @@ class RunTime {
   bool lockstep_;
   std::int64_t started_ns_ = 0, now_ns_ = 0, device_ns_ = 0;
   std::optional<std::int64_t> running_since_ns_, last_stamp_ns_;
+  std::int64_t heard_ns_ = 0, first_heard_ns_ = 0;  ///< when the device spoke last, and first
   double real_time_factor_ = 0;
 };
 

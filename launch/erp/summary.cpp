@@ -10,6 +10,8 @@
 namespace launch {
 namespace {
 
+constexpr double worth_saying = 0.98;  // a recording that misses more of its run says so; chosen
+
 using Values = std::vector<double>;
 
 /// What a mode measures.
@@ -173,7 +175,7 @@ void print_parts(const std::vector<std::string>& parts, std::ostream& out) {
 
 int print_summary(const RecordedRun& run, std::ostream& out) try {
   print_parts(run.parts, out);
-  if (run.device_s < 0) return 0;  // nothing moved
+  if (run.lasted_s < 0) return 0;  // nothing moved
   recording::TableOptions options;
   options.lines = options.targets = true;
   options.robot = run.robot;
@@ -181,7 +183,9 @@ int print_summary(const RecordedRun& run, std::ostream& out) try {
   const double span_s = table.columns.front().values.back();
   out << fmt::format("{} {:.2f} s", run.parts.size() > 1 ? "the last part covers" : "it covers",
                      span_s)
-      << fmt::format(" of the run's {:.2f} s\n", run.device_s);
+      << (span_s < worth_saying * run.lasted_s ? fmt::format(" of the run's {:.2f} s", run.lasted_s)
+                                               : "")
+      << '\n';
   print_tracking(tracking(table), out);
   print_steps(step_responses(table), out);
   return 0;

@@ -35,7 +35,7 @@ std::vector<StepResponse> step_responses(const recording::Table& table);
 struct RecordedRun {
   std::vector<std::string> parts;  ///< its recordings, oldest first; at least one
   std::string robot;
-  double device_s = -1;  ///< how long it lasted in its device's time; negative: not known
+  double lasted_s = -1;  ///< from the first moment all were active; negative: nothing moved
 };
 /// Names the recordings and prints tracking and step responses of the last one. Returns 0, or 1
 /// when it cannot be read.

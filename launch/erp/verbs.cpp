@@ -26,7 +26,9 @@ void add_launch(CLI::App& app, Chosen& chosen) {
           "--realtime", [options] { options->time = erp::Time::realtime; },
           "at the pace of the clock")
       ->excludes(lockstep);
-  verb->add_option("--for", options->duration, "end after 20s, 500ms, 2min … of the device's time");
+  verb->add_option(
+      "--for", options->duration,
+      "end after 20s, 500ms, 2min …; of the device's time in lockstep, else by the clock");
   verb->add_option("--set", options->settings,
                    "component.key=value: one parameter of one component; repeatable")
       ->allow_extra_args(false);
@@ -58,7 +60,8 @@ void add_look(CLI::App& app, Chosen& chosen) {
   app.add_subcommand("ls", "Topics on the bus: type, who writes, who reads")->callback([&chosen] {
     chosen = [] { return show_topics(std::cout); };
   });
-  auto* graph = app.add_subcommand("graph", "The running graph in DOT: erp graph | dot -Tsvg");
+  auto* graph =
+      app.add_subcommand("graph", "The running graph in DOT, for graphviz: erp graph | dot -Tsvg");
   auto all = std::make_shared<bool>(false);
   graph->add_flag("--all", *all, "with heartbeats, lifecycle, events and the tools of erp");
   graph->callback([all, &chosen] { chosen = [all] { return show_graph(*all, std::cout); }; });

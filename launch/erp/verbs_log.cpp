@@ -1,5 +1,6 @@
 #include "launch/erp/log.hpp"
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -35,10 +36,12 @@ void add_recover(CLI::App& log, Chosen& chosen) {
   auto* verb = log.add_subcommand("recover", "Mend a recording that was cut off");
   const Text file = add_file(*verb, "the damaged recording");
   auto out = std::make_shared<std::string>();
-  verb->add_option("--out", *out, "the new file (default: FILE.recovered.mcap)");
+  verb->add_option("--out", *out, "the new file (default: FILE with .recovered.mcap)");
   verb->callback([=, &chosen] {
     chosen = [=] {
-      const std::string target = out->empty() ? *file + ".recovered.mcap" : *out;
+      const std::string target =
+          out->empty() ? std::filesystem::path(*file).replace_extension(".recovered.mcap").string()
+                       : *out;
       return log_recover(*file, target, std::cout);
     };
   });

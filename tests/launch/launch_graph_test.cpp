@@ -135,7 +135,7 @@ TEST_CASE("mistaken settings are all said before anything starts, with exit code
   CHECK(graph.run({"--set", "worker.fault=yes", "--set", "sim.speed=2"}) == 2);
   const auto screen = graph.screen();
   CHECK_THAT(screen, Contains("worker: ") && Contains("fault=yes") && Contains("crash, refuse"));
-  CHECK_THAT(screen, Contains("sim: ") && Contains("unknown \"speed\""));
+  CHECK_THAT(screen, Contains("sim: ") && Contains("unknown parameter \"speed\""));
   CHECK_FALSE(fs::exists(graph.folder / "run"));
 }
 
@@ -208,6 +208,8 @@ TEST_CASE("a graph is refused while another one drives the same robot on the sam
                          (graph.folder / "screen2").string());
   CHECK(Graph::wait_for(second) == 2);
   CHECK_THAT(text_of(graph.folder / "screen2"), Contains("ERP_DOMAIN"));
+  CHECK_THAT(text_of(graph.folder / "screen2"), !Contains("processes"));  // none was started
+  CHECK_THAT(graph.screen(), !Contains("already"));  // nor is the first one blamed
   CHECK_FALSE(first.poll());
   kill(first.pid(), SIGINT);
   CHECK(Graph::wait_for(first) == 0);

@@ -50,6 +50,15 @@ TEST_CASE("a folder that cannot be made is refused with the way out") {
                     Catch::Matchers::Contains("--out DIR"));
 }
 
+TEST_CASE("a folder has one run at a time") {
+  const Inside folder;
+  {
+    const launch::FolderClaim claim(folder.path.string());
+    CHECK_THROWS_WITH(launch::FolderClaim(folder.path.string()), Catch::Contains("another run"));
+  }
+  CHECK_NOTHROW(launch::FolderClaim(folder.path.string()));
+}
+
 TEST_CASE("the end of a log is its last lines, or all of a short one") {
   const Inside here;
   std::ofstream("log") << "a\nb\nc\n";

@@ -21,8 +21,8 @@ struct Bus {
 
   Bus()
       : folder(make_folder()),
-        sim({ERP_TEST_COMPONENTS "/sim"}, (folder / "sim.log").string()),
-        worker({ERP_TEST_COMPONENTS "/worker", "--name", "listener"},
+        sim({ERP_TEST_COMPONENTS "/sim", "--robot", robot()}, (folder / "sim.log").string()),
+        worker({ERP_TEST_COMPONENTS "/worker", "--name", "listener", "--robot", robot()},
                (folder / "worker.log").string()) {}
   ~Bus() { fs::remove_all(folder); }
 
@@ -30,6 +30,11 @@ struct Bus {
     setenv("ERP_DOMAIN", std::to_string(1 + getpid() % 99).c_str(), 1);
     std::string name = (fs::temp_directory_path() / "erp_verbs_XXXXXX").string();
     return mkdtemp(name.data());
+  }
+  std::string robot() const {
+    const auto file = folder / "robot.xml";
+    std::ofstream(file) << R"(<robot name="tester"/>)";
+    return file.string();
   }
   struct Result {
     int code;
@@ -92,6 +97,18 @@ TEST_CASE("a topic that nobody has ends with exit code 1 and the nearest name") 
   const auto result = bus.erp({"echo", "clokc"});
   CHECK(result.code == 1);
   CHECK_THAT(result.text, Contains("did you mean \"clock\"?"));
+}
+
+TEST_CASE("a component without a robot says so, with exit code 2") {
+  const auto folder = Bus::make_folder();
+  launch::Process worker({ERP_TEST_COMPONENTS "/worker"}, (folder / "log").string());
+  std::optional<launch::Ending> ending;
+  while (!(ending = worker.poll())) usleep(2000);
+  CHECK(ending->code == 2);
+  std::ostringstream text;
+  text << std::ifstream(folder / "log").rdbuf();
+  CHECK_THAT(text.str(), Contains("--robot"));
+  fs::remove_all(folder);
 }
 
 TEST_CASE("an unknown verb ends with exit code 2 and the nearest name") {

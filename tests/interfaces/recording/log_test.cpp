@@ -114,7 +114,8 @@ TEST_CASE("bad input gives exit code 2 and says why on stderr, a disk that is fu
   CHECK_THAT(said.text(), Catch::Contains("a.gif: can draw .svg and .png only"));
   CHECK(log_plot(folder / "a.mcap", folder / "a.svg", {.signals = {"knee"}}) == 2);
   CHECK_THAT(said.text(), Catch::Contains("no signal \"knee\"; there are flexor.tension_N, "));
-  CHECK(log_plot(folder / "a.mcap", folder / "no/such/folder/a.svg") == 1);
+  CHECK_THROWS_AS(log_plot(folder / "a.mcap", folder / "no/such/folder/a.svg"),
+                  std::invalid_argument);
   std::ofstream full("/dev/full");
   CHECK(log_export(folder / "a.mcap", full) == 1);
   CHECK(log_recover(folder / "a.mcap", folder / "no/such/folder/b.mcap", out) == 1);
