@@ -9,6 +9,10 @@ namespace node {
 std::int64_t wall_ns();       ///< since 1970; stamps
 std::int64_t monotonic_ns();  ///< never steps back; deadlines and ages
 
+/// How long a partner is waited for in lockstep that is alive but silent. Chosen: more than a busy
+/// machine ever keeps one waiting, because giving up makes a run unrepeatable.
+inline constexpr std::int64_t lockstep_patience_ns = 5'000'000'000;
+
 /// What "now" means in a component. In lockstep it is the stamp of the frame being answered, so
 /// that ages are counted in simulated time and a repeated run is identical.
 class Clock {

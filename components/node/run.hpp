@@ -41,8 +41,6 @@ struct Unwrapped<std::optional<M>> {
   using type = M;
 };
 
-constexpr std::int64_t answer_patience_ns = 500'000'000;  // chosen: a lost controller in lockstep
-
 template <class T, class Out, class In, class... More>
 class Stepper {
  public:
@@ -56,7 +54,7 @@ class Stepper {
       pending_ = in, waiting_ = true, since_ns_ = monotonic_ns(), try_step();
     });
     if (sizeof...(More) && node.clock().lockstep())
-      node.every(answer_patience_ns / 5, [this] { try_step(); });
+      node.every(lockstep_patience_ns / 50, [this] { try_step(); });
   }
 
  private:
@@ -83,7 +81,7 @@ class Stepper {
   void try_step() {
     if (!waiting_) return;
     if (node_.clock().lockstep() && !(answered<More>() && ...) &&
-        monotonic_ns() - since_ns_ < answer_patience_ns)
+        monotonic_ns() - since_ns_ < lockstep_patience_ns)
       return;
     waiting_ = false;
     node_.clock().advance(pending_.stamp_ns);

@@ -8,7 +8,6 @@
 namespace plant {
 namespace {
 
-constexpr std::int64_t patience_ns = 500'000'000;  // chosen: a controller lost in lockstep
 constexpr std::int64_t device_check_ns =
     1'000'000;                              // the device is lost 50 … 51 ms after its last word
 constexpr std::uint64_t owner_period = 50;  // frames: owners are published at 10 Hz
@@ -80,7 +79,8 @@ void PlantNode::on_command(const erp::ActuatorCommand& command) {
 bool PlantNode::all_answered() const {
   const auto answered = static_cast<std::size_t>(std::count_if(
       answers_.begin(), answers_.end(), [&](const Answer& a) { return a.answers >= frame_; }));
-  return answered >= command_in_->matched() || node::monotonic_ns() - owed_since_ns_ > patience_ns;
+  return answered >= command_in_->matched() ||
+         node::monotonic_ns() - owed_since_ns_ > node::lockstep_patience_ns;
 }
 
 void PlantNode::answer() {

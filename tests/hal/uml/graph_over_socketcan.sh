@@ -23,15 +23,20 @@ RUN
 chmod +x "$exchange/run"
 
 TMPDIR=$exchange "$exchange/run" > "$exchange/without" 2>&1
-"$here/run_in_uml.sh" "$exchange/run" --device can \
-  --set gateway.bus=socketcan:vcan0 --set sim.bus=socketcan:vcan0 > "$exchange/guest" 2>&1
-tr -d '\r' < "$exchange/guest" | grep -a '^[0-9]' > "$exchange/within"
 [ "$(wc -l < "$exchange/without")" = 501 ] || { cat "$exchange/without"; exit 1; }
 
-rows=$(wc -l < "$exchange/within")
-different=$(grep -Fxvcf "$exchange/without" "$exchange/within")
-echo "over vcan0: $rows of 500 rows recorded, $different differ from the run without a bus"
-[ "$rows" -ge 100 ] && [ "$different" = 0 ] &&
-  [ "$(tail -n 1 "$exchange/within")" = "$(tail -n 1 "$exchange/without")" ] && exit 0
+# On a busy machine that kernel may come to nothing within the launcher's minute: it gets three goes.
+# A row that differs is a failure at once.
+for go in 1 2 3; do
+  "$here/run_in_uml.sh" "$exchange/run" --device can \
+    --set gateway.bus=socketcan:vcan0 --set sim.bus=socketcan:vcan0 > "$exchange/guest" 2>&1
+  tr -d '\r' < "$exchange/guest" | grep -a '^[0-9]' > "$exchange/within"
+  rows=$(wc -l < "$exchange/within")
+  different=$(grep -Fxvcf "$exchange/without" "$exchange/within")
+  echo "over vcan0, go $go: $rows of 500 rows recorded, $different differ from the run without a bus"
+  [ "$different" = 0 ] || break
+  [ "$rows" -ge 100 ] &&
+    [ "$(tail -n 1 "$exchange/within")" = "$(tail -n 1 "$exchange/without")" ] && exit 0
+done
 cat "$exchange/guest"
 exit 1
