@@ -37,11 +37,9 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-}  // namespace
-
-std::string element_text(const std::string& name, const std::vector<WrittenAttribute>& attributes,
-                         const std::string& children, std::size_t depth) {
-  const std::string indent(2 * depth, ' ');
+/// `<name a="…" b="…"`, wrapped.
+std::string opening(const std::string& name, const std::vector<WrittenAttribute>& attributes,
+                    const std::string& indent) {
   const std::string continued = "\n" + indent + std::string(name.size() + 1, ' ');
   std::string text = indent + "<" + name;
   std::size_t width = text.size();
@@ -51,8 +49,22 @@ std::string element_text(const std::string& name, const std::vector<WrittenAttri
     text += attribute;
     width += attribute.size();
   }
+  return text;
+}
+
+}  // namespace
+
+std::string element_text(const std::string& name, const std::vector<WrittenAttribute>& attributes,
+                         const std::string& children, std::size_t depth) {
+  const std::string indent(2 * depth, ' '), text = opening(name, attributes, indent);
   if (children.empty()) return text + "/>\n";
   return text + ">\n" + children + indent + "</" + name + ">\n";
+}
+
+std::string text_element(const std::string& name, const std::vector<WrittenAttribute>& attributes,
+                         const std::string& words, std::size_t depth) {
+  return opening(name, attributes, std::string(2 * depth, ' ')) + ">" + escaped(words) + "</" +
+         name + ">\n";
 }
 
 }  // namespace xml

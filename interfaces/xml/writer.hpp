@@ -17,6 +17,10 @@ using WrittenAttribute = std::pair<std::string, std::string>;
 std::string element_text(const std::string& name, const std::vector<WrittenAttribute>& attributes,
                          const std::string& children, std::size_t depth);
 
+/// The same for one that holds text.
+std::string text_element(const std::string& name, const std::vector<WrittenAttribute>& attributes,
+                         const std::string& text, std::size_t depth);
+
 /// Writes a struct through its `visit`. What reads back to the default anyway is left out.
 class Writer {
  public:

@@ -18,6 +18,7 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
   add_look(app, chosen);
   add_listen(app, chosen);
   add_log(app, chosen);
+  add_model(app, chosen);
   add_new(app, chosen);
 }
 

@@ -51,7 +51,7 @@ void World::make_solver() {
   forces_.resize(chains_.size() + static_cast<std::size_t>(limits_->most()));
   for (OneSidedForce& force : forces_) force.row.reserve(static_cast<std::size_t>(n));
   solver_ = std::make_unique<StepSolver>(n, static_cast<int>(forces_.size()), frictions);
-  row_.setZero(n), velocity_.setZero(n), momentum_.setZero(n), middle_.setZero(n);
+  for (auto* vector : {&row_, &velocity_, &momentum_, &driven_, &middle_}) vector->setZero(n);
   inertia_factor_ = Eigen::LLT<Eigen::MatrixXd>(n);
 }
 
@@ -97,41 +97,60 @@ void World::pull(std::size_t k, double dt_s) {
   pull_implicitly(stretched, theta, dt_s, force);
 }
 
-void World::find_forces(double dt_s) {
-  if (options_.theta == 0) inertia_factor_.compute(inertia_);
-  for (std::size_t k = 0; k < chains_.size(); ++k) pull(k, dt_s);
-  const auto stops = std::span(forces_).subspan(chains_.size());
-  force_count_ =
-      chains_.size() + static_cast<std::size_t>(limits_->find(joints(), inertia_, dt_s, stops));
+/// The tendons' if they are springs, and the stops'.
+void World::find_forces(double dt_s, bool springs) {
+  const std::size_t tendons = springs ? chains_.size() : 0;
+  if (springs && options_.theta == 0) inertia_factor_.compute(inertia_);
+  for (std::size_t k = 0; k < tendons; ++k) pull(k, dt_s);
+  const auto stops = std::span(forces_).subspan(tendons);
+  force_count_ = tendons + static_cast<std::size_t>(limits_->find(joints(), inertia_, dt_s, stops));
 }
 
-/// v⁺.
-void World::solve(double dt_s) {
+/// v⁺, under springs or given tensions.
+void World::solve(double dt_s, std::span<const double> tension_N) {
   const Eigen::VectorXd& v = model_->velocity();
   model_->inertia(inertia_);
-  find_forces(dt_s);
+  find_forces(dt_s, tension_N.empty());
   solver_->begin(inertia_, std::span(forces_).first(force_count_), dt_s);
+  momentum_.noalias() = inertia_ * v;
+  for (std::size_t k = 0; k < tension_N.size(); ++k) {
+    length_gradient(chains_[k].shape, *model_, row_);
+    momentum_ -= dt_s * tension_N[k] * row_;
+  }
   velocity_ = v;
   for (int pass = 0; pass < 2; ++pass) {
     middle_ = 0.5 * (v + velocity_);
     model_->bias(middle_, bias_);
-    momentum_.noalias() = inertia_ * v;
-    momentum_ -= dt_s * bias_;
-    solver_->solve(momentum_, velocity_);
+    driven_ = momentum_ - dt_s * bias_;
+    solver_->solve(driven_, velocity_);
   }
 }
 
-void World::step(std::span<const double> voltage_V, double dt_s) {
-  if (voltage_V.size() != chains_.size())
+void World::expect(std::span<const double> inputs, const char* what) const {
+  if (inputs.size() != chains_.size())
     throw std::invalid_argument("the robot has " + std::to_string(chains_.size()) +
-                                " actuators, got " + std::to_string(voltage_V.size()) +
-                                " voltages");
+                                " actuators, got " + std::to_string(inputs.size()) + " " + what);
+}
+
+void World::step(std::span<const double> voltage_V, double dt_s) {
+  expect(voltage_V, "voltages");
   solve(dt_s);
   for (std::size_t k = 0; k < chains_.size(); ++k) {
     const double tension_N = solver_->forces_N()[k];
     readings_[k].tension_N = tension_N;
     chains_[k].state = sim::step(chains_[k].motor, chains_[k].state, voltage_V[k], tension_N, dt_s);
   }
+  move(dt_s);
+}
+
+void World::step_pulled(std::span<const double> tension_N, double dt_s) {
+  expect(tension_N, "tensions");
+  solve(dt_s, tension_N);
+  for (std::size_t k = 0; k < chains_.size(); ++k) readings_[k].tension_N = tension_N[k];
+  move(dt_s);
+}
+
+void World::move(double dt_s) {
   bones_->move(velocity_, dt_s);
   time_s_ += dt_s;
   read();

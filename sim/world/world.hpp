@@ -51,6 +51,8 @@ class World {
 
   /// One voltage an actuator, in robot.xml's order; std::invalid_argument otherwise.
   void step(std::span<const double> voltage_V, double dt_s);
+  /// The same with given tensions in place of motors and springs, which stay as they are.
+  void step_pulled(std::span<const double> tension_N, double dt_s);
   /// Builds everything anew: the start, exactly.
   void reset();
   /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are.
@@ -84,9 +86,11 @@ class World {
   void make_solver();
   void read();
   void read_tensions();
-  void find_forces(double dt_s);
+  void find_forces(double dt_s, bool springs);
+  void move(double dt_s);
   void pull(std::size_t chain, double dt_s);
-  void solve(double dt_s);
+  void expect(std::span<const double> inputs, const char* what) const;
+  void solve(double dt_s, std::span<const double> tension_N = {});
 
   erp::Robot robot_;
   WorldOptions options_;
@@ -102,8 +106,8 @@ class World {
   // what a step works with
   std::vector<OneSidedForce> forces_;  ///< of the tendons, then of the stops
   std::size_t force_count_ = 0;
-  Eigen::MatrixXd inertia_;                                    ///< H
-  Eigen::VectorXd row_, bias_, momentum_, velocity_, middle_;  ///< J of one tendon, b, p, v⁺
+  Eigen::MatrixXd inertia_;                                             ///< H
+  Eigen::VectorXd row_, bias_, momentum_, driven_, velocity_, middle_;  ///< J of one tendon, b …
   Eigen::LLT<Eigen::MatrixXd> inertia_factor_;
 };
 

@@ -6,12 +6,17 @@
 #include "firmware/core/laws.h"
 #include "interfaces/robot/robot.hpp"
 #include "sim/world/world.hpp"
+#include "tests/sim/formats/mujoco.hpp"
 
 namespace {
 
+erp::Robot read(const std::string& robot) {
+  return erp::read_robot(ERP_SOURCE_DIR "/configs/" + robot + "/robot.xml");
+}
+
 /// One physics step of 1 ms, motors and tendons included, no ECUs.
 void world_step(benchmark::State& state, const char* robot) {
-  sim::World world(erp::read_robot(std::string(ERP_SOURCE_DIR "/configs/") + robot + "/robot.xml"));
+  sim::World world(read(robot));
   const std::vector<double> voltage_V(world.actuators().size(), 0.1);
   for (auto _ : state) world.step(voltage_V, 0.001);
   state.counters["steps_per_s"] =
@@ -19,6 +24,20 @@ void world_step(benchmark::State& state, const char* robot) {
 }
 BENCHMARK_CAPTURE(world_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(world_step, arm, "arm");
+
+/// The exported model in MuJoCo, beside it: the same bones, tendons, frictions and limits, but
+/// without motors, springs and spindles.
+void mujoco_step(benchmark::State& state, const char* robot) {
+  const erp::Robot parsed = read(robot);
+  const peer::Mujoco peer(parsed);
+  for (std::size_t k = 0; k < parsed.actuators.size(); ++k)
+    peer.data->ctrl[k] = parsed.actuators[k].tendon.pretension_N;
+  for (auto _ : state) mj_step(peer.model.get(), peer.data.get());
+  state.counters["steps_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(mujoco_step, hinge_rig, "hinge_rig");
+BENCHMARK_CAPTURE(mujoco_step, arm, "arm");
 
 void force_law(benchmark::State& state) {
   const law_force_gains gains{0.1F, 0.2F, 0.5F, 0.6F};
@@ -32,7 +51,7 @@ BENCHMARK(force_law);
 
 /// A frame sensed and a command decided, for all of a robot's actuators.
 void plant_cycle(benchmark::State& state, const char* name) {
-  const auto robot = erp::read_robot(std::string(ERP_SOURCE_DIR "/configs/") + name + "/robot.xml");
+  const erp::Robot robot = read(name);
   plant::Plant plant({}, robot);
   erp::EcuFrame frame;
   for (const auto& actuator : robot.actuators) {

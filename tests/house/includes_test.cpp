@@ -30,9 +30,10 @@ const std::vector<Rule> rules{
      {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},
     {"sim/skeleton/", {"interfaces/"}},
+    {"sim/formats/", {"interfaces/"}},
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
-    {"launch/", {"interfaces/", "components/node/"}},
+    {"launch/", {"interfaces/", "components/node/", "sim/formats/"}},
 };
 
 // Headers of others that have one home.

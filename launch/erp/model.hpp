@@ -1,0 +1,27 @@
+#pragma once
+#include <iosfwd>
+#include <string>
+
+#include "interfaces/robot/robot.hpp"
+
+/// `erp model`: robots in other formats, and in figures.
+namespace launch {
+
+/// What a robot has.
+struct ModelFigures {
+  std::string name;
+  int bodies = 0, joints = 0, degrees_of_freedom = 0;
+  int actuators = 0, muscles = 0;  ///< muscles: actuators that pull a tendon
+  double mass_kg = 0;
+  int ecus = 0, buses = 0;
+};
+ModelFigures figures_of(const erp::Robot& robot);
+
+/// A line a figure, or one JSON object. Throws xml::Errors. Returns the exit code.
+int model_info(const std::string& robot_file, bool json, std::ostream& out);
+
+/// The format follows from the ending: .mjcf.xml. Throws xml::Errors, std::invalid_argument for
+/// another ending or what the format cannot say. Returns the exit code.
+int model_export(const std::string& robot_file, const std::string& out_file);
+
+}  // namespace launch

@@ -1,0 +1,27 @@
+#include <iostream>
+#include <memory>
+
+#include "launch/erp/model.hpp"
+#include "launch/erp/verbs.hpp"
+
+namespace launch {
+
+void add_model(CLI::App& app, Chosen& chosen) {
+  auto* model = app.add_subcommand("model", "A robot in figures, and in the formats of others");
+  model->require_subcommand(1);
+  auto robot = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+
+  auto* info = model->add_subcommand("info", "Bodies, joints, muscles, mass …");
+  info->add_option("robot", *robot, "robot.xml")->required();
+  info->add_flag("--json", *json, "as one JSON object");
+  info->callback([=, &chosen] { chosen = [=] { return model_info(*robot, *json, std::cout); }; });
+
+  auto* export_verb = model->add_subcommand("export", "Write it for another simulator");
+  export_verb->add_option("robot", *robot, "robot.xml")->required();
+  export_verb->add_option("out", *out, "the new file: OUT.mjcf.xml for MuJoCo")->required();
+  export_verb->callback([=, &chosen] { chosen = [=] { return model_export(*robot, *out); }; });
+}
+
+}  // namespace launch

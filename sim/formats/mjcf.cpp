@@ -1,0 +1,142 @@
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "interfaces/xml/tree.hpp"
+#include "sim/formats/formats.hpp"
+
+namespace formats {
+namespace {
+
+using xml::Tree;
+using xml::Vec3;
+
+constexpr double side_reach = 1.5;  // of a pulley's radius: where the site that names its side is
+
+Vec3 along(const Vec3& from, const Vec3& direction, double distance) {
+  const double length = std::hypot(direction[0], direction[1], direction[2]);
+  Vec3 to = from;
+  for (std::size_t i = 0; i < 3; ++i) to[i] += distance * direction[i] / length;
+  return to;
+}
+
+bool is_zero(const Vec3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
+/// Writes one robot; the tree of bodies grows from its roots.
+class Mjcf {
+ public:
+  explicit Mjcf(const erp::Robot& robot)
+      : robot_(robot), bodies_(robot.bodies()), joints_(robot.joints()) {}
+
+  std::string write() {
+    root_.set("model", robot_.name);
+    root_.add("compiler").set("angle", "radian").set("inertiafromgeom", "false");
+    root_.add("option").set("timestep", 0.001).set("gravity", robot_.gravity_m_per_s2());
+    root_.add("size").set("njmax", 1000).set("nconmax", 200);
+    Tree& world = root_.add("worldbody");
+    for (const erp::Body& body : bodies_)
+      if (!joint_of(body)) add_body(world, body, nullptr);
+    Tree& tendons = root_.add("tendon");
+    Tree& motors = root_.add("actuator");
+    for (const erp::Actuator& actuator : robot_.actuators) {
+      route(tendons, actuator);
+      motors.add("motor")
+          .set("name", actuator.name)
+          .set("tendon", actuator.name)
+          .set("gear", -1)
+          .set("ctrllimited", true)
+          .set("ctrlrange", std::vector<double>{0, actuator.max_tension_N});
+    }
+    root_.add("keyframe").add("key").set("name", "start").set("qpos", start_);
+    return xml::write_tree(root_);
+  }
+
+ private:
+  const erp::Joint* joint_of(const erp::Body& body) const {
+    for (const erp::Joint& joint : joints_)
+      if (joint.child == body.name) return &joint;
+    return nullptr;
+  }
+
+  void add_body(Tree& parent, const erp::Body& body, const erp::Joint* joint) {
+    Tree& own = parent.add("body").set("name", body.name);
+    if (joint) own.set("pos", joint->at_m);
+    if (joint) add_joint(own, *joint);
+    if (body.mass_kg > 0)
+      own.add("inertial")
+          .set("pos", body.com_m)
+          .set("mass", body.mass_kg)
+          .set("diaginertia", body.inertia_kg_m2);
+    tree_of_[body.name] = &own;
+    for (const erp::Body& child : bodies_)
+      if (const erp::Joint* next = joint_of(child); next && next->parent == body.name)
+        add_body(own, child, next);
+  }
+
+  void add_joint(Tree& body, const erp::Joint& joint) {
+    if (joint.type == erp::JointType::fixed) return;
+    const bool ball = joint.type == erp::JointType::spherical;
+    Tree& own = body.add("joint").set("name", joint.name).set("type", ball ? "ball" : "hinge");
+    if (ball) start_.insert(start_.end(), {1, 0, 0, 0});
+    else own.set("axis", joint.axis), start_.push_back(joint.initial_rad);
+    own.set("limited", true)
+        .set("range", std::vector<double>{ball ? 0 : joint.min_rad, joint.max_rad})
+        .set("damping", joint.viscous_Nm_s_per_rad)
+        .set("frictionloss", joint.coulomb_Nm);
+  }
+
+  void route(Tree& tendons, const erp::Actuator& actuator) {
+    Tree& spatial = tendons.add("spatial").set("name", actuator.name);
+    bool after_pulley = false;
+    int count = 0;
+    for (const auto& element : actuator.tendon.path) {
+      const std::string name = actuator.name + "_" + std::to_string(++count);
+      const auto* pulley = std::get_if<erp::Pulley>(&element);
+      if (pulley && after_pulley)
+        throw std::invalid_argument("actuator \"" + actuator.name + "\": element " +
+                                    std::to_string(count) +
+                                    " of its path is a pulley after a pulley, which MJCF cannot "
+                                    "say; put an <attach> between them");
+      after_pulley = pulley != nullptr;
+      if (pulley) wrap(spatial, *pulley, name);
+      else pass(spatial, std::get<erp::Attach>(element), name);
+    }
+  }
+
+  void pass(Tree& spatial, const erp::Attach& attach, const std::string& name) {
+    tree_of_.at(attach.body)->add("site").set("name", name).set("pos", attach.at_m);
+    spatial.add("site").set("site", name);
+  }
+
+  void wrap(Tree& spatial, const erp::Pulley& pulley, const std::string& name) {
+    Tree& body = *tree_of_.at(pulley.body);
+    body.add("geom")
+        .set("name", name)
+        .set("type", "sphere")
+        .set("size", pulley.radius_m)
+        .set("pos", pulley.center_m)
+        .set("mass", 0)
+        .set("contype", 0)
+        .set("conaffinity", 0);
+    Tree& geom = spatial.add("geom").set("geom", name);
+    if (is_zero(pulley.side)) return;
+    const std::string side = name + "_side";
+    body.add("site")
+        .set("name", side)
+        .set("pos", along(pulley.center_m, pulley.side, side_reach * pulley.radius_m));
+    geom.set("sidesite", side);
+  }
+
+  const erp::Robot& robot_;
+  std::vector<erp::Body> bodies_;
+  std::vector<erp::Joint> joints_;
+  Tree root_{"mujoco"};
+  std::map<std::string, Tree*> tree_of_;
+  std::vector<double> start_;
+};
+
+}  // namespace
+
+std::string to_mjcf(const erp::Robot& robot) { return Mjcf(robot).write(); }
+
+}  // namespace formats
