@@ -6,8 +6,7 @@
 namespace sim {
 namespace {
 
-constexpr int most_steps = 100;
-constexpr double balanced = 1e-13;     // of the largest impulse: what rounding leaves
+constexpr double balanced = 1e-12;     // of the largest impulse: what rounding leaves
 constexpr double least_share = 1e-12;  // of a step that does not descend as a whole
 constexpr double small_turn = 1e-6;    // Newton's error is then its square
 constexpr double level_slope = 1e-9;   // of the slope a step begins with: its end is the bottom
@@ -22,20 +21,21 @@ StepSolver::StepSolver(int coordinates, int forces, std::vector<JointFriction> f
       force_N_(static_cast<std::size_t>(forces)),
       joints_(frictions_.size()),
       start_(frictions_.size()),
+      stiff_(coordinates, coordinates),
       system_(coordinates, coordinates),
       gradient_(coordinates),
       step_(coordinates),
       before_(coordinates),
       factor_(coordinates) {
   pattern_.reserve(static_cast<std::size_t>(forces) + frictions_.size());
-  factored_.reserve(pattern_.capacity());
+  factored_.reserve(pattern_.capacity() + 1);
 }
 
 void StepSolver::begin(const Eigen::MatrixXd& h, std::span<const OneSidedForce> forces,
                        double dt_s) {
   h_ = &h, forces_ = forces, dt_s_ = dt_s;
   pattern_.assign(forces.size() + frictions_.size(), idle);
-  factored_.assign(1, unknown);
+  factored_.assign(pattern_.size() + 1, unknown);
 }
 
 /// The gradient at v, and the pattern there. At a corner, where a joint is still, it is the least
@@ -101,15 +101,24 @@ void StepSolver::add_friction(std::size_t j) {
         (Eigen::Matrix3d::Identity() - joints_[j].way * joints_[j].way.transpose());
 }
 
-void StepSolver::factor() {
-  system_ = *h_;
+/// H and the forces that act.
+void StepSolver::stiffen() {
+  stiff_ = *h_;
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     if (pattern_[k] != acting) continue;
+    const double gain = dt_s_ * forces_[k].gain_N_s_per_m;
     for (const auto& a : forces_[k].row)
       for (const auto& b : forces_[k].row)
-        system_(a.coordinate, b.coordinate) +=
-            dt_s_ * forces_[k].gain_N_s_per_m * a.slope * b.slope;
+        stiff_(a.coordinate, b.coordinate) += gain * a.slope * b.slope;
   }
+}
+
+void StepSolver::factor() {
+  const auto forces = static_cast<std::ptrdiff_t>(forces_.size());
+  const bool same = factored_.size() == pattern_.size() &&
+                    std::equal(pattern_.begin(), pattern_.begin() + forces, factored_.begin());
+  if (!same) stiffen();
+  system_ = stiff_;
   for (std::size_t j = 0; j < frictions_.size(); ++j) add_friction(j);
   factor_.compute(system_);
   factored_ = pattern_;
@@ -167,7 +176,7 @@ bool StepSolver::descend(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
   return whole;
 }
 
-bool StepSolver::solve(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
+bool StepSolver::solve(const Eigen::VectorXd& p, Eigen::VectorXd& v, int most_steps) {
   differentiate(p, v);
   if (v.size() == 0) return true;
   for (int k = 0; k < most_steps; ++k) {

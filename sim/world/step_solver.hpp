@@ -51,14 +51,15 @@ class StepSolver {
   /// A new posture: H and the forces; kept by reference until the last `solve` of the step.
   void begin(const Eigen::MatrixXd& h, std::span<const OneSidedForce> forces, double dt_s);
   /// v⁺ for the momentum p = H v + dt τ. `v`: a first guess, then the answer. No heap.
-  /// Returns false if it did not settle in 100 steps.
-  bool solve(const Eigen::VectorXd& p, Eigen::VectorXd& v);
+  /// Returns false if it did not settle in so many of Newton's steps.
+  bool solve(const Eigen::VectorXd& p, Eigen::VectorXd& v, int most_steps = 100);
   /// f_k at the answer.
   std::span<const double> forces_N() const { return {force_N_.data(), forces_.size()}; }
 
  private:
   void differentiate(const Eigen::VectorXd& p, const Eigen::VectorXd& v);
   void rub(std::size_t joint, const Eigen::VectorXd& v);
+  void stiffen();
   void factor();
   void add_friction(std::size_t joint);
   void aim(const Eigen::VectorXd& v);
@@ -78,7 +79,7 @@ class StepSolver {
   std::vector<char> pattern_, factored_;  ///< which forces act, which joints slide, which way
   double largest_ = 0;                    ///< impulse of the balance
   bool curved_ = false;                   ///< a ball joint slides: not quadratic there
-  Eigen::MatrixXd system_;
+  Eigen::MatrixXd stiff_, system_;
   Eigen::VectorXd gradient_, step_, before_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };

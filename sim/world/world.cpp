@@ -118,11 +118,11 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
     momentum_ -= dt_s * tension_N[k] * row_;
   }
   velocity_ = v;
-  for (int pass = 0; pass < 2; ++pass) {
+  for (const int most_steps : {1, 100}) {  // v¹ need not be exact
     middle_ = 0.5 * (v + velocity_);
     model_->bias(middle_, bias_);
     driven_ = momentum_ - dt_s * bias_;
-    solver_->solve(driven_, velocity_);
+    solver_->solve(driven_, velocity_, most_steps);
   }
 }
 
