@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim/actuator/sensors.hpp"
+#include "sim/actuator/spring.hpp"
 
 namespace sim {
 
@@ -88,8 +89,10 @@ ForceModel force_model(const erp::MotorType& m, const erp::Tendon& tendon, doubl
   model.a.row(0) << -m.resistance_ohm / m.inductance_H,
       -m.back_emf_V_s_per_rad * n / m.inductance_H, 0;
   model.a.row(1) << eta * n * m.torque_Nm_per_A / inertia, -viscous / inertia, -r / inertia;
-  model.a.row(2) = Eigen::RowVector3d(0, tendon.stiffness_N_per_m * r, 0) +
-                   tendon.damping_N_s_per_m * r * model.a.row(1);
+  const Spring spring = Spring::of(tendon);
+  const double kappa = spring.slope_N_per_m(spring.stretch_m(tendon.pretension_N));
+  model.a.row(2) =
+      Eigen::RowVector3d(0, kappa * r, 0) + tendon.damping_N_s_per_m * r * model.a.row(1);
   model.b << 1 / m.inductance_H, 0, 0;
   return model;
 }

@@ -1,12 +1,12 @@
 #pragma once
 #include <algorithm>
-#include <stdexcept>
 
 #include "interfaces/robot/robot.hpp"
+#include "sim/actuator/spring.hpp"
 
 /// Series elastic tendon on a spindle (paper, eqs 1, 2, 4).
 ///
-///   F = κ Δx + D dΔx/dt,  Δx = L_T − (L_K + L_R)        F = 0 where Δx ≤ 0 or the sum is negative
+///   F = f(Δx) + D dΔx/dt,  Δx = L_T − (L_K + L_R)       F = 0 where Δx ≤ 0 or the sum is negative
 ///   L_K = L_K0 − r θ                                    dΔx/dt = dL_T/dt + r ω
 ///
 /// L_T length of the path, L_K of the kite line, L_R of the spring at rest; r spindle radius,
@@ -18,17 +18,17 @@
 namespace sim {
 
 struct TendonLaw {
-  double stiffness_N_per_m, damping_N_s_per_m;  ///< κ, D
-  double radius_m;                              ///< r
-  double rest_m;                                ///< L_K0 + L_R
+  Spring spring;             ///< f; κ Δx for a plain one
+  double damping_N_s_per_m;  ///< D
+  double radius_m;           ///< r
+  double rest_m;             ///< L_K0 + L_R
 
   /// The law that pulls with the tendon's pretension at path length `length_m`, shaft at 0.
   static TendonLaw at_rest(const erp::Tendon& tendon, const erp::Spindle& spindle,
                            double length_m) {
-    if (!(tendon.stiffness_N_per_m > 0))
-      throw std::invalid_argument("stiffness_N_per_m must be positive");
-    return {tendon.stiffness_N_per_m, tendon.damping_N_s_per_m, spindle.radius_m,
-            length_m - tendon.pretension_N / tendon.stiffness_N_per_m};
+    const Spring spring = Spring::of(tendon);
+    return {spring, tendon.damping_N_s_per_m, spindle.radius_m,
+            length_m - spring.stretch_m(tendon.pretension_N)};
   }
 
   /// Δx; negative: slack.
@@ -42,8 +42,7 @@ struct TendonLaw {
                    double speed_rad_per_s) const {
     const double stretch = stretch_m(length_m, shaft_rad);
     const double rate = length_rate_m_per_s + radius_m * speed_rad_per_s;
-    return stretch > 0 ? std::max(0.0, stiffness_N_per_m * stretch + damping_N_s_per_m * rate)
-                       : 0.0;
+    return stretch > 0 ? std::max(0.0, spring.force_N(stretch) + damping_N_s_per_m * rate) : 0.0;
   }
 };
 

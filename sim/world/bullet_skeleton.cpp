@@ -12,10 +12,11 @@ BulletSkeleton::~BulletSkeleton() = default;
 
 std::span<const JointReading> BulletSkeleton::joints() const { return bullet_->joints; }
 
-void BulletSkeleton::set_joint(int joint, const JointReading& reading) {
+void BulletSkeleton::place(std::span<const JointReading> joints) {
   for (std::size_t k = 0; k < bullet_->robot.bodies.size(); ++k) {
     const BulletPlace& place = bullet_->places[k];
-    if (bullet_->robot.bodies[k].joint != joint || place.locked) continue;
+    if (place.link < 0 || place.locked) continue;
+    const JointReading& reading = joints[bullet_->robot.bodies[k].joint];
     btMultiBody& b = *bullet_->trees[place.tree].body;
     const auto& p = reading.position;
     const double quaternion[4] = {p[1], p[2], p[3], p[0]};

@@ -24,8 +24,8 @@ class BulletSkeleton {
   ~BulletSkeleton();
 
   std::span<const JointReading> joints() const;
-  /// Puts a joint somewhere; readings follow. Ignored for a locked joint.
-  void set_joint(int joint, const JointReading& reading);
+  /// Puts the joints somewhere, one reading each. A locked joint stays.
+  void place(std::span<const JointReading> joints);
   /// Moves all joints with velocities v for a time step.
   void move(const Eigen::VectorXd& v, double dt_s);
 

@@ -1,8 +1,10 @@
 #include "sim/world/holding.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "sim/actuator/muscle_jacobian.hpp"
+#include "sim/actuator/spring.hpp"
 
 namespace sim {
 
@@ -11,62 +13,30 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A joint's position, moved by `angle` about coordinate `axis` (spherical: of the child's frame).
-JointReading moved(const World& world, int joint, std::array<double, 4> p, int axis, double angle) {
-  JointReading reading;
-  reading.type = world.joint_list()[joint].type;
-  reading.position = p;
-  if (reading.type == erp::JointType::revolute) {
-    reading.position[0] += angle;
-  } else {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)));
-    const Eigen::Quaterniond q = Eigen::Quaterniond(p[0], p[1], p[2], p[3]).normalized() * turn;
-    reading.position = {q.w(), q.x(), q.y(), q.z()};
-  }
-  return reading;
-}
-
-VectorXd lengths(const World& world) {
-  VectorXd l(world.actuators().size());
-  for (Eigen::Index k = 0; k < l.size(); ++k) l[k] = world.actuators()[k].length_m;
-  return l;
-}
-
-void put(World& world, const Pose& pose) {
-  for (std::size_t j = 0; j < pose.size(); ++j)
-    if (world.joint_list()[j].type != erp::JointType::fixed)
-      world.set_joint(static_cast<int>(j), moved(world, static_cast<int>(j), pose[j], 0, 0));
-}
-
-/// J and ∂U/∂q at a pose, by central differences.
-struct Slopes {
-  MatrixXd lengths;  ///< actuators × coordinates
-  VectorXd energy;
+/// A robot in a pose: how long its tendons are, how that changes, and what gravity asks for.
+struct Statics {
+  VectorXd length_m;
+  MatrixXd jacobian;  ///< ∂L/∂q, actuators × coordinates
+  VectorXd gravity_Nm;
 };
 
-Slopes slopes_at(World& world, const Pose& pose) {
-  const double h = 1e-5;
-  std::vector<VectorXd> columns;
-  std::vector<double> energies;
-  for (std::size_t j = 0; j < pose.size(); ++j) {
-    const int joint = static_cast<int>(j);
-    const auto type = world.joint_list()[j].type;
-    const int axes = type == erp::JointType::spherical  ? 3
-                     : type == erp::JointType::revolute ? 1
-                                                        : 0;
-    for (int axis = 0; axis < axes; ++axis) {
-      world.set_joint(joint, moved(world, joint, pose[j], axis, h));
-      const VectorXd after = lengths(world);
-      const double energy_after = world.energy_J();
-      world.set_joint(joint, moved(world, joint, pose[j], axis, -h));
-      columns.push_back((after - lengths(world)) / (2 * h));
-      energies.push_back((energy_after - world.energy_J()) / (2 * h));
-      world.set_joint(joint, moved(world, joint, pose[j], axis, 0));
-    }
+Statics statics_of(const erp::Robot& robot, const RobotTree& tree, SkeletonModel& model,
+                   const Pose& pose) {
+  std::vector<JointReading> joints;
+  for (std::size_t j = 0; j < pose.size(); ++j)
+    joints.push_back({tree.joints[j].type, pose[j], {}});
+  model.place(joints);
+  const auto actuators = static_cast<Eigen::Index>(robot.actuators.size());
+  Statics s{VectorXd(actuators), MatrixXd(actuators, model.coordinates()), {}};
+  VectorXd row;
+  for (Eigen::Index k = 0; k < actuators; ++k) {
+    const Routing routing(robot.actuators[static_cast<std::size_t>(k)].tendon, tree.names);
+    const PathShape shape = routing.solve(model.poses());
+    length_gradient(shape, model, row);
+    s.length_m[k] = shape.length_m;
+    s.jacobian.row(k) = row;
   }
-  Slopes s{MatrixXd(world.actuators().size(), columns.size()),
-           Eigen::Map<VectorXd>(energies.data(), static_cast<Eigen::Index>(energies.size()))};
-  for (std::size_t c = 0; c < columns.size(); ++c) s.lengths.col(c) = columns[c];
+  model.gravity_torques(s.gravity_Nm);
   return s;
 }
 
@@ -95,27 +65,28 @@ VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& opt
 }  // namespace
 
 Pose starting_pose(const erp::Robot& robot) {
-  const World world(robot);
   Pose pose;
-  for (const JointReading& joint : world.joints()) pose.push_back(joint.position);
+  for (const erp::Joint& joint : robot.joints())
+    pose.push_back({joint.type == erp::JointType::spherical ? 1.0 : joint.initial_rad, 0, 0, 0});
   return pose;
 }
 
 Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options) {
-  World world(robot);
-  const VectorXd start = lengths(world);
-  put(world, pose);
-  const VectorXd now = lengths(world);
-  const Slopes slopes = slopes_at(world, pose);
-  const VectorXd f = balance(slopes.lengths, -slopes.energy, options);
+  const RobotTree tree(robot);
+  const xml::Vec3 g = robot.gravity_m_per_s2();
+  SkeletonModel model(tree, {g[0], g[1], g[2]});
+  const Statics start = statics_of(robot, tree, model, starting_pose(robot));
+  const Statics now = statics_of(robot, tree, model, pose);
+  const VectorXd f = balance(now.jacobian, -now.gravity_Nm, options);
   Holding holding;
-  holding.unbalanced_Nm = (slopes.lengths.transpose() * f + slopes.energy).norm();
+  holding.unbalanced_Nm = (now.jacobian.transpose() * f + now.gravity_Nm).norm();
   for (std::size_t k = 0; k < robot.actuators.size(); ++k) {
     const erp::Tendon& tendon = robot.actuators[k].tendon;
-    holding.tension_N.push_back(f[static_cast<Eigen::Index>(k)]);
-    holding.line_m.push_back(
-        now[static_cast<Eigen::Index>(k)] - start[static_cast<Eigen::Index>(k)] -
-        (holding.tension_N[k] - tendon.pretension_N) / tendon.stiffness_N_per_m);
+    const Spring spring = Spring::of(tendon);
+    const auto i = static_cast<Eigen::Index>(k);
+    holding.tension_N.push_back(f[i]);
+    holding.line_m.push_back(now.length_m[i] - start.length_m[i] -
+                             (spring.stretch_m(f[i]) - spring.stretch_m(tendon.pretension_N)));
   }
   return holding;
 }

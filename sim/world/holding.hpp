@@ -2,12 +2,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/world/world.hpp"
+#include "sim/skeleton/skeleton_model.hpp"
 
 /// Statics: which tensions hold a pose, and how long the lines are then.
 ///
-///   Jᵀ f = −∂U/∂q,  J = ∂L/∂q,  f ≥ f_min,  Σ (f − f_rest)² least
-///   line change = L_T(q) − L_T(q0) − (f − f0)/κ
+///   Jᵀ f = −τ_G,  J = ∂L/∂q,  f ≥ f_min,  Σ (f − f_rest)² least
+///   line change = L_T(q) − L_T(q0) − (Δx(f) − Δx(f0))
 ///
 /// q0, f0: the robot's starting pose and pretensions. With the lines at these lengths the tendons
 /// pull with f at q, so the pose is an equilibrium of length control.
@@ -27,7 +27,7 @@ struct Holding {
   double unbalanced_Nm = 0;               ///< what no tensions can hold
 };
 
-/// Works on worlds of its own; the robot is not moved.
+/// Throws std::invalid_argument as RobotTree and Routing do.
 Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options = {});
 
 /// The pose a robot starts in.

@@ -1,14 +1,16 @@
 #pragma once
 #include <algorithm>
 
+#include "sim/actuator/tendon.hpp"
 #include "sim/world/step_solver.hpp"
 
 /// A tendon over a time step, implicit in the motion at its end.
 ///
-///   f = κ (x + c₁ dt ẋ + c₂ dt ẋ⁺) + D ẋ⁺,   ẋ = J v + r ω     0 where the tendon is slack
-///     = a + G J v⁺,   G = κ c₂ dt + D,   a = κ (x + c₁ dt ẋ) + G r ω
+///   f = F + κ (c₁ dt ẋ + c₂ dt ẋ⁺) + D ẋ⁺,   ẋ = J v + r ω     0 where the tendon is slack
+///     = a + G J v⁺,   G = κ c₂ dt + D,   a = F + κ c₁ dt ẋ + G r ω
 ///
-/// x stretch and J its rate over the joints, at the start of the step. With positions moved by
+/// F(x) the spring's force, κ = dF/dx, J the rate of its stretch x over the joints, at the start of
+/// the step. With positions moved by
 /// q⁺ = q + dt v⁺ an oscillator of k = dt² κ J W Jᵀ keeps (1 − k c₁)/(1 + k c₂) of its phase space
 /// each step, so
 ///
@@ -21,11 +23,20 @@
 namespace sim {
 
 struct StretchedTendon {
-  double stiffness_N_per_m = 0, damping_N_s_per_m = 0;
-  double stretch_m = 0;        ///< x
-  double rate_m_per_s = 0;     ///< ẋ
-  double winding_m_per_s = 0;  ///< r ω
+  double stiffness_N_per_m = 0, damping_N_s_per_m = 0;  ///< κ, D
+  double stretch_m = 0;                                 ///< x
+  double spring_N = 0;                                  ///< F, extended below x = 0 by its slope
+  double rate_m_per_s = 0;                              ///< ẋ
+  double winding_m_per_s = 0;                           ///< r ω
 };
+
+/// `stretch_m` x, `rate_m_per_s` ẋ, `winding_m_per_s` r ω.
+inline StretchedTendon stretched(const TendonLaw& law, double stretch_m, double rate_m_per_s,
+                                 double winding_m_per_s) {
+  const double slope = law.spring.slope_N_per_m(stretch_m);
+  const double force = stretch_m > 0 ? law.spring.force_N(stretch_m) : slope * stretch_m;
+  return {slope, law.damping_N_s_per_m, stretch_m, force, rate_m_per_s, winding_m_per_s};
+}
 
 inline double theta_of(double stiffness_N_per_m, double mobility_per_kg, double dt_s) {
   const double k = dt_s * dt_s * stiffness_N_per_m * mobility_per_kg;
@@ -37,7 +48,7 @@ inline void pull_implicitly(const StretchedTendon& t, double theta, double dt_s,
                             OneSidedForce& force) {
   const double c1 = (theta - 1) / 2, c2 = (3 * theta - 1) / 2;
   force.gain_N_s_per_m = t.stiffness_N_per_m * c2 * dt_s + t.damping_N_s_per_m;
-  force.start_N = t.stiffness_N_per_m * (t.stretch_m + c1 * dt_s * t.rate_m_per_s) +
+  force.start_N = t.spring_N + t.stiffness_N_per_m * c1 * dt_s * t.rate_m_per_s +
                   force.gain_N_s_per_m * t.winding_m_per_s;
   const bool slack = t.stretch_m + dt_s * std::max(0.0, t.rate_m_per_s) <= 0;
   if (slack) force.start_N = 0, force.row.clear();

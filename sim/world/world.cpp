@@ -85,16 +85,15 @@ void World::pull(std::size_t k, double dt_s) {
   for (int d = 0; d < row_.size(); ++d)
     if (row_[d] != 0) force.row.push_back({d, row_[d]});
   const double winding = chain.tendon.radius_m * chain.state.speed_rad_per_s;
-  const StretchedTendon stretched{
-      chain.tendon.stiffness_N_per_m, chain.tendon.damping_N_s_per_m,
-      chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
-      row_.dot(model_->velocity()) + winding, winding};
+  const StretchedTendon tendon =
+      stretched(chain.tendon, chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
+                row_.dot(model_->velocity()) + winding, winding);
   double theta = options_.theta;
   if (theta == 0) {
     inertia_factor_.matrixL().solveInPlace(row_);
-    theta = theta_of(stretched.stiffness_N_per_m, row_.squaredNorm(), dt_s);
+    theta = theta_of(tendon.stiffness_N_per_m, row_.squaredNorm(), dt_s);
   }
-  pull_implicitly(stretched, theta, dt_s, force);
+  pull_implicitly(tendon, theta, dt_s, force);
 }
 
 /// The tendons' if they are springs, and the stops'.
@@ -156,8 +155,30 @@ void World::move(double dt_s) {
   read();
 }
 
+WorldState World::save() const {
+  WorldState state{time_s_, {joints().begin(), joints().end()}, {}, {}};
+  for (const Chain& chain : chains_) state.motors.push_back(chain.state);
+  for (const ActuatorReading& reading : readings_) state.tension_N.push_back(reading.tension_N);
+  return state;
+}
+
+void World::restore(const WorldState& state) {
+  if (state.joints.size() != tree_.joints.size() || state.motors.size() != chains_.size() ||
+      state.tension_N.size() != chains_.size())
+    throw std::invalid_argument("this state is of another robot");
+  time_s_ = state.time_s;
+  for (std::size_t k = 0; k < chains_.size(); ++k) {
+    chains_[k].state = state.motors[k];
+    readings_[k].tension_N = state.tension_N[k];
+  }
+  bones_->place(state.joints);
+  read();
+}
+
 void World::set_joint(int joint, const JointReading& reading) {
-  bones_->set_joint(joint, reading);
+  std::vector<JointReading> all(joints().begin(), joints().end());
+  all[static_cast<std::size_t>(joint)] = reading;
+  bones_->place(all);
   read();
   read_tensions();
 }

@@ -42,6 +42,14 @@ struct ActuatorReading {
   double line_m = 0;  ///< change since the start; negative: wound up
 };
 
+/// All that a world's future depends on.
+struct WorldState {
+  double time_s = 0;
+  std::vector<JointReading> joints;
+  std::vector<MotorState> motors;
+  std::vector<double> tension_N;  ///< over the last step
+};
+
 class World {
  public:
   /// Throws std::invalid_argument for a robot that cannot be simulated: see RobotTree, Routing,
@@ -55,6 +63,9 @@ class World {
   void step_pulled(std::span<const double> tension_N, double dt_s);
   /// Builds everything anew: the start, exactly.
   void reset();
+  /// A world of the same robot and options goes on from there bit by bit as the one that was saved.
+  WorldState save() const;
+  void restore(const WorldState& state);
   /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are.
   void set_joint(int joint, const JointReading& reading);
 

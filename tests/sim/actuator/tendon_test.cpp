@@ -69,3 +69,28 @@ TEST_CASE("a hung mass swings at √(κ/m − (D/2m)²) and dies at D/2m") {
   const double omega = std::sqrt(6000 / 2.0 - 25.0);
   CHECK(2 * std::numbers::pi * 20 / (last - first) == Approx(omega).epsilon(1e-4));
 }
+
+TEST_CASE("a spring that stiffens, on a line that gives: both ways agree, slopes are derivatives") {
+  for (const double cubic : {0.0, 1e6, 3e8})
+    for (const double compliance : {0.0, 1e-6, 1e-4}) {
+      const sim::Spring spring{2000, cubic, compliance};
+      for (const double force : {0.0, 1e-3, 2.0, 40.0, 900.0}) {
+        const double x = spring.stretch_m(force), h = 1e-7;
+        CAPTURE(cubic, compliance, force);
+        CHECK(spring.force_N(x) == Approx(force).epsilon(1e-12).margin(1e-12));
+        const double slope = (spring.force_N(x + h) - spring.force_N(std::max(0.0, x - h))) /
+                             (x > h ? 2 * h : x + h);
+        CHECK(spring.slope_N_per_m(x) == Approx(slope).epsilon(1e-4));
+      }
+    }
+}
+
+TEST_CASE(
+    "springs in series share the stretch: of a plain spring and a line κ κ_line / (κ + κ_line)") {
+  erp::Tendon tendon = rigs::hinge_tendon();
+  tendon.line_stiffness_N_per_m = 3000;
+  CHECK(sim::Spring::of(tendon).force_N(0.01) == Approx(0.01 * 6000 * 3000 / 9000));
+  CHECK(sim::Spring::of(tendon).force_N(-0.01) == 0);
+  tendon.cubic_N_per_m3 = 1e8;
+  CHECK(sim::Spring::of(tendon).stretch_m(6000 * 0.01 + 1e8 * 1e-6) == Approx(0.01 + 160.0 / 3000));
+}

@@ -93,8 +93,7 @@ TEST_CASE("inertia and acceleration agree with Bullet's to 1e-9") {
     SkeletonModel model(tree, down);
     BulletSkeleton bullet(tree, down, {});
     const auto joints = posture(tree.joints, draw);
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      bullet.set_joint(static_cast<int>(j), joints[j]);
+    bullet.place(joints);
     model.place(bullet.joints());
     const auto response = bullet.respond();
     Eigen::MatrixXd h;

@@ -22,8 +22,9 @@ struct Oscillator {
   void step(double dt_s, double theta = 0) {
     if (theta == 0) theta = theta_of(stiffness_N_per_m, 1 / mass_kg, dt_s);
     OneSidedForce force{0, 0, {{0, 1}}};
-    pull_implicitly({stiffness_N_per_m, damping_N_s_per_m, stretch_m, speed_m_per_s, 0}, theta,
-                    dt_s, force);
+    pull_implicitly({stiffness_N_per_m, damping_N_s_per_m, stretch_m, stiffness_N_per_m * stretch_m,
+                     speed_m_per_s, 0},
+                    theta, dt_s, force);
     const Eigen::MatrixXd h = Eigen::MatrixXd::Constant(1, 1, mass_kg);
     Eigen::VectorXd v = Eigen::VectorXd::Zero(1);
     StepSolver solver(1, 1, {});
@@ -68,10 +69,10 @@ TEST_CASE("damping of any size is stable") {
 
 TEST_CASE("a slack tendon does nothing until it is drawn taut") {
   OneSidedForce force{0, 0, {{0, 1}}};
-  pull_implicitly({1000, 10, -0.002, 1, 0}, 0.5, 1e-3, force);
+  pull_implicitly({1000, 10, -0.002, -2, 1, 0}, 0.5, 1e-3, force);
   CHECK((force.row.empty() && force.start_N == 0));
   force.row = {{0, 1}};
-  pull_implicitly({1000, 10, -0.0005, 1, 0}, 0.5, 1e-3, force);
+  pull_implicitly({1000, 10, -0.0005, -0.5, 1, 0}, 0.5, 1e-3, force);
   CHECK(force.row.size() == 1);
 }
 

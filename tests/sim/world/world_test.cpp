@@ -154,3 +154,29 @@ TEST_CASE("tendons of 1e4 N/m stay quiet at 1 ms") {
   for (const auto& joint : world.joints())
     for (double speed : joint.velocity_rad_per_s) CHECK(std::abs(speed) < 1e-2);
 }
+
+TEST_CASE("a restored world goes on as the saved one, bit by bit") {
+  const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
+  World straight(robot), other(robot);
+  std::vector<double> voltage_V(11, 0.0);
+  const auto drive = [&](World& world, int from, int to) {
+    for (int i = from; i < to; ++i) {
+      for (std::size_t k = 0; k < 11; ++k)
+        voltage_V[k] = std::sin(0.01 * i + static_cast<double>(k));
+      world.step(voltage_V, 1e-3);
+    }
+  };
+  drive(straight, 0, 700);
+  drive(other, 300, 350);  // somewhere else
+  other.restore(straight.save());
+  drive(straight, 700, 1500);
+  drive(other, 700, 1500);
+  for (std::size_t k = 0; k < 11; ++k) {
+    CHECK(straight.actuators()[k].tension_N == other.actuators()[k].tension_N);
+    CHECK(straight.actuators()[k].shaft_rad == other.actuators()[k].shaft_rad);
+  }
+  for (std::size_t j = 0; j < 2; ++j)
+    CHECK(straight.joints()[j].position == other.joints()[j].position);
+  CHECK(straight.time_s() == other.time_s());
+  CHECK_THROWS_AS(other.restore({}), std::invalid_argument);
+}

@@ -1,0 +1,71 @@
+#pragma once
+#include <cmath>
+#include <stdexcept>
+
+#include "interfaces/robot/actuator.hpp"
+
+/// What is elastic in a tendon: a spring, which may stiffen as it is drawn out, and the line it
+/// hangs on, in series.
+///
+///   F = κ x_s + κ₃ x_s³,   Δx = x_s + F / κ_line          κ_line: the kite line; none:
+///   inextensible
+///
+/// Both ways are solved by Newton's method to rounding: Δx is a convex, rising function of x_s ≥ 0.
+/// Ignores hysteresis, and that a line's stiffness changes as it is wound up.
+namespace sim {
+
+struct Spring {
+  double stiffness_N_per_m;            ///< κ
+  double cubic_N_per_m3 = 0;           ///< κ₃
+  double line_compliance_m_per_N = 0;  ///< 1 / κ_line
+
+  /// Throws std::invalid_argument for a stiffness that is not positive.
+  static Spring of(const erp::Tendon& tendon) {
+    if (!(tendon.stiffness_N_per_m > 0))
+      throw std::invalid_argument("stiffness_N_per_m must be positive");
+    return {tendon.stiffness_N_per_m, tendon.cubic_N_per_m3,
+            tendon.line_stiffness_N_per_m ? 1 / *tendon.line_stiffness_N_per_m : 0.0};
+  }
+
+  /// F at a stretch Δx; a spring that is slack does not push.
+  double force_N(double stretch_m) const {
+    return stretch_m > 0 ? of_spring_N(spring_stretch_m(stretch_m)) : 0.0;
+  }
+  /// dF/dΔx.
+  double slope_N_per_m(double stretch_m) const {
+    const double own = own_slope_N_per_m(spring_stretch_m(std::fmax(0.0, stretch_m)));
+    return own / (1 + line_compliance_m_per_N * own);
+  }
+  /// Δx at a force.
+  double stretch_m(double force_N) const {
+    double x = force_N / stiffness_N_per_m;  // at least as far: Newton's steps come down to it
+    for (int k = 0; k < most_steps && cubic_N_per_m3 > 0; ++k) {
+      const double step = (of_spring_N(x) - force_N) / own_slope_N_per_m(x);
+      x -= step;
+      if (!(step > rounding * x)) break;
+    }
+    return x + force_N * line_compliance_m_per_N;
+  }
+
+ private:
+  static constexpr int most_steps = 60;
+  static constexpr double rounding = 1e-15;
+  double of_spring_N(double x) const { return x * (stiffness_N_per_m + cubic_N_per_m3 * x * x); }
+  double own_slope_N_per_m(double x) const {
+    return stiffness_N_per_m + 3 * cubic_N_per_m3 * x * x;
+  }
+  /// x_s.
+  double spring_stretch_m(double stretch_m) const {
+    double x = stretch_m / (1 + line_compliance_m_per_N * stiffness_N_per_m);
+    if (line_compliance_m_per_N == 0 || cubic_N_per_m3 == 0) return x;
+    for (int k = 0; k < most_steps; ++k) {
+      const double step = (x + line_compliance_m_per_N * of_spring_N(x) - stretch_m) /
+                          (1 + line_compliance_m_per_N * own_slope_N_per_m(x));
+      x -= step;
+      if (!(step > rounding * x)) break;
+    }
+    return x;
+  }
+};
+
+}  // namespace sim
