@@ -99,16 +99,16 @@ struct Pulley {
   }
 };
 
-/// Series elastic tendon, eqs 1 and 2: F = κ Δx + D dΔx/dt, never below zero. The spring may stiffen,
-/// F = κ x + κ₃ x³, and the line it hangs on may stretch as well; a tendon without a spring is all
-/// line, its stiffness κ.
+/// Series elastic tendon, eqs 1 and 2: F = κ Δx + D dΔx/dt, never below zero. The spring may
+/// stiffen, F = κ x + κ₃ x³, and the line it hangs on may stretch as well; a tendon without a
+/// spring is all line, its stiffness κ.
 struct Tendon {
   static constexpr auto element = "tendon";
   xml::Place place;
   double stiffness_N_per_m = 0, damping_N_s_per_m = 0;
   double cubic_N_per_m3 = 0;                     ///< κ₃
   std::optional<double> line_stiffness_N_per_m;  ///< in series with the spring; absent: rigid
-  double pretension_N = 0;  ///< at the initial pose; sets the line length L_K0
+  double pretension_N = 0;                       ///< at the initial pose; sets the line length L_K0
   std::string source;
   std::vector<std::variant<Attach, Pulley>> path;  ///< from the motor's end to the distal end
   void visit(auto& v) {

@@ -15,7 +15,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// A type that both sides of a robot use stands in both parts; the same one twice is one.
+/// A type that several parts of a robot use may stand in each; the same one twice is one.
 template <class Type>
 void append_new(std::vector<Type>& to, const std::vector<Type>& from) {
   for (const Type& type : from) {
@@ -27,8 +27,14 @@ void append_new(std::vector<Type>& to, const std::vector<Type>& from) {
 
 void append_part(Robot& robot, const Robot& part) {
   append(robot.skeletons, part.skeletons);
+  append(robot.pretensions, part.pretensions);
   append(robot.actuators, part.actuators);
   append(robot.joint_sensors, part.joint_sensors);
+}
+
+void shift_ecus(Robot& part, int offset) {
+  for (Actuator& actuator : part.actuators) actuator.ecu += offset;
+  for (JointSensor& sensor : part.joint_sensors) sensor.ecu += offset;
 }
 
 std::vector<std::string> names_in(const Robot& part) {
@@ -45,6 +51,7 @@ class Assembler {
  public:
   Robot read(const std::string& file) {
     Robot robot = merged(file);
+    for (const Pretension& given : std::exchange(robot.pretensions, {})) pretension(robot, given);
     xml::throw_if_any(std::move(errors_));
     return robot;
   }
@@ -56,17 +63,20 @@ class Assembler {
     const xml::Element root = xml::read_document(file);
     xml::throw_if_any(xml::wrong_root(root, Robot::element));
     xml::Reader::fill(robot, root, errors_);
+    const auto own = std::exchange(robot.pretensions, {});
     for (const Include& include : std::exchange(robot.includes, {})) add(robot, include, file);
     for (const Mirror& mirror : std::exchange(robot.mirrors, {})) add(robot, mirror, file);
+    append(robot.pretensions, own);  // after those of the parts: the whole has the last word
     open_.pop_back();
     return robot;
   }
 
   void add(Robot& robot, const Include& include, const std::string& from_file) {
-    const Robot part = part_of(include, from_file);
+    Robot part = part_of(include, from_file);
+    shift_ecus(part, include.ecu_offset);
     append_part(robot, part);
-    append(robot.motor_types, part.motor_types);
-    append(robot.sensor_types, part.sensor_types);
+    append_new(robot.motor_types, part.motor_types);
+    append_new(robot.sensor_types, part.sensor_types);
   }
 
   void add(Robot& robot, const Mirror& mirror, const std::string& from_file) {
@@ -78,9 +88,24 @@ class Assembler {
                                  "from=\"" + mirror.from + "\" begins no name in " + mirror.file,
                                  "names there: " + xml::joined(names)));
     part = mirrored(std::move(part), mirror);
+    shift_ecus(part, mirror.ecu_offset);
     append_part(robot, part);
     append_new(robot.motor_types, part.motor_types);
     append_new(robot.sensor_types, part.sensor_types);
+  }
+
+  void pretension(Robot& robot, const Pretension& given) {
+    std::vector<std::string> names;
+    for (Actuator& actuator : robot.actuators) {
+      if (actuator.name == given.actuator) {
+        actuator.tendon.pretension_N = given.tension_N;
+        return;
+      }
+      names.push_back(actuator.name);
+    }
+    errors_.push_back(error_in(Pretension::element, given.place,
+                               "actuator=\"" + given.actuator + "\" names no actuator",
+                               xml::did_you_mean(given.actuator, names)));
   }
 
   /// The part, or an empty one when it cannot be read; then errors_ says why.

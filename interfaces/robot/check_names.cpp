@@ -72,6 +72,11 @@ void check_references(const Robot& robot, Findings& findings) {
     check_reference(joint, "parent", joint.parent, bodies, "body", findings);
     check_reference(joint, "child", joint.child, bodies, "body", findings);
   }
+  for (const Skeleton& part : robot.skeletons)
+    for (const Contact& contact : part.contacts) {
+      check_reference(contact, "body", contact.body, bodies, "body", findings);
+      check_reference(contact, "on", contact.on, bodies, "body", findings);
+    }
   for (const Actuator& actuator : robot.actuators) {
     check_reference(actuator, "motor", actuator.motor, motors, "motor_type", findings);
     check_reference(actuator, "sensors", actuator.sensors, sensors, "sensor_type", findings);

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "interfaces/robot/check.hpp"
+#include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/values.hpp"
 
 namespace erp::robot_check {
@@ -51,6 +52,17 @@ void check_loops(const std::vector<Joint>& joints, const MovedBy& moved_by, Find
   }
 }
 
+void check_free(const Joint& joint, const MovedBy& moved_by, Findings& findings) {
+  if (joint.type != JointType::free) return;
+  if (const auto above = moved_by.find(joint.parent); above != moved_by.end())
+    findings.add(
+        joint, "parent=" + quote(joint.parent) + " is moved by joint " + quote(above->second->name),
+        "a free body floats relative to a root: name one");
+  if (joint.viscous_Nm_s_per_rad > 0 || joint.coulomb_Nm > 0)
+    findings.add(joint, "a free body has no joint that could rub",
+                 "leave out viscous_Nm_s_per_rad and coulomb_Nm");
+}
+
 void check_joint(const Joint& joint, Findings& findings) {
   if (joint.type != JointType::revolute) return;
   if (joint.axis == Vec3{0, 0, 0})
@@ -74,16 +86,37 @@ bool possible(const Vec3& inertia) {
 
 void check_body(const Body& body, const MovedBy& moved_by, Findings& findings) {
   const auto joint = moved_by.find(body.name);
-  if (joint != moved_by.end() && body.mass_kg == 0)
+  if (joint != moved_by.end() && mass_of(body).mass_kg == 0)
     findings.add(
         body,
         quote(body.name) + " has no mass but joint " + quote(joint->second->name) + " moves it",
-        "add mass_kg");
+        "add mass_kg, or density_kg_per_m3 for its solids");
+  if (made_of_parts(body) && body.mass_kg > 0)
+    findings.add(body,
+                 "mass_kg=" + quote(write_number(body.mass_kg)) +
+                     " is given beside a density or a weight, from which it would follow",
+                 "give either");
   if (!possible(body.inertia_kg_m2))
     findings.add(
         body,
         "inertia_kg_m2=\"" + xml::Codec<Vec3>::write(body.inertia_kg_m2) + "\" belongs to no body",
         "none of the three may exceed the sum of the other two");
+}
+
+bool is_solid(const Part& part) { return !std::holds_alternative<Weight>(part); }
+
+void check_contact(const Robot& robot, const Contact& contact, const MovedBy& moved_by,
+                   Findings& findings) {
+  if (contact.body == contact.on)
+    findings.add(contact, quote(contact.body) + " cannot touch itself", "name two bodies");
+  else if (!moved_by.contains(contact.body) && !moved_by.contains(contact.on))
+    findings.add(contact, "neither " + quote(contact.body) + " nor " + quote(contact.on) + " moves",
+                 "name a body that a joint moves");
+  for (const Body& body : robot.bodies())
+    if ((body.name == contact.body || body.name == contact.on) &&
+        std::ranges::none_of(body.parts, is_solid))
+      findings.add(contact, quote(body.name) + " has no shape",
+                   "give it a <sphere>, <capsule> or <box>");
 }
 
 void check_gravity(const Robot& robot, Findings& findings) {
@@ -103,8 +136,13 @@ void check_skeleton(const Robot& robot, Findings& findings) {
   const auto joints = robot.joints();
   const MovedBy moved_by = check_one_joint_a_body(joints, findings);
   check_loops(joints, moved_by, findings);
-  for (const Joint& joint : joints) check_joint(joint, findings);
+  for (const Joint& joint : joints) {
+    check_joint(joint, findings);
+    check_free(joint, moved_by, findings);
+  }
   for (const Body& body : robot.bodies()) check_body(body, moved_by, findings);
+  for (const Skeleton& part : robot.skeletons)
+    for (const Contact& contact : part.contacts) check_contact(robot, contact, moved_by, findings);
   check_gravity(robot, findings);
 }
 

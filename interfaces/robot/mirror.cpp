@@ -11,9 +11,19 @@ Vec3 reflected(const Vec3& p) { return {p[0], negated(p[1]), p[2]}; }
 // a → −M a
 Vec3 reflected_axis(const Vec3& a) { return {negated(a[0]), a[1], negated(a[2])}; }
 
+void reflect(Sphere& sphere) { sphere.at_m = reflected(sphere.at_m); }
+void reflect(Box& box) { box.at_m = reflected(box.at_m); }
+void reflect(Weight& weight) { weight.at_m = reflected(weight.at_m); }
+void reflect(Capsule& capsule) {
+  capsule.from_m = reflected(capsule.from_m), capsule.to_m = reflected(capsule.to_m);
+}
+
 void reflect(Skeleton& skeleton) {
   if (auto& gravity = skeleton.gravity_m_per_s2) gravity = reflected(*gravity);
-  for (Body& body : skeleton.bodies) body.com_m = reflected(body.com_m);
+  for (Body& body : skeleton.bodies) {
+    body.com_m = reflected(body.com_m);
+    for (Part& part : body.parts) std::visit([](auto& p) { reflect(p); }, part);
+  }
   for (Joint& joint : skeleton.joints) {
     joint.at_m = reflected(joint.at_m);
     joint.axis = reflected_axis(joint.axis);
@@ -41,6 +51,7 @@ struct Rename {
 void rename(Skeleton& skeleton, const Rename& rename) {
   for (Body& body : skeleton.bodies) rename(body.name);
   for (Joint& joint : skeleton.joints) rename.each(joint.name, joint.parent, joint.child);
+  for (Contact& contact : skeleton.contacts) rename.each(contact.body, contact.on);
 }
 
 }  // namespace
@@ -52,14 +63,11 @@ Robot mirrored(Robot part, const Mirror& mirror) {
   for (SensorType& type : part.sensor_types) renamed(type.name);
   for (Actuator& actuator : part.actuators) {
     renamed.each(actuator.name, actuator.motor, actuator.sensors);
-    actuator.ecu += mirror.ecu_offset;
     for (auto& point : actuator.tendon.path)
       std::visit([&](auto& p) { reflect(p), renamed(p.body); }, point);
   }
-  for (JointSensor& sensor : part.joint_sensors) {
-    renamed(sensor.joint);
-    sensor.ecu += mirror.ecu_offset;
-  }
+  for (Pretension& pretension : part.pretensions) renamed(pretension.actuator);
+  for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint);
   return part;
 }
 

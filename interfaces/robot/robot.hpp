@@ -29,12 +29,29 @@ struct JointSensor {
   }
 };
 
+/// The pretension of a tendon in this robot's starting pose, in place of the one its part gives:
+/// pretensions balance a whole robot. `erp model balance` finds them.
+struct Pretension {
+  static constexpr auto element = "pretension";
+  xml::Place place;
+  std::string actuator;
+  double tension_N = 0;
+  void visit(auto& v) {
+    v.required("actuator", actuator);
+    v.required("tension_N", tension_N, xml::at_least_zero);
+  }
+};
+
 /// Another robot.xml whose parts belong to this robot; its own name is not used.
 struct Include {
   static constexpr auto element = "include";
   xml::Place place;
-  std::string file;  ///< relative to the including file
-  void visit(auto& v) { v.required("file", file); }
+  std::string file;    ///< relative to the including file
+  int ecu_offset = 0;  ///< added to every ecu
+  void visit(auto& v) {
+    v.required("file", file);
+    v("ecu_offset", ecu_offset, xml::Range{-127, 127});
+  }
 };
 
 /// Another robot.xml, reflected at the plane y = 0: a left arm from a right one. Names that begin
@@ -53,7 +70,8 @@ struct Mirror {
   }
 };
 
-/// A robot. As `read_robot` returns it, it is whole: no includes and mirrors are left.
+/// A robot. As `read_robot` returns it, it is whole: no includes, mirrors and pretensions are
+/// left.
 struct Robot {
   static constexpr auto element = "robot";
   xml::Place place;
@@ -63,6 +81,7 @@ struct Robot {
   std::vector<SensorType> sensor_types;
   std::vector<Actuator> actuators;
   std::vector<JointSensor> joint_sensors;
+  std::vector<Pretension> pretensions;  ///< the last one that names an actuator counts
   std::vector<Include> includes;
   std::vector<Mirror> mirrors;
   void visit(auto& v) {
@@ -74,6 +93,7 @@ struct Robot {
     v.list(sensor_types);
     v.list(actuators);
     v.list(joint_sensors);
+    v.list(pretensions);
   }
 
   std::vector<Body> bodies() const;  ///< of all skeletons, in the order of the file

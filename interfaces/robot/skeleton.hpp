@@ -5,14 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "interfaces/robot/solids.hpp"
 #include "interfaces/xml/fields.hpp"
 
 /// Bodies and joints of robot.xml.
 namespace erp {
 
-using xml::Vec3;
-
 /// A rigid body. Its frame is the frame of the joint that moves it (world for a root body).
+/// Its mass is given, or follows from the density of the solids it consists of and from its
+/// weights: see mass_of.
 struct Body {
   static constexpr auto element = "body";
   xml::Place place;
@@ -20,17 +21,22 @@ struct Body {
   double mass_kg = 0.0;         ///< 0: a root body, fixed to the world
   Vec3 com_m{0, 0, 0};          ///< centre of mass in the body frame
   Vec3 inertia_kg_m2{0, 0, 0};  ///< principal inertia about the centre of mass, body axes
+  std::optional<double> density_kg_per_m3;
   std::string source;
+  std::vector<Part> parts;  ///< solids: its shape, for contacts and pictures too; and weights
   void visit(auto& v) {
     v.required("name", name);
     v("mass_kg", mass_kg, xml::at_least_zero);
     v("com_m", com_m);
     v("inertia_kg_m2", inertia_kg_m2, xml::at_least_zero);
+    v("density_kg_per_m3", density_kg_per_m3, xml::positive);
     v("source", source);
+    v.list(parts);
   }
 };
 
-enum class JointType { revolute, spherical, fixed };
+/// `free`: the child floats, held by nothing but its tendons and contacts; its parent is a root.
+enum class JointType { revolute, spherical, fixed, free };
 
 /// A joint; parent and child frames are parallel at zero. Positive angle: right-handed about
 /// `axis`.
@@ -62,16 +68,26 @@ struct Joint {
   }
 };
 
+/// Two bodies that cannot pass through each other. They glide: there is no friction between them.
+struct Contact {
+  static constexpr auto element = "contact";
+  xml::Place place;
+  std::string body, on;
+  void visit(auto& v) { v.required("body", body), v.required("on", on); }
+};
+
 struct Skeleton {
   static constexpr auto element = "skeleton";
   xml::Place place;
   std::optional<Vec3> gravity_m_per_s2;  ///< given once among all parts of a robot; absent: none
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<Contact> contacts;
   void visit(auto& v) {
     v("gravity_m_per_s2", gravity_m_per_s2);
     v.list(bodies);
     v.list(joints);
+    v.list(contacts);
   }
 };
 
@@ -82,5 +98,6 @@ struct xml::Names<erp::JointType> {
   static constexpr auto list = std::to_array<std::pair<const char*, erp::JointType>>(
       {{"revolute", erp::JointType::revolute},
        {"spherical", erp::JointType::spherical},
-       {"fixed", erp::JointType::fixed}});
+       {"fixed", erp::JointType::fixed},
+       {"free", erp::JointType::free}});
 };

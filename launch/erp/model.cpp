@@ -2,32 +2,40 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <ostream>
 #include <set>
 #include <stdexcept>
 
+#include "interfaces/robot/mass.hpp"
+#include "interfaces/xml/xml.hpp"
+#include "sim/actuator/holding.hpp"
 #include "sim/formats/formats.hpp"
+#include "sim/skeleton/joint_reading.hpp"
 
 namespace launch {
 namespace {
 
 std::string in_format_of(const std::string& file, const erp::Robot& robot) {
   if (file.ends_with(".mjcf.xml")) return formats::to_mjcf(robot);
-  throw std::invalid_argument(file + ": no format has this ending; write .mjcf.xml");
+  if (file.ends_with(".svg")) return formats::to_svg(robot);
+  throw std::invalid_argument(file + ": no format has this ending; write .mjcf.xml or .svg");
 }
 
-int freedom_of(erp::JointType type) {
-  return type == erp::JointType::spherical ? 3 : type == erp::JointType::revolute ? 1 : 0;
+void write_file(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  if (!(out << text) || !out.flush())
+    throw std::invalid_argument(file + ": cannot be written; name another file");
 }
 
 }  // namespace
 
 ModelFigures figures_of(const erp::Robot& robot) {
   ModelFigures f{.name = robot.name};
-  for (const auto& body : robot.bodies()) ++f.bodies, f.mass_kg += body.mass_kg;
+  for (const auto& body : robot.bodies()) ++f.bodies, f.mass_kg += mass_of(body).mass_kg;
   for (const auto& joint : robot.joints())
-    ++f.joints, f.degrees_of_freedom += freedom_of(joint.type);
+    ++f.joints, f.degrees_of_freedom += sim::coordinates_of(joint.type);
   std::set<int> ecus;
   for (const auto& actuator : robot.actuators) {
     ++f.actuators;
@@ -56,9 +64,21 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
 
 int model_export(const std::string& robot_file, const std::string& out_file) {
   const std::string text = in_format_of(out_file, erp::read_robot(robot_file));
-  std::ofstream out(out_file);
-  if (!(out << text) || !out.flush())
-    throw std::invalid_argument(out_file + ": cannot be written; name another file");
+  write_file(out_file, text);
+  return 0;
+}
+
+int model_balance(const std::string& robot_file, double least_N, double rest_N, std::ostream& out) {
+  const erp::Robot robot = erp::read_robot(robot_file);
+  const sim::Holding holding =
+      sim::hold_pose(robot, sim::starting_pose(robot), {.rest_N = rest_N, .least_N = least_N});
+  erp::Robot part;
+  part.name = robot.name;
+  for (std::size_t k = 0; k < robot.actuators.size(); ++k)
+    part.pretensions.push_back(
+        {{}, robot.actuators[k].name, 0.1 * std::round(10 * holding.tension_N[k])});
+  out << xml::write(part);
+  fmt::print(stderr, "left unbalanced: {:.3g} Nm\n", holding.unbalanced_Nm);
   return 0;
 }
 

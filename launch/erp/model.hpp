@@ -20,8 +20,13 @@ ModelFigures figures_of(const erp::Robot& robot);
 /// A line a figure, or one JSON object. Throws xml::Errors. Returns the exit code.
 int model_info(const std::string& robot_file, bool json, std::ostream& out);
 
-/// The format follows from the ending: .mjcf.xml. Throws xml::Errors, std::invalid_argument for
-/// another ending or what the format cannot say. Returns the exit code.
+/// Prints, as a part to be included in robot.xml, the pretensions that balance the starting pose
+/// against gravity: no tendon below `least_N`, all as near to `rest_N` as can be; and on stderr
+/// what they cannot balance. Throws xml::Errors. Returns the exit code.
+int model_balance(const std::string& robot_file, double least_N, double rest_N, std::ostream& out);
+
+/// The format follows from the ending: .mjcf.xml; .svg is a picture. Throws xml::Errors,
+/// std::invalid_argument for another ending or what the format cannot say. Returns the exit code.
 int model_export(const std::string& robot_file, const std::string& out_file);
 
 }  // namespace launch

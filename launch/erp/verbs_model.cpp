@@ -20,8 +20,19 @@ void add_model(CLI::App& app, Chosen& chosen) {
 
   auto* export_verb = model->add_subcommand("export", "Write it for another simulator");
   export_verb->add_option("robot", *robot, "robot.xml")->required();
-  export_verb->add_option("out", *out, "the new file: OUT.mjcf.xml for MuJoCo")->required();
+  export_verb
+      ->add_option("out", *out, "the new file: OUT.mjcf.xml for MuJoCo, OUT.svg for a picture")
+      ->required();
   export_verb->callback([=, &chosen] { chosen = [=] { return model_export(*robot, *out); }; });
+
+  auto least = std::make_shared<double>(5), rest = std::make_shared<double>(10);
+  auto* balance = model->add_subcommand(
+      "balance", "The pretensions that hold the starting pose, as a part to include");
+  balance->add_option("robot", *robot, "robot.xml")->required();
+  balance->add_option("--least", *least, "no tendon pulls less, N")->capture_default_str();
+  balance->add_option("--rest", *rest, "what each would like to pull, N")->capture_default_str();
+  balance->callback(
+      [=, &chosen] { chosen = [=] { return model_balance(*robot, *least, *rest, std::cout); }; });
 }
 
 }  // namespace launch

@@ -14,4 +14,8 @@ namespace formats {
 /// another one, which MJCF cannot say.
 std::string to_mjcf(const erp::Robot& robot);
 
+/// A picture: the starting pose from the front and from the robot's right, as SVG; pointing at
+/// something shows its name. Throws std::invalid_argument for a robot that cannot be built.
+std::string to_svg(const erp::Robot& robot);
+
 }  // namespace formats

@@ -2,6 +2,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/tree.hpp"
 #include "sim/formats/formats.hpp"
 
@@ -18,6 +19,11 @@ Vec3 along(const Vec3& from, const Vec3& direction, double distance) {
   Vec3 to = from;
   for (std::size_t i = 0; i < 3; ++i) to[i] += distance * direction[i] / length;
   return to;
+}
+
+/// In MJCF's order: xx yy zz xy xz yz.
+std::vector<double> inertia_of(const erp::Mass& mass) {
+  return {mass.inertia_kg_m2.begin(), mass.inertia_kg_m2.end()};
 }
 
 bool is_zero(const Vec3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
@@ -62,19 +68,20 @@ class Mjcf {
     Tree& own = parent.add("body").set("name", body.name);
     if (joint) own.set("pos", joint->at_m);
     if (joint) add_joint(own, *joint);
-    if (body.mass_kg > 0)
+    if (const erp::Mass mass = mass_of(body); mass.mass_kg > 0)
       own.add("inertial")
-          .set("pos", body.com_m)
-          .set("mass", body.mass_kg)
-          .set("diaginertia", body.inertia_kg_m2);
+          .set("pos", mass.com_m)
+          .set("mass", mass.mass_kg)
+          .set("fullinertia", inertia_of(mass));
     tree_of_[body.name] = &own;
     for (const erp::Body& child : bodies_)
       if (const erp::Joint* next = joint_of(child); next && next->parent == body.name)
-        add_body(own, child, next);
+        add_body(next->type == erp::JointType::free ? parent : own, child, next);
   }
 
   void add_joint(Tree& body, const erp::Joint& joint) {
     if (joint.type == erp::JointType::fixed) return;
+    if (joint.type == erp::JointType::free) return add_freedom(body, joint);
     const bool ball = joint.type == erp::JointType::spherical;
     Tree& own = body.add("joint").set("name", joint.name).set("type", ball ? "ball" : "hinge");
     if (ball) start_.insert(start_.end(), {1, 0, 0, 0});
@@ -83,6 +90,12 @@ class Mjcf {
         .set("range", std::vector<double>{ball ? 0 : joint.min_rad, joint.max_rad})
         .set("damping", joint.viscous_Nm_s_per_rad)
         .set("frictionloss", joint.coulomb_Nm);
+  }
+
+  void add_freedom(Tree& body, const erp::Joint& joint) {
+    body.add("freejoint").set("name", joint.name);
+    start_.insert(start_.end(), joint.at_m.begin(), joint.at_m.end());
+    start_.insert(start_.end(), {1, 0, 0, 0});
   }
 
   void route(Tree& tendons, const erp::Actuator& actuator) {

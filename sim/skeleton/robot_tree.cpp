@@ -19,13 +19,11 @@ int joint_that_moves(const std::vector<erp::Joint>& joints, const std::string& b
   return found;
 }
 
-void check(const erp::Body& body, bool moved) {
-  const auto& inertia = body.inertia_kg_m2;
-  const bool has_inertia =
-      std::all_of(inertia.begin(), inertia.end(), [](double i) { return i > 0; });
-  if (moved && !(body.mass_kg > 0 && has_inertia))
+void check(const erp::Body& body, const erp::Mass& mass, bool moved) {
+  const auto& i = mass.inertia_kg_m2;
+  if (moved && !(mass.mass_kg > 0 && i[0] > 0 && i[1] > 0 && i[2] > 0))
     refuse("body \"" + body.name + "\" is moved by a joint and needs mass and inertia");
-  if (!moved && body.mass_kg > 0)
+  if (!moved && mass.mass_kg > 0)
     refuse("body \"" + body.name + "\" has mass but no joint moves it");
 }
 
@@ -46,8 +44,12 @@ RobotTree::RobotTree(const erp::Robot& robot) : joints(robot.joints()) {
     if (next == left.end())
       refuse("body \"" + left.front().name + "\" hangs on an unknown body or on itself");
     const int joint = joint_that_moves(joints, next->name);
-    check(*next, joint >= 0);
-    bodies.push_back({*next, joint < 0 ? -1 : index(joints[joint].parent), joint});
+    const erp::Mass mass = mass_of(*next);
+    check(*next, mass, joint >= 0);
+    const int parent = joint < 0 ? -1 : index(joints[joint].parent);
+    if (joint >= 0 && joints[joint].type == erp::JointType::free && bodies[parent].joint >= 0)
+      refuse("free body \"" + next->name + "\" must float relative to a root");
+    bodies.push_back({*next, parent, joint, mass});
     names.push_back(next->name);
     left.erase(next);
   }

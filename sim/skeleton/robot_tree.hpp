@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "interfaces/robot/mass.hpp"
 #include "interfaces/robot/robot.hpp"
 
 /// A robot's bodies and joints in an order a tree can be built in: parents before children.
@@ -12,6 +13,7 @@ struct TreeBody {
   erp::Body body;
   int parent = -1;  ///< index of the parent body; −1: a root, fixed to the world
   int joint = -1;   ///< index into the robot's joints; −1: a root
+  erp::Mass mass;
 };
 
 struct RobotTree {
@@ -20,7 +22,7 @@ struct RobotTree {
   std::vector<std::string> names;  ///< of the bodies
 
   /// Throws std::invalid_argument, naming what: a body moved by two joints, a loop, an unknown
-  /// body, a moved body without mass or inertia, a root with mass (free bodies are not simulated).
+  /// body, a moved body without mass or inertia, a root with mass, a free body whose parent moves.
   explicit RobotTree(const erp::Robot& robot);
 };
 

@@ -29,12 +29,8 @@ SkeletonModel::SkeletonModel(const RobotTree& tree, const Vec3& gravity,
       add_link(static_cast<int>(k), std::ranges::count(lock, tree.joints[joint].name) > 0);
   velocity_.setZero(coordinates());
   still_.setZero(coordinates());
-  std::vector<JointReading> start(tree.joints.size());
-  for (std::size_t j = 0; j < start.size(); ++j) {
-    start[j].type = tree.joints[j].type;
-    start[j].position[0] =
-        start[j].type == erp::JointType::spherical ? 1 : tree.joints[j].initial_rad;
-  }
+  std::vector<JointReading> start;
+  for (const erp::Joint& joint : tree.joints) start.push_back(start_of(joint));
   place(start);
 }
 
@@ -47,6 +43,9 @@ void SkeletonModel::add_link(int k, bool locked) {
   link.axis = vec(joint.axis).normalized();
   if (joint.type == erp::JointType::revolute)
     link.rotation = Eigen::AngleAxisd(joint.initial_rad, link.axis).toRotationMatrix();
+  link.origin_m = vec(joint.at_m);
+  const auto& i = body.mass.inertia_kg_m2;
+  link.central_kg_m2 << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
   if (link.dofs > 0) first_of_[body.joint] = link.first;
   for (int d = 0; d < link.dofs; ++d) movers_[k].push_back(link.first + d);
   std::ranges::copy(movers_[body.parent], std::back_inserter(movers_[k]));
@@ -58,8 +57,9 @@ void SkeletonModel::add_link(int k, bool locked) {
 void SkeletonModel::turn(Link& link, const JointReading& joint) const {
   const auto& p = joint.position;
   if (link.dofs == 1) link.rotation = Eigen::AngleAxisd(p[0], link.axis).toRotationMatrix();
-  if (link.dofs == 3)
+  if (link.dofs >= 3)
     link.rotation = Eigen::Quaterniond(p[0], p[1], p[2], p[3]).normalized().toRotationMatrix();
+  if (link.dofs == 6) link.origin_m = vec(tree_.joints[link.joint].at_m) + vec(joint.offset_m);
 }
 
 /// The body's pose, its inertia there, and the motions of its joint.
@@ -68,14 +68,15 @@ void SkeletonModel::place(Link& link) {
   const BodyPose& parent = poses_[body.parent];
   BodyPose& pose = poses_[link.body];
   pose.rotation.noalias() = parent.rotation * link.rotation;
-  pose.position_m = parent.position_m + parent.rotation * vec(tree_.joints[link.joint].at_m);
+  pose.position_m = parent.position_m + parent.rotation * link.origin_m;
   if (link.dofs == 1) axes_.col(link.first) = turning(pose.rotation * link.axis, pose.position_m);
-  if (link.dofs == 3)
-    for (int d = 0; d < 3; ++d)
-      axes_.col(link.first + d) = turning(pose.rotation.col(d), pose.position_m);
-  link.inertia =
-      SpatialInertia::of(body.body.mass_kg, pose.position_m + pose.rotation * vec(body.body.com_m),
-                         pose.rotation, vec(body.body.inertia_kg_m2));
+  const Vec3 com = pose.position_m + pose.rotation * vec(body.mass.com_m);
+  for (int d = 0; d < 3 && link.dofs >= 3; ++d)
+    axes_.col(link.first + d) =
+        turning(pose.rotation.col(d), link.dofs == 6 ? com : pose.position_m);
+  for (int d = 0; d < 3 && link.dofs == 6; ++d)
+    axes_.col(link.first + 3 + d) = spatial(Vec3::Zero(), parent.rotation.col(d));
+  link.inertia = SpatialInertia::of(body.mass.mass_kg, com, pose.rotation, link.central_kg_m2);
 }
 
 /// What the joint's own speed adds to the motion of its parent.
@@ -85,13 +86,19 @@ Vec6 SkeletonModel::moved(const Link& link, const Eigen::VectorXd& v) const {
   return own;
 }
 
+/// Of it, the part along the root's axes.
+Vec3 SkeletonModel::slid(const Link& link, const Eigen::VectorXd& v) const {
+  return axes_.block<3, 3>(3, link.first + 3) * v.segment<3>(link.first + 3);
+}
+
 void SkeletonModel::place(std::span<const JointReading> joints) {
   for (Link& link : links_) {
     const JointReading& joint = joints[link.joint];
     turn(link, joint);
     place(link);
-    for (int d = 0; d < link.dofs; ++d)
+    for (int d = 0; d < std::min(link.dofs, 3); ++d)
       velocity_[link.first + d] = joint.velocity_rad_per_s[static_cast<std::size_t>(d)];
+    if (link.dofs == 6) velocity_.segment<3>(link.first + 3) = vec(joint.slide_m_per_s);
     link.velocity = moved(link, velocity_);
     if (link.parent >= 0) link.velocity += links_[link.parent].velocity;
     const Vec3 angular = link.velocity.head<3>();
@@ -100,7 +107,8 @@ void SkeletonModel::place(std::span<const JointReading> joints) {
   }
 }
 
-/// Gravity is the world falling upwards. The axes of a joint turn with its child: dS/dt = v × S.
+/// Gravity is the world falling upwards. The axes of a joint turn with its child, dS/dt = v × S;
+/// those a free body slides along are the root's and stay.
 void SkeletonModel::newton_euler(const Eigen::VectorXd& v, const Eigen::VectorXd* a,
                                  Eigen::VectorXd& tau) {
   for (Link& link : links_) {
@@ -111,7 +119,9 @@ void SkeletonModel::newton_euler(const Eigen::VectorXd& v, const Eigen::VectorXd
       link.moving += links_[link.parent].moving;
       link.acceleration = links_[link.parent].acceleration;
     }
-    link.acceleration += cross_motion(link.moving, own);
+    Vec6 turned = own;
+    if (link.dofs == 6) turned.tail<3>() -= slid(link, v);
+    link.acceleration += cross_motion(link.moving, turned);
     if (a) link.acceleration += moved(link, *a);
     link.force =
         link.inertia * link.acceleration + cross_force(link.moving, link.inertia * link.moving);

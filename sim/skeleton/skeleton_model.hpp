@@ -13,8 +13,9 @@
 ///   τ = H(q) a + C(q, v) + τ_G(q)
 ///
 /// v: one coordinate a revolute joint, three a spherical one (angular velocity of the child, in the
-/// child's frame), none a fixed or locked one; in the order of RobotTree's bodies. a = dv/dt.
-/// Column S_d is the motion of coordinate d alone, in the world's frame.
+/// child's frame), six a free one (the same, and the velocity of its centre of mass in the root's
+/// frame), none a fixed or locked one; in the order of RobotTree's bodies. a = dv/dt. Column S_d is
+/// the motion of coordinate d alone, in the world's frame.
 ///
 ///   inverse   recursive Newton–Euler      f_i = I a_i + v_i ×* I v_i,  τ_d = S_dᵀ Σ f  (outwards)
 ///   H         composite rigid bodies      H_de = S_dᵀ I^c_e S_e,  d towards the root from e
@@ -67,6 +68,8 @@ class SkeletonModel {
     int first = 0, dofs = 0;
     Vec3 axis = Vec3::UnitY();                               ///< of a revolute joint
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< child to parent
+    Vec3 origin_m = Vec3::Zero();                            ///< in the parent's frame
+    Eigen::Matrix3d central_kg_m2;                           ///< inertia about the centre of mass
     SpatialInertia inertia, composite;
     Vec6 velocity = Vec6::Zero();  ///< as placed
     Vec6 moving = Vec6::Zero(), acceleration = Vec6::Zero(), force = Vec6::Zero();
@@ -75,6 +78,7 @@ class SkeletonModel {
   void turn(Link& link, const JointReading& joint) const;
   void place(Link& link);
   Vec6 moved(const Link& link, const Eigen::VectorXd& v) const;
+  Vec3 slid(const Link& link, const Eigen::VectorXd& v) const;
   void newton_euler(const Eigen::VectorXd& v, const Eigen::VectorXd* a, Eigen::VectorXd& tau);
 
   RobotTree tree_;

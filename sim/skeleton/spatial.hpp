@@ -46,8 +46,8 @@ struct SpatialInertia {
 
   /// Mass m with its centre at c and inertia about it in axes turned by `rotation`.
   static SpatialInertia of(double mass_kg, const Vec3& com_m, const Eigen::Matrix3d& rotation,
-                           const Vec3& inertia_kg_m2) {
-    Eigen::Matrix3d second = rotation * inertia_kg_m2.asDiagonal() * rotation.transpose();
+                           const Eigen::Matrix3d& inertia_kg_m2) {
+    Eigen::Matrix3d second = rotation * inertia_kg_m2 * rotation.transpose();
     second +=
         mass_kg * (com_m.squaredNorm() * Eigen::Matrix3d::Identity() - com_m * com_m.transpose());
     return {mass_kg, mass_kg * com_m, second};

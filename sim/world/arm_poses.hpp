@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "sim/world/holding.hpp"
+#include "sim/actuator/holding.hpp"
 
 namespace sim {
 

@@ -5,14 +5,22 @@
 
 namespace sim {
 
+namespace {
+
+/// Bullet has no place for products of inertia; it needs none to move joints as it is told.
+btVector3 inertia_of(const erp::Mass& mass) {
+  return {mass.inertia_kg_m2[0], mass.inertia_kg_m2[1], mass.inertia_kg_m2[2]};
+}
+
+}  // namespace
+
 BulletSkeleton::Bullet::Bullet(const RobotTree& tree_of_robot, const Vec3& g,
                                std::span<const std::string> lock)
     : robot(tree_of_robot) {
   world.setGravity(bt(g));
   place_bodies(lock);
   for (BulletTree& tree : trees) build(tree);
-  joints.resize(robot.joints.size());
-  read();
+  for (const erp::Joint& joint : robot.joints) joints.push_back(start_of(joint));
 }
 
 void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
@@ -28,9 +36,15 @@ void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
       trees.emplace_back();
       continue;
     }
-    BulletTree& tree = trees[places[body.parent].tree];
     const erp::Joint& joint = robot.joints[body.joint];
     const bool locked = std::find(lock.begin(), lock.end(), joint.name) != lock.end();
+    if (joint.type == erp::JointType::free && !locked) {
+      places.push_back({static_cast<int>(trees.size()), -1, false, first});
+      trees.emplace_back().floating = static_cast<int>(k);
+      first += coordinates_of(joint.type);
+      continue;
+    }
+    BulletTree& tree = trees[places[body.parent].tree];
     places.push_back(
         {places[body.parent].tree, static_cast<int>(tree.links.size()), locked, first});
     tree.links.push_back(static_cast<int>(k));
@@ -40,7 +54,12 @@ void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
 
 void BulletSkeleton::Bullet::build(BulletTree& tree) {
   const int links = static_cast<int>(tree.links.size());
-  tree.body = std::make_unique<btMultiBody>(links, 0, btVector3(0, 0, 0), true, false);
+  if (tree.floating < 0) {
+    tree.body = std::make_unique<btMultiBody>(links, 0, btVector3(0, 0, 0), true, false);
+  } else {
+    const erp::Mass& mass = robot.bodies[tree.floating].mass;
+    tree.body = std::make_unique<btMultiBody>(links, mass.mass_kg, inertia_of(mass), false, false);
+  }
   for (int link = 0; link < links; ++link) add_link(tree, link, tree.links[link]);
   btMultiBody& b = *tree.body;
   b.finalizeMultiDof();
@@ -51,26 +70,27 @@ void BulletSkeleton::Bullet::build(BulletTree& tree) {
   for (int link = 0; link < links; ++link)
     if (b.getLink(link).m_jointType == btMultibodyLink::eRevolute)
       b.setJointPos(link, robot.joints[robot.bodies[tree.links[link]].joint].initial_rad);
-  if (links > 0) world.addMultiBody(&b);
+  if (links > 0 || tree.floating >= 0) world.addMultiBody(&b);
 }
 
 void BulletSkeleton::Bullet::add_link(BulletTree& tree, int link, int index) {
   const TreeBody& body = robot.bodies[index];
   const erp::Joint& joint = robot.joints[body.joint];
-  const btVector3 inertia = bt(body.body.inertia_kg_m2), com = bt(body.body.com_m);
+  const double mass = body.mass.mass_kg;
+  const btVector3 inertia = inertia_of(body.mass), com = bt(body.mass.com_m);
   const btVector3 pivot = bt(joint.at_m) - (robot.bodies[body.parent].parent < 0
                                                 ? btVector3(0, 0, 0)
-                                                : bt(robot.bodies[body.parent].body.com_m));
+                                                : bt(robot.bodies[body.parent].mass.com_m));
   const int parent = places[body.parent].link;
   const btQuaternion same = btQuaternion::getIdentity();
   const btVector3 axis = bt(joint.axis).normalized();
   if (joint.type == erp::JointType::revolute && !places[index].locked)
-    tree.body->setupRevolute(link, body.body.mass_kg, inertia, parent, same, axis, pivot, com);
+    tree.body->setupRevolute(link, mass, inertia, parent, same, axis, pivot, com);
   else if (joint.type == erp::JointType::spherical && !places[index].locked)
-    tree.body->setupSpherical(link, body.body.mass_kg, inertia, parent, same, pivot, com);
+    tree.body->setupSpherical(link, mass, inertia, parent, same, pivot, com);
   else
     tree.body->setupFixed(
-        link, body.body.mass_kg, inertia, parent,
+        link, mass, inertia, parent,
         joint.type == erp::JointType::revolute ? btQuaternion(axis, -joint.initial_rad) : same,
         pivot, com);
 }

@@ -5,22 +5,22 @@
 
 #include "sim/world/bullet_headers.hpp"
 #include "sim/world/bullet_skeleton.hpp"
+#include "sim/world/bullet_vectors.hpp"
 
 /// The inside of BulletSkeleton; included by its own sources only.
 namespace sim {
 
-inline btVector3 bt(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-inline btVector3 bt(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
-
-/// One tree: its multibody, and the body index of each of its links.
+/// One tree: its multibody, and the body index of each of its links. Its base is a root, or a free
+/// body.
 struct BulletTree {
   std::unique_ptr<btMultiBody> body;
   std::vector<int> links;
+  int floating = -1;  ///< the free body; −1: none, its base is fixed
 };
 
 /// Where a body lives in Bullet, and where its joint's coordinates begin in v.
 struct BulletPlace {
-  int tree = 0, link = -1;  ///< link −1: the fixed base
+  int tree = 0, link = -1;  ///< link −1: the base
   bool locked = false;
   int first = 0;
 };
@@ -46,8 +46,15 @@ struct BulletSkeleton::Bullet {
   void place_bodies(std::span<const std::string> lock);
   void build(BulletTree& tree);
   void add_link(BulletTree& tree, int link, int body);
+  void place_link(const BulletPlace& place, const JointReading& reading);
+  void place_base(const BulletTree& tree, const Vec3& turning_rad_per_s,
+                  const Vec3& sliding_m_per_s);
   void read();
-  void read_joint(int body);
+  void read_link(const BulletPlace& place, const erp::Joint& joint, JointReading& reading);
+  void read_base(const BulletTree& tree);
+  JointReading& reading_of(int body) {
+    return joints[static_cast<std::size_t>(robot.bodies[body].joint)];
+  }
   void respond(const BulletTree& tree, Response& all);
 
   RobotTree robot;

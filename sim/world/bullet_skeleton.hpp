@@ -30,7 +30,8 @@ class BulletSkeleton {
   void move(const Eigen::VectorXd& v, double dt_s);
 
   /// What Bullet's own dynamics answer here: the inverse of the joints' inertia and their
-  /// accelerations under gravity, without friction and limits; and where the bodies are.
+  /// accelerations under gravity, without friction and limits; and where the bodies are. For robots
+  /// without free bodies, whose bodies have their principal axes along their frames.
   struct Response {
     Eigen::MatrixXd inverse_inertia;
     Eigen::VectorXd acceleration;

@@ -23,7 +23,7 @@ void stop(int first, const Eigen::Vector3d& direction, int dofs, double gap_rad,
 
 JointLimits::JointLimits(const SkeletonModel& model, std::span<const erp::Joint> joints) {
   for (int j = 0; j < static_cast<int>(joints.size()); ++j)
-    if (const int first = model.first_of(j); first >= 0)
+    if (const int first = model.first_of(j); first >= 0 && joints[j].type != erp::JointType::free)
       stops_.push_back({j, first, joints[j].type == erp::JointType::spherical, joints[j].min_rad,
                         joints[j].max_rad});
 }

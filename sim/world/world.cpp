@@ -43,12 +43,14 @@ World::Chain World::make_chain(const erp::Actuator& actuator) const {
 void World::make_solver() {
   std::vector<JointFriction> frictions;
   for (int j = 0; j < static_cast<int>(tree_.joints.size()); ++j)
-    if (const erp::Joint& joint = tree_.joints[j]; model_->first_of(j) >= 0)
+    if (const erp::Joint& joint = tree_.joints[j];
+        model_->first_of(j) >= 0 && joint.type != erp::JointType::free)
       frictions.push_back({model_->first_of(j), coordinates_of(joint.type),
                            joint.viscous_Nm_s_per_rad, joint.coulomb_Nm});
   const int n = model_->coordinates();
   limits_ = std::make_unique<JointLimits>(*model_, tree_.joints);
-  forces_.resize(chains_.size() + static_cast<std::size_t>(limits_->most()));
+  contacts_ = std::make_unique<Contacts>(tree_, robot_);
+  forces_.resize(chains_.size() + static_cast<std::size_t>(limits_->most() + contacts_->most()));
   for (OneSidedForce& force : forces_) force.row.reserve(static_cast<std::size_t>(n));
   solver_ = std::make_unique<StepSolver>(n, static_cast<int>(forces_.size()), frictions);
   for (auto* vector : {&row_, &velocity_, &momentum_, &driven_, &middle_}) vector->setZero(n);
@@ -96,13 +98,15 @@ void World::pull(std::size_t k, double dt_s) {
   pull_implicitly(tendon, theta, dt_s, force);
 }
 
-/// The tendons' if they are springs, and the stops'.
+/// The tendons' if they are springs, the stops' and the contacts'.
 void World::find_forces(double dt_s, bool springs) {
   const std::size_t tendons = springs ? chains_.size() : 0;
   if (springs && options_.theta == 0) inertia_factor_.compute(inertia_);
   for (std::size_t k = 0; k < tendons; ++k) pull(k, dt_s);
-  const auto stops = std::span(forces_).subspan(tendons);
-  force_count_ = tendons + static_cast<std::size_t>(limits_->find(joints(), inertia_, dt_s, stops));
+  force_count_ = tendons;
+  const auto rest = [this] { return std::span(forces_).subspan(force_count_); };
+  force_count_ += static_cast<std::size_t>(limits_->find(joints(), inertia_, dt_s, rest()));
+  force_count_ += static_cast<std::size_t>(contacts_->find(*model_, dt_s, rest()));
 }
 
 /// v⁺, under springs or given tensions.

@@ -10,6 +10,7 @@
 #include "sim/actuator/tendon.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
 #include "sim/world/bullet_skeleton.hpp"
+#include "sim/world/contacts.hpp"
 #include "sim/world/implicit_tendon.hpp"
 #include "sim/world/joint_limits.hpp"
 #include "sim/world/step_solver.hpp"
@@ -109,13 +110,14 @@ class World {
   std::unique_ptr<BulletSkeleton> bones_;
   std::unique_ptr<SkeletonModel> model_;
   std::unique_ptr<JointLimits> limits_;
+  std::unique_ptr<Contacts> contacts_;
   std::unique_ptr<StepSolver> solver_;
   std::vector<Chain> chains_;
   std::vector<ActuatorReading> readings_;
   double time_s_ = 0;
 
   // what a step works with
-  std::vector<OneSidedForce> forces_;  ///< of the tendons, then of the stops
+  std::vector<OneSidedForce> forces_;  ///< of the tendons, the stops, the contacts
   std::size_t force_count_ = 0;
   Eigen::MatrixXd inertia_;                                             ///< H
   Eigen::VectorXd row_, bias_, momentum_, driven_, velocity_, middle_;  ///< J of one tendon, b …

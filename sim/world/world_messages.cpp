@@ -13,9 +13,8 @@ void World::fill(erp::JointState& message) const {
     const JointReading& reading = joints()[j];
     erp::JointStateSample sample{};
     erp::assign(sample.name, tree_.joints[j].name);
-    sample.dof = reading.type == erp::JointType::spherical  ? 3
-                 : reading.type == erp::JointType::revolute ? 1
-                                                            : 0;
+    // Of a free body its turning; where it is, its BodyPose says.
+    sample.dof = static_cast<std::uint8_t>(std::min(coordinates_of(reading.type), 3));
     std::copy(reading.position.begin(), reading.position.end(), sample.position);
     std::copy(reading.velocity_rad_per_s.begin(), reading.velocity_rad_per_s.end(),
               sample.velocity_rad_per_s);

@@ -30,10 +30,11 @@ const std::vector<Rule> rules{
      {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},
     {"sim/skeleton/", {"interfaces/"}},
-    {"sim/formats/", {"interfaces/"}},
+    {"sim/formats/", {"interfaces/", "sim/skeleton/", "sim/actuator/"}},
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
-    {"launch/", {"interfaces/", "components/node/", "sim/formats/"}},
+    {"launch/",
+     {"interfaces/", "components/node/", "sim/formats/", "sim/actuator/", "sim/skeleton/"}},
 };
 
 // Headers of others that have one home.

@@ -4,7 +4,7 @@
 
 #include "sim/world/world.hpp"
 #include "tests/sim/formats/mujoco.hpp"
-#include "tests/sim/rigs.hpp"
+#include "tests/sim/skeletons.hpp"
 
 using sim::JointReading, sim::World;
 
@@ -24,8 +24,6 @@ void put(const peer::Mujoco& mujoco, World& world, int joint, const JointReading
   for (int i = 0; i < n; ++i) q[i] = reading.position[static_cast<std::size_t>(i)];
 }
 
-}  // namespace
-
 /// MuJoCo 2.2.2 now and then lets a tendon with a sidesite pass straight through its sphere, by a
 /// jump of its length: then it measures from point to point.
 bool pierces(const sim::PathShape& shape, double their_length_m) {
@@ -37,6 +35,8 @@ bool pierces(const sim::PathShape& shape, double their_length_m) {
   return std::abs(along.norm() - their_length_m) < 1e-9 &&
          (a + t * along - center).norm() < radius - 1e-6;
 }
+
+}  // namespace
 
 TEST_CASE("wrapped lengths are MuJoCo's to 1e-9 m") {
   World world(arm(false));
@@ -93,4 +93,60 @@ TEST_CASE("under the same tensions the arm moves as MuJoCo's, to 1e-3 rad over 1
   WARN("largest difference of an angle: " << largest_rad << " rad, moved " << moved_rad << " rad");
   CHECK(moved_rad > 0.1);
   CHECK(largest_rad < 1e-3);
+}
+
+namespace {
+
+/// A floating bone of solids, with a second one on a hinge, pulled by a tendon each.
+erp::Robot floating() {
+  erp::Body blade, rod;
+  blade.name = "blade", rod.name = "rod";
+  blade.density_kg_per_m3 = rod.density_kg_per_m3 = 1130;
+  blade.parts = {erp::Capsule{{}, {0.02, 0, 0}, {0.08, 0.05, -0.1}, 0.02},
+                 erp::Weight{{}, {-0.03, 0.02, 0.01}, 0.25}};
+  rod.parts = {erp::Capsule{{}, {0, 0, 0}, {0.05, 0, -0.2}, 0.015}};
+  erp::Joint hinge =
+      rigs::joint("hinge", erp::JointType::revolute, "blade", "rod", {0.08, 0.05, 0});
+  hinge.axis = {1, 2, 0.5};
+  erp::Robot robot = rigs::robot(
+      {rigs::root(), blade, rod},
+      {rigs::joint("float", erp::JointType::free, "base", "blade", {0.1, 0.2, 1.5}), hinge});
+  robot.motor_types = {rigs::caliper()};
+  const auto pull = [&](const char* name, xml::Vec3 from, const char* body, xml::Vec3 to) {
+    erp::Actuator a;
+    a.name = name, a.motor = "caliper_12V", a.spindle.radius_m = 0.0045, a.max_tension_N = 100;
+    a.tendon.stiffness_N_per_m = 6000;
+    a.tendon.path = {erp::Attach{{}, "base", from}, erp::Attach{{}, body, to}};
+    robot.actuators.push_back(a);
+  };
+  pull("up", {0.1, 0.2, 2.5}, "blade", {0.05, 0, 0.02});
+  pull("aside", {1.1, 0.2, 2}, "rod", {0.05, 0, -0.2});
+  return robot;
+}
+
+}  // namespace
+
+TEST_CASE("a floating body and what hangs on it move as MuJoCo's, to 1e-3 m over 0.5 s") {
+  World world(floating());
+  const peer::Mujoco mujoco(world.robot());
+  const double dt_s = 2e-5;
+  mujoco.model->opt.timestep = dt_s;
+  const std::vector<double> tension_N{12, 3};
+  std::copy(tension_N.begin(), tension_N.end(), mujoco.data->ctrl);
+  double largest_m = 0, turned_rad = 0;
+  for (int i = 0; i < 25000; ++i) {
+    world.step_pulled(tension_N, dt_s);
+    mj_step(mujoco.model.get(), mujoco.data.get());
+    for (const int body : {1, 2}) {
+      const double* theirs = mujoco.data->xpos + 3 * (body + 1);  // after the world and the base
+      const Eigen::Vector3d at = world.poses()[static_cast<std::size_t>(body)].position_m;
+      largest_m =
+          std::max(largest_m, (at - Eigen::Vector3d(theirs[0], theirs[1], theirs[2])).norm());
+    }
+    turned_rad = std::max(turned_rad, std::abs(world.joints()[1].position[0]));
+  }
+  WARN("largest difference of a position: " << largest_m << " m; the hinge turned " << turned_rad
+                                            << " rad");
+  CHECK(turned_rad > 0.3);
+  CHECK(largest_m < 1e-3);
 }

@@ -1,10 +1,11 @@
-#include "sim/world/holding.hpp"
+#include "sim/actuator/holding.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
 
 #include "sim/actuator/muscle_jacobian.hpp"
 #include "sim/actuator/spring.hpp"
+#include "sim/skeleton/skeleton_model.hpp"
 
 namespace sim {
 
@@ -23,8 +24,10 @@ struct Statics {
 Statics statics_of(const erp::Robot& robot, const RobotTree& tree, SkeletonModel& model,
                    const Pose& pose) {
   std::vector<JointReading> joints;
-  for (std::size_t j = 0; j < pose.size(); ++j)
-    joints.push_back({tree.joints[j].type, pose[j], {}});
+  for (std::size_t j = 0; j < pose.size(); ++j) {
+    joints.push_back(start_of(tree.joints[j]));
+    joints[j].position = pose[j];
+  }
   model.place(joints);
   const auto actuators = static_cast<Eigen::Index>(robot.actuators.size());
   Statics s{VectorXd(actuators), MatrixXd(actuators, model.coordinates()), {}};
@@ -66,8 +69,7 @@ VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& opt
 
 Pose starting_pose(const erp::Robot& robot) {
   Pose pose;
-  for (const erp::Joint& joint : robot.joints())
-    pose.push_back({joint.type == erp::JointType::spherical ? 1.0 : joint.initial_rad, 0, 0, 0});
+  for (const erp::Joint& joint : robot.joints()) pose.push_back(start_of(joint).position);
   return pose;
 }
 

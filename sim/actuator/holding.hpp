@@ -1,8 +1,8 @@
 #pragma once
-#include <Eigen/Core>
+#include <array>
 #include <vector>
 
-#include "sim/skeleton/skeleton_model.hpp"
+#include "interfaces/robot/robot.hpp"
 
 /// Statics: which tensions hold a pose, and how long the lines are then.
 ///
@@ -24,7 +24,7 @@ struct HoldingOptions {
 
 struct Holding {
   std::vector<double> tension_N, line_m;  ///< by actuator
-  double unbalanced_Nm = 0;               ///< what no tensions can hold
+  double unbalanced_Nm = 0;               ///< what no tensions can hold; of free bodies in N
 };
 
 /// Throws std::invalid_argument as RobotTree and Routing do.

@@ -1,0 +1,159 @@
+#include "sim/world/contacts.hpp"
+
+#include <algorithm>
+
+#include "sim/world/bullet_headers.hpp"
+#include "sim/world/bullet_vectors.hpp"
+
+namespace sim {
+namespace {
+
+constexpr double near_m = 0.01;        // at 1 ms, 10 m/s away
+constexpr double hardness = 1e7;       // of the impulse that would stop the lighter body alone
+constexpr double undone_a_step = 0.2;  // of an overlap; chosen
+constexpr double rounding_m = 1e-3;    // of a box
+
+/// All points within `radius` of a core; Bullet calls it the margin.
+struct Solid {
+  std::unique_ptr<btConvexShape> shape;
+  btTransform in_body;
+  double radius = 0;
+  double reach = 0;  ///< of the core from the solid's own centre
+};
+
+Solid solid_of(const erp::Sphere& s) {
+  return {std::make_unique<btSphereShape>(s.radius_m),
+          btTransform(btQuaternion::getIdentity(), bt(s.at_m)), s.radius_m, 0};
+}
+
+Solid solid_of(const erp::Capsule& c) {
+  const btVector3 from = bt(c.from_m), to = bt(c.to_m);
+  const double length = from.distance(to);
+  const btVector3 along = length > 0 ? (to - from) / length : btVector3(0, 0, 1);
+  const btQuaternion turned = shortestArcQuat(btVector3(0, 0, 1), along);
+  return {std::make_unique<btCapsuleShapeZ>(c.radius_m, length),
+          btTransform(turned, (from + to) / 2), c.radius_m, length / 2};
+}
+
+Solid solid_of(const erp::Box& b) {
+  const btVector3 half = bt(b.size_m) / 2;
+  const double radius = std::min(rounding_m, half[half.minAxis()] / 5);
+  auto shape = std::make_unique<btBoxShape>(half);
+  shape->setMargin(radius);
+  return {std::move(shape), btTransform(btQuaternion::getIdentity(), bt(b.at_m)), radius,
+          half.length()};
+}
+
+std::vector<Solid> solids_of(const erp::Body& body) {
+  std::vector<Solid> solids;
+  for (const erp::Part& part : body.parts)
+    std::visit(
+        [&](const auto& p) {
+          if constexpr (requires { solid_of(p); }) solids.push_back(solid_of(p));
+        },
+        part);
+  return solids;
+}
+
+/// Where two solids are nearest.
+struct Touch {
+  double gap_m;
+  btVector3 normal;  ///< from b to a
+  btVector3 at;      ///< on a's surface
+};
+
+/// Bullet gives its normal in the first solid's frame; the two points are in the world.
+Touch touch(const Solid& a, const btTransform& at_a, const Solid& b, const btTransform& at_b) {
+  btGjkEpaSolver2::sResults found;
+  const btVector3 guess = at_a.getOrigin() - at_b.getOrigin();
+  const bool apart =
+      btGjkEpaSolver2::Distance(a.shape.get(), at_a, b.shape.get(), at_b, guess, found);
+  // Where even the cores overlap, a's deepest point lies beyond b's surface.
+  if (!apart)
+    btGjkEpaSolver2::Penetration(a.shape.get(), at_a, b.shape.get(), at_b, guess, found, true);
+  const btVector3 way = (found.witnesses[0] - found.witnesses[1]) * (apart ? 1 : -1);
+  const double length = way.length();
+  const btVector3 normal = length > 0 ? way / length : btVector3(0, 0, 1);
+  if (apart) return {length - a.radius - b.radius, normal, found.witnesses[0] - a.radius * normal};
+  return {-length, normal, found.witnesses[0]};
+}
+
+}  // namespace
+
+struct Contacts::Solids {
+  struct Pair {
+    int a, b;  ///< bodies
+    double mass_kg;
+    const Solid *solid_a, *solid_b;
+  };
+  std::vector<std::vector<Solid>> of_body;
+  std::vector<Pair> pairs;
+
+  static btTransform placed(const Solid& solid, const BodyPose& pose) {
+    const Eigen::Matrix3d& r = pose.rotation;
+    const btMatrix3x3 turned(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
+                             r(2, 2));
+    return btTransform(turned, bt(pose.position_m)) * solid.in_body;
+  }
+};
+
+Contacts::Contacts(const RobotTree& tree, const erp::Robot& robot)
+    : solids_(std::make_unique<Solids>()) {
+  for (const TreeBody& body : tree.bodies) solids_->of_body.push_back(solids_of(body.body));
+  const auto index = [&](const std::string& name) {
+    return static_cast<int>(std::ranges::find(tree.names, name) - tree.names.begin());
+  };
+  for (const erp::Skeleton& part : robot.skeletons)
+    for (const erp::Contact& contact : part.contacts) {
+      const int a = index(contact.body), b = index(contact.on);
+      const double m_a = tree.bodies[a].mass.mass_kg, m_b = tree.bodies[b].mass.mass_kg;
+      const double lighter = m_a > 0 && m_b > 0 ? std::min(m_a, m_b) : std::max(m_a, m_b);
+      for (const Solid& solid_a : solids_->of_body[a])
+        for (const Solid& solid_b : solids_->of_body[b])
+          solids_->pairs.push_back({a, b, lighter, &solid_a, &solid_b});
+    }
+}
+
+Contacts::~Contacts() = default;
+
+int Contacts::most() const { return static_cast<int>(solids_->pairs.size()); }
+
+namespace {
+
+/// The row −n·(v_a − v_b) over the coordinates that move either body.
+void point(const Touch& t, int a, int b, const SkeletonModel& model,
+           std::vector<OneSidedForce::Term>& row) {
+  const btVector3& n = t.normal;
+  const Vec6 approach = wrench({t.at[0], t.at[1], t.at[2]}, {-n[0], -n[1], -n[2]});
+  row.clear();
+  for (const int d : model.movers(a)) row.push_back({d, model.axis(d).dot(approach)});
+  for (const int d : model.movers(b)) {
+    const double slope = -model.axis(d).dot(approach);
+    const auto shared = std::ranges::find(row, d, &OneSidedForce::Term::coordinate);
+    if (shared == row.end()) row.push_back({d, slope});
+    else shared->slope += slope;
+  }
+}
+
+}  // namespace
+
+int Contacts::find(const SkeletonModel& model, double dt, std::span<OneSidedForce> forces) const {
+  int found = 0;
+  for (const Solids::Pair& pair : solids_->pairs) {
+    const Solid &a = *pair.solid_a, &b = *pair.solid_b;
+    const btTransform at_a = Solids::placed(a, model.poses()[pair.a]);
+    const btTransform at_b = Solids::placed(b, model.poses()[pair.b]);
+    const double reach = a.reach + a.radius + b.reach + b.radius + near_m;
+    if (at_a.getOrigin().distance2(at_b.getOrigin()) > reach * reach) continue;
+    const Touch t = touch(a, at_a, b, at_b);
+    if (t.gap_m > near_m) continue;
+    OneSidedForce& force = forces[found++];
+    const double gap = t.gap_m >= 0 ? t.gap_m : undone_a_step * t.gap_m;
+    force.gain_N_s_per_m = hardness * pair.mass_kg / dt;
+    force.start_N = -force.gain_N_s_per_m * gap / dt;
+    point(t, pair.a, pair.b, model, force.row);
+  }
+  return found;
+}
+
+}  // namespace sim

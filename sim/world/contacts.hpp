@@ -1,0 +1,34 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/world/step_solver.hpp"
+
+/// Bones that cannot pass through each other, as forces that push them apart over a time step.
+///
+///   −n·(v_a − v_b) ≤ gap / dt,   f = max(0, G (−n·(v_a − v_b) − gap / dt))
+///
+/// n from body b to body a at the points where two of their solids are nearest, which Bullet's GJK
+/// finds; v the velocities of these points. G and the undoing of an overlap as of joint stops. One
+/// point a pair of solids, no friction, no rebound: what has flat faces may rock on them. A box is
+/// rounded by a tenth of its shortest edge, at most 1 mm.
+namespace sim {
+
+class Contacts {
+ public:
+  Contacts(const RobotTree& tree, const erp::Robot& robot);
+  ~Contacts();
+  /// The most that `find` can give: pairs of solids.
+  int most() const;
+  /// Writes the contacts that are near, in the posture the model is placed in, into `forces`, which
+  /// has room for `most`; returns how many. No heap.
+  int find(const SkeletonModel& model, double dt_s, std::span<OneSidedForce> forces) const;
+
+ private:
+  struct Solids;
+  std::unique_ptr<Solids> solids_;
+};
+
+}  // namespace sim

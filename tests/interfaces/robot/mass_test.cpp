@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "interfaces/robot/mass.hpp"
+
+using erp::Body, erp::Capsule, erp::Box, erp::Sphere, erp::Weight, erp::Mass;
+
+namespace {
+
+bool inside(const Sphere& s, const xml::Vec3& p) {
+  return std::hypot(p[0] - s.at_m[0], p[1] - s.at_m[1], p[2] - s.at_m[2]) < s.radius_m;
+}
+bool inside(const Box& b, const xml::Vec3& p) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (std::abs(p[i] - b.at_m[i]) > b.size_m[i] / 2) return false;
+  return true;
+}
+bool inside(const Capsule& c, const xml::Vec3& p) {
+  xml::Vec3 along, from;
+  double dot = 0, length2 = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    along[i] = c.to_m[i] - c.from_m[i], from[i] = p[i] - c.from_m[i];
+    dot += along[i] * from[i], length2 += along[i] * along[i];
+  }
+  const double t = std::min(1.0, std::max(0.0, dot / length2));
+  return std::hypot(from[0] - t * along[0], from[1] - t * along[1], from[2] - t * along[2]) <
+         c.radius_m;
+}
+
+/// A solid within ±0.2 m cut into little cubes, as points.
+template <class Solid>
+Mass cut(const Solid& solid, double density) {
+  const double edge = 0.0025;
+  Mass sum;
+  std::vector<xml::Vec3> points;
+  for (double x = -0.2 + edge / 2; x < 0.2; x += edge)
+    for (double y = -0.2 + edge / 2; y < 0.2; y += edge)
+      for (double z = -0.2 + edge / 2; z < 0.2; z += edge)
+        if (inside(solid, {x, y, z})) points.push_back({x, y, z});
+  const double m = density * edge * edge * edge;
+  for (const auto& p : points) {
+    sum.mass_kg += m;
+    for (std::size_t i = 0; i < 3; ++i) sum.com_m[i] += p[i] / static_cast<double>(points.size());
+  }
+  for (const auto& p : points) {
+    const double x = p[0] - sum.com_m[0], y = p[1] - sum.com_m[1], z = p[2] - sum.com_m[2];
+    const std::array<double, 6> own{y * y + z * z, x * x + z * z, x * x + y * y,
+                                    -x * y,        -x * z,        -y * z};
+    for (std::size_t k = 0; k < 6; ++k) sum.inertia_kg_m2[k] += m * own[k];
+  }
+  return sum;
+}
+
+template <class Solid>
+void check_like_its_cubes(const Solid& solid) {
+  Body body;
+  body.density_kg_per_m3 = 1130;
+  body.parts = {solid};
+  const Mass exact = mass_of(body), cubes = cut(solid, 1130);
+  CHECK(exact.mass_kg == Approx(cubes.mass_kg).epsilon(0.01));
+  const double scale = cubes.inertia_kg_m2[0] + cubes.inertia_kg_m2[1] + cubes.inertia_kg_m2[2];
+  for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(exact.com_m[i] - cubes.com_m[i]) < 1e-4);
+  for (std::size_t k = 0; k < 6; ++k)
+    CHECK(std::abs(exact.inertia_kg_m2[k] - cubes.inertia_kg_m2[k]) < 0.01 * scale);
+}
+
+}  // namespace
+
+TEST_CASE("a solid weighs and turns like the little cubes it can be cut into") {
+  check_like_its_cubes(Sphere{{}, {0.02, 0.03, -0.05}, 0.08});
+  check_like_its_cubes(Box{{}, {0.02, 0.03, -0.05}, {0.1, 0.2, 0.05}});
+  check_like_its_cubes(Capsule{{}, {-0.08, -0.05, 0.02}, {0.09, 0.03, 0.1}, 0.06});
+}
+
+TEST_CASE("weights and solids add up about the common centre of mass") {
+  Body body;
+  body.parts = {Weight{{}, {0.1, 0, 0}, 1}, Weight{{}, {-0.1, 0, 0}, 1},
+                Weight{{}, {0, 0, 0.3}, 2}};
+  const Mass mass = mass_of(body);
+  CHECK(mass.mass_kg == 4);
+  CHECK(mass.com_m == xml::Vec3{0, 0, 0.15});
+  CHECK(mass.inertia_kg_m2[0] == Approx(4 * 0.15 * 0.15));
+  CHECK(mass.inertia_kg_m2[1] == Approx(4 * 0.15 * 0.15 + 2 * 0.01));
+  CHECK(mass.inertia_kg_m2[2] == Approx(0.02));
+  CHECK(std::abs(mass.inertia_kg_m2[4]) < 1e-12);
+}
+
+TEST_CASE("given numbers stay as they are") {
+  Body body;
+  body.mass_kg = 2, body.com_m = {1, 2, 3}, body.inertia_kg_m2 = {0.1, 0.2, 0.25};
+  body.parts = {Sphere{{}, {0, 0, 0}, 0.1}};  // a shape only
+  const Mass mass = mass_of(body);
+  CHECK(mass.mass_kg == 2);
+  CHECK(mass.com_m == body.com_m);
+  CHECK(mass.inertia_kg_m2 == std::array<double, 6>{0.1, 0.2, 0.25, 0, 0, 0});
+}
