@@ -108,10 +108,11 @@ bool is_solid(const Part& part) { return !std::holds_alternative<Weight>(part); 
 void check_contact(const Robot& robot, const Contact& contact, const MovedBy& moved_by,
                    Findings& findings) {
   if (contact.body == contact.on)
-    findings.add(contact, quote(contact.body) + " cannot touch itself", "name two bodies");
-  else if (!moved_by.contains(contact.body) && !moved_by.contains(contact.on))
-    findings.add(contact, "neither " + quote(contact.body) + " nor " + quote(contact.on) + " moves",
-                 "name a body that a joint moves");
+    return findings.add(contact, quote(contact.body) + " cannot touch itself", "name two bodies");
+  if (!moved_by.contains(contact.body) && !moved_by.contains(contact.on))
+    return findings.add(contact,
+                        "neither " + quote(contact.body) + " nor " + quote(contact.on) + " moves",
+                        "name a body that a joint moves");
   for (const Body& body : robot.bodies())
     if ((body.name == contact.body || body.name == contact.on) &&
         std::ranges::none_of(body.parts, is_solid))

@@ -8,9 +8,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "interfaces/recording/csv.hpp"
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "sim/actuator/holding.hpp"
+#include "sim/actuator/pose_plan.hpp"
 #include "sim/formats/formats.hpp"
 #include "sim/skeleton/joint_reading.hpp"
 
@@ -76,9 +77,18 @@ int model_balance(const std::string& robot_file, double least_N, double rest_N, 
   part.name = robot.name;
   for (std::size_t k = 0; k < robot.actuators.size(); ++k)
     part.pretensions.push_back(
-        {{}, robot.actuators[k].name, 0.1 * std::round(10 * holding.tension_N[k])});
+        {{}, robot.actuators[k].name, std::round(100 * holding.tension_N[k]) / 100});
   out << xml::write(part);
   fmt::print(stderr, "left unbalanced: {:.3g} Nm\n", holding.unbalanced_Nm);
+  return 0;
+}
+
+int model_lengths(const std::string& robot_file, const std::string& table_file, double least_N,
+                  double rest_N, std::ostream& out) {
+  const erp::Robot robot = erp::read_robot(robot_file);
+  const auto poses = sim::poses_of(recording::read_table(table_file), robot);
+  recording::write_csv(
+      sim::lengths_through(robot, poses, {.holding = {.rest_N = rest_N, .least_N = least_N}}), out);
   return 0;
 }
 

@@ -25,6 +25,12 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out);
 /// what they cannot balance. Throws xml::Errors. Returns the exit code.
 int model_balance(const std::string& robot_file, double least_N, double rest_N, std::ostream& out);
 
+/// Prints the line lengths that take the robot through the joint angles of a table or recording, as
+/// a trajectory for `target`. Throws xml::Errors, RecordingError, std::invalid_argument. Returns
+/// the exit code.
+int model_lengths(const std::string& robot_file, const std::string& table_file, double least_N,
+                  double rest_N, std::ostream& out);
+
 /// The format follows from the ending: .mjcf.xml; .svg is a picture. Throws xml::Errors,
 /// std::invalid_argument for another ending or what the format cannot say. Returns the exit code.
 int model_export(const std::string& robot_file, const std::string& out_file);

@@ -6,6 +6,38 @@
 
 namespace launch {
 
+namespace {
+
+/// What follows from the balance of tensions and gravity.
+void add_statics(CLI::App& model, Chosen& chosen) {
+  auto robot = std::make_shared<std::string>(), table = std::make_shared<std::string>();
+  auto least = std::make_shared<double>(5), rest = std::make_shared<double>(10);
+  const auto add_options = [=](CLI::App* verb) {
+    verb->add_option("--least", *least, "no tendon pulls less, N")->capture_default_str();
+    verb->add_option("--rest", *rest, "what each would like to pull, N")->capture_default_str();
+  };
+  auto* balance = model.add_subcommand(
+      "balance", "The pretensions that hold the starting pose, as a part to include");
+  balance->add_option("robot", *robot, "robot.xml")->required();
+  add_options(balance);
+  balance->callback(
+      [=, &chosen] { chosen = [=] { return model_balance(*robot, *least, *rest, std::cout); }; });
+
+  auto* lengths = model.add_subcommand(
+      "lengths", "Joint angles over time as line lengths: a trajectory for `target`");
+  lengths->add_option("robot", *robot, "robot.xml")->required();
+  lengths
+      ->add_option("poses", *table,
+                   "CSV with time_s and <joint>.angle_rad or <joint>.qw … .qz; or a recording")
+      ->required();
+  add_options(lengths);
+  lengths->callback([=, &chosen] {
+    chosen = [=] { return model_lengths(*robot, *table, *least, *rest, std::cout); };
+  });
+}
+
+}  // namespace
+
 void add_model(CLI::App& app, Chosen& chosen) {
   auto* model = app.add_subcommand("model", "A robot in figures, and in the formats of others");
   model->require_subcommand(1);
@@ -25,14 +57,7 @@ void add_model(CLI::App& app, Chosen& chosen) {
       ->required();
   export_verb->callback([=, &chosen] { chosen = [=] { return model_export(*robot, *out); }; });
 
-  auto least = std::make_shared<double>(5), rest = std::make_shared<double>(10);
-  auto* balance = model->add_subcommand(
-      "balance", "The pretensions that hold the starting pose, as a part to include");
-  balance->add_option("robot", *robot, "robot.xml")->required();
-  balance->add_option("--least", *least, "no tendon pulls less, N")->capture_default_str();
-  balance->add_option("--rest", *rest, "what each would like to pull, N")->capture_default_str();
-  balance->callback(
-      [=, &chosen] { chosen = [=] { return model_balance(*robot, *least, *rest, std::cout); }; });
+  add_statics(*model, chosen);
 }
 
 }  // namespace launch

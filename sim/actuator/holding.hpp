@@ -18,7 +18,7 @@ namespace sim {
 using Pose = std::vector<std::array<double, 4>>;
 
 struct HoldingOptions {
-  double rest_N = 20;  ///< what each muscle would like to pull; chosen
+  double rest_N = 10;  ///< what each muscle would like to pull; chosen
   double least_N = 5;  ///< no tendon goes slack; chosen
 };
 

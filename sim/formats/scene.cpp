@@ -1,6 +1,8 @@
 #include "sim/formats/scene.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 
 #include "sim/actuator/routing.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
@@ -10,8 +12,10 @@ namespace {
 
 using sim::Vec3;
 
-constexpr double bone_m = 0.008;      // how thick a body without a shape is drawn
-constexpr double arc_step_rad = 0.1;  // of a line around a pulley
+constexpr double bone_m = 0.008;           // how thick a body without a shape is drawn
+constexpr double arc_step_rad = 0.1;       // of a line around a pulley
+constexpr double weight_kg_per_m3 = 4000;  // about a motor's
+constexpr auto weight_fill = "#b9b3a5";
 constexpr auto bone_fill = "#e6e2d8", bone_edge = "#8a8375", joint_fill = "#3b6ea5";
 constexpr auto pulley_edge = "#9db4c8", muscle = "#c0392b";
 
@@ -71,7 +75,11 @@ class Scene {
         strokes.push_back({{point(k, at + from), point(k, at + to)}, 0, bone_edge, nullptr, "", 0});
       }
   }
-  void add_part(int, const erp::Weight&) {}
+  /// As a ball of its weight.
+  void add_part(int k, const erp::Weight& w) {
+    const double radius = std::cbrt(w.mass_kg / weight_kg_per_m3 * 3 / (4 * std::numbers::pi));
+    strokes.push_back({{point(k, vec(w.at_m))}, 2 * radius, weight_fill, bone_edge, "", 0});
+  }
 
   /// A body without a shape: sticks from its joint to its centre of mass and to the next joints.
   void add_bones(int k) {
@@ -108,7 +116,7 @@ class Scene {
     // e cos φ + t sin φ, t the direction the line runs in where it enters
     Vec3 along = exit - exit.dot(entry) / entry.squaredNorm() * entry;
     if (along.norm() > 0) along *= entry.norm() / along.norm();
-    if (angle > EIGEN_PI) along = -along;
+    if (angle > std::numbers::pi) along = -along;
     const int steps = 1 + static_cast<int>(angle / arc_step_rad);
     for (int i = 0; i <= steps; ++i) {
       const double phi = angle * i / steps;

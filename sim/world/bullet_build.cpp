@@ -16,8 +16,7 @@ btVector3 inertia_of(const erp::Mass& mass) {
 
 BulletSkeleton::Bullet::Bullet(const RobotTree& tree_of_robot, const Vec3& g,
                                std::span<const std::string> lock)
-    : robot(tree_of_robot) {
-  world.setGravity(bt(g));
+    : robot(tree_of_robot), gravity_m_per_s2(bt(g)) {
   place_bodies(lock);
   for (BulletTree& tree : trees) build(tree);
   for (const erp::Joint& joint : robot.joints) joints.push_back(start_of(joint));
@@ -70,7 +69,6 @@ void BulletSkeleton::Bullet::build(BulletTree& tree) {
   for (int link = 0; link < links; ++link)
     if (b.getLink(link).m_jointType == btMultibodyLink::eRevolute)
       b.setJointPos(link, robot.joints[robot.bodies[tree.links[link]].joint].initial_rad);
-  if (links > 0 || tree.floating >= 0) world.addMultiBody(&b);
 }
 
 void BulletSkeleton::Bullet::add_link(BulletTree& tree, int link, int index) {

@@ -9,7 +9,5 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 #pragma GCC diagnostic pop

@@ -26,22 +26,7 @@ struct BulletPlace {
 };
 
 struct BulletSkeleton::Bullet {
-  /// Bullet's world without its own accelerations: it integrates the velocities it is given.
-  class World : public btMultiBodyDynamicsWorld {
-   public:
-    using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
-    void solveExternalForces(btContactSolverInfo&) override {}
-    void solveInternalConstraints(btContactSolverInfo&) override {}
-    void pull_down() {
-      clearMultiBodyForces();
-      applyGravity();
-    }
-  };
-
   Bullet(const RobotTree& robot, const Vec3& gravity, std::span<const std::string> lock);
-  ~Bullet() {
-    for (BulletTree& tree : trees) world.removeMultiBody(tree.body.get());
-  }
 
   void place_bodies(std::span<const std::string> lock);
   void build(BulletTree& tree);
@@ -58,12 +43,8 @@ struct BulletSkeleton::Bullet {
   void respond(const BulletTree& tree, Response& all);
 
   RobotTree robot;
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver solver;
+  btVector3 gravity_m_per_s2;
   std::vector<BulletTree> trees;
-  World world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<BulletPlace> places;  ///< of the bodies
   std::vector<JointReading> joints;
 };

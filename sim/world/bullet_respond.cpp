@@ -8,6 +8,9 @@ namespace sim {
 void BulletSkeleton::Bullet::respond(const BulletTree& tree, Response& all) {
   btMultiBody& b = *tree.body;
   const int n = b.getNumDofs();
+  b.clearForcesAndTorques();
+  for (int link = 0; link < b.getNumLinks(); ++link)
+    b.addLinkForce(link, gravity_m_per_s2 * b.getLinkMass(link));
   btAlignedObjectArray<btScalar> scratch_r;
   btAlignedObjectArray<btVector3> scratch_v;
   btAlignedObjectArray<btMatrix3x3> scratch_m;
@@ -32,10 +35,8 @@ BulletSkeleton::Response BulletSkeleton::respond() {
   int n = 0;
   for (const BulletTree& tree : bullet_->trees) n += tree.body->getNumDofs();
   Response all{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), {}};
-  bullet_->world.pull_down();
   for (const BulletTree& tree : bullet_->trees)
     if (tree.body->getNumDofs() > 0) bullet_->respond(tree, all);
-  bullet_->world.clearMultiBodyForces();
   for (const BulletPlace& place : bullet_->places) {
     const btVector3 at = place.link < 0 ? btVector3(0, 0, 0)
                                         : bullet_->trees[place.tree].body->localPosToWorld(

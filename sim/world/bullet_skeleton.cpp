@@ -32,7 +32,8 @@ void BulletSkeleton::move(const Eigen::VectorXd& v, double dt_s) {
       const int first = bullet_->places[tree.floating].first;
       bullet_->place_base(tree, v.segment<3>(first), v.segment<3>(first + 3));
     }
-  bullet_->world.stepSimulation(dt_s, 0);
+  for (const BulletTree& tree : bullet_->trees)
+    if (!tree.links.empty() || tree.floating >= 0) tree.body->stepPositionsMultiDof(dt_s);
   bullet_->read();
 }
 

@@ -43,7 +43,7 @@ void StepSolver::begin(const Eigen::MatrixXd& h, std::span<const OneSidedForce> 
 void StepSolver::differentiate(const Eigen::VectorXd& p, const Eigen::VectorXd& v) {
   gradient_ = -p;
   gradient_.noalias() += *h_ * v;
-  largest_ = p.lpNorm<Eigen::Infinity>();
+  double largest = p.lpNorm<Eigen::Infinity>();
   curved_ = false;
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const OneSidedForce& force = forces_[k];
@@ -53,9 +53,10 @@ void StepSolver::differentiate(const Eigen::VectorXd& p, const Eigen::VectorXd& 
     for (const auto& term : force.row) {
       const double impulse = dt_s_ * force_N_[k] * term.slope;
       gradient_[term.coordinate] += impulse;
-      largest_ = std::max(largest_, std::abs(impulse));
+      largest = std::max(largest, std::abs(impulse));
     }
   }
+  largest_ = largest;
   for (std::size_t j = 0; j < frictions_.size(); ++j) rub(j, v);
 }
 
@@ -174,6 +175,15 @@ bool StepSolver::descend(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
     if (gradient_.dot(v - before_) <= level) break;
   }
   return whole;
+}
+
+void StepSolver::approach(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
+  if (v.size() == 0) return;
+  differentiate(p, v);
+  aim(v);
+  before_ = v;
+  start_ = joints_;
+  go(1, v);
 }
 
 bool StepSolver::solve(const Eigen::VectorXd& p, Eigen::VectorXd& v, int most_steps) {

@@ -50,7 +50,9 @@ class StepSolver {
 
   /// A new posture: H and the forces; kept by reference until the last `solve` of the step.
   void begin(const Eigen::MatrixXd& h, std::span<const OneSidedForce> forces, double dt_s);
-  /// v⁺ for the momentum p = H v + dt τ. `v`: a first guess, then the answer. No heap.
+  /// Moves v near v⁺ for the momentum p = H v + dt τ: Newton's first step, unchecked.
+  void approach(const Eigen::VectorXd& p, Eigen::VectorXd& v);
+  /// v⁺ for that momentum. `v`: a first guess, then the answer. No heap.
   /// Returns false if it did not settle in so many of Newton's steps.
   bool solve(const Eigen::VectorXd& p, Eigen::VectorXd& v, int most_steps = 100);
   /// f_k at the answer.

@@ -54,7 +54,7 @@ void World::make_solver() {
   for (OneSidedForce& force : forces_) force.row.reserve(static_cast<std::size_t>(n));
   solver_ = std::make_unique<StepSolver>(n, static_cast<int>(forces_.size()), frictions);
   for (auto* vector : {&row_, &velocity_, &momentum_, &driven_, &middle_}) vector->setZero(n);
-  inertia_factor_ = Eigen::LLT<Eigen::MatrixXd>(n);
+  inertia_factor_.compute(Eigen::MatrixXd::Identity(n, n));  // makes room
 }
 
 void World::read() {
@@ -121,12 +121,17 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
     momentum_ -= dt_s * tension_N[k] * row_;
   }
   velocity_ = v;
-  for (const int most_steps : {1, 100}) {  // v¹ need not be exact
-    middle_ = 0.5 * (v + velocity_);
-    model_->bias(middle_, bias_);
-    driven_ = momentum_ - dt_s * bias_;
-    solver_->solve(driven_, velocity_, most_steps);
-  }
+  drive(dt_s);
+  solver_->approach(driven_, velocity_);  // v¹ need not be exact
+  drive(dt_s);
+  solver_->solve(driven_, velocity_);
+}
+
+/// H v − dt b at the middle of v and what is known of v⁺.
+void World::drive(double dt_s) {
+  middle_ = 0.5 * (model_->velocity() + velocity_);
+  model_->bias(middle_, bias_);
+  driven_ = momentum_ - dt_s * bias_;
 }
 
 void World::expect(std::span<const double> inputs, const char* what) const {

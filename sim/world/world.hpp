@@ -103,6 +103,7 @@ class World {
   void pull(std::size_t chain, double dt_s);
   void expect(std::span<const double> inputs, const char* what) const;
   void solve(double dt_s, std::span<const double> tension_N = {});
+  void drive(double dt_s);
 
   erp::Robot robot_;
   WorldOptions options_;

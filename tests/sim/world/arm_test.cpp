@@ -1,11 +1,9 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
-#include "sim/world/arm_poses.hpp"
+#include "sim/actuator/pose_plan.hpp"
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
 
@@ -14,6 +12,15 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 erp::Robot arm() { return erp::read_robot(rigs::config("arm/robot.xml")); }
+
+/// The fifteen poses that it holds.
+std::vector<sim::Pose> arm_poses() {
+  std::vector<sim::Pose> held;
+  const auto rows = sim::poses_of(recording::read_table(rigs::config("arm/poses.csv")), arm());
+  for (std::size_t k = 1; k < rows.size(); ++k)
+    if (rows[k].pose == rows[k - 1].pose) held.push_back(rows[k].pose);
+  return held;
+}
 
 Eigen::Quaterniond turn(const std::array<double, 4>& p) { return {p[0], p[1], p[2], p[3]}; }
 
@@ -70,7 +77,7 @@ TEST_CASE("the arm has the eleven muscles, two of them over both joints") {
 TEST_CASE("no muscle's point comes inside a pulley in any of the poses") {
   const erp::Robot robot = arm();
   sim::World world(robot);
-  for (const sim::Pose& pose : sim::arm_poses()) {
+  for (const sim::Pose& pose : arm_poses()) {
     world.set_joint(0, {erp::JointType::spherical, pose[0], {}});
     world.set_joint(1, {erp::JointType::revolute, pose[1], {}});
     for (std::size_t k = 0; k < robot.actuators.size(); ++k)
@@ -96,7 +103,7 @@ TEST_CASE("under length control of all muscles the arm holds fifteen poses witho
       GENERATE(true, false);  // without, the muscles alone hold it, and it swings longer
   if (!joints_rub)
     for (auto& joint : robot.skeletons[0].joints) joint.coulomb_Nm = 0;
-  const auto poses = sim::arm_poses();
+  const auto poses = arm_poses();
   REQUIRE(poses.size() == 15);
   Limb limb(robot);
   std::vector<double> from(11, 0.0);
@@ -109,29 +116,4 @@ TEST_CASE("under length control of all muscles the arm holds fifteen poses witho
     CHECK(held.error_rad < 0.5 * degree);
     from = to;
   }
-}
-
-TEST_CASE("configs/arm/poses.csv holds the line lengths of the fifteen poses") {
-  std::ifstream file(rigs::config("arm/poses.csv"));
-  std::string line;
-  REQUIRE(std::getline(file, line));
-  const erp::Robot robot = arm();
-  const auto poses = sim::arm_poses();
-  std::size_t checked = 0;
-  while (std::getline(file, line)) {
-    std::istringstream row(line);
-    std::string cell;
-    std::getline(row, cell, ',');
-    const double pose = (std::stod(cell) - 1.5) / 3;  // each ramp ends 1.5 s into its 3 s
-    if (std::abs(pose - std::round(pose)) > 1e-9) continue;
-    const auto wanted = sim::hold_pose(robot, poses.at(std::size_t(std::lround(pose)))).line_m;
-    for (double want : wanted) {
-      std::getline(row, cell, ',');
-      REQUIRE(cell == "length");
-      std::getline(row, cell, ',');
-      REQUIRE(std::abs(std::stod(cell) - want) < 1e-6);
-    }
-    ++checked;
-  }
-  CHECK(checked == 15);
 }

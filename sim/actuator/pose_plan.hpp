@@ -1,0 +1,28 @@
+#pragma once
+#include "interfaces/recording/table.hpp"
+#include "sim/actuator/holding.hpp"
+
+/// From where the joints shall be to how long the lines shall be.
+namespace sim {
+
+struct TimedPose {
+  double time_s = 0;
+  Pose pose;
+};
+
+/// The poses of a table, a row each: columns <j>.angle_rad, or <j>.qw … <j>.qz of a spherical
+/// joint; joints without a column stay where they start. Throws std::invalid_argument, naming the
+/// column that belongs to no joint, or a table without rows.
+std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot& robot);
+
+struct PlanOptions {
+  HoldingOptions holding;
+  double sample_s = 0.05;  ///< between poses farther apart than this
+};
+
+/// A trajectory for `target`: the line lengths that hold each pose at its time, and between two
+/// poses the least jerk: 10 s³ − 15 s⁴ + 6 s⁵ (Flash and Hogan 1985).
+recording::Table lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
+                                 const PlanOptions& options = {});
+
+}  // namespace sim

@@ -1,0 +1,44 @@
+#include "sim/actuator/pose_plan.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "tests/sim/rigs.hpp"
+
+using recording::parse_csv, recording::Table;
+using sim::lengths_through, sim::poses_of;
+
+TEST_CASE("lengths.csv of each robot is what erp model lengths makes of its poses.csv") {
+  const auto* name = GENERATE("arm", "twin_joint", "seven_dof", "pendulum");
+  CAPTURE(name);
+  const std::string folder = rigs::config(name);
+  const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
+  const auto poses = poses_of(recording::read_table(folder + "/poses.csv"), robot);
+  const Table made = lengths_through(robot, poses);
+  const Table kept = recording::read_table(folder + "/lengths.csv");
+  REQUIRE(kept.columns.size() == made.columns.size());
+  REQUIRE(kept.rows() == made.rows());
+  for (std::size_t c = 0; c < made.columns.size(); ++c)
+    for (std::size_t row = 0; row < made.rows(); ++row)
+      REQUIRE(std::abs(kept.columns[c].values[row] - made.columns[c].values[row]) < 1e-6);
+}
+
+TEST_CASE("joints without a column stay where they start, empty cells where they were") {
+  const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
+  const auto poses =
+      poses_of(parse_csv("poses.csv", "time_s,elbow.angle_rad\n0,0.5\n1,\n2,0.7\n"), robot);
+  REQUIRE(poses.size() == 3);
+  CHECK(poses[0].pose[0] == std::array<double, 4>{1, 0, 0, 0});
+  CHECK(poses[1].pose[1][0] == 0.5);
+  CHECK(poses[2].pose[1][0] == 0.7);
+  CHECK(poses[2].time_s == 2);
+}
+
+TEST_CASE("a column of no joint is refused with the nearest name") {
+  const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
+  const Table table = parse_csv("poses.csv", "time_s,elbo.angle_rad\n0,0.5\n");
+  CHECK_THROWS_WITH(poses_of(table, robot),
+                    Catch::Contains("elbo.angle_rad") && Catch::Contains("elbow.angle_rad"));
+}
