@@ -35,7 +35,7 @@ Statics statics_of(const erp::Robot& robot, const RobotTree& tree, SkeletonModel
   for (Eigen::Index k = 0; k < actuators; ++k) {
     const Routing routing(robot.actuators[static_cast<std::size_t>(k)].tendon, tree.names);
     const PathShape shape = routing.solve(model.poses());
-    length_gradient(shape, model, row);
+    length_gradient(shape, levers_of(routing, model), model, row);
     s.length_m[k] = shape.length_m;
     s.jacobian.row(k) = row;
   }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double balanced = 1e-12;     // of the largest impulse: what rounding leaves
 constexpr double least_share = 1e-12;  // of a step that does not descend as a whole
-constexpr double small_turn = 1e-6;    // Newton's error is then its square
+constexpr double small_turn = 1e-4;    // Newton's error is then its square
 constexpr double level_slope = 1e-9;   // of the slope a step begins with: its end is the bottom
 // What a force or a joint does at some velocity.
 constexpr char idle = '-', acting = 'f', still = '0', up = '>', down = '<', turning = 'o',

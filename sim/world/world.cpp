@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "sim/actuator/muscle_jacobian.hpp"
-
 namespace sim {
 
 World::World(const erp::Robot& robot, const WorldOptions& options)
@@ -36,8 +34,11 @@ World::Chain World::make_chain(const erp::Actuator& actuator) const {
   routing.require_outside(poses());
   const PathShape shape = routing.solve(poses());
   return {Motor(robot_.motor_of(actuator), actuator.spindle.radius_m, options_.usual_step_s),
-          routing, TendonLaw::at_rest(actuator.tendon, actuator.spindle, shape.length_m),
-          MotorState{}, shape};
+          routing,
+          levers_of(routing, *model_),
+          TendonLaw::at_rest(actuator.tendon, actuator.spindle, shape.length_m),
+          MotorState{},
+          shape};
 }
 
 void World::make_solver() {
@@ -79,22 +80,32 @@ void World::read_tensions() {
   }
 }
 
+/// J H⁻¹ Jᵀ = |L⁻¹ Jᵀ|² of the tendon in row_, with H = L Lᵀ. The tendon's first coordinate is
+/// where L⁻¹ Jᵀ begins. Uses row_ up.
+double World::mobility_per_kg(const Chain& chain) {
+  if (chain.levers.coordinates.empty()) return 0;
+  const auto rest = row_.size() - chain.levers.coordinates.front();
+  auto tail = row_.tail(rest);
+  inertia_factor_.matrixLLT()
+      .bottomRightCorner(rest, rest)
+      .triangularView<Eigen::Lower>()
+      .solveInPlace(tail);
+  return tail.squaredNorm();
+}
+
 void World::pull(std::size_t k, double dt_s) {
   const Chain& chain = chains_[k];
-  length_gradient(chain.shape, *model_, row_);
+  length_gradient(chain.shape, chain.levers, *model_, row_);
   OneSidedForce& force = forces_[k];
   force.row.clear();
-  for (int d = 0; d < row_.size(); ++d)
+  for (const int d : chain.levers.coordinates)
     if (row_[d] != 0) force.row.push_back({d, row_[d]});
   const double winding = chain.tendon.radius_m * chain.state.speed_rad_per_s;
   const StretchedTendon tendon =
       stretched(chain.tendon, chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
                 row_.dot(model_->velocity()) + winding, winding);
   double theta = options_.theta;
-  if (theta == 0) {
-    inertia_factor_.matrixL().solveInPlace(row_);
-    theta = theta_of(tendon.stiffness_N_per_m, row_.squaredNorm(), dt_s);
-  }
+  if (theta == 0) theta = theta_of(tendon.stiffness_N_per_m, mobility_per_kg(chain), dt_s);
   pull_implicitly(tendon, theta, dt_s, force);
 }
 
@@ -117,7 +128,7 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
   solver_->begin(inertia_, std::span(forces_).first(force_count_), dt_s);
   momentum_.noalias() = inertia_ * v;
   for (std::size_t k = 0; k < tension_N.size(); ++k) {
-    length_gradient(chains_[k].shape, *model_, row_);
+    length_gradient(chains_[k].shape, chains_[k].levers, *model_, row_);
     momentum_ -= dt_s * tension_N[k] * row_;
   }
   velocity_ = v;

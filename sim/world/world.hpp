@@ -6,6 +6,7 @@
 
 #include "interfaces/topics.hpp"
 #include "sim/actuator/motor.hpp"
+#include "sim/actuator/muscle_jacobian.hpp"
 #include "sim/actuator/routing.hpp"
 #include "sim/actuator/tendon.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
@@ -90,6 +91,7 @@ class World {
   struct Chain {
     Motor motor;
     Routing routing;
+    Levers levers;
     TendonLaw tendon;
     MotorState state;
     PathShape shape;
@@ -101,6 +103,7 @@ class World {
   void find_forces(double dt_s, bool springs);
   void move(double dt_s);
   void pull(std::size_t chain, double dt_s);
+  double mobility_per_kg(const Chain& chain);
   void expect(std::span<const double> inputs, const char* what) const;
   void solve(double dt_s, std::span<const double> tension_N = {});
   void drive(double dt_s);

@@ -24,6 +24,7 @@ void world_step(benchmark::State& state, const char* robot) {
 }
 BENCHMARK_CAPTURE(world_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(world_step, arm, "arm");
+BENCHMARK_CAPTURE(world_step, ecce4, "ecce4");
 
 /// The exported model in MuJoCo, beside it: the same bones, tendons, frictions and limits, but
 /// without motors, springs and spindles.
@@ -38,6 +39,7 @@ void mujoco_step(benchmark::State& state, const char* robot) {
 }
 BENCHMARK_CAPTURE(mujoco_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(mujoco_step, arm, "arm");
+BENCHMARK_CAPTURE(mujoco_step, ecce4, "ecce4");
 
 void force_law(benchmark::State& state) {
   const law_force_gains gains{0.1F, 0.2F, 0.5F, 0.6F};

@@ -1,0 +1,58 @@
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "tests/sim/rigs.hpp"
+#include "tests/sim/world/limb.hpp"
+
+namespace {
+
+std::vector<std::string> robot_files() {
+  std::vector<std::string> files;
+  for (const auto& folder : std::filesystem::directory_iterator(rigs::config("")))
+    if (const auto file = folder.path() / "robot.xml"; std::filesystem::exists(file))
+      files.push_back(file);
+  std::ranges::sort(files);
+  return files;
+}
+
+/// The largest angle between two readings of any joint.
+double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointReading> b) {
+  double apart = 0;
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    const auto &p = a[j].position, &q = b[j].position;
+    const Eigen::Quaterniond from(p[0], p[1], p[2], p[3]), to(q[0], q[1], q[2], q[3]);
+    const bool turns = sim::coordinates_of(a[j].type) >= 3;
+    apart = std::max(apart, turns ? from.angularDistance(to) : std::abs(p[0] - q[0]));
+  }
+  return apart;
+}
+
+}  // namespace
+
+/// Held by its muscles alone: friction, which would hold it anywhere, is taken out.
+TEST_CASE("every robot stands under length control, without drift") {
+  for (const std::string& file : robot_files()) {
+    CAPTURE(file);
+    erp::Robot robot = erp::read_robot(file);
+    for (auto& part : robot.skeletons)
+      for (auto& joint : part.joints) joint.coulomb_Nm = 0;
+    Limb limb(robot);
+    const std::vector<double> lines(robot.actuators.size(), 0.0);
+    const auto stand = [&](double seconds) {
+      const std::vector<sim::JointReading> from(limb.world.joints().begin(),
+                                                limb.world.joints().end());
+      double farthest = 0;
+      for (int k = 0; k < std::lround(500 * seconds); ++k) {
+        limb.follow_lines(lines);
+        farthest = std::max(farthest, apart_rad(limb.world.joints(), from));
+      }
+      return farthest;
+    };
+    const double settling = stand(5), drift = stand(15);
+    WARN(robot.name << " settles by " << settling << " rad, then drifts by " << drift << " rad");
+    CHECK(limb.all_running());
+    CHECK(settling < 0.15);
+    CHECK(drift < 0.01);
+  }
+}
