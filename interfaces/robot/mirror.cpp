@@ -22,6 +22,8 @@ void reflect(Skeleton& skeleton) {
   if (auto& gravity = skeleton.gravity_m_per_s2) gravity = reflected(*gravity);
   for (Body& body : skeleton.bodies) {
     body.com_m = reflected(body.com_m);
+    auto& products = body.products_kg_m2;
+    products = {negated(products[0]), products[1], negated(products[2])};
     for (Part& part : body.parts) std::visit([](auto& p) { reflect(p); }, part);
   }
   for (Joint& joint : skeleton.joints) {

@@ -18,9 +18,10 @@ struct Body {
   static constexpr auto element = "body";
   xml::Place place;
   std::string name;
-  double mass_kg = 0.0;         ///< 0: a root body, fixed to the world
-  Vec3 com_m{0, 0, 0};          ///< centre of mass in the body frame
-  Vec3 inertia_kg_m2{0, 0, 0};  ///< principal inertia about the centre of mass, body axes
+  double mass_kg = 0.0;          ///< 0: a root body, fixed to the world
+  Vec3 com_m{0, 0, 0};           ///< centre of mass in the body frame
+  Vec3 inertia_kg_m2{0, 0, 0};   ///< about the centre of mass, body axes: xx yy zz
+  Vec3 products_kg_m2{0, 0, 0};  ///< xy xz yz, as they stand in the tensor (−Σ m x y)
   std::optional<double> density_kg_per_m3;
   std::string source;
   std::vector<Part> parts;  ///< solids: its shape, for contacts and pictures too; and weights
@@ -29,6 +30,7 @@ struct Body {
     v("mass_kg", mass_kg, xml::at_least_zero);
     v("com_m", com_m);
     v("inertia_kg_m2", inertia_kg_m2, xml::at_least_zero);
+    v("products_kg_m2", products_kg_m2);
     v("density_kg_per_m3", density_kg_per_m3, xml::positive);
     v("source", source);
     v.list(parts);

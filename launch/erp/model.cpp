@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "interfaces/recording/csv.hpp"
+#include "interfaces/robot/check.hpp"
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "sim/actuator/pose_plan.hpp"
@@ -20,8 +21,18 @@ namespace {
 
 std::string in_format_of(const std::string& file, const erp::Robot& robot) {
   if (file.ends_with(".mjcf.xml")) return formats::to_mjcf(robot);
+  if (file.ends_with(".urdf")) return formats::to_urdf(robot);
+  if (file.ends_with(".sdf")) return formats::to_sdf(robot);
   if (file.ends_with(".svg")) return formats::to_svg(robot);
-  throw std::invalid_argument(file + ": no format has this ending; write .mjcf.xml or .svg");
+  throw std::invalid_argument(file +
+                              ": no format has this ending; write .mjcf.xml, .urdf, .sdf or .svg");
+}
+
+erp::Robot from_format_of(const std::string& file) {
+  if (file.ends_with(".urdf")) return formats::from_urdf(file);
+  if (file.ends_with(".sdf")) return formats::from_sdf(file);
+  throw std::invalid_argument(file +
+                              ": no format that can be read has this ending; give .urdf or .sdf");
 }
 
 void write_file(const std::string& file, const std::string& text) {
@@ -66,6 +77,13 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
 int model_export(const std::string& robot_file, const std::string& out_file) {
   const std::string text = in_format_of(out_file, erp::read_robot(robot_file));
   write_file(out_file, text);
+  return 0;
+}
+
+int model_import(const std::string& foreign_file, const std::string& robot_file) {
+  const erp::Robot robot = from_format_of(foreign_file);
+  xml::throw_if_any(erp::check_robot(robot));
+  write_file(robot_file, erp::write_robot(robot));
   return 0;
 }
 

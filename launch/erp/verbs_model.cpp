@@ -1,5 +1,9 @@
+#include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
+#include <sstream>
+#include <stdexcept>
 
 #include "launch/erp/model.hpp"
 #include "launch/erp/verbs.hpp"
@@ -8,20 +12,36 @@ namespace launch {
 
 namespace {
 
+/// Prints, or writes a file: only once all is computed, because the robot may include that file.
+int give(const std::string& file, const std::function<int(std::ostream&)>& print) {
+  std::ostringstream text;
+  const int code = print(text);
+  if (file.empty()) return std::cout << text.str(), code;
+  std::ofstream out(file);
+  if (!(out << text.str()) || !out.flush())
+    throw std::invalid_argument(file + ": cannot be written; name another file");
+  return code;
+}
+
 /// What follows from the balance of tensions and gravity.
 void add_statics(CLI::App& model, Chosen& chosen) {
   auto robot = std::make_shared<std::string>(), table = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>();
   auto least = std::make_shared<double>(5), rest = std::make_shared<double>(10);
   const auto add_options = [=](CLI::App* verb) {
     verb->add_option("--least", *least, "no tendon pulls less, N")->capture_default_str();
     verb->add_option("--rest", *rest, "what each would like to pull, N")->capture_default_str();
+    verb->add_option("--out", *out, "a file to write; else it is printed");
   };
   auto* balance = model.add_subcommand(
       "balance", "The pretensions that hold the starting pose, as a part to include");
   balance->add_option("robot", *robot, "robot.xml")->required();
   add_options(balance);
-  balance->callback(
-      [=, &chosen] { chosen = [=] { return model_balance(*robot, *least, *rest, std::cout); }; });
+  balance->callback([=, &chosen] {
+    chosen = [=] {
+      return give(*out, [=](auto& to) { return model_balance(*robot, *least, *rest, to); });
+    };
+  });
 
   auto* lengths = model.add_subcommand(
       "lengths", "Joint angles over time as line lengths: a trajectory for `target`");
@@ -32,7 +52,9 @@ void add_statics(CLI::App& model, Chosen& chosen) {
       ->required();
   add_options(lengths);
   lengths->callback([=, &chosen] {
-    chosen = [=] { return model_lengths(*robot, *table, *least, *rest, std::cout); };
+    chosen = [=] {
+      return give(*out, [=](auto& to) { return model_lengths(*robot, *table, *least, *rest, to); });
+    };
   });
 }
 
@@ -53,10 +75,17 @@ void add_model(CLI::App& app, Chosen& chosen) {
   auto* export_verb = model->add_subcommand("export", "Write it for another simulator");
   export_verb->add_option("robot", *robot, "robot.xml")->required();
   export_verb
-      ->add_option("out", *out, "the new file: OUT.mjcf.xml for MuJoCo, OUT.svg for a picture")
+      ->add_option(
+          "out", *out,
+          "the new file: OUT.mjcf.xml for MuJoCo, OUT.urdf, OUT.sdf, OUT.svg for a picture")
       ->required();
   export_verb->callback([=, &chosen] { chosen = [=] { return model_export(*robot, *out); }; });
 
+  auto* import_verb =
+      model->add_subcommand("import", "The skeleton of a file of another simulator");
+  import_verb->add_option("in", *robot, "IN.urdf or IN.sdf")->required();
+  import_verb->add_option("out", *out, "the new robot.xml, without muscles")->required();
+  import_verb->callback([=, &chosen] { chosen = [=] { return model_import(*robot, *out); }; });
   add_statics(*model, chosen);
 }
 

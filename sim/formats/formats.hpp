@@ -14,6 +14,18 @@ namespace formats {
 /// another one, which MJCF cannot say.
 std::string to_mjcf(const erp::Robot& robot);
 
+/// The skeleton as URDF, all joints at zero. URDF has no ball joint: it becomes three hinges over
+/// links without mass, each as far as the whole turn may go. Muscles, motors, contacts and the
+/// starting pose stay behind.
+std::string to_urdf(const erp::Robot& robot);
+/// The skeleton as SDF 1.7; the same stays behind, and the limits of ball joints.
+std::string to_sdf(const erp::Robot& robot);
+
+/// A robot without muscles from such a file: see robot_of in linkage.hpp. Throws xml::Errors with
+/// file:line:column for what is missing, no number or cannot be simulated; std::invalid_argument.
+erp::Robot from_urdf(const std::string& file);
+erp::Robot from_sdf(const std::string& file);
+
 /// A picture: the starting pose from the front and from the robot's right, as SVG; pointing at
 /// something shows its name. Throws std::invalid_argument for a robot that cannot be built.
 std::string to_svg(const erp::Robot& robot);

@@ -1,0 +1,48 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "interfaces/robot/robot.hpp"
+#include "sim/formats/foreign.hpp"
+
+/// The skeleton as other formats have it: links and joints at their zero pose, each in the world.
+/// Frames may be turned there; ours are parallel.
+namespace formats {
+
+using Vec3 = Eigen::Vector3d;
+
+struct Link {
+  std::string name;
+  double mass_kg = 0;
+  Vec3 com_m = Vec3::Zero();
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre of mass
+};
+
+struct Connection {
+  std::string name, parent, child;
+  erp::JointType type = erp::JointType::fixed;
+  Vec3 at_m = Vec3::Zero(), axis = Vec3::UnitX();
+  double min_rad = -3.14159, max_rad = 3.14159;
+  double viscous_Nm_s_per_rad = 0, coulomb_Nm = 0;
+};
+
+struct Linkage {
+  std::string name;
+  std::vector<Link> links;
+  std::vector<Connection> joints;
+};
+
+/// The robot of it, without motors and tendons. Links without mass that are fixed to another become
+/// one with it; three hinges about x, y, z in one point over links without mass are a ball joint. A
+/// root stands: its mass plays no part. Throws std::invalid_argument naming what cannot be.
+erp::Robot robot_of(Linkage linkage);
+
+/// Positions of the bodies' frames in the world, all joints at zero, in the order of
+/// robot.bodies().
+std::vector<Vec3> origins_of(const erp::Robot& robot);
+
+/// A pose as "x y z roll pitch yaw".
+Eigen::Isometry3d pose_of(const std::vector<double>& xyz_rpy);
+
+}  // namespace formats

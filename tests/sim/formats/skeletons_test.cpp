@@ -1,0 +1,121 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "interfaces/robot/mass.hpp"
+#include "sim/formats/formats.hpp"
+#include "sim/skeleton/skeleton_model.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+/// A text as a file, for as long as it lives.
+struct File {
+  std::string path;
+  explicit File(const std::string& text)
+      : path(std::filesystem::temp_directory_path() /
+             ("erp_" + std::to_string(getpid()) + ".xml")) {
+    std::ofstream(path) << text;
+  }
+  ~File() { std::filesystem::remove(path); }
+};
+
+struct Format {
+  const char* name;
+  std::string (*write)(const erp::Robot&);
+  erp::Robot (*read)(const std::string&);
+};
+
+bool near(const xml::Vec3& a, const xml::Vec3& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 1e-12;
+}
+
+template <class Items>
+const auto& named(const Items& items, const std::string& name) {
+  for (const auto& item : items)
+    if (item.name == name) return item;
+  throw std::out_of_range(name);
+}
+
+void check_same(const erp::Robot& was, const erp::Robot& now) {
+  const auto bodies = now.bodies();
+  const auto joints = now.joints();
+  CHECK(bodies.size() == was.bodies().size());
+  for (const erp::Body& body : was.bodies()) {
+    CAPTURE(body.name);
+    const erp::Mass a = mass_of(body), b = mass_of(named(bodies, body.name));
+    CHECK(a.mass_kg == b.mass_kg);
+    CHECK((a.mass_kg == 0 || near(a.com_m, b.com_m)));
+    for (std::size_t k = 0; k < 6 && a.mass_kg > 0; ++k)
+      CHECK(a.inertia_kg_m2[k] == Approx(b.inertia_kg_m2[k]).margin(1e-12));
+  }
+  CHECK(joints.size() == was.joints().size());
+  for (const erp::Joint& joint : was.joints()) {
+    CAPTURE(joint.name);
+    const erp::Joint& other = named(joints, joint.name);
+    CHECK(other.type == joint.type);
+    CHECK(other.parent == joint.parent);
+    CHECK(other.child == joint.child);
+    CHECK(near(other.at_m, joint.at_m));
+    if (joint.type != erp::JointType::revolute) continue;
+    CHECK(other.min_rad == joint.min_rad);
+    CHECK(other.max_rad == joint.max_rad);
+    CHECK(other.viscous_Nm_s_per_rad == joint.viscous_Nm_s_per_rad);
+    CHECK(other.coulomb_Nm == joint.coulomb_Nm);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a skeleton that is written and read again is the same") {
+  const Format format = GENERATE(Format{"urdf", formats::to_urdf, formats::from_urdf},
+                                 Format{"sdf", formats::to_sdf, formats::from_sdf});
+  for (const char* robot : {"hinge_rig", "arm", "seven_dof", "ecce4"}) {
+    CAPTURE(format.name, robot);
+    const erp::Robot was = erp::read_robot(rigs::config(std::string(robot) + "/robot.xml"));
+    const File file(format.write(was));
+    check_same(was, format.read(file.path));
+  }
+}
+
+TEST_CASE("turned frames of URDF become parallel ones") {
+  const File file(R"(<robot name="r"><link name="base"/>
+    <link name="rod"><inertial><origin xyz="0.1 0 0" rpy="0 0 1.5707963267948966"/>
+      <mass value="2"/><inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    <joint name="j" type="continuous"><parent link="base"/><child link="rod"/>
+      <origin xyz="0 0 1" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/></joint></robot>)");
+  const erp::Robot robot = formats::from_urdf(file.path);
+  const erp::Body rod = robot.bodies().at(1);
+  CHECK(near(rod.com_m, {0, 0.1, 0}));
+  CHECK(near(rod.inertia_kg_m2, {1, 2, 2.5}));  // turned twice by a quarter
+  CHECK(near(robot.joints().at(0).axis, {0, 1, 0}));
+  CHECK(near(robot.joints().at(0).at_m, {0, 0, 1}));
+}
+
+TEST_CASE("what is wrong in a foreign file is said with its place") {
+  const auto says = [](const char* text, const char* words) {
+    const File file(text);
+    CHECK_THROWS_WITH(formats::from_urdf(file.path), Catch::Contains(words));
+  };
+  says("<model/>", ":1:1: <model>: is no URDF");
+  says("<robot><link name='a'/></robot>", "has no name");
+  says(
+      "<robot name='r'><link name='a'/><link name='b'/>\n<joint name='j' type='prismatic'>"
+      "<parent link='a'/><child link='b'/></joint></robot>",
+      ":2:1: <joint>: type=\"prismatic\" is not simulated; revolute");
+  says(
+      "<robot name='r'><link name='a'><inertial>\n<mass value='heavy'/><inertia ixx='1' iyy='1' "
+      "izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>",
+      ":2:1: <mass>: value=\"heavy\"");
+  says(
+      "<robot name='r'><link name='a'/><joint name='j' type='fixed'><parent link='a'/>"
+      "<child link='c'/></joint></robot>",
+      "which are not both links");
+  says(
+      "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>"
+      "<parent link='a'/><child link='b'/></joint><joint name='k' type='fixed'>"
+      "<parent link='b'/><child link='a'/></joint></robot>",
+      "loop");
+}
