@@ -66,9 +66,15 @@ bool made_of_parts(const Body& body) {
          });
 }
 
-Mass mass_of(const Body& body) {
+namespace {
+Mass given_mass(const Body& body) {
   const Vec3 &i = body.inertia_kg_m2, &p = body.products_kg_m2;
-  if (!made_of_parts(body)) return {body.mass_kg, body.com_m, {i[0], i[1], i[2], p[0], p[1], p[2]}};
+  return {body.mass_kg, body.com_m, {i[0], i[1], i[2], p[0], p[1], p[2]}};
+}
+}  // namespace
+
+Mass mass_of(const Body& body) {
+  if (!made_of_parts(body)) return given_mass(body);
   const double density = body.density_kg_per_m3.value_or(0);
   Mass sum;  // about the body's origin, until the end
   for (const Part& part : body.parts) {

@@ -88,9 +88,10 @@ TEST_CASE("weights and solids add up about the common centre of mass") {
 TEST_CASE("given numbers stay as they are") {
   Body body;
   body.mass_kg = 2, body.com_m = {1, 2, 3}, body.inertia_kg_m2 = {0.1, 0.2, 0.25};
+  body.products_kg_m2 = {0.01, 0.02, 0.03};
   body.parts = {Sphere{{}, {0, 0, 0}, 0.1}};  // a shape only
   const Mass mass = mass_of(body);
   CHECK(mass.mass_kg == 2);
   CHECK(mass.com_m == body.com_m);
-  CHECK(mass.inertia_kg_m2 == std::array<double, 6>{0.1, 0.2, 0.25, 0, 0, 0});
+  CHECK(mass.inertia_kg_m2 == std::array<double, 6>{0.1, 0.2, 0.25, 0.01, 0.02, 0.03});
 }
