@@ -105,8 +105,11 @@ int model_lengths(const std::string& robot_file, const std::string& table_file, 
                   double rest_N, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
   const auto poses = sim::poses_of(recording::read_table(table_file), robot);
-  recording::write_csv(
-      sim::lengths_through(robot, poses, {.holding = {.rest_N = rest_N, .least_N = least_N}}), out);
+  const sim::LengthPlan plan =
+      sim::lengths_through(robot, poses, {.holding = {.rest_N = rest_N, .least_N = least_N}});
+  recording::write_csv(plan.table, out);
+  fmt::print(stderr, "left unbalanced: at most {:.3g} Nm, at {:.6g} s\n", plan.unbalanced_Nm,
+             plan.at_s);
   return 0;
 }
 

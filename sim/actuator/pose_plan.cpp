@@ -14,7 +14,6 @@ constexpr double rounding_m = 1e-7, rounding_s = 1e-6;  // so that files stay re
 
 /// Never −0.
 double rounded(double x, double step) { return std::round(x / step) / std::round(1 / step) + 0.0; }
-double least_jerk(double s) { return s >= 1 ? 1 : s * s * s * (10 + s * (6 * s - 15)); }
 
 /// Which entry of a joint's position a column gives.
 struct PoseColumn {
@@ -62,9 +61,10 @@ std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot&
   return poses;
 }
 
-recording::Table lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
-                                 const PlanOptions& options) {
-  recording::Table table;
+LengthPlan lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
+                           const PlanOptions& options) {
+  LengthPlan plan;
+  recording::Table& table = plan.table;
   table.columns.push_back({"time_s", {}});
   for (const erp::Actuator& a : robot.actuators) {
     table.columns.push_back({a.name + ".mode", {}});
@@ -82,14 +82,20 @@ recording::Table lengths_through(const erp::Robot& robot, const std::vector<Time
   std::vector<double> from;
   for (std::size_t p = 0; p < poses.size(); ++p) {
     const bool same = p > 0 && poses[p].pose == poses[p - 1].pose;
-    const auto to = same ? from : hold_pose(robot, poses[p].pose, options.holding).line_m;
+    std::vector<double> to = from;
+    if (!same) {
+      const Holding holding = hold_pose(robot, poses[p].pose, options.holding);
+      to = holding.line_m;
+      if (holding.unbalanced_Nm > plan.unbalanced_Nm)
+        plan.unbalanced_Nm = holding.unbalanced_Nm, plan.at_s = poses[p].time_s;
+    }
     const double start_s = p > 0 ? poses[p - 1].time_s : 0, way_s = poses[p].time_s - start_s;
     for (int k = 1; p > 0 && !same && k * options.sample_s < way_s - 1e-9; ++k)
       add(start_s + k * options.sample_s, from, to, k * options.sample_s / way_s);
     add(poses[p].time_s, from.empty() ? to : from, to, 1);
     from = to;
   }
-  return table;
+  return plan;
 }
 
 }  // namespace sim

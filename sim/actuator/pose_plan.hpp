@@ -5,6 +5,10 @@
 /// From where the joints shall be to how long the lines shall be.
 namespace sim {
 
+/// How much of a way is done at the share s of its time, with the least jerk (Flash and Hogan
+/// 1985).
+inline double least_jerk(double s) { return s >= 1 ? 1 : s * s * s * (10 + s * (6 * s - 15)); }
+
 struct TimedPose {
   double time_s = 0;
   Pose pose;
@@ -20,9 +24,14 @@ struct PlanOptions {
   double sample_s = 0.05;  ///< between poses farther apart than this
 };
 
+struct LengthPlan {
+  recording::Table table;
+  double unbalanced_Nm = 0, at_s = 0;  ///< the most that no tensions could hold, and when
+};
+
 /// A trajectory for `target`: the line lengths that hold each pose at its time, and between two
-/// poses the least jerk: 10 s³ − 15 s⁴ + 6 s⁵ (Flash and Hogan 1985).
-recording::Table lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
-                                 const PlanOptions& options = {});
+/// poses the least jerk.
+LengthPlan lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
+                           const PlanOptions& options = {});
 
 }  // namespace sim

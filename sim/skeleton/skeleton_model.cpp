@@ -154,12 +154,6 @@ Eigen::VectorXd SkeletonModel::forward(const Eigen::VectorXd& tau) {
   return h.ldlt().solve(tau - b);
 }
 
-void SkeletonModel::add_torques(int body, const Vec3& at_m, const Vec3& force_N,
-                                Eigen::VectorXd& tau) const {
-  const Vec6 pulled = wrench(at_m, force_N);
-  for (const int d : movers(body)) tau[d] += axes_.col(d).dot(pulled);
-}
-
 double SkeletonModel::energy_J() const {
   double energy = 0;
   for (const Link& link : links_)

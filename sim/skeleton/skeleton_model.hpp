@@ -57,8 +57,6 @@ class SkeletonModel {
   void inertia(Eigen::MatrixXd& h);
   /// The accelerations that torques cause.
   Eigen::VectorXd forward(const Eigen::VectorXd& tau);
-  /// Adds the torques of a force at a point of a body, both in the world, to `tau`.
-  void add_torques(int body, const Vec3& at_m, const Vec3& force_N, Eigen::VectorXd& tau) const;
   /// Kinetic and potential.
   double energy_J() const;
 

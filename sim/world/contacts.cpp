@@ -8,10 +8,8 @@
 namespace sim {
 namespace {
 
-constexpr double near_m = 0.01;        // at 1 ms, 10 m/s away
-constexpr double hardness = 1e7;       // of the impulse that would stop the lighter body alone
-constexpr double undone_a_step = 0.2;  // of an overlap; chosen
-constexpr double rounding_m = 1e-3;    // of a box
+constexpr double near_m = 0.01;      // at 1 ms, 10 m/s away
+constexpr double rounding_m = 1e-3;  // of a box
 
 /// All points within `radius` of a core; Bullet calls it the margin.
 struct Solid {
@@ -82,8 +80,8 @@ Touch touch(const Solid& a, const btTransform& at_a, const Solid& b, const btTra
 
 struct Contacts::Solids {
   struct Pair {
-    int a, b;  ///< bodies
-    double mass_kg;
+    int a, b;        ///< bodies
+    double mass_kg;  ///< of the lighter one that moves
     const Solid *solid_a, *solid_b;
   };
   std::vector<std::vector<Solid>> of_body;
@@ -148,9 +146,7 @@ int Contacts::find(const SkeletonModel& model, double dt, std::span<OneSidedForc
     const Touch t = touch(a, at_a, b, at_b);
     if (t.gap_m > near_m) continue;
     OneSidedForce& force = forces[found++];
-    const double gap = t.gap_m >= 0 ? t.gap_m : undone_a_step * t.gap_m;
-    force.gain_N_s_per_m = hardness * pair.mass_kg / dt;
-    force.start_N = -force.gain_N_s_per_m * gap / dt;
+    hold_back(t.gap_m, pair.mass_kg, dt, force);
     point(t, pair.a, pair.b, model, force.row);
   }
   return found;

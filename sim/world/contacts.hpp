@@ -11,9 +11,9 @@
 ///   −n·(v_a − v_b) ≤ gap / dt,   f = max(0, G (−n·(v_a − v_b) − gap / dt))
 ///
 /// n from body b to body a at the points where two of their solids are nearest, which Bullet's GJK
-/// finds; v the velocities of these points. G and the undoing of an overlap as of joint stops. One
-/// point a pair of solids, no friction, no rebound: what has flat faces may rock on them. A box is
-/// rounded by a tenth of its shortest edge, at most 1 mm.
+/// finds; v the velocities of these points. G and the undoing of an overlap: hold_back in
+/// step_solver.hpp. One point a pair of solids, no friction, no rebound: what has flat faces may
+/// rock on them. A box is rounded by a tenth of its shortest edge, at most 1 mm.
 namespace sim {
 
 class Contacts {

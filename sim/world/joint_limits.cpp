@@ -5,16 +5,13 @@
 namespace sim {
 namespace {
 
-constexpr double near_rad = 0.2;       // at 1 ms, 200 rad/s away
-constexpr double hardness = 1e7;       // of the impulse that would stop the joint alone
-constexpr double undone_a_step = 0.2;  // of an overrun; chosen
+constexpr double near_rad = 0.2;  // at 1 ms, 200 rad/s away
 
 void stop(int first, const Eigen::Vector3d& direction, int dofs, double gap_rad, double dt,
           const Eigen::MatrixXd& h, OneSidedForce& force) {
   const auto d = direction.head(dofs);
   const double inertia = d.dot(h.block(first, first, dofs, dofs) * d);
-  force.gain_N_s_per_m = hardness * inertia / dt;
-  force.start_N = -force.gain_N_s_per_m * (gap_rad >= 0 ? gap_rad : undone_a_step * gap_rad) / dt;
+  hold_back(gap_rad, inertia, dt, force);
   force.row.clear();
   for (int k = 0; k < dofs; ++k) force.row.push_back({first + k, direction[k]});
 }

@@ -10,9 +10,8 @@
 ///
 ///   direction·v⁺ ≤ gap / dt,   f = max(0, G (direction·v⁺ − gap / dt))
 ///
-/// G so large that no more than 10⁻⁷ of the speed it takes away is left; a fifth of an overrun is
-/// undone a step. Of a spherical joint max_rad bounds the whole rotation α from the starting pose:
-/// dα/dt = axis·ω in either frame.
+/// G and the undoing of an overrun: hold_back in step_solver.hpp. Of a spherical joint max_rad
+/// bounds the whole rotation α from the starting pose: dα/dt = axis·ω in either frame.
 namespace sim {
 
 class JointLimits {

@@ -38,6 +38,15 @@ struct OneSidedForce {
   }
 };
 
+/// Makes it one that stops: it lets J v⁺ come to gap/dt and no farther, up to 10⁻⁷ of the speed it
+/// takes from `inertia` (kg, or kg m²) alone. A fifth of an overrun (gap < 0) is undone a step;
+/// chosen.
+inline void hold_back(double gap, double inertia, double dt_s, OneSidedForce& force) {
+  constexpr double hardness = 1e7, undone_a_step = 0.2;
+  force.gain_N_s_per_m = hardness * inertia / dt_s;
+  force.start_N = -force.gain_N_s_per_m * (gap >= 0 ? gap : undone_a_step * gap) / dt_s;
+}
+
 struct JointFriction {
   int first = 0, dofs = 1;  ///< 1 or 3 coordinates
   double viscous_Nm_s_per_rad = 0, coulomb_Nm = 0;

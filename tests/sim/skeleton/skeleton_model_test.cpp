@@ -127,7 +127,7 @@ TEST_CASE("the torques of a force are its power over the joints' speeds") {
   for (int body = 0; body < static_cast<int>(tree.bodies.size()); ++body) {
     const Vec3 at(0.2, -0.1, 0.4), force(3, 5, -2);
     Eigen::VectorXd tau = Eigen::VectorXd::Zero(model.coordinates());
-    model.add_torques(body, at, force, tau);
+    for (const int d : model.movers(body)) tau[d] = model.axis(d).dot(sim::wrench(at, force));
     const BodyTwist& twist = model.twists()[static_cast<std::size_t>(body)];
     const Vec3 arm = at - model.poses()[static_cast<std::size_t>(body)].position_m;
     const double power_W = force.dot(twist.linear_m_per_s + twist.angular_rad_per_s.cross(arm));

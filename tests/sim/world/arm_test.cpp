@@ -37,15 +37,13 @@ struct Hold {
   double drift_rad = 0, error_rad = 0;
 };
 
-double least_jerk(double s) { return s >= 1 ? 1 : s * s * s * (10 + s * (6 * s - 15)); }
-
 /// Ramps in 1.5 s, settles, then watches for 3 s.
 Hold hold(Limb& limb, const std::vector<double>& from, const std::vector<double>& to,
           const sim::Pose& wanted, double settle_s = 1) {
   std::vector<double> lines = from;
   for (int k = 0; k <= std::lround((1.5 + settle_s) / 0.002); ++k) {
     for (std::size_t i = 0; i < lines.size(); ++i)
-      lines[i] = from[i] + least_jerk(k / 750.0) * (to[i] - from[i]);
+      lines[i] = from[i] + sim::least_jerk(k / 750.0) * (to[i] - from[i]);
     limb.follow_lines(lines);
   }
   const sim::Pose settled = pose_of(limb.world);
