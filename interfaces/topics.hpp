@@ -13,6 +13,7 @@
 #include "interfaces/idl/ecu_parameter.h"
 #include "interfaces/idl/event.h"
 #include "interfaces/idl/gain_command.h"
+#include "interfaces/idl/imu_frame.h"
 #include "interfaces/idl/joint_state.h"
 #include "interfaces/idl/lifecycle_command.h"
 #include "interfaces/idl/sensor_frame.h"
@@ -31,6 +32,7 @@ using GainValue = erp_GainValue;
 using JointStateSample = erp_JointStateSample;
 using BodyPoseSample = erp_BodyPoseSample;
 using ActuatorOwnerSample = erp_ActuatorOwnerSample;
+using ImuSample = erp_ImuSample;
 
 template <>
 inline constexpr std::size_t capacity_of<JointSample> = 128;
@@ -40,6 +42,8 @@ template <>
 inline constexpr std::size_t capacity_of<JointStateSample> = 128;
 template <>
 inline constexpr std::size_t capacity_of<BodyPoseSample> = 128;
+template <>
+inline constexpr std::size_t capacity_of<ImuSample> = 32;
 template <>
 inline constexpr std::size_t capacity_of<EcuParameterValue> = 2048;
 template <>
@@ -54,6 +58,7 @@ using EcuParameter = Message<erp_EcuParameter, &erp_EcuParameter::values>;
 using GainCommand = Message<erp_GainCommand, &erp_GainCommand::gains>;
 using JointState = Message<erp_JointState, &erp_JointState::joints>;
 using BodyPose = Message<erp_BodyPose, &erp_BodyPose::bodies>;
+using ImuFrame = Message<erp_ImuFrame, &erp_ImuFrame::imus>;
 using ActuatorOwner = Message<erp_ActuatorOwner, &erp_ActuatorOwner::actuators>;
 using ComponentState = Message<erp_ComponentState>;
 using LifecycleCommand = Message<erp_LifecycleCommand>;
@@ -78,6 +83,7 @@ ERP_TOPIC(EcuParameter, "ecu_parameter")          // plant -> device
 ERP_TOPIC(GainCommand, "gain_command")            // controllers -> plant
 ERP_TOPIC(JointState, "joint_state")              // sim (truth), pose_estimator, motion_capture
 ERP_TOPIC(BodyPose, "body_pose")                  // sim, motion_capture
+ERP_TOPIC(ImuFrame, "imu_frame")                  // sim, or a driver
 ERP_TOPIC(ActuatorOwner, "actuator_owner")        // plant -> all
 ERP_TOPIC(ComponentState, "component_state")      // every component
 ERP_TOPIC(LifecycleCommand, "lifecycle_command")  // launcher -> one component
@@ -87,7 +93,7 @@ ERP_TOPIC(Event, "event")                         // all
 
 /// Every message, for those who look at the bus as a whole.
 using Messages = std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame,
-                            EcuParameter, GainCommand, JointState, BodyPose, ActuatorOwner,
-                            ComponentState, LifecycleCommand, Clock, Event>;
+                            EcuParameter, GainCommand, JointState, BodyPose, ImuFrame,
+                            ActuatorOwner, ComponentState, LifecycleCommand, Clock, Event>;
 
 }  // namespace erp

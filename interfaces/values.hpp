@@ -13,7 +13,9 @@ enum class SafeAction : std::uint8_t { none = 0, hold = 1, relax = 2, damp = 3 }
 /// Which measurements of a sample were taken; bits.
 namespace valid {
 inline constexpr std::uint8_t voltage = 1, current = 2, shaft = 4, line = 8, tension = 16;
-inline constexpr std::uint8_t all = 31, joint_angle = 1;
+inline constexpr std::uint8_t all = 31;            ///< of what an ECU's channel says
+inline constexpr std::uint8_t potentiometer = 32;  ///< where one is fitted
+inline constexpr std::uint8_t joint_angle = 1;
 }  // namespace valid
 
 /// State of one ECU channel; same numbers as `ecu_state` in firmware/core.

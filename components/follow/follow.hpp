@@ -93,7 +93,8 @@ class Follow {
   /// A measured actuator by name; nullptr when it was not measured.
   static const erp::ActuatorSample* find(const erp::SensorFrame& frame, std::string_view name) {
     for (const auto& sample : erp::samples(frame.actuators))
-      if (name == sample.name) return sample.valid == erp::valid::all ? &sample : nullptr;
+      if (name == sample.name)
+        return (sample.valid & erp::valid::all) == erp::valid::all ? &sample : nullptr;
     return nullptr;
   }
   std::size_t index_of(std::string_view name) const {

@@ -1,5 +1,6 @@
 #include "components/plant/plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +12,7 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
       boots_(robot.actuators.size(), false),
       said_(robot.actuators.size()) {
   for (auto& ecu : drive_at_) ecu.fill(-1);
-  for (auto& ecu : joint_at_) ecu.fill(-1);
+  for (auto& ecu : analog_at_) ecu.fill(-1);
   drives_.reserve(robot.actuators.size());
   for (const auto& actuator : robot.actuators) {
     drive_at_[static_cast<std::size_t>(actuator.ecu)][static_cast<std::size_t>(actuator.channel)] =
@@ -29,14 +30,27 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
         erp::EcuChannelCommand{static_cast<std::uint8_t>(actuator.ecu),
                                static_cast<std::uint8_t>(actuator.channel), ECU_REQUEST_OFF, 0});
   }
+  add_analogs(robot);
+}
+
+void Plant::add_analogs(const erp::Robot& robot) {
   for (const auto& sensor : robot.joint_sensors) {
-    joint_at_[static_cast<std::size_t>(sensor.ecu)][static_cast<std::size_t>(sensor.input)] =
-        static_cast<int>(joint_rad_per_count_.size());
-    joint_rad_per_count_.push_back(2 * std::numbers::pi / std::exp2(sensor.bits_per_rev));
+    analogs_.push_back({2 * std::numbers::pi / std::exp2(sensor.bits_per_rev),
+                        static_cast<int>(frame_.joints._length)});
     erp::JointSample sample{};
-    erp::assign(sample.name, sensor.joint);
+    erp::assign(sample.name, erp::sample_name(sensor));
     erp::append(frame_.joints, sample);
   }
+  for (const auto& sensor : robot.potentiometers) {
+    const auto is_its = [&](const erp::Actuator& a) { return a.name == sensor.actuator; };
+    const auto actuator = std::ranges::find_if(robot.actuators, is_its);
+    analogs_.push_back({sensor.range_rad / (std::exp2(sensor.bits) - 1), -1,
+                        static_cast<int>(actuator - robot.actuators.begin())});
+  }
+  const auto inputs = robot.analog_inputs();
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    analog_at_[static_cast<std::size_t>(inputs[k].ecu)][static_cast<std::size_t>(inputs[k].input)] =
+        static_cast<int>(k);
 }
 
 void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns) {
@@ -63,14 +77,19 @@ void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now
   sample.tension_N = channel.tension_counts * units.tension_N_per_count;
 }
 
-void Plant::sense_joint(const erp::EcuAnalogSample& analog) {
-  if (analog.ecu >= joint_at_.size() || analog.input > 3) return;
-  const int index = joint_at_[analog.ecu][analog.input];
+void Plant::sense_analog(const erp::EcuAnalogSample& said) {
+  if (said.ecu >= analog_at_.size() || said.input > 3 || !said.fresh) return;
+  const int index = analog_at_[said.ecu][said.input];
   if (index < 0) return;
-  auto& sample = frame_.joints._buffer[index];
-  sample.valid = analog.fresh ? erp::valid::joint_angle : 0;
-  if (analog.fresh)
-    sample.angle_rad = analog.counts * joint_rad_per_count_[static_cast<std::size_t>(index)];
+  const Analog& analog = analogs_[static_cast<std::size_t>(index)];
+  const double angle_rad = said.counts * analog.rad_per_count;
+  if (analog.joint >= 0) {
+    auto& sample = frame_.joints._buffer[analog.joint];
+    sample.valid = erp::valid::joint_angle, sample.angle_rad = angle_rad;
+  } else {
+    auto& sample = frame_.actuators._buffer[analog.actuator];
+    sample.valid |= erp::valid::potentiometer, sample.potentiometer_rad = angle_rad;
+  }
 }
 
 const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t now_ns) {
@@ -79,7 +98,7 @@ const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t no
   for (auto& sample : erp::samples(frame_.actuators)) sample.valid = 0;
   for (auto& sample : erp::samples(frame_.joints)) sample.valid = 0;
   for (const auto& channel : erp::samples(frame.channels)) sense_channel(channel, now_ns);
-  for (const auto& analog : erp::samples(frame.analogs)) sense_joint(analog);
+  for (const auto& analog : erp::samples(frame.analogs)) sense_analog(analog);
   last_frame_ns_ = now_ns;
   device_heard_ = true;
   return frame_;

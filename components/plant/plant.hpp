@@ -49,7 +49,8 @@ class Plant {
 
  private:
   void sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns);
-  void sense_joint(const erp::EcuAnalogSample& analog);
+  void add_analogs(const erp::Robot& robot);
+  void sense_analog(const erp::EcuAnalogSample& said);
   void say_unknown(const std::string& controller, const std::string& name);
   void notice_changes();
 
@@ -61,9 +62,14 @@ class Plant {
 
   std::int64_t stale_ns_, device_lost_ns_;
   std::vector<Drive> drives_;
-  std::vector<double> joint_rad_per_count_;
-  std::array<std::array<int, 2>, 128> drive_at_;  ///< [ecu][channel] → index or −1
-  std::array<std::array<int, 4>, 128> joint_at_;  ///< [ecu][input] → index or −1
+  /// An analog input: a joint's sensor or an actuator's potentiometer.
+  struct Analog {
+    double rad_per_count;
+    int joint = -1, actuator = -1;  ///< index of its sample, or −1
+  };
+  std::vector<Analog> analogs_;
+  std::array<std::array<int, 2>, 128> drive_at_;   ///< [ecu][channel] → index or −1
+  std::array<std::array<int, 4>, 128> analog_at_;  ///< [ecu][input] → index or −1
   std::vector<bool> boots_;
   std::vector<Said> said_;
   erp::SensorFrame frame_;

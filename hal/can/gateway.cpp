@@ -22,7 +22,7 @@ frame_channel_command on_the_bus(const EcuChannelCommand& asked) {
 Gateway::Gateway(const Robot& robot) {
   for (std::size_t i = 0; i < ecus_.size(); ++i) ecus_[i].address = static_cast<std::uint8_t>(i);
   for (const Actuator& actuator : robot.actuators) add(actuator);
-  for (const JointSensor& sensor : robot.joint_sensors) add(sensor);
+  for (const AnalogInput& input : robot.analog_inputs()) add(input);
   missing_ = channels_.size() + analogs_.size();
   assign(tick_.robot, robot.name);
   frame_ = tick_;
@@ -50,18 +50,17 @@ void Gateway::add(const Actuator& actuator) {
   append(tick_.channels, sample);
 }
 
-void Gateway::add(const JointSensor& sensor) {
-  Ecu& ecu = ecus_.at(static_cast<std::size_t>(sensor.ecu));
-  int& index = ecu.analog.at(static_cast<std::size_t>(sensor.input));
+void Gateway::add(const AnalogInput& used) {
+  Ecu& ecu = ecus_.at(static_cast<std::size_t>(used.ecu));
+  int& index = ecu.analog.at(static_cast<std::size_t>(used.input));
   if (index >= 0)
-    throw std::invalid_argument("sensor of joint \"" + sensor.joint + "\": ECU " +
-                                std::to_string(sensor.ecu) + " input " +
-                                std::to_string(sensor.input) + " is another's already");
+    throw std::invalid_argument(used.reader + ": ECU " + std::to_string(used.ecu) + " input " +
+                                std::to_string(used.input) + " is another's already");
   index = static_cast<int>(analogs_.size());
   ecu.in_use = true;
-  analogs_.push_back({ecu.address, static_cast<std::uint8_t>(sensor.input), false});
+  analogs_.push_back({ecu.address, static_cast<std::uint8_t>(used.input), false});
   append(tick_.analogs,
-         EcuAnalogSample{.ecu = ecu.address, .input = static_cast<std::uint8_t>(sensor.input)});
+         EcuAnalogSample{.ecu = ecu.address, .input = static_cast<std::uint8_t>(used.input)});
 }
 
 // ---- to the ECUs ----

@@ -118,7 +118,7 @@ class Gateway {
   };
 
   void add(const Actuator& actuator);
-  void add(const JointSensor& sensor);
+  void add(const AnalogInput& used);
   void fill_in(Ecu& ecu, const EcuChannelCommand& asked);
   void number(Ecu& ecu, std::uint64_t answered_sequence);
   Heard hear_status(Ecu& ecu, const CanFrame& frame);
@@ -133,7 +133,7 @@ class Gateway {
 
   std::array<Ecu, FRAME_ECUS> ecus_{};
   std::vector<Channel> channels_;  ///< in the order of robot.xml's actuators
-  std::vector<Analog> analogs_;    ///< in the order of robot.xml's joint sensors
+  std::vector<Analog> analogs_;    ///< in the order of Robot::analog_inputs
   std::size_t missing_ = 0;        ///< channels and inputs not yet heard in this tick
   EcuFrame tick_, frame_;          ///< being assembled; last ended
   std::array<Past, 8> past_{};

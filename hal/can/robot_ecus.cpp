@@ -24,8 +24,8 @@ std::map<int, Wiring> wiring_of(const Robot& robot, std::span<ecu_channel* const
                                   std::to_string(actuator.channel) + " is another's already");
     slot = channels[i];
   }
-  for (const JointSensor& sensor : robot.joint_sensors)
-    ecus[sensor.ecu].analog_inputs |= 1u << sensor.input;
+  for (const AnalogInput& used : robot.analog_inputs())
+    ecus[used.ecu].analog_inputs |= 1u << used.input;
   return ecus;
 }
 

@@ -26,6 +26,8 @@ constexpr Source actuator_sources[] = {{"mode", "mode", 0},
                                        {"current_A", "current_A", erp::valid::current},
                                        {"shaft_rad", "shaft_rad", erp::valid::shaft},
                                        {"tension_N", "tension_N", erp::valid::tension}};
+constexpr Source potentiometer_source{"potentiometer_rad", "potentiometer_rad",
+                                      erp::valid::potentiometer};
 constexpr Source line_source{"line_m", "line_m", erp::valid::line};
 constexpr Source joint_source{"angle_rad", "angle_rad", erp::valid::joint_angle};
 
@@ -104,6 +106,8 @@ class Builder {
       const bool driven = number_in(sample, "mode") != 0;
       for (const Source& source : actuator_sources)
         set(actuators_, name, source, row, sample, source.valid ? valid & source.valid : driven);
+      if (valid & potentiometer_source.valid)
+        set(actuators_, name, potentiometer_source, row, sample, true);
       if (options_.lines)
         set(actuators_, name, line_source, row, sample, valid & line_source.valid);
     });

@@ -6,13 +6,12 @@
 #include <variant>
 #include <vector>
 
+#include "interfaces/robot/sensors.hpp"
 #include "interfaces/values.hpp"
 #include "interfaces/xml/fields.hpp"
 
 /// Motors, sensors and tendons of robot.xml.
 namespace erp {
-
-using xml::Vec3;
 
 /// DC motor with gearbox: the constants of eq. 3. Friction of the motor on its own shaft, of the
 /// gearbox on the output shaft.
@@ -48,30 +47,6 @@ struct MotorType {
   }
 };
 
-/// What an ECU's converters read for one actuator. Bits and range fix the quantum.
-struct SensorType {
-  static constexpr auto element = "sensor_type";
-  xml::Place place;
-  std::string name;
-  int encoder_counts_per_rev = 2048;  ///< of the motor shaft
-  int current_bits = 12;
-  double current_range_A = 8, current_noise_A = 0;  ///< −range … +range, rms
-  int tension_bits = 12;
-  double tension_range_N = 200, tension_noise_N = 0;  ///< 0 … range, rms
-  std::string source;
-  void visit(auto& v) {
-    v.required("name", name);
-    v.required("encoder_counts_per_rev", encoder_counts_per_rev, xml::Range{1, 1048576});
-    v.required("current_bits", current_bits, xml::Range{8, 12});
-    v.required("current_range_A", current_range_A, xml::positive);
-    v("current_noise_A", current_noise_A, xml::at_least_zero);
-    v.required("tension_bits", tension_bits, xml::Range{8, 12});
-    v.required("tension_range_N", tension_range_N, xml::positive);
-    v("tension_noise_N", tension_noise_N, xml::at_least_zero);
-    v("source", source);
-  }
-};
-
 /// A tendon's end or a point it passes through, fixed to a body.
 struct Attach {
   static constexpr auto element = "attach";
@@ -81,21 +56,31 @@ struct Attach {
   void visit(auto& v) { v.required("body", body), v.required("at_m", at_m); }
 };
 
-/// A sphere the tendon wraps around when it is in the way.
+enum class PulleyShape { sphere, cylinder };
+
+/// A sphere, or an endless cylinder, that the tendon wraps around when it is in the way.
 struct Pulley {
   static constexpr auto element = "pulley";
   xml::Place place;
   std::string body;
   Vec3 center_m{0, 0, 0};
   double radius_m = 0;
-  /// Which side the tendon passes: a direction in the body frame from the centre; zero: the shorter
-  /// way.
+  /// Of a sphere, which side the tendon passes: a direction in the body frame from the centre;
+  /// zero: the shorter way.
   Vec3 side{0, 0, 0};
+  PulleyShape shape = PulleyShape::sphere;
+  /// Given: the tendon runs around it right-handed, from the motor's end on, and its turns are
+  /// counted. A cylinder needs one.
+  std::optional<Vec3> axis;
+  int turns = 0;  ///< whole turns more than needed, at the start
   void visit(auto& v) {
     v.required("body", body);
+    v("shape", shape);
     v.required("center_m", center_m);
     v.required("radius_m", radius_m, xml::positive);
     v("side", side);
+    v("axis", axis);
+    v("turns", turns, xml::Range{0, 20});
   }
 };
 
@@ -129,6 +114,24 @@ struct Spindle {
   void visit(auto& v) { v.required("radius_m", radius_m, xml::positive); }
 };
 
+/// A tendon simulated as a rope of nodes that collides with the bodies' solids and the pulleys
+/// (the paper's physical tendon), in place of one that finds its path at once.
+struct Rope {
+  static constexpr auto element = "rope";
+  xml::Place place;
+  int nodes = 20;
+  double mass_kg = 0, radius_m = 0;
+  double friction = 0;  ///< Coulomb's µ, on bones and pulleys
+  std::string source;
+  void visit(auto& v) {
+    v("nodes", nodes, xml::Range{4, 200});
+    v.required("mass_kg", mass_kg, xml::positive);
+    v.required("radius_m", radius_m, xml::at_least_zero);
+    v("friction", friction, xml::Range{0, 2});
+    v("source", source);
+  }
+};
+
 /// One artificial muscle.
 struct Actuator {
   static constexpr auto element = "actuator";
@@ -141,6 +144,7 @@ struct Actuator {
   std::string source;
   Spindle spindle;
   Tendon tendon;
+  std::optional<Rope> rope;
   void visit(auto& v) {
     v.required("name", name);
     v.required("motor", motor);
@@ -153,6 +157,7 @@ struct Actuator {
     v("source", source);
     v.child(spindle);
     v.child(tendon);
+    v.optional_child(rope);
   }
 };
 
@@ -164,4 +169,10 @@ struct xml::Names<erp::SafeAction> {
       std::to_array<std::pair<const char*, erp::SafeAction>>({{"hold", erp::SafeAction::hold},
                                                               {"relax", erp::SafeAction::relax},
                                                               {"damp", erp::SafeAction::damp}});
+};
+
+template <>
+struct xml::Names<erp::PulleyShape> {
+  static constexpr auto list = std::to_array<std::pair<const char*, erp::PulleyShape>>(
+      {{"sphere", erp::PulleyShape::sphere}, {"cylinder", erp::PulleyShape::cylinder}});
 };

@@ -30,11 +30,14 @@ void append_part(Robot& robot, const Robot& part) {
   append(robot.pretensions, part.pretensions);
   append(robot.actuators, part.actuators);
   append(robot.joint_sensors, part.joint_sensors);
+  append(robot.potentiometers, part.potentiometers);
+  append(robot.imus, part.imus);
 }
 
 void shift_ecus(Robot& part, int offset) {
   for (Actuator& actuator : part.actuators) actuator.ecu += offset;
   for (JointSensor& sensor : part.joint_sensors) sensor.ecu += offset;
+  for (Potentiometer& sensor : part.potentiometers) sensor.ecu += offset;
 }
 
 std::vector<std::string> names_in(const Robot& part) {

@@ -30,29 +30,58 @@ void check_channels(const Robot& robot, Findings& findings) {
   }
 }
 
+/// Inputs, and what each reads, are given out once.
+struct Taken {
+  std::map<std::pair<int, int>, std::string> inputs;
+  std::map<std::string, int> sensed;
+};
+
+template <class Sensor>
+void check_input(const Sensor& sensor, const std::string& reads, Taken& taken, Findings& findings) {
+  check_ecu_number(sensor, findings);
+  const auto [first, is_free] = taken.inputs.emplace(std::pair(sensor.ecu, sensor.input), reads);
+  if (!is_free)
+    findings.add(sensor,
+                 "ecu=\"" + std::to_string(sensor.ecu) + "\" input=\"" +
+                     std::to_string(sensor.input) + "\" reads " + first->second + " already",
+                 "choose a free input");
+  if (taken.sensed[reads]++ > 0) findings.add(sensor, "a second sensor on " + reads, "keep one");
+}
+
 void check_inputs(const Robot& robot, Findings& findings) {
-  std::map<std::pair<int, int>, const JointSensor*> taken;
-  std::map<std::string, const JointSensor*> sensed;
-  for (const JointSensor& sensor : robot.joint_sensors) {
-    check_ecu_number(sensor, findings);
-    const auto [first, is_free] = taken.emplace(std::pair(sensor.ecu, sensor.input), &sensor);
-    if (!is_free)
-      findings.add(sensor,
-                   "ecu=\"" + std::to_string(sensor.ecu) + "\" input=\"" +
-                       std::to_string(sensor.input) + "\" reads " +
-                       xml::quote(first->second->joint) + " already",
-                   "choose a free input");
-    if (!sensed.emplace(sensor.joint, &sensor).second)
-      findings.add(sensor, "a second sensor on joint " + xml::quote(sensor.joint), "keep one");
+  Taken taken;
+  for (const JointSensor& sensor : robot.joint_sensors)
+    check_input(sensor, "joint " + xml::quote(sample_name(sensor)), taken, findings);
+  for (const Potentiometer& sensor : robot.potentiometers) {
+    check_input(sensor, "the shaft of " + xml::quote(sensor.actuator), taken, findings);
+    if (sensor.start_rad > sensor.range_rad)
+      findings.add(sensor, "start_rad lies beyond range_rad", "start within its range");
   }
+}
+
+/// What angle a sensor of this joint reads.
+void check_angle(const JointSensor& sensor, const Joint& joint, Findings& findings) {
+  const std::string words = "joint " + xml::quote(joint.name);
+  if (joint.type == JointType::fixed)
+    findings.add(sensor, words + " is fixed", "remove the sensor");
+  else if (joint.type == JointType::revolute && sensor.about)
+    findings.add(sensor, words + " has one angle", "remove about");
+  else if (joint.type != JointType::revolute && !sensor.about)
+    findings.add(sensor, words + " turns about three axes",
+                 "say which component the sensor reads: about=\"x\", y or z");
+  if (sample_name(sensor).size() > longest_name)
+    findings.add(
+        sensor, "its name on the bus would be " + xml::quote(sample_name(sensor)),
+        "the bus carries " + std::to_string(longest_name) + " characters: rename the joint");
 }
 
 void check_sensed_joints(const Robot& robot, Findings& findings) {
   for (const JointSensor& sensor : robot.joint_sensors)
     for (const Joint& joint : robot.joints())
-      if (joint.name == sensor.joint && joint.type != JointType::revolute)
-        findings.add(sensor, "joint " + xml::quote(joint.name) + " is not revolute",
-                     "a joint_sensor reads one angle: remove it");
+      if (joint.name == sensor.joint) check_angle(sensor, joint, findings);
+  for (const JointSensor& sensor : robot.joint_sensors)
+    if (sensor.min_rad && sensor.max_rad && !(*sensor.min_rad < *sensor.max_rad))
+      findings.add(sensor, "min_rad is not below max_rad", "swap them");
 }
 
 }  // namespace

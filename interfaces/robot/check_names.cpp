@@ -60,9 +60,11 @@ void check_names(const Robot& robot, Findings& findings) {
   check_unique(robot.actuators, findings);
   check_unique(robot.motor_types, findings);
   check_unique(robot.sensor_types, findings);
+  check_unique(robot.imus, findings);
   check_count(robot, robot.bodies(), most_bodies, "bodies", findings);
   check_count(robot, robot.joints(), most_joints, "joints", findings);
   check_count(robot, robot.actuators, most_actuators, "actuators", findings);
+  check_count(robot, robot.imus, most_imus, "imus", findings);
 }
 
 void check_references(const Robot& robot, Findings& findings) {
@@ -87,6 +89,11 @@ void check_references(const Robot& robot, Findings& findings) {
   }
   for (const JointSensor& sensor : robot.joint_sensors)
     check_reference(sensor, "joint", sensor.joint, joints, "joint", findings);
+  const auto actuators = names_of(robot.actuators);
+  for (const Potentiometer& sensor : robot.potentiometers)
+    check_reference(sensor, "actuator", sensor.actuator, actuators, "actuator", findings);
+  for (const Imu& imu : robot.imus)
+    check_reference(imu, "body", imu.body, bodies, "body", findings);
 }
 
 }  // namespace erp::robot_check

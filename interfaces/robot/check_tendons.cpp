@@ -52,6 +52,37 @@ void check_neighbours(const Actuator& actuator, Findings& findings) {
   }
 }
 
+/// What a pulley's shape needs and what its turns need.
+void check_pulleys(const Actuator& actuator, Findings& findings) {
+  for (const auto& point : actuator.tendon.path) {
+    const auto* pulley = std::get_if<Pulley>(&point);
+    if (!pulley) continue;
+    const bool zero = pulley->axis && *pulley->axis == Vec3{0, 0, 0};
+    if (zero) findings.add(*pulley, "axis=\"0 0 0\" is no direction", "give one");
+    if (!pulley->axis && pulley->shape == PulleyShape::cylinder)
+      findings.add(*pulley, "a cylinder without an axis",
+                   "add axis=\"…\": the tendon runs around it right-handed");
+    if (!pulley->axis && pulley->turns > 0)
+      findings.add(*pulley, "turns without an axis", "add axis=\"…\" to say which way they run");
+    if (pulley->axis && pulley->side != Vec3{0, 0, 0})
+      findings.add(*pulley, "both axis and side", "axis says the side already: remove side");
+  }
+}
+
+/// A rope finds its own way over the solids.
+void check_rope(const Actuator& actuator, Findings& findings) {
+  if (!actuator.rope) return;
+  const auto& path = actuator.tendon.path;
+  for (std::size_t k = 1; k + 1 < path.size(); ++k)
+    if (is_attach(path[k]))
+      findings.add(std::get<Attach>(path[k]), "a rope passes no points between its ends",
+                   "remove it, or the <rope>");
+  for (const auto& point : path)
+    if (const auto* pulley = std::get_if<Pulley>(&point); pulley && pulley->axis)
+      findings.add(*pulley, "a rope counts no turns and knows spheres only",
+                   "remove axis, or the <rope>");
+}
+
 void check_limits(const Robot& robot, const Actuator& actuator, Findings& findings) {
   const auto exceeds = [&](const char* name, double value_N, double limit_N, const char* limit) {
     if (value_N > limit_N)
@@ -74,6 +105,8 @@ void check_tendons(const Robot& robot, Findings& findings) {
   for (const Actuator& actuator : robot.actuators) {
     check_ends(actuator, findings);
     check_neighbours(actuator, findings);
+    check_pulleys(actuator, findings);
+    check_rope(actuator, findings);
     check_limits(robot, actuator, findings);
   }
 }

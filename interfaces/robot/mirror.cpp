@@ -36,6 +36,7 @@ void reflect(Attach& attach) { attach.at_m = reflected(attach.at_m); }
 void reflect(Pulley& pulley) {
   pulley.center_m = reflected(pulley.center_m);
   pulley.side = reflected(pulley.side);
+  if (auto& axis = pulley.axis) axis = reflected_axis(*axis);
 }
 
 /// Replaces the front of names.
@@ -70,6 +71,8 @@ Robot mirrored(Robot part, const Mirror& mirror) {
   }
   for (Pretension& pretension : part.pretensions) renamed(pretension.actuator);
   for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint);
+  for (Potentiometer& sensor : part.potentiometers) renamed(sensor.actuator);
+  for (Imu& imu : part.imus) imu.at_m = reflected(imu.at_m), renamed.each(imu.name, imu.body);
   return part;
 }
 

@@ -22,6 +22,19 @@ std::vector<Joint> Robot::joints() const {
   return all;
 }
 
+std::string sample_name(const JointSensor& sensor) {
+  return sensor.joint + (sensor.about ? "_" + xml::Codec<AxisName>::write(*sensor.about) : "");
+}
+
+std::vector<AnalogInput> Robot::analog_inputs() const {
+  std::vector<AnalogInput> inputs;
+  for (const JointSensor& sensor : joint_sensors)
+    inputs.push_back({sensor.ecu, sensor.input, "sensor of joint " + xml::quote(sensor.joint)});
+  for (const Potentiometer& sensor : potentiometers)
+    inputs.push_back({sensor.ecu, sensor.input, "potentiometer of " + xml::quote(sensor.actuator)});
+  return inputs;
+}
+
 Vec3 Robot::gravity_m_per_s2() const {
   for (const Skeleton& part : skeletons)
     if (part.gravity_m_per_s2) return *part.gravity_m_per_s2;

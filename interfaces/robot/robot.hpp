@@ -3,31 +3,13 @@
 #include <vector>
 
 #include "interfaces/robot/actuator.hpp"
+#include "interfaces/robot/sensors.hpp"
 #include "interfaces/robot/skeleton.hpp"
 #include "interfaces/xml/fields.hpp"
 
 /// robot.xml as plain structs. Each struct lists its attributes and children once, in `visit`:
 /// from that list come the strict reader, the writer and the XSD.
 namespace erp {
-
-/// A joint angle sensor, read by an ECU's analog input.
-struct JointSensor {
-  static constexpr auto element = "joint_sensor";
-  xml::Place place;
-  std::string joint;
-  int ecu = 0, input = 0;
-  int bits_per_rev = 14;
-  double noise_rad = 0;  ///< rms
-  std::string source;
-  void visit(auto& v) {
-    v.required("joint", joint);
-    v.required("ecu", ecu, xml::Range{0, 127});
-    v.required("input", input, xml::Range{0, 3});
-    v.required("bits_per_rev", bits_per_rev, xml::Range{8, 20});
-    v("noise_rad", noise_rad, xml::at_least_zero);
-    v("source", source);
-  }
-};
 
 /// The pretension of a tendon in this robot's starting pose, in place of the one its part gives:
 /// pretensions balance a whole robot. `erp model balance` finds them.
@@ -81,6 +63,8 @@ struct Robot {
   std::vector<SensorType> sensor_types;
   std::vector<Actuator> actuators;
   std::vector<JointSensor> joint_sensors;
+  std::vector<Potentiometer> potentiometers;
+  std::vector<Imu> imus;
   std::vector<Pretension> pretensions;  ///< the last one that names an actuator counts
   std::vector<Include> includes;
   std::vector<Mirror> mirrors;
@@ -93,11 +77,15 @@ struct Robot {
     v.list(sensor_types);
     v.list(actuators);
     v.list(joint_sensors);
+    v.list(potentiometers);
+    v.list(imus);
     v.list(pretensions);
   }
 
   std::vector<Body> bodies() const;  ///< of all skeletons, in the order of the file
   std::vector<Joint> joints() const;
+  /// Of the joint sensors, then of the potentiometers.
+  std::vector<AnalogInput> analog_inputs() const;
   Vec3 gravity_m_per_s2() const;  ///< zero when no part gives it
   /// Throw std::out_of_range when the robot has no type of that name (read_robot refuses that).
   const MotorType& motor_of(const Actuator& actuator) const;

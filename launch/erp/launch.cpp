@@ -33,7 +33,7 @@ std::vector<std::string> sources(const erp::Graph& graph, const erp::Robot& robo
     for (const auto& item : items) files.insert(item.place.file);
   };
   add(robot.skeletons), add(robot.motor_types), add(robot.sensor_types);
-  add(robot.actuators), add(robot.joint_sensors);
+  add(robot.actuators), add(robot.joint_sensors), add(robot.potentiometers), add(robot.imus);
   for (const auto& component : graph.components) files.insert(component.config);
   std::set<std::string> unique;
   for (const auto& file : files)

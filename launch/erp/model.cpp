@@ -21,18 +21,20 @@ namespace {
 
 std::string in_format_of(const std::string& file, const erp::Robot& robot) {
   if (file.ends_with(".mjcf.xml")) return formats::to_mjcf(robot);
+  if (file.ends_with(".dae")) return formats::to_collada(robot);
   if (file.ends_with(".urdf")) return formats::to_urdf(robot);
   if (file.ends_with(".sdf")) return formats::to_sdf(robot);
   if (file.ends_with(".svg")) return formats::to_svg(robot);
-  throw std::invalid_argument(file +
-                              ": no format has this ending; write .mjcf.xml, .urdf, .sdf or .svg");
+  throw std::invalid_argument(
+      file + ": no format has this ending; write .dae, .mjcf.xml, .urdf, .sdf or .svg");
 }
 
 erp::Robot from_format_of(const std::string& file) {
+  if (file.ends_with(".dae")) return formats::from_collada(file);
   if (file.ends_with(".urdf")) return formats::from_urdf(file);
   if (file.ends_with(".sdf")) return formats::from_sdf(file);
-  throw std::invalid_argument(file +
-                              ": no format that can be read has this ending; give .urdf or .sdf");
+  throw std::invalid_argument(
+      file + ": no format that can be read has this ending; give .dae, .urdf or .sdf");
 }
 
 void write_file(const std::string& file, const std::string& text) {

@@ -31,11 +31,11 @@ int model_balance(const std::string& robot_file, double least_N, double rest_N, 
 int model_lengths(const std::string& robot_file, const std::string& table_file, double least_N,
                   double rest_N, std::ostream& out);
 
-/// Writes the skeleton of a .urdf or .sdf file as robot.xml. Throws as formats::from_urdf does, and
-/// xml::Errors for what no robot may be. Returns the exit code.
+/// Writes the robot of a .dae file, or the skeleton of a .urdf or .sdf file, as robot.xml. Throws
+/// as formats::from_urdf does, and xml::Errors for what no robot may be. Returns the exit code.
 int model_import(const std::string& foreign_file, const std::string& robot_file);
 
-/// The format follows from the ending: .mjcf.xml, .urdf, .sdf; .svg is a picture. Throws
+/// The format follows from the ending: .dae, .mjcf.xml, .urdf, .sdf; .svg is a picture. Throws
 /// xml::Errors, std::invalid_argument for another ending or what the format cannot say. Returns the
 /// exit code.
 int model_export(const std::string& robot_file, const std::string& out_file);

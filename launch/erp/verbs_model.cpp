@@ -77,14 +77,15 @@ void add_model(CLI::App& app, Chosen& chosen) {
   export_verb
       ->add_option(
           "out", *out,
-          "the new file: OUT.mjcf.xml for MuJoCo, OUT.urdf, OUT.sdf, OUT.svg for a picture")
+          "the new file: OUT.dae for COLLADA, the whole robot; OUT.mjcf.xml for MuJoCo, OUT.urdf, "
+          "OUT.sdf; OUT.svg for a picture")
       ->required();
   export_verb->callback([=, &chosen] { chosen = [=] { return model_export(*robot, *out); }; });
 
-  auto* import_verb =
-      model->add_subcommand("import", "The skeleton of a file of another simulator");
-  import_verb->add_option("in", *robot, "IN.urdf or IN.sdf")->required();
-  import_verb->add_option("out", *out, "the new robot.xml, without muscles")->required();
+  auto* import_verb = model->add_subcommand(
+      "import", "The robot of a COLLADA file of ours, or the skeleton of another program's file");
+  import_verb->add_option("in", *robot, "IN.dae, IN.urdf or IN.sdf")->required();
+  import_verb->add_option("out", *out, "the new robot.xml")->required();
   import_verb->callback([=, &chosen] { chosen = [=] { return model_import(*robot, *out); }; });
   add_statics(*model, chosen);
 }

@@ -23,8 +23,9 @@ inline void length_gradient(const PathShape& shape, const Levers& levers,
   row.setZero(model.coordinates());
   for (std::size_t k = 0; k < levers.of_element.size(); ++k) {
     const PathPull& pull = shape.pulls[k];
-    if (pull.direction.isZero(0)) continue;
-    const Vec6 given = wrench(pull.at_m, -pull.direction);
+    if (pull.direction.isZero(0) && pull.moment_m.isZero(0)) continue;
+    Vec6 given = wrench(pull.at_m, -pull.direction);
+    given.head<3>() -= pull.moment_m;
     for (const int d : levers.of_element[k]) row[d] += model.axis(d).dot(given);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 
 namespace sim {
@@ -17,6 +18,27 @@ int index_of(const std::string& body, std::span<const std::string> names) {
   return static_cast<int>(found - names.begin());
 }
 
+PathElement element_of(const erp::Pulley& pulley, std::span<const std::string> names) {
+  if (!(pulley.radius_m > 0)) throw std::invalid_argument("pulley radius_m must be positive");
+  PathElement element{index_of(pulley.body, names), vec(pulley.center_m), pulley.radius_m,
+                      vec(pulley.side)};
+  element.cylinder = pulley.shape == erp::PulleyShape::cylinder;
+  if (pulley.axis) element.axis = vec(*pulley.axis).normalized();
+  if (element.cylinder && !pulley.axis)
+    throw std::invalid_argument("a cylindrical pulley needs an axis");
+  element.turns = pulley.turns;
+  return element;
+}
+
+Wrap wrapped(const PathElement& pulley, const Eigen::Matrix3d& turned, const Vec3& a, const Vec3& b,
+             double last_rad) {
+  const double r = pulley.radius_m;
+  if (pulley.axis.isZero(0)) return wrap_sphere(a, b, r, turned * pulley.side);
+  const Vec3 axis = turned * pulley.axis;
+  return pulley.cylinder ? wrap_cylinder(a, b, r, axis, last_rad)
+                         : wrap_sphere_about(a, b, r, axis, last_rad);
+}
+
 }  // namespace
 
 Routing::Routing(const erp::Tendon& tendon, std::span<const std::string> names) {
@@ -24,10 +46,7 @@ Routing::Routing(const erp::Tendon& tendon, std::span<const std::string> names) 
     if (const auto* attach = std::get_if<erp::Attach>(&element)) {
       elements_.push_back({index_of(attach->body, names), vec(attach->at_m), 0, Vec3::Zero()});
     } else {
-      const auto& pulley = std::get<erp::Pulley>(element);
-      if (!(pulley.radius_m > 0)) throw std::invalid_argument("pulley radius_m must be positive");
-      elements_.push_back(
-          {index_of(pulley.body, names), vec(pulley.center_m), pulley.radius_m, vec(pulley.side)});
+      elements_.push_back(element_of(std::get<erp::Pulley>(element), names));
     }
   }
   if (elements_.size() < 2 || elements_.size() > max_path_elements)
@@ -39,6 +58,8 @@ Routing::Routing(const erp::Tendon& tendon, std::span<const std::string> names) 
 
 PathShape Routing::solve(std::span<const BodyPose> poses) const {
   PathShape shape;
+  for (std::size_t k = 0; k < elements_.size(); ++k)  // the middle of the turn it is in
+    shape.around_rad[k] = std::numbers::pi * (1 + 2 * elements_[k].turns);
   solve(poses, shape);
   return shape;
 }
@@ -46,10 +67,11 @@ PathShape Routing::solve(std::span<const BodyPose> poses) const {
 void Routing::solve(std::span<const BodyPose> poses, PathShape& shape) const {
   shape.length_m = 0;
   shape.elements = static_cast<int>(elements_.size());
+  const auto last_rad = shape.around_rad;
   place(shape, poses);
   for (int first = 0, k = 1; k < shape.elements; ++k) {
     if (elements_[k].radius_m > 0) continue;
-    if (k > first + 1) wrap_between(shape, poses, first, k);
+    if (k > first + 1) wrap_between(shape, poses, last_rad, first, k);
     first = k;
   }
   pull(shape);
@@ -67,33 +89,35 @@ void Routing::place(PathShape& shape, std::span<const BodyPose> poses) const {
   for (int k = 0; k < shape.elements; ++k) {
     const BodyPose& pose = poses[elements_[k].body];
     const Vec3 at = pose.position_m + pose.rotation * elements_[k].at_m;
-    shape.pulls[k] = {elements_[k].body, at, Vec3::Zero()};
+    shape.pulls[k] = {elements_[k].body, at, Vec3::Zero(), Vec3::Zero()};
     shape.entry_m[k] = shape.exit_m[k] = at;
     shape.touches[k] = elements_[k].radius_m == 0;
     shape.inside[k] = false;
-    shape.wrapped_rad[k] = 0;
+    shape.wrapped_rad[k] = shape.wrapped_m[k] = 0;
   }
 }
 
-void Routing::wrap_between(PathShape& shape, std::span<const BodyPose> poses, int first,
-                           int last) const {
+void Routing::wrap_between(PathShape& shape, std::span<const BodyPose> poses,
+                           std::span<const double> last_rad, int first, int last) const {
   // Gauss–Seidel: each pulley between its neighbours' tangent points, until none moves.
   const bool single = last == first + 2;
   for (int turn = 0; turn < 200; ++turn) {
     double moved = 0;
-    for (int k = first + 1; k < last; ++k) moved = std::max(moved, wrap_one(shape, poses, k));
+    for (int k = first + 1; k < last; ++k)
+      moved = std::max(moved, wrap_one(shape, poses, last_rad[static_cast<std::size_t>(k)], k));
     if (single || moved < 1e-15) break;
   }
 }
 
-double Routing::wrap_one(PathShape& shape, std::span<const BodyPose> poses, int k) const {
+double Routing::wrap_one(PathShape& shape, std::span<const BodyPose> poses, double last_rad,
+                         int k) const {
   int before = k - 1, after = k + 1;
   while (!shape.touches[before]) --before;
   while (!shape.touches[after]) ++after;
   const PathElement& pulley = elements_[k];
   const Vec3& center = shape.pulls[k].at_m;
-  const SphereWrap wrap = wrap_sphere(shape.exit_m[before] - center, shape.entry_m[after] - center,
-                                      pulley.radius_m, poses[pulley.body].rotation * pulley.side);
+  const Wrap wrap = wrapped(pulley, poses[pulley.body].rotation, shape.exit_m[before] - center,
+                            shape.entry_m[after] - center, last_rad);
   const Vec3 entry = wrap.touches ? Vec3(center + wrap.entry_m) : center;
   const Vec3 exit = wrap.touches ? Vec3(center + wrap.exit_m) : center;
   const double moved = std::max((entry - shape.entry_m[k]).lpNorm<Eigen::Infinity>(),
@@ -101,21 +125,28 @@ double Routing::wrap_one(PathShape& shape, std::span<const BodyPose> poses, int 
   shape.entry_m[k] = entry;
   shape.exit_m[k] = exit;
   shape.touches[k] = wrap.touches;
-  shape.wrapped_rad[k] = wrap.angle_rad;
+  shape.wrapped_rad[k] = wrap.wrapped_rad;
+  shape.wrapped_m[k] = wrap.wrapped_m;
+  shape.around_rad[k] = wrap.around_rad;
   shape.inside[k] = wrap.inside;
   return moved;
 }
 
 void Routing::pull(PathShape& shape) const {
   int last = 0;
+  const auto add = [&](int k, const Vec3& at, const Vec3& along) {
+    PathPull& pull = shape.pulls[k];
+    pull.direction += along;
+    if (elements_[k].cylinder) pull.moment_m += (at - pull.at_m).cross(along);
+  };
   for (int k = 1; k < shape.elements; ++k) {
     if (!shape.touches[k]) continue;
     const Vec3 span = shape.entry_m[k] - shape.exit_m[last];
     const double length = span.norm();
     const Vec3 along = length > 0 ? Vec3(span / length) : Vec3::Zero();
-    shape.pulls[last].direction += along;
-    shape.pulls[k].direction -= along;
-    shape.length_m += length + elements_[k].radius_m * shape.wrapped_rad[k];
+    add(last, shape.exit_m[last], along);
+    add(k, shape.entry_m[k], -along);
+    shape.length_m += length + shape.wrapped_m[k];
     last = k;
   }
 }
@@ -126,7 +157,8 @@ double length_rate_m_per_s(const PathShape& shape, std::span<const BodyPose> pos
   for (const PathPull& pull : shape.pulled()) {
     const BodyTwist& twist = twists[pull.body];
     const Vec3 arm = pull.at_m - poses[pull.body].position_m;
-    rate -= pull.direction.dot(twist.linear_m_per_s + twist.angular_rad_per_s.cross(arm));
+    rate -= pull.direction.dot(twist.linear_m_per_s + twist.angular_rad_per_s.cross(arm)) +
+            pull.moment_m.dot(twist.angular_rad_per_s);
   }
   return rate;
 }

@@ -1,7 +1,9 @@
 #include "sim/actuator/sensors.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace sim {
@@ -39,14 +41,34 @@ ActuatorCounts ActuatorSensors::read(double shaft_rad, double current_A, double 
           convert(tension, scale_.tension_N_per_count, 0, scale_.tension_counts_max))};
 }
 
+double angle_rad(const JointReading& joint, std::optional<erp::AxisName> about) {
+  const auto& p = joint.position;
+  if (!about) return p[0];
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(p[0], p[1], p[2], p[3]).normalized());
+  const double angle = std::remainder(turn.angle(), 2 * std::numbers::pi);
+  return angle * turn.axis()[static_cast<int>(*about)];
+}
+
 JointAngleSensor::JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed)
     : rad_per_count_(2 * std::numbers::pi / (1 << sensor.bits_per_rev)),
       noise_rad_(sensor.noise_rad),
+      min_rad_(sensor.min_rad.value_or(-std::numeric_limits<double>::infinity())),
+      max_rad_(sensor.max_rad.value_or(std::numeric_limits<double>::infinity())),
+      about_(sensor.about),
       noise_(seed) {}
 
-std::int32_t JointAngleSensor::read(double angle_rad) {
+std::int32_t JointAngleSensor::read(const JointReading& joint) {
+  const double seen = angle_rad(joint, about_) + noise_rad_ * noise_.normal();
   return static_cast<std::int32_t>(
-      std::round((angle_rad + noise_rad_ * noise_.normal()) / rad_per_count_));
+      std::round(std::clamp(seen, min_rad_, max_rad_) / rad_per_count_));
+}
+
+PotentiometerSensor::PotentiometerSensor(const erp::Potentiometer& sensor, std::uint64_t seed)
+    : sensor_(sensor), rad_per_count_(sensor.range_rad / ((1 << sensor.bits) - 1)), noise_(seed) {}
+
+std::int32_t PotentiometerSensor::read(double shaft_rad) {
+  const double seen = sensor_.start_rad - shaft_rad + sensor_.noise_rad * noise_.normal();
+  return static_cast<std::int32_t>(convert(seen, rad_per_count_, 0, (1 << sensor_.bits) - 1));
 }
 
 }  // namespace sim

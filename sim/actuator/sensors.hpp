@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "interfaces/robot/robot.hpp"
 #include "sim/actuator/noise.hpp"
+#include "sim/skeleton/joint_reading.hpp"
 
 /// What an ECU's converters read (paper, 2.3 and 4.3), as counts.
 ///
@@ -10,9 +12,11 @@
 ///   current  = ⌊(i + noise) / q⌉           q = range / 2^(bits−1), −2^(bits−1) … 2^(bits−1) − 1
 ///   tension  = ⌊(F + noise) / q⌉           q = range / (2^bits − 1), 0 … 2^bits − 1
 ///   joint    = ⌊(φ + noise) / q⌉           q = 2π / 2^bits, not wrapped
+///   potentiometer = ⌊(S_P + noise) / q⌉    S_P = (L_K − L_K0)/r + S_P0 = S_P0 − θ (eq. 5, in rad),
+///                                          q = range / (2^bits − 1), 0 … 2^bits − 1
 ///
-/// Beyond its range a converter stays at its rail. The potentiometer (eq. 5) is merged into the
-/// encoder, as in the paper's simulator. Ignores: gain and offset errors, lost encoder steps.
+/// Beyond its range a converter stays at its rail. Ignores: gain and offset errors, lost encoder
+/// steps, the potentiometer's dead angle.
 namespace sim {
 
 /// Counts to SI for one actuator.
@@ -46,12 +50,28 @@ class ActuatorSensors {
 class JointAngleSensor {
  public:
   JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed);
-  std::int32_t read(double angle_rad);
-  double rad_per_count() const { return rad_per_count_; }
+  std::int32_t read(const JointReading& joint);
 
  private:
-  double rad_per_count_, noise_rad_;
+  double rad_per_count_, noise_rad_, min_rad_, max_rad_;
+  std::optional<erp::AxisName> about_;
   Noise noise_;
 };
+
+/// An absolute potentiometer on the gearbox shaft.
+class PotentiometerSensor {
+ public:
+  PotentiometerSensor(const erp::Potentiometer& sensor, std::uint64_t seed);
+  std::int32_t read(double shaft_rad);
+
+ private:
+  erp::Potentiometer sensor_;
+  double rad_per_count_;
+  Noise noise_;
+};
+
+/// The angle of a joint that such a sensor looks at: a revolute one's, or of its turning from the
+/// parent's axes, as a rotation vector of length up to π, one component.
+double angle_rad(const JointReading& joint, std::optional<erp::AxisName> about);
 
 }  // namespace sim

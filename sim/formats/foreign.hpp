@@ -13,6 +13,10 @@ class Foreign {
  public:
   explicit Foreign(const xml::Element& element) : element_(&element) {}
 
+  const xml::Element& element() const { return *element_; }
+  std::vector<Foreign> children() const {
+    return {element_->children.begin(), element_->children.end()};
+  }
   const std::string& tag() const { return element_->name; }
   std::vector<Foreign> all(const std::string& tag) const;
   std::optional<Foreign> one(const std::string& tag) const;

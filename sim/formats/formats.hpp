@@ -21,6 +21,12 @@ std::string to_urdf(const erp::Robot& robot);
 /// The skeleton as SDF 1.7; the same stays behind, and the limits of ball joints.
 std::string to_sdf(const erp::Robot& robot);
 
+/// The whole robot as COLLADA 1.5: see collada.hpp. The same robot is always the same file.
+std::string to_collada(const erp::Robot& robot);
+/// The robot of such a file, bit by bit as it was written; without our <extra>, its skeleton alone,
+/// without solids. Throws as from_urdf does.
+erp::Robot from_collada(const std::string& file);
+
 /// A robot without muscles from such a file: see robot_of in linkage.hpp. Throws xml::Errors with
 /// file:line:column for what is missing, no number or cannot be simulated; std::invalid_argument.
 erp::Robot from_urdf(const std::string& file);

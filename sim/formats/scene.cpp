@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/actuator/path_line.hpp"
 #include "sim/actuator/routing.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
 
@@ -97,31 +98,16 @@ class Scene {
   void add_tendon(const erp::Actuator& actuator) {
     const sim::Routing routing(actuator.tendon, tree_.names);
     const sim::PathShape shape = routing.solve(model_.poses());
-    Stroke line{{}, 0, muscle, nullptr, actuator.name, 2};
-    for (std::size_t k = 0; k < routing.elements().size(); ++k) {
-      const sim::PathElement& element = routing.elements()[k];
-      const Vec3 center = point(element.body, element.at_m);
+    for (const sim::PathElement& element : routing.elements())
       if (element.radius_m > 0)
-        strokes.push_back({{center}, 2 * element.radius_m, "none", pulley_edge, "", 1});
-      if (element.radius_m == 0) line.points.push_back(center);
-      else if (shape.touches[k]) add_arc(line, center, shape, k);
-    }
-    strokes.push_back(line);
-  }
-
-  static void add_arc(Stroke& line, const Vec3& center, const sim::PathShape& shape,
-                      std::size_t k) {
-    const Vec3 entry = shape.entry_m[k] - center, exit = shape.exit_m[k] - center;
-    const double angle = shape.wrapped_rad[k];
-    // e cos φ + t sin φ, t the direction the line runs in where it enters
-    Vec3 along = exit - exit.dot(entry) / entry.squaredNorm() * entry;
-    if (along.norm() > 0) along *= entry.norm() / along.norm();
-    if (angle > std::numbers::pi) along = -along;
-    const int steps = 1 + static_cast<int>(angle / arc_step_rad);
-    for (int i = 0; i <= steps; ++i) {
-      const double phi = angle * i / steps;
-      line.points.push_back(center + entry * std::cos(phi) + along * std::sin(phi));
-    }
+        strokes.push_back({{point(element.body, element.at_m)},
+                           2 * element.radius_m,
+                           "none",
+                           pulley_edge,
+                           "",
+                           1});
+    strokes.push_back({sim::path_line(routing, shape, model_.poses(), arc_step_rad), 0, muscle,
+                       nullptr, actuator.name, 2});
   }
 
   sim::RobotTree tree_;

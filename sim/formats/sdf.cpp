@@ -18,7 +18,9 @@ constexpr const char* moments[]{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
 std::string words(const std::vector<double>& values) {
   return xml::Codec<std::vector<double>>::write(values);
 }
-std::string pose_words(const xml::Vec3& at_m) { return words({at_m[0], at_m[1], at_m[2], 0, 0, 0}); }
+std::string pose_words(const xml::Vec3& at_m) {
+  return words({at_m[0], at_m[1], at_m[2], 0, 0, 0});
+}
 
 void add_link(Tree& model, const erp::Body& body, const Vec3& origin_m) {
   Tree& link = model.add("link").set("name", body.name);

@@ -36,12 +36,17 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     : node_(node),
       world_(robot, world_options(params)),
       ecus_(robot, ecu_options(params)),
+      rope_said_(robot.actuators.size()),
+      imus_(world_, static_cast<std::uint64_t>(params.seed), 1e-9 * tick_ns),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
       clock_out_(node.advertise<erp::Clock>()),
       end_ticks_(ticks_in(node.options().duration_s)) {
   if (params.bus.empty()) join_bus_as_device();
   else stand_behind(params.bus, robot);
+  if (!robot.imus.empty()) imus_out_ = &node.advertise<erp::ImuFrame>();
+  erp::assign(imu_frame_.robot, robot.name);
+  erp::assign(imu_frame_.source, "sim");
   node.on_activate([this] {
     began_ns_ = node::monotonic_ns();
     ecus_.measure(world_);
@@ -83,6 +88,7 @@ void SimNode::on_command(const erp::EcuCommand& command) {
 void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
   ecus_.tick(world_);
+  watch_ropes();
   ++ticks_;
   if (at_end()) node_.finish();
   else measure_and_say();
@@ -95,6 +101,7 @@ void SimNode::measure_and_say() {
   frame_.stamp_ns = node_.clock().now_ns();
   say_frame();  // first: the control loop waits for it
   publish_truth();
+  publish_imus();
   if (ticks_ % clock_period == 0) publish_clock(false);
 }
 
@@ -119,6 +126,24 @@ void SimNode::publish_truth() {
   world_.fill(bodies_);
   bodies_.stamp_ns = frame_.stamp_ns;
   bodies_out_.publish(bodies_);
+}
+
+void SimNode::publish_imus() {
+  if (!imus_out_) return;
+  imus_.look(world_);
+  while (imus_.next(imu_frame_)) imus_out_->publish(imu_frame_);
+}
+
+/// Says it of each rope once.
+void SimNode::watch_ropes() {
+  for (std::size_t k = 0; k < rope_said_.size(); ++k) {
+    const Rope* rope = world_.rope(static_cast<int>(k));
+    if (!rope || rope->troubles() == 0 || rope_said_[k]) continue;
+    rope_said_[k] = true;
+    node_.report(erp::Severity::warning, world_.robot().actuators[k].name, "rope_unstable",
+                 "the rope did not come to rest within a step: do not trust this tendon from here "
+                 "on; give it a softer line, a shorter step (physics_Hz), or remove <rope>");
+  }
 }
 
 void SimNode::publish_clock(bool finished) {

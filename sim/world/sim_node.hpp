@@ -7,6 +7,7 @@
 #include "components/node/node.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "sim/world/bus_front.hpp"
+#include "sim/world/imus.hpp"
 #include "sim/world/virtual_ecus.hpp"
 #include "sim/world/world.hpp"
 
@@ -52,21 +53,27 @@ class SimNode {
   void say_frame();
   void say_again();
   void publish_truth();
+  void publish_imus();
+  void watch_ropes();
   void publish_clock(bool finished);
   void on_command(const erp::EcuCommand& command);
 
   node::Node& node_;
   World world_;
   VirtualEcus ecus_;
+  std::vector<bool> rope_said_;  ///< of each actuator: its rope's trouble
+  Imus imus_;
   std::unique_ptr<BusFront> bus_;  ///< null: the ECUs speak DDS
   node::Publisher<erp::EcuFrame>* frame_out_ = nullptr;
   node::Publisher<erp::JointState>& joints_out_;
   node::Publisher<erp::BodyPose>& bodies_out_;
   node::Publisher<erp::Clock>& clock_out_;
+  node::Publisher<erp::ImuFrame>* imus_out_ = nullptr;  ///< null: the robot has none
   node::Subscription<erp::EcuParameter>* parameter_in_ = nullptr;
   erp::EcuFrame frame_;
   erp::JointState joints_;
   erp::BodyPose bodies_;
+  erp::ImuFrame imu_frame_;
   std::uint64_t ticks_ = 0, end_ticks_;
   std::int64_t began_ns_ = 0, said_ns_ = 0;
 };

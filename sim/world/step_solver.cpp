@@ -129,7 +129,8 @@ void StepSolver::factor() {
 void StepSolver::aim(const Eigen::VectorXd& v) {
   for (bool sound = false; !sound;) {
     if (curved_ || pattern_ != factored_) factor();
-    step_ = factor_.solve(-gradient_);
+    factor_.solve(gradient_, step_);
+    step_ = -step_;
     sound = true;
     for (std::size_t j = 0; j < frictions_.size(); ++j) {
       const auto [first, dofs, viscous, coulomb] = frictions_[j];

@@ -1,8 +1,9 @@
 #pragma once
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <span>
 #include <vector>
+
+#include "sim/world/envelope_cholesky.hpp"
 
 /// The velocities at the end of a time step, as the least of one convex function:
 ///
@@ -92,7 +93,7 @@ class StepSolver {
   bool curved_ = false;                   ///< a ball joint slides: not quadratic there
   Eigen::MatrixXd stiff_, system_;
   Eigen::VectorXd gradient_, step_, before_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  EnvelopeCholesky factor_;
 };
 
 }  // namespace sim

@@ -9,12 +9,13 @@ namespace {
 
 constexpr double tick_s = 0.002;  // the firmware's period
 
-/// The joint a sensor sits on; only an angle can be read.
-int joint_of(const std::vector<erp::Joint>& joints, const erp::JointSensor& sensor) {
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (joints[j].name == sensor.joint && joints[j].type == erp::JointType::revolute)
-      return static_cast<int>(j);
-  throw std::invalid_argument("joint sensor: \"" + sensor.joint + "\" is no revolute joint");
+template <class Items>
+std::size_t place_of(const Items& items, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(items, [&](const auto& item) { return item.name == name; });
+  if (found == items.end())
+    throw std::invalid_argument("a sensor on \"" + name + "\", which the robot does not have");
+  return static_cast<std::size_t>(found - items.begin());
 }
 
 }  // namespace
@@ -25,22 +26,44 @@ VirtualEcus::VirtualEcus(const erp::Robot& robot, const VirtualEcuOptions& optio
     throw std::invalid_argument("substeps must be at least 1, got " +
                                 std::to_string(options.substeps));
   std::uint64_t seed = options.seed << 16;
+  add_channels(robot, seed);
+  add_analogs(robot, seed);
+  for (Channel& channel : channels_) channel_pointers_.push_back(&channel.firmware);
+  voltage_V_.assign(channels_.size(), 0.0);
+}
+
+void VirtualEcus::add_channels(const erp::Robot& robot, std::uint64_t& seed) {
   for (const erp::Actuator& actuator : robot.actuators) {
     const erp::MotorType& motor = robot.motor_of(actuator);
+    const erp::SensorType& sensors = robot.sensors_of(actuator);
     channels_.push_back({actuator.ecu,
                          actuator.channel,
                          motor.supply_V,
-                         ActuatorSensors(motor, robot.sensors_of(actuator), ++seed),
+                         ActuatorSensors(motor, sensors, ++seed),
+                         {sensors.sampling, tick_s / options_.substeps},
                          {},
                          {}});
     ecu_init(&channels_.back().firmware);
   }
-  const std::vector<erp::Joint> joints = robot.joints();
-  for (const erp::JointSensor& sensor : robot.joint_sensors)
-    analogs_.push_back(
-        {sensor.ecu, sensor.input, joint_of(joints, sensor), JointAngleSensor(sensor, ++seed), 0});
-  for (Channel& channel : channels_) channel_pointers_.push_back(&channel.firmware);
-  voltage_V_.assign(channels_.size(), 0.0);
+}
+
+void VirtualEcus::add_analogs(const erp::Robot& robot, std::uint64_t& seed) {
+  const double step_s = tick_s / options_.substeps;
+  const auto joints = robot.joints();
+  for (const erp::JointSensor& s : robot.joint_sensors)
+    analogs_.push_back({s.ecu,
+                        s.input,
+                        place_of(joints, s.joint),
+                        JointAngleSensor(s, ++seed),
+                        {s.sampling, step_s},
+                        0});
+  for (const erp::Potentiometer& s : robot.potentiometers)
+    analogs_.push_back({s.ecu,
+                        s.input,
+                        place_of(robot.actuators, s.actuator),
+                        PotentiometerSensor(s, ++seed),
+                        {s.sampling, step_s},
+                        0});
 }
 
 VirtualEcus::Channel* VirtualEcus::find(int ecu, int number) {
@@ -61,13 +84,30 @@ void VirtualEcus::accept(const erp::EcuParameter& parameters) {
       ecu_parameter(&channel->firmware, p.index, p.value, p.commit);
 }
 
-void VirtualEcus::measure(const World& world) {
+/// What is timed looks at each step of the world, the rest when the ECU asks.
+void VirtualEcus::look(const World& world, bool all) {
   const auto actuators = world.actuators();
   for (std::size_t k = 0; k < channels_.size(); ++k)
-    channels_[k].counts = channels_[k].sensors.read(actuators[k].shaft_rad, actuators[k].current_A,
-                                                    actuators[k].tension_N);
-  for (Analog& analog : analogs_)
-    analog.counts = analog.sensor.read(world.joints()[analog.joint].position[0]);
+    if (Channel& channel = channels_[k]; all || channel.readings.timed())
+      channel.readings.offer(world.time_s(), [&] {
+        const ActuatorReading& a = actuators[k];
+        return channel.sensors.read(a.shaft_rad, a.current_A, a.tension_N);
+      });
+  for (Analog& analog : analogs_) {
+    if (!all && !analog.readings.timed()) continue;
+    const auto see = [&]() -> std::int32_t {
+      if (auto* angle = std::get_if<JointAngleSensor>(&analog.sensor))
+        return angle->read(world.joints()[analog.source]);
+      return std::get<PotentiometerSensor>(analog.sensor).read(actuators[analog.source].shaft_rad);
+    };
+    analog.readings.offer(world.time_s(), see);
+  }
+}
+
+void VirtualEcus::measure(const World& world) {
+  look(world, true);
+  for (Channel& channel : channels_) channel.counts = channel.readings.said(world.time_s()).value;
+  for (Analog& analog : analogs_) analog.counts = analog.readings.said(world.time_s()).value;
   measured_ = true;
 }
 
@@ -80,7 +120,10 @@ void VirtualEcus::tick(World& world) {
         channels_[k].supply_V * ecu_tick(&channels_[k].firmware, &inputs) / ECU_DUTY_MAX;
   }
   const double dt_s = tick_s / options_.substeps;
-  for (int k = 0; k < options_.substeps; ++k) world.step(voltage_V_, dt_s);
+  for (int k = 0; k < options_.substeps; ++k) {
+    if (k > 0) look(world, false);
+    world.step(voltage_V_, dt_s);
+  }
   measure(world);
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "firmware/core/ecu.h"
 #include "interfaces/topics.hpp"
+#include "sim/actuator/sampling.hpp"
 #include "sim/actuator/sensors.hpp"
 #include "sim/world/world.hpp"
 
@@ -23,7 +25,8 @@ struct VirtualEcuOptions {
 
 class VirtualEcus {
  public:
-  /// Throws std::invalid_argument: no substep, a joint sensor on a joint that is not revolute.
+  /// Throws std::invalid_argument: no substep, a sensor on a joint or actuator there
+  /// is not.
   explicit VirtualEcus(const erp::Robot& robot, const VirtualEcuOptions& options = {});
   VirtualEcus(const VirtualEcus&) = delete;
   VirtualEcus& operator=(const VirtualEcus&) = delete;
@@ -47,14 +50,21 @@ class VirtualEcus {
     int ecu, number;
     double supply_V;
     ActuatorSensors sensors;
+    Sampled<ActuatorCounts> readings;
     ActuatorCounts counts;
     ecu_channel firmware;
   };
+  /// An analog input: a joint's angle or an actuator's potentiometer.
   struct Analog {
-    int ecu, input, joint;
-    JointAngleSensor sensor;
+    int ecu, input;
+    std::size_t source;  ///< which joint, or which actuator
+    std::variant<JointAngleSensor, PotentiometerSensor> sensor;
+    Sampled<std::int32_t> readings;
     std::int32_t counts;
   };
+  void add_channels(const erp::Robot& robot, std::uint64_t& seed);
+  void add_analogs(const erp::Robot& robot, std::uint64_t& seed);
+  void look(const World& world, bool all);
   Channel* find(int ecu, int channel);
 
   VirtualEcuOptions options_;

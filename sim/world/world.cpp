@@ -1,6 +1,9 @@
 #include "sim/world/world.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "sim/actuator/path_line.hpp"
 
 namespace sim {
 
@@ -26,7 +29,21 @@ void World::reset() {
   make_solver();
   time_s_ = 0;
   read();
+  lay_ropes();
   read_tensions();
+}
+
+void World::lay_ropes() {
+  constexpr double arc_step_rad = 0.05;
+  for (std::size_t k = 0; k < chains_.size(); ++k) {
+    const auto& rope = robot_.actuators[k].rope;
+    Chain& chain = chains_[k];
+    if (!rope) continue;
+    std::vector<Solid> solids = solids_of(robot_.bodies(), tree_.names);
+    chain.rope = std::make_unique<Rope>(*rope, chain.tendon, chain.routing, std::move(solids));
+    chain.rope->lay(path_line(chain.routing, chain.shape, poses(), arc_step_rad),
+                    chain.state.shaft_rad);
+  }
 }
 
 World::Chain World::make_chain(const erp::Actuator& actuator) const {
@@ -38,7 +55,8 @@ World::Chain World::make_chain(const erp::Actuator& actuator) const {
           levers_of(routing, *model_),
           TendonLaw::at_rest(actuator.tendon, actuator.spindle, shape.length_m),
           MotorState{},
-          shape};
+          shape,
+          nullptr};
 }
 
 void World::make_solver() {
@@ -55,7 +73,7 @@ void World::make_solver() {
   for (OneSidedForce& force : forces_) force.row.reserve(static_cast<std::size_t>(n));
   solver_ = std::make_unique<StepSolver>(n, static_cast<int>(forces_.size()), frictions);
   for (auto* vector : {&row_, &velocity_, &momentum_, &driven_, &middle_}) vector->setZero(n);
-  inertia_factor_.compute(Eigen::MatrixXd::Identity(n, n));  // makes room
+  inertia_factor_.resize(n);
 }
 
 void World::read() {
@@ -64,9 +82,10 @@ void World::read() {
     Chain& chain = chains_[k];
     chain.routing.solve(poses(), chain.shape);
     const MotorState& motor = chain.state;
-    readings_[k] = {readings_[k].tension_N, chain.shape.length_m,
-                    motor.current_A,        motor.speed_rad_per_s,
-                    motor.shaft_rad,        chain.tendon.line_m(motor.shaft_rad)};
+    readings_[k] = {
+        readings_[k].tension_N, chain.rope ? chain.rope->length_m() : chain.shape.length_m,
+        motor.current_A,        motor.speed_rad_per_s,
+        motor.shaft_rad,        chain.tendon.line_m(motor.shaft_rad)};
   }
 }
 
@@ -77,27 +96,16 @@ void World::read_tensions() {
     const double rate = length_rate_m_per_s(chain.shape, poses(), twists());
     readings_[k].tension_N = chain.tendon.tension_N(
         chain.shape.length_m, rate, chain.state.shaft_rad, chain.state.speed_rad_per_s);
+    if (chain.rope) readings_[k].tension_N = chain.rope->tension_N();
   }
-}
-
-/// J H⁻¹ Jᵀ = |L⁻¹ Jᵀ|² of the tendon in row_, with H = L Lᵀ. The tendon's first coordinate is
-/// where L⁻¹ Jᵀ begins. Uses row_ up.
-double World::mobility_per_kg(const Chain& chain) {
-  if (chain.levers.coordinates.empty()) return 0;
-  const auto rest = row_.size() - chain.levers.coordinates.front();
-  auto tail = row_.tail(rest);
-  inertia_factor_.matrixLLT()
-      .bottomRightCorner(rest, rest)
-      .triangularView<Eigen::Lower>()
-      .solveInPlace(tail);
-  return tail.squaredNorm();
 }
 
 void World::pull(std::size_t k, double dt_s) {
   const Chain& chain = chains_[k];
-  length_gradient(chain.shape, chain.levers, *model_, row_);
   OneSidedForce& force = forces_[k];
   force.row.clear();
+  if (chain.rope) return void(force.start_N = 0);
+  length_gradient(chain.shape, chain.levers, *model_, row_);
   for (const int d : chain.levers.coordinates)
     if (row_[d] != 0) force.row.push_back({d, row_[d]});
   const double winding = chain.tendon.radius_m * chain.state.speed_rad_per_s;
@@ -105,7 +113,8 @@ void World::pull(std::size_t k, double dt_s) {
       stretched(chain.tendon, chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
                 row_.dot(model_->velocity()) + winding, winding);
   double theta = options_.theta;
-  if (theta == 0) theta = theta_of(tendon.stiffness_N_per_m, mobility_per_kg(chain), dt_s);
+  if (theta == 0)
+    theta = theta_of(tendon.stiffness_N_per_m, inertia_factor_.inverse_norm2(row_), dt_s);
   pull_implicitly(tendon, theta, dt_s, force);
 }
 
@@ -131,11 +140,22 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
     length_gradient(chains_[k].shape, chains_[k].levers, *model_, row_);
     momentum_ -= dt_s * tension_N[k] * row_;
   }
+  if (tension_N.empty()) add_rope_impulses(dt_s);
   velocity_ = v;
   drive(dt_s);
   solver_->approach(driven_, velocity_);  // v¹ need not be exact
   drive(dt_s);
   solver_->solve(driven_, velocity_);
+}
+
+void World::add_rope_impulses(double dt_s) {
+  for (const Chain& chain : chains_) {
+    if (!chain.rope) continue;
+    for (const BodyForce& force : chain.rope->forces()) {
+      const Vec6 given = dt_s * wrench(force.at_m, force.force_N);
+      for (const int d : model_->movers(force.body)) momentum_[d] += model_->axis(d).dot(given);
+    }
+  }
 }
 
 /// H v − dt b at the middle of v and what is known of v⁺.
@@ -155,7 +175,8 @@ void World::step(std::span<const double> voltage_V, double dt_s) {
   expect(voltage_V, "voltages");
   solve(dt_s);
   for (std::size_t k = 0; k < chains_.size(); ++k) {
-    const double tension_N = solver_->forces_N()[k];
+    const double tension_N =
+        chains_[k].rope ? chains_[k].rope->tension_N() : solver_->forces_N()[k];
     readings_[k].tension_N = tension_N;
     chains_[k].state = sim::step(chains_[k].motor, chains_[k].state, voltage_V[k], tension_N, dt_s);
   }
@@ -173,22 +194,42 @@ void World::move(double dt_s) {
   bones_->move(velocity_, dt_s);
   time_s_ += dt_s;
   read();
+  move_ropes(dt_s);
+}
+
+void World::move_ropes(double dt_s) {
+  const xml::Vec3 g = robot_.gravity_m_per_s2();
+  const Surroundings around{poses(), twists(), Vec3(g[0], g[1], g[2])};
+  for (std::size_t k = 0; k < chains_.size(); ++k) {
+    Chain& chain = chains_[k];
+    if (!chain.rope) continue;
+    chain.rope->step(around, chain.state.shaft_rad, dt_s);
+    readings_[k].length_m = chain.rope->length_m();
+  }
 }
 
 WorldState World::save() const {
-  WorldState state{time_s_, {joints().begin(), joints().end()}, {}, {}};
-  for (const Chain& chain : chains_) state.motors.push_back(chain.state);
+  WorldState state{time_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}};
+  for (const Chain& chain : chains_) {
+    state.motors.push_back(chain.state);
+    state.around_rad.push_back(chain.shape.around_rad);
+    if (chain.rope) state.ropes.push_back(chain.rope->state());
+  }
   for (const ActuatorReading& reading : readings_) state.tension_N.push_back(reading.tension_N);
   return state;
 }
 
 void World::restore(const WorldState& state) {
   if (state.joints.size() != tree_.joints.size() || state.motors.size() != chains_.size() ||
-      state.tension_N.size() != chains_.size())
+      state.tension_N.size() != chains_.size() || state.around_rad.size() != chains_.size() ||
+      std::ssize(state.ropes) != std::ranges::count_if(chains_, &Chain::has_rope))
     throw std::invalid_argument("this state is of another robot");
   time_s_ = state.time_s;
+  auto rope = state.ropes.begin();
   for (std::size_t k = 0; k < chains_.size(); ++k) {
     chains_[k].state = state.motors[k];
+    chains_[k].shape.around_rad = state.around_rad[k];
+    if (chains_[k].rope) chains_[k].rope->restore(*rope++);
     readings_[k].tension_N = state.tension_N[k];
   }
   bones_->place(state.joints);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -7,6 +8,7 @@
 #include "interfaces/topics.hpp"
 #include "sim/actuator/motor.hpp"
 #include "sim/actuator/muscle_jacobian.hpp"
+#include "sim/actuator/rope.hpp"
 #include "sim/actuator/routing.hpp"
 #include "sim/actuator/tendon.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
@@ -27,6 +29,8 @@
 ///
 /// v⁺ = v¹ would feed energy into ball joints: 7 J in 10 s into the free arm at 1 ms, against 0.07
 /// J.
+///
+/// Tendons that are ropes (rope.hpp) follow the bones: their forces act over the next step.
 ///
 /// Same robot, options and voltages: bit-identical readings. No clock, no heap in `step`.
 namespace sim {
@@ -49,7 +53,9 @@ struct WorldState {
   double time_s = 0;
   std::vector<JointReading> joints;
   std::vector<MotorState> motors;
-  std::vector<double> tension_N;  ///< over the last step
+  std::vector<double> tension_N;                                  ///< over the last step
+  std::vector<std::array<double, max_path_elements>> around_rad;  ///< how far round its pulleys
+  std::vector<RopeState> ropes;                                   ///< of the tendons that are ropes
 };
 
 class World {
@@ -84,6 +90,8 @@ class World {
   const std::vector<std::string>& body_names() const { return tree_.names; }
   const std::vector<erp::Joint>& joint_list() const { return tree_.joints; }
   const PathShape& path(int actuator) const { return chains_[actuator].shape; }
+  /// Null: this tendon is no rope.
+  const Rope* rope(int actuator) const { return chains_[actuator].rope.get(); }
   /// Of the bones: kinetic and potential.
   double energy_J() const { return model_->energy_J(); }
 
@@ -95,6 +103,8 @@ class World {
     TendonLaw tendon;
     MotorState state;
     PathShape shape;
+    std::unique_ptr<Rope> rope;  ///< null: a tendon that finds its path at once
+    bool has_rope() const { return rope != nullptr; }
   };
   Chain make_chain(const erp::Actuator& actuator) const;
   void make_solver();
@@ -102,8 +112,10 @@ class World {
   void read_tensions();
   void find_forces(double dt_s, bool springs);
   void move(double dt_s);
+  void lay_ropes();
+  void add_rope_impulses(double dt_s);
+  void move_ropes(double dt_s);
   void pull(std::size_t chain, double dt_s);
-  double mobility_per_kg(const Chain& chain);
   void expect(std::span<const double> inputs, const char* what) const;
   void solve(double dt_s, std::span<const double> tension_N = {});
   void drive(double dt_s);
@@ -125,7 +137,7 @@ class World {
   std::size_t force_count_ = 0;
   Eigen::MatrixXd inertia_;                                             ///< H
   Eigen::VectorXd row_, bias_, momentum_, driven_, velocity_, middle_;  ///< J of one tendon, b …
-  Eigen::LLT<Eigen::MatrixXd> inertia_factor_;
+  EnvelopeCholesky inertia_factor_;
 };
 
 }  // namespace sim

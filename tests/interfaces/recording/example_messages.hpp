@@ -42,7 +42,7 @@ inline void fill(erp::SensorFrame& m, std::uint64_t n) {
   erp::assign(a.name, "flexor");
   a.valid = 31, a.ecu_state = 3, a.ecu_fault = 2, a.mode = 4, a.reference = 40.5 + x;
   a.voltage_V = 1.25, a.current_A = -0.3, a.shaft_rad = 1.0 / 3, a.line_m = -2e-3,
-  a.tension_N = 39.9 + x;
+  a.tension_N = 39.9 + x, a.potentiometer_rad = 2.5;
   erp::append(m.actuators, a);
   erp::assign(a.name, "a_name_of_thirty_two_characters_");
   a.valid = 16, a.mode = 0, a.tension_N = 5e-324;
@@ -96,6 +96,14 @@ inline void fill(erp::BodyPose& m, std::uint64_t n) {
   for (int i = 0; i < 4; ++i) b.orientation_wxyz[i] = i == 0;
   erp::append(m.bodies, b);
 }
+inline void fill(erp::ImuFrame& m, std::uint64_t n) {
+  head(m, n);
+  erp::assign(m.source, "sim");
+  erp::ImuSample i{};
+  erp::assign(i.name, "head");
+  for (int k = 0; k < 3; ++k) i.acceleration_m_per_s2[k] = 9.81 * k, i.turning_rad_per_s[k] = -k;
+  erp::append(m.imus, i);
+}
 inline void fill(erp::ActuatorOwner& m, std::uint64_t n) {
   head(m, n);
   erp::ActuatorOwnerSample o{};
@@ -135,7 +143,8 @@ void each_example(std::uint64_t n, Use&& use) {
   };
   one(erp::ActuatorCommand()), one(erp::ActuatorTarget()), one(erp::SensorFrame());
   one(erp::EcuCommand()), one(erp::EcuFrame()), one(erp::EcuParameter()), one(erp::GainCommand());
-  one(erp::JointState()), one(erp::BodyPose()), one(erp::ActuatorOwner());
+  one(erp::JointState()), one(erp::BodyPose()), one(erp::ImuFrame());
+  one(erp::ActuatorOwner());
   one(erp::ComponentState()), one(erp::LifecycleCommand()), one(erp::Clock()), one(erp::Event());
 }
 

@@ -57,7 +57,7 @@ TEST_CASE("the sensor frame's schema has our names, units and bounds, spelled as
           "ecu_fault\n"
           "uint8 mode\nfloat64 reference\nfloat64 voltage_v  # voltage_V [V]\n"
           "float64 current_a  # current_A [A]\nfloat64 shaft_rad  # [rad]\nfloat64 line_m  # [m]\n"
-          "float64 tension_n  # tension_N [N]\n" +
+          "float64 tension_n  # tension_N [N]\nfloat64 potentiometer_rad  # [rad]\n" +
           std::string(80, '=') +
           "\nMSG: erp/JointSample\nstring<=32 name\nuint8 valid\n"
           "float64 angle_rad  # [rad]\n");
@@ -65,14 +65,15 @@ TEST_CASE("the sensor frame's schema has our names, units and bounds, spelled as
 }
 
 TEST_CASE("every topic's message decodes to the very struct that was written") {
-  CHECK(example<erp::SensorFrame>().json() ==
-        R"({"robot":"rig","stamp_ns":1700000000000000003,"sequence":3,"actuators":[)"
-        R"({"name":"flexor","valid":31,"ecu_state":3,"ecu_fault":2,"mode":4,"reference":43.5,)"
-        R"("voltage_V":1.25,"current_A":-0.3,"shaft_rad":0.3333333333333333,"line_m":-0.002,)"
-        R"("tension_N":42.9},{"name":"a_name_of_thirty_two_characters_","valid":16,"ecu_state":3,)"
-        R"("ecu_fault":2,"mode":0,"reference":43.5,"voltage_V":1.25,"current_A":-0.3,)"
-        R"("shaft_rad":0.3333333333333333,"line_m":-0.002,"tension_N":5e-324}],)"
-        R"("joints":[{"name":"elbow","valid":1,"angle_rad":0.7}]})");
+  CHECK(
+      example<erp::SensorFrame>().json() ==
+      R"({"robot":"rig","stamp_ns":1700000000000000003,"sequence":3,"actuators":[)"
+      R"({"name":"flexor","valid":31,"ecu_state":3,"ecu_fault":2,"mode":4,"reference":43.5,)"
+      R"("voltage_V":1.25,"current_A":-0.3,"shaft_rad":0.3333333333333333,"line_m":-0.002,)"
+      R"("tension_N":42.9,"potentiometer_rad":2.5},{"name":"a_name_of_thirty_two_characters_","valid":16,"ecu_state":3,)"
+      R"("ecu_fault":2,"mode":0,"reference":43.5,"voltage_V":1.25,"current_A":-0.3,)"
+      R"("shaft_rad":0.3333333333333333,"line_m":-0.002,"tension_N":5e-324,"potentiometer_rad":2.5}],)"
+      R"("joints":[{"name":"elbow","valid":1,"angle_rad":0.7}]})");
   const auto command = example<erp::ActuatorCommand>();
   CHECK(command["controller"] == "reference");
   CHECK(command["answers"] == "43");

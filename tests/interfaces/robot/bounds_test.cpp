@@ -16,4 +16,5 @@ TEST_CASE("the longest name and the largest robot fit the messages exactly") {
   CHECK(frame.actuators._maximum == bound::most_actuators);
   CHECK(frame.joints._maximum == bound::most_joints);
   CHECK(poses.bodies._maximum == bound::most_bodies);
+  CHECK(erp::ImuFrame{}.imus._maximum == bound::most_imus);
 }

@@ -68,7 +68,7 @@ TEST_CASE("spherical and fixed joints need no axis and no limits") {
 TEST_CASE("two sensors may not share an input nor a joint") {
   erp::Robot robot = rig();
   robot.joint_sensors.push_back(robot.joint_sensors[0]);
-  CHECK_THAT(mistakes(robot), Catch::Contains("input=\"0\" reads \"elbow\" already") &&
+  CHECK_THAT(mistakes(robot), Catch::Contains("input=\"0\" reads joint \"elbow\" already") &&
                                   Catch::Contains("a second sensor on joint \"elbow\""));
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "tests/sim/rigs.hpp"
@@ -29,6 +30,20 @@ Routing biarticular() {
                          pulley("upper", {0.01, 0, -0.15}, 0.02), attach("upper", {0.03, 0, -0.2}),
                          pulley("lower", {0, 0, 0}, 0.025), attach("lower", {0.01, 0.02, -0.2})}),
                  bodies);
+}
+
+/// The same joints, over a cylinder, askew, and a sphere that the line goes around once more.
+Routing around_shafts() {
+  erp::Pulley cylinder = pulley("base", {0.005, 0, 0}, 0.03);
+  cylinder.shape = erp::PulleyShape::cylinder;
+  cylinder.axis = {0.2, 1, -0.1};
+  erp::Pulley drum = pulley("lower", {0, 0, 0}, 0.025);
+  drum.axis = {0, 1, 0.1};
+  drum.turns = 1;
+  return Routing(
+      tendon({attach("base", {0.02, 0.06, 0.2}), cylinder, attach("upper", {0.03, 0, -0.2}), drum,
+              attach("lower", {0.01, 0.02, -0.2})}),
+      bodies);
 }
 
 using Coordinates = Eigen::Matrix<double, 6, 1>;  // two rotation vectors
@@ -59,7 +74,7 @@ TEST_CASE("a quarter turn over a pulley: moment arm r, length linear in the angl
 }
 
 TEST_CASE("the length's rate is what the moving bodies give, by central differences") {
-  const Routing routing = biarticular();
+  const Routing routing = GENERATE(biarticular(), around_shafts());
   std::mt19937 random(7);
   std::uniform_real_distribution<double> angle(-0.5, 0.5);
   for (int trial = 0; trial < 50; ++trial) {
@@ -82,7 +97,7 @@ TEST_CASE("the length's rate is what the moving bodies give, by central differen
 }
 
 TEST_CASE("the pulls on all bodies balance, pulleys included") {
-  const Routing routing = biarticular();
+  const Routing routing = GENERATE(biarticular(), around_shafts());
   Coordinates q;
   q << 0.3, -0.4, 0.2, 0.1, 0.5, -0.3;
   const PathShape shape = routing.solve(poses(q));
@@ -90,7 +105,7 @@ TEST_CASE("the pulls on all bodies balance, pulleys included") {
   int pulling = 0;
   for (const auto& pull : shape.pulled()) {
     force += pull.direction;
-    moment += pull.at_m.cross(pull.direction);
+    moment += pull.at_m.cross(pull.direction) + pull.moment_m;
     pulling += pull.direction.norm() > 0;
   }
   CHECK(pulling >= 4);
@@ -115,6 +130,56 @@ TEST_CASE("a path over two pulleys is the shortest there is") {
     CHECK(std::abs((shape.entry_m[k] - center).dot(before)) < 1e-12);
     CHECK(std::abs((shape.exit_m[k] - center).dot(after)) < 1e-12);
   }
+}
+
+TEST_CASE("turns around a shaft are counted: 20 rad either way, moment arm r, and off it") {
+  const bool cylinder = GENERATE(true, false);
+  const double r = 0.025, arm = 0.026;
+  erp::Pulley shaft = pulley("upper", {0, 0, 0}, r);
+  if (cylinder) shaft.shape = erp::PulleyShape::cylinder;
+  shaft.axis = {0, 1, 0};
+  shaft.turns = 4;
+  const Routing routing(
+      tendon({attach("base", {-0.2, 0, 0.025}), shaft, attach("upper", {0, 0, arm})}), bodies);
+  std::vector<BodyPose> p(3);
+  PathShape shape = routing.solve(p);
+  const double start_m = shape.length_m;
+  const auto turn_to = [&](double q) {
+    p[1].rotation = Eigen::AngleAxisd(q, Vec3::UnitY()).toRotationMatrix();
+    routing.solve(p, shape);
+  };
+  const auto is_linear_at = [&](double q) {
+    turn_to(q);
+    return std::abs(shape.length_m - start_m - r * q) < 1e-12;
+  };
+  for (double q = 0; q < 20; q += 0.1) REQUIRE(is_linear_at(q));
+  for (double q = 20; q > -20; q -= 0.1) REQUIRE(is_linear_at(q));
+  double before_m = shape.length_m;
+  for (double q = -20; q > -28; q -= 0.1) {  // unwound: it lifts off, without a leap
+    turn_to(q);
+    REQUIRE(std::abs(shape.length_m - before_m) < 0.1 * (arm + 1e-3));
+    before_m = shape.length_m;
+  }
+  CHECK_FALSE(shape.touches[1]);
+}
+
+TEST_CASE("a line around a cylinder is straight once it is unrolled") {
+  const double r = 0.03, rise = 0.1;
+  erp::Pulley cylinder = pulley("base", {0, 0, 0}, r);
+  cylinder.shape = erp::PulleyShape::cylinder;
+  cylinder.axis = {0, 0, 1};
+  const Routing routing(
+      tendon({attach("base", {0.1, 0, 0}), cylinder, attach("base", {-0.1, 0, rise})}), bodies);
+  const PathShape shape = routing.solve(std::vector<BodyPose>(3));
+  const double reach = std::sqrt(0.1 * 0.1 - r * r);
+  const double across = 2 * reach + r * (std::numbers::pi - 2 * std::acos(r / 0.1));
+  REQUIRE(shape.touches[1]);
+  CHECK(std::abs(shape.length_m - std::hypot(across, rise)) < 1e-15);
+  CHECK(shape.entry_m[1].y() > 0);  // right-handed about z
+  const Vec3 in = (shape.entry_m[1] - shape.exit_m[0]).normalized();
+  const Vec3 out = (shape.entry_m[2] - shape.exit_m[1]).normalized();
+  CHECK(in.z() == Approx(rise / shape.length_m));
+  CHECK(out.z() == Approx(in.z()));
 }
 
 TEST_CASE("a path that makes no sense is refused") {

@@ -1,5 +1,6 @@
 #include "sim/actuator/sensors.hpp"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -69,10 +70,39 @@ TEST_CASE("the noise has the stated size and is the same from the same seed") {
   CHECK(differ > samples / 2);
 }
 
+TEST_CASE("a ball joint's sensor reads one component of its rotation vector, to its ends") {
+  const Eigen::Vector3d turn(0.3, -0.5, 0.2);
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  const sim::JointReading ball{
+      erp::JointType::spherical, {-q.w(), -q.x(), -q.y(), -q.z()}, {}, {}, {}};
+  CHECK(sim::angle_rad(ball, erp::AxisName::x) == Approx(0.3));
+  CHECK(sim::angle_rad(ball, erp::AxisName::y) == Approx(-0.5));
+  CHECK(sim::angle_rad(ball, erp::AxisName::z) == Approx(0.2));
+  erp::JointSensor type;
+  type.about = erp::AxisName::y, type.min_rad = -0.25;
+  CHECK(JointAngleSensor(type, 1).read(ball) ==
+        std::lround(-0.25 / (2 * std::numbers::pi) * 16384));
+}
+
+TEST_CASE("the potentiometer follows eq. 5 from its start to its ends") {
+  erp::Potentiometer type;
+  type.bits = 12, type.range_rad = 20, type.start_rad = 8;
+  sim::PotentiometerSensor sensor(type, 1);
+  const double r = 0.0045, line_m = -0.018;  // wound up by 4 rad
+  const double degrees = 180 * (line_m / (std::numbers::pi * r)) + 8 * 180 / std::numbers::pi;
+  const double read_rad = sensor.read(-line_m / r) * 20.0 / 4095;
+  CHECK(read_rad * 180 / std::numbers::pi == Approx(degrees).margin(0.5 * 20 / 4095 * 57.3));
+  CHECK(sensor.read(9) == 0);
+  CHECK(sensor.read(-13) == 4095);
+}
+
 TEST_CASE("the joint sensor counts 14 bits a revolution, beyond one turn too") {
   erp::JointSensor type;
   type.bits_per_rev = 14;
   JointAngleSensor sensor(type, 1);
-  CHECK(sensor.read(std::numbers::pi) == 8192);
-  CHECK(sensor.read(-3 * std::numbers::pi) == -24576);
+  const auto at = [](double angle) {
+    return sim::JointReading{erp::JointType::revolute, {angle}, {}, {}, {}};
+  };
+  CHECK(sensor.read(at(std::numbers::pi)) == 8192);
+  CHECK(sensor.read(at(-3 * std::numbers::pi)) == -24576);
 }

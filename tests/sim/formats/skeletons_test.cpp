@@ -1,26 +1,12 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "interfaces/robot/mass.hpp"
 #include "sim/formats/formats.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
+#include "tests/sim/formats/file.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace {
-
-/// A text as a file, for as long as it lives.
-struct File {
-  std::string path;
-  explicit File(const std::string& text)
-      : path(std::filesystem::temp_directory_path() /
-             ("erp_" + std::to_string(getpid()) + ".xml")) {
-    std::ofstream(path) << text;
-  }
-  ~File() { std::filesystem::remove(path); }
-};
 
 struct Format {
   const char* name;

@@ -1,11 +1,11 @@
-#include "sim/actuator/sphere_wrap.hpp"
+#include "sim/actuator/pulley_wrap.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
-using sim::SphereWrap, sim::Vec3, sim::wrap_sphere;
+using sim::Wrap, sim::Vec3, sim::wrap_sphere;
 
 namespace {
 
@@ -15,7 +15,7 @@ const Eigen::Matrix3d tilt =
     Eigen::AngleAxisd(0.7, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
 
 /// Ends at distances a and b with the angle between them, in a tilted plane.
-SphereWrap at_angle(double angle, const Vec3& side = Vec3::Zero()) {
+Wrap at_angle(double angle, const Vec3& side = Vec3::Zero()) {
   const Vec3 from = a * Vec3::UnitX(), to = b * Vec3(std::cos(angle), std::sin(angle), 0);
   return wrap_sphere(tilt * from, tilt * to, r, tilt * side);
 }
@@ -33,7 +33,7 @@ TEST_CASE("the wrapped length is exact to 1e-12 m") {
 
 TEST_CASE("clear of the sphere the line is straight") {
   for (double angle = 1e-3; angle < lift_off; angle += 1e-3) {
-    const SphereWrap wrap = at_angle(angle);
+    const Wrap wrap = at_angle(angle);
     REQUIRE_FALSE(wrap.touches);
     REQUIRE(std::abs(wrap.length_m - std::sqrt(a * a + b * b - 2 * a * b * std::cos(angle))) <
             1e-12);
@@ -52,7 +52,7 @@ TEST_CASE("the length is continuous with its slope where the line lifts off") {
 
 TEST_CASE("both spans touch the sphere at right angles to the radius") {
   for (double angle : {lift_off + 1e-4, 2.7, 3.0, 3.1415}) {
-    const SphereWrap wrap = at_angle(angle);
+    const Wrap wrap = at_angle(angle);
     const Vec3 from = tilt * (a * Vec3::UnitX());
     const Vec3 to = tilt * (b * Vec3(std::cos(angle), std::sin(angle), 0));
     CHECK(wrap.entry_m.norm() == Approx(r).epsilon(1e-13));
@@ -86,7 +86,7 @@ TEST_CASE("with a side the line stays on it beyond π") {
 
 TEST_CASE("the other side is the other way round") {
   const double angle = 2.5;
-  CHECK(at_angle(angle, Vec3(0, -1, 0)).angle_rad ==
+  CHECK(at_angle(angle, Vec3(0, -1, 0)).wrapped_rad ==
         Approx(2 * std::numbers::pi - angle - lift_off).epsilon(1e-12));
 }
 

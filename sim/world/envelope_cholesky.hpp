@@ -1,0 +1,85 @@
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+/// A = L Lᵀ of a symmetric, positive definite matrix over the coordinates of a tree, parents first.
+///
+/// The last coordinate comes first, so that leaves are eliminated before what carries them: then
+/// branches that do not touch stay apart, and each row of L begins where A's does. Only from there
+/// on is it computed: two arms, a neck and a spine of 38 coordinates take a fourth of the work.
+/// Source: Jennings 1966 (the envelope method); Featherstone 2005 (the order).
+namespace sim {
+
+class EnvelopeCholesky {
+ public:
+  explicit EnvelopeCholesky(int size = 0) { resize(size); }
+
+  void resize(int size) {
+    lower_.setZero(size, size);
+    begin_.assign(static_cast<std::size_t>(size), 0);
+    inverse_.setOnes(size);
+    work_.setZero(size);
+  }
+
+  /// A of the size given. No heap.
+  void compute(const Eigen::MatrixXd& a) {
+    const auto last = a.rows() - 1;
+    for (Eigen::Index i = 0; i <= last; ++i) {
+      const auto row = a.col(last - i).reverse();
+      Eigen::Index begin = 0;
+      while (begin < i && row[begin] == 0) ++begin;
+      begin_[at(i)] = begin;
+      for (Eigen::Index j = begin; j < i; ++j)
+        lower_(i, j) = (row[j] - along(i, j, std::max(begin, begin_[at(j)]), j)) * inverse_[j];
+      lower_(i, i) = std::sqrt(row[i] - along(i, i, begin, i));
+      inverse_[i] = 1 / lower_(i, i);
+    }
+  }
+
+  /// x = A⁻¹ b.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+    work_ = b.reverse();
+    forward();
+    for (Eigen::Index i = work_.size() - 1; i >= 0; --i) {
+      const Eigen::Index begin = begin_[at(i)];
+      work_[i] *= inverse_[i];
+      work_.segment(begin, i - begin) -=
+          work_[i] * lower_.row(i).segment(begin, i - begin).transpose();
+    }
+    x = work_.reverse();
+  }
+
+  /// bᵀ A⁻¹ b = |L⁻¹ b|².
+  double inverse_norm2(const Eigen::VectorXd& b) const {
+    work_ = b.reverse();
+    forward();
+    return work_.squaredNorm();
+  }
+
+ private:
+  static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+  double along(Eigen::Index i, Eigen::Index j, Eigen::Index begin, Eigen::Index end) const {
+    return lower_.row(i).segment(begin, end - begin).dot(lower_.row(j).segment(begin, end - begin));
+  }
+  /// L⁻¹ of work_; what touches none of it stays zero.
+  void forward() const {
+    Eigen::Index first = 0;
+    while (first < work_.size() && work_[first] == 0) ++first;
+    for (Eigen::Index i = first, last = first; i < work_.size(); ++i) {
+      const Eigen::Index begin = std::max(begin_[at(i)], first);
+      if (begin > last && work_[i] == 0) continue;
+      if (begin < i)
+        work_[i] -= lower_.row(i).segment(begin, i - begin).dot(work_.segment(begin, i - begin));
+      work_[i] *= inverse_[i];
+      last = i;
+    }
+  }
+
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> lower_;
+  std::vector<Eigen::Index> begin_;  ///< where each row begins
+  Eigen::VectorXd inverse_;          ///< 1 / L_ii
+  mutable Eigen::VectorXd work_;
+};
+
+}  // namespace sim

@@ -1,0 +1,17 @@
+#pragma once
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+/// A text as a file, for as long as it lives.
+struct File {
+  std::string path;
+  explicit File(const std::string& text, const std::string& ending = ".xml")
+      : path(std::filesystem::temp_directory_path() /
+             ("erp_" + std::to_string(getpid()) + ending)) {
+    std::ofstream(path) << text;
+  }
+  ~File() { std::filesystem::remove(path); }
+};

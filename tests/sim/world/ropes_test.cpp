@@ -1,0 +1,61 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/world/world.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+/// The hinge rig, its flexor a rope over the same pulley.
+erp::Robot rope_rig(int nodes = 120) {
+  erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+  auto& path = robot.actuators[0].tendon.path;
+  path = {path.front(), path[path.size() - 2], path.back()};
+  robot.actuators[0].rope = erp::Rope{{}, nodes, 0.004, 0, 0, ""};
+  return robot;
+}
+
+erp::Robot virtual_rig() {
+  erp::Robot robot = rope_rig();
+  robot.actuators[0].rope.reset();
+  return robot;
+}
+
+double settled_rad(sim::World& world, const std::vector<double>& voltage_V) {
+  for (int k = 0; k < 400; ++k) world.step(voltage_V, 0.001);
+  for (int k = 0; k < 1500; ++k) world.step(std::vector<double>(2, 0.0), 0.001);
+  return world.joints()[0].position[0];
+}
+
+}  // namespace
+
+TEST_CASE("a rope moves the joint as the tendon that finds its path at once does") {
+  sim::World rope(rope_rig()), path(virtual_rig());
+  const std::vector<double> voltage_V{4.0, -2.0};
+  const double a = settled_rad(rope, voltage_V), b = settled_rad(path, voltage_V);
+  CHECK(std::abs(b) > 0.1);
+  CHECK(a == Approx(b).margin(0.01));
+  CHECK(rope.actuators()[0].tension_N == Approx(path.actuators()[0].tension_N).epsilon(0.02));
+  CHECK(rope.rope(0)->troubles() == 0);
+  CHECK(path.rope(0) == nullptr);
+}
+
+TEST_CASE("a world with a rope goes on from what was saved, bit by bit") {
+  sim::World one(rope_rig()), other(rope_rig());
+  const std::vector<double> voltage_V{1.0, 0.2};
+  for (int k = 0; k < 100; ++k) one.step(voltage_V, 0.001);
+  other.restore(one.save());
+  for (int k = 0; k < 100; ++k) one.step(voltage_V, 0.001), other.step(voltage_V, 0.001);
+  CHECK(one.joints()[0].position == other.joints()[0].position);
+  CHECK(one.actuators()[0].tension_N == other.actuators()[0].tension_N);
+  CHECK(one.rope(0)->state().nodes_m == other.rope(0)->state().nodes_m);
+}
+
+TEST_CASE("a line far stiffer than what it holds is heavy is unstable as a rope, and it is said") {
+  erp::Robot robot = rope_rig();
+  robot.actuators[0].tendon.stiffness_N_per_m = 1e8;
+  sim::World world(robot);
+  for (int k = 0; k < 500; ++k) world.step(std::vector<double>(2, 0.5), 0.001);
+  CHECK(world.rope(0)->troubles() > 0);
+  CHECK(std::isfinite(world.joints()[0].position[0]));
+}
