@@ -10,8 +10,8 @@ namespace formats {
 /// one motor a muscle whose control is the tension in N. The starting pose is the keyframe "start".
 ///
 /// MJCF has no motor, spindle, spring or sensor of ours: they stay behind. Coulomb friction becomes
-/// frictionloss, which MuJoCo softens. Throws std::invalid_argument for a pulley that follows
-/// another one, which MJCF cannot say.
+/// frictionloss, which MuJoCo softens. A tendon that is a rope becomes one that finds its path at once. Throws
+/// std::invalid_argument for what MJCF cannot say: a pulley that follows another one, counted turns.
 std::string to_mjcf(const erp::Robot& robot);
 
 /// The skeleton as URDF, all joints at zero. URDF has no ball joint: it becomes three hinges over

@@ -1,10 +1,13 @@
+#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/tree.hpp"
+#include "sim/actuator/routing.hpp"
 #include "sim/formats/formats.hpp"
+#include "sim/skeleton/skeleton_model.hpp"
 
 namespace formats {
 namespace {
@@ -32,7 +35,12 @@ bool is_zero(const Vec3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 class Mjcf {
  public:
   explicit Mjcf(const erp::Robot& robot)
-      : robot_(robot), bodies_(robot.bodies()), joints_(robot.joints()) {}
+      : robot_(robot), bodies_(robot.bodies()), joints_(robot.joints()) {
+    const sim::RobotTree tree(robot);
+    const sim::SkeletonModel model(tree, Eigen::Vector3d::Zero());
+    names_ = tree.names;
+    start_poses_ = {model.poses().begin(), model.poses().end()};
+  }
 
   std::string write() {
     root_.set("model", robot_.name);
@@ -111,7 +119,7 @@ class Mjcf {
                                     " of its path is a pulley after a pulley, which MJCF cannot "
                                     "say; put an <attach> between them");
       after_pulley = pulley != nullptr;
-      if (pulley) wrap(spatial, *pulley, name);
+      if (pulley) wrap(spatial, *pulley, name, middle_of(actuator, count - 1));
       else pass(spatial, std::get<erp::Attach>(element), name);
     }
   }
@@ -121,23 +129,37 @@ class Mjcf {
     spatial.add("site").set("site", name);
   }
 
-  void wrap(Tree& spatial, const erp::Pulley& pulley, const std::string& name) {
+  /// Where the line around a pulley with an axis is half way, at the start: a direction in the
+  /// pulley's body. MJCF has no way around, only a side.
+  Vec3 middle_of(const erp::Actuator& actuator, int element) const {
+    const sim::Routing routing(actuator.tendon, names_);
+    const auto k = static_cast<std::size_t>(element);
+    const sim::PathElement& pulley = routing.elements()[k];
+    if (pulley.axis.isZero(0)) return {pulley.side.x(), pulley.side.y(), pulley.side.z()};
+    const sim::PathShape shape = routing.solve(start_poses_);
+    const auto& turned = start_poses_[static_cast<std::size_t>(pulley.body)].rotation;
+    sim::Vec3 from = turned.transpose() * (shape.exit_m[k - 1] - shape.pulls[k].at_m);
+    from -= pulley.axis.dot(from) * pulley.axis;
+    const sim::Vec3 middle = Eigen::AngleAxisd(shape.around_rad[k] / 2, pulley.axis) * from;
+    return {middle.x(), middle.y(), middle.z()};
+  }
+
+  void wrap(Tree& spatial, const erp::Pulley& pulley, const std::string& name, const Vec3& side) {
+    if (pulley.turns > 0) throw std::invalid_argument("pulley " + name + ": MJCF counts no turns");
     Tree& body = *tree_of_.at(pulley.body);
-    body.add("geom")
-        .set("name", name)
-        .set("type", "sphere")
-        .set("size", pulley.radius_m)
-        .set("pos", pulley.center_m)
-        .set("mass", 0)
-        .set("contype", 0)
-        .set("conaffinity", 0);
+    Tree& solid = body.add("geom").set("name", name);
+    if (pulley.shape == erp::PulleyShape::cylinder)
+      solid.set("type", "cylinder")
+          .set("size", std::vector<double>{pulley.radius_m, pulley.radius_m})
+          .set("zaxis", *pulley.axis);
+    else solid.set("type", "sphere").set("size", pulley.radius_m);
+    solid.set("pos", pulley.center_m).set("mass", 0).set("contype", 0).set("conaffinity", 0);
     Tree& geom = spatial.add("geom").set("geom", name);
-    if (is_zero(pulley.side)) return;
-    const std::string side = name + "_side";
+    if (is_zero(side)) return;
     body.add("site")
-        .set("name", side)
-        .set("pos", along(pulley.center_m, pulley.side, side_reach * pulley.radius_m));
-    geom.set("sidesite", side);
+        .set("name", name + "_side")
+        .set("pos", along(pulley.center_m, side, side_reach * pulley.radius_m));
+    geom.set("sidesite", name + "_side");
   }
 
   const erp::Robot& robot_;
@@ -146,6 +168,8 @@ class Mjcf {
   Tree root_{"mujoco"};
   std::map<std::string, Tree*> tree_of_;
   std::vector<double> start_;
+  std::vector<std::string> names_;          ///< of the bodies
+  std::vector<sim::BodyPose> start_poses_;  ///< theirs
 };
 
 }  // namespace

@@ -68,6 +68,26 @@ TEST_CASE("wrapped lengths are MuJoCo's to 1e-9 m") {
   CHECK(pierced < compared / 100);
 }
 
+TEST_CASE("lengths around a cylinder, askew, are MuJoCo's to 1e-9 m") {
+  erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+  erp::Pulley cylinder{{}, "base", {0, 0, 0}, 0.02};
+  cylinder.shape = erp::PulleyShape::cylinder;
+  cylinder.axis = {0.3, -1, 0.2};
+  robot.actuators[0].tendon.path = {erp::Attach{{}, "base", {-0.05, 0.03, 0.2}}, cylinder,
+                                    erp::Attach{{}, "forearm", {0.02, -0.04, -0.1}}};
+  World world(robot);
+  const peer::Mujoco mujoco(world.robot());
+  int wrapped = 0;
+  for (double q = -1.2; q < 1.6; q += 0.01) {
+    put(mujoco, world, 0, {erp::JointType::revolute, {q}, {}});
+    mj_forward(mujoco.model.get(), mujoco.data.get());
+    CAPTURE(q);
+    CHECK(std::abs(world.actuators()[0].length_m - mujoco.length_m("flexor")) < 1e-9);
+    wrapped += world.path(0).touches[1];
+  }
+  CHECK(wrapped > 100);
+}
+
 TEST_CASE("under the same tensions the arm moves as MuJoCo's, to 1e-3 rad over 1 s") {
   World world(arm(false));
   const peer::Mujoco mujoco(world.robot());
