@@ -63,19 +63,9 @@ LoggerNode::LoggerNode(const Params& params, const erp::Robot& robot, node::Node
       robot_(robot.name),
       recorder_(keep_earlier(params.file), attachments(params.attach)),
       discovery_(node.participant(), node.wake()) {
-  add_known<erp::ActuatorCommand>();
-  add_known<erp::ActuatorTarget>();
-  add_known<erp::SensorFrame>();
-  add_known<erp::EcuCommand>();
-  add_known<erp::EcuFrame>();
-  add_known<erp::EcuParameter>();
-  add_known<erp::GainCommand>();
-  add_known<erp::JointState>();
-  add_known<erp::BodyPose>();
-  add_known<erp::ActuatorOwner>();
-  add_known<erp::ComponentState>();
-  add_known<erp::Clock>();
-  add_known<erp::Event>();
+  [this]<class... M>(std::type_identity<std::tuple<M...>>) {
+    (add_known<M>(), ...);
+  }(std::type_identity<erp::Messages>());
   node.every(take_ns, [this] { take_all(); });
   node.every(discover_ns, [this] { discover(); });
   node.on_deactivate([this] { close(); });
@@ -91,7 +81,8 @@ LoggerNode::~LoggerNode() {
 
 template <class M>
 void LoggerNode::add_known() {
-  add(erp::Topic<M>::name, *erp::Topic<M>::type, nullptr);
+  if constexpr (!std::same_as<M, erp::LifecycleCommand>)  // a word to one component: discovered
+    add(erp::Topic<M>::name, *erp::Topic<M>::type, nullptr);
 }
 
 void LoggerNode::add(const std::string& name, const dds_topic_descriptor_t& type,

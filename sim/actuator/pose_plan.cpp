@@ -1,5 +1,6 @@
 #include "sim/actuator/pose_plan.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -61,41 +62,82 @@ std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot&
   return poses;
 }
 
+namespace {
+
+/// On the way from one pose to another: angles evenly, ball joints about one axis.
+Pose between(const Pose& from, const Pose& to, double share,
+             const std::vector<erp::Joint>& joints) {
+  Pose pose = from;
+  for (std::size_t j = 0; j < pose.size(); ++j) {
+    const auto &a = from[j], &b = to[j];
+    if (joints[j].type == erp::JointType::spherical) {
+      const Eigen::Quaterniond p(a[0], a[1], a[2], a[3]), q(b[0], b[1], b[2], b[3]);
+      const Eigen::Quaterniond turned = p.normalized().slerp(share, q.normalized());
+      pose[j] = {turned.w(), turned.x(), turned.y(), turned.z()};
+    } else {
+      pose[j][0] += share * (b[0] - a[0]);
+    }
+  }
+  return pose;
+}
+
+class Planner {
+ public:
+  Planner(const erp::Robot& robot, const PlanOptions& options)
+      : robot_(robot), joints_(robot.joints()), options_(options) {
+    plan_.table.columns.push_back({"time_s", {}});
+    for (const erp::Actuator& a : robot.actuators) {
+      plan_.table.columns.push_back({a.name + ".mode", {}});
+      plan_.table.columns.push_back({a.name + ".reference", {}});
+    }
+  }
+
+  void hold(double time_s, const Pose& pose) {
+    const Holding holding = hold_pose(robot_, pose, options_.holding);
+    if (holding.unbalanced_Nm > plan_.unbalanced_Nm)
+      plan_.unbalanced_Nm = holding.unbalanced_Nm, plan_.at_s = time_s;
+    add(time_s, holding.line_m);
+  }
+  void move(const TimedPose& from, const TimedPose& to) {
+    const double way_s = to.time_s - from.time_s;
+    for (int k = 1; k * options_.sample_s < way_s - 1e-9; ++k) {
+      const double done = least_jerk(k * options_.sample_s / way_s);
+      hold(from.time_s + k * options_.sample_s, between(from.pose, to.pose, done, joints_));
+    }
+    hold(to.time_s, to.pose);
+  }
+  void rest(double time_s) { add(time_s, last_m_); }
+  LengthPlan plan() { return std::move(plan_); }
+
+ private:
+  void add(double time_s, const std::vector<double>& line_m) {
+    auto& columns = plan_.table.columns;
+    columns[0].values.push_back(rounded(time_s, rounding_s));
+    for (std::size_t k = 0; k < line_m.size(); ++k) {
+      columns[1 + 2 * k].values.push_back(static_cast<double>(erp::Mode::length));
+      columns[2 + 2 * k].values.push_back(rounded(line_m[k], rounding_m));
+    }
+    last_m_ = line_m;
+  }
+
+  const erp::Robot& robot_;
+  std::vector<erp::Joint> joints_;
+  PlanOptions options_;
+  LengthPlan plan_;
+  std::vector<double> last_m_;
+};
+
+}  // namespace
+
 LengthPlan lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
                            const PlanOptions& options) {
-  LengthPlan plan;
-  recording::Table& table = plan.table;
-  table.columns.push_back({"time_s", {}});
-  for (const erp::Actuator& a : robot.actuators) {
-    table.columns.push_back({a.name + ".mode", {}});
-    table.columns.push_back({a.name + ".reference", {}});
-  }
-  const auto add = [&](double time_s, const std::vector<double>& from,
-                       const std::vector<double>& to, double way) {
-    table.columns[0].values.push_back(rounded(time_s, rounding_s));
-    for (std::size_t k = 0; k < to.size(); ++k) {
-      const double line_m = from[k] + least_jerk(way) * (to[k] - from[k]);
-      table.columns[1 + 2 * k].values.push_back(static_cast<double>(erp::Mode::length));
-      table.columns[2 + 2 * k].values.push_back(rounded(line_m, rounding_m));
-    }
-  };
-  std::vector<double> from;
+  Planner planner(robot, options);
   for (std::size_t p = 0; p < poses.size(); ++p) {
-    const bool same = p > 0 && poses[p].pose == poses[p - 1].pose;
-    std::vector<double> to = from;
-    if (!same) {
-      const Holding holding = hold_pose(robot, poses[p].pose, options.holding);
-      to = holding.line_m;
-      if (holding.unbalanced_Nm > plan.unbalanced_Nm)
-        plan.unbalanced_Nm = holding.unbalanced_Nm, plan.at_s = poses[p].time_s;
-    }
-    const double start_s = p > 0 ? poses[p - 1].time_s : 0, way_s = poses[p].time_s - start_s;
-    for (int k = 1; p > 0 && !same && k * options.sample_s < way_s - 1e-9; ++k)
-      add(start_s + k * options.sample_s, from, to, k * options.sample_s / way_s);
-    add(poses[p].time_s, from.empty() ? to : from, to, 1);
-    from = to;
+    if (p == 0) planner.hold(poses[p].time_s, poses[p].pose);
+    else if (poses[p].pose == poses[p - 1].pose) planner.rest(poses[p].time_s);
+    else planner.move(poses[p - 1], poses[p]);
   }
-  return plan;
+  return planner.plan();
 }
 
 }  // namespace sim

@@ -29,8 +29,8 @@ struct LengthPlan {
   double unbalanced_Nm = 0, at_s = 0;  ///< the most that no tensions could hold, and when
 };
 
-/// A trajectory for `target`: the line lengths that hold each pose at its time, and between two
-/// poses the least jerk.
+/// A trajectory for `target`: the line lengths that hold each pose at its time; and between two
+/// poses those that hold the joints on their way, straight and with the least jerk.
 LengthPlan lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
                            const PlanOptions& options = {});
 

@@ -31,7 +31,7 @@ class Sampled {
     if (count_ > 0 && time_s < next_s_ - slack_s) return;
     kept_[count_ % kept_.size()] = {time_s, see()};
     ++count_;
-    next_s_ = period_s_ > 0 ? (std::floor(time_s / period_s_ + slack_s) + 1) * period_s_ : time_s;
+    next_s_ = period_s_ > 0 ? (std::floor((time_s + slack_s) / period_s_) + 1) * period_s_ : time_s;
   }
 
   struct Seen {
@@ -42,8 +42,11 @@ class Sampled {
   const Seen& said(double time_s) const {
     const std::size_t oldest = count_ > kept_.size() ? count_ - kept_.size() : 0;
     std::size_t k = count_ - 1;
-    while (k > oldest && kept_[k % kept_.size()].time_s > time_s - latency_s_ + slack_s) --k;
+    while (k > oldest && !arrived(kept_[k % kept_.size()], time_s)) --k;
     return kept_[k % kept_.size()];
+  }
+  bool arrived(const Seen& seen, double time_s) const {
+    return seen.time_s <= time_s - latency_s_ + slack_s;
   }
 
  private:

@@ -6,8 +6,8 @@
 
 /// A tendon over a time step, implicit in the motion at its end.
 ///
-///   f = F + κ (c₁ dt ẋ + c₂ dt ẋ⁺) + D ẋ⁺,   ẋ = J v + r ω     0 where the tendon is slack
-///     = a + G J v⁺,   G = κ c₂ dt + D,   a = F + κ c₁ dt ẋ + G r ω
+///   f = F + κ (c₁ dt ẋ + c₂ dt ẋ⁺) + D ((1 − θ_D) ẋ + θ_D ẋ⁺),   ẋ = J v + r ω    0 where slack
+///     = a + G J v⁺,   G = κ c₂ dt + D θ_D,   a = F + (κ c₁ dt + D (1 − θ_D)) ẋ + G r ω
 ///
 /// F(x) the spring's force, κ = dF/dx, J the rate of its stretch x over the joints, at the start of
 /// the step. With positions moved by
@@ -18,8 +18,9 @@
 ///   both are stable for any stiffness.
 ///
 /// By default θ = ½ + ½ k/(4 + k): energy is kept where the step resolves the oscillation, to
-/// fourth order in dt, and drained where it does not.
-/// Source: linearised implicit integration (Baraff, Witkin 1998); c₁, c₂ and θ(k) are ours.
+/// fourth order in dt, and drained where it does not. And of the damper, with m = dt D J W Jᵀ,
+/// θ_D = (1 + m)/(2 + m): alone it leaves 1/(1 + m + m²/2) of a speed, e^−m to second order.
+/// Source: linearised implicit integration (Baraff, Witkin 1998); c₁, c₂, θ(k) and θ_D(m) are ours.
 namespace sim {
 
 struct StretchedTendon {
@@ -38,18 +39,25 @@ inline StretchedTendon stretched(const TendonLaw& law, double stretch_m, double 
   return {slope, law.damping_N_s_per_m, stretch_m, force, rate_m_per_s, winding_m_per_s};
 }
 
-inline double theta_of(double stiffness_N_per_m, double mobility_per_kg, double dt_s) {
-  const double k = dt_s * dt_s * stiffness_N_per_m * mobility_per_kg;
-  return 0.5 + 0.5 * k / (4 + k);
+/// How much of a step's end is in its forces.
+struct Implicitness {
+  double spring = 1, damper = 1;  ///< θ, θ_D
+};
+
+/// `mobility_per_kg` J W Jᵀ.
+inline Implicitness implicitness_of(const StretchedTendon& t, double mobility_per_kg, double dt_s) {
+  const double k = dt_s * dt_s * t.stiffness_N_per_m * mobility_per_kg;
+  const double m = dt_s * t.damping_N_s_per_m * mobility_per_kg;
+  return {0.5 + 0.5 * k / (4 + k), (1 + m) / (2 + m)};
 }
 
 /// Sets a and G of a force whose row is J; one that is slack over the step does nothing.
-inline void pull_implicitly(const StretchedTendon& t, double theta, double dt_s,
+inline void pull_implicitly(const StretchedTendon& t, const Implicitness& theta, double dt_s,
                             OneSidedForce& force) {
-  const double c1 = (theta - 1) / 2, c2 = (3 * theta - 1) / 2;
-  force.gain_N_s_per_m = t.stiffness_N_per_m * c2 * dt_s + t.damping_N_s_per_m;
-  force.start_N = t.spring_N + t.stiffness_N_per_m * c1 * dt_s * t.rate_m_per_s +
-                  force.gain_N_s_per_m * t.winding_m_per_s;
+  const double c1 = (theta.spring - 1) / 2, c2 = (3 * theta.spring - 1) / 2;
+  const double kept = t.stiffness_N_per_m * c1 * dt_s + t.damping_N_s_per_m * (1 - theta.damper);
+  force.gain_N_s_per_m = t.stiffness_N_per_m * c2 * dt_s + t.damping_N_s_per_m * theta.damper;
+  force.start_N = t.spring_N + kept * t.rate_m_per_s + force.gain_N_s_per_m * t.winding_m_per_s;
   const bool slack = t.stretch_m + dt_s * std::max(0.0, t.rate_m_per_s) <= 0;
   if (slack) force.start_N = 0, force.row.clear();
 }

@@ -41,7 +41,8 @@ void Imus::look(const World& world) {
     unit.readings.offer(time_s_, [&] {
       return unit.sensor.look(time_s_, world.poses()[unit.body], world.twists()[unit.body]);
     });
-    unit.seen_s = unit.readings.said(time_s_).time_s;
+    const auto& said = unit.readings.said(time_s_);
+    if (unit.readings.arrived(said, time_s_)) unit.seen_s = said.time_s;
   }
 }
 

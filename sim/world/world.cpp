@@ -112,9 +112,9 @@ void World::pull(std::size_t k, double dt_s) {
   const StretchedTendon tendon =
       stretched(chain.tendon, chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
                 row_.dot(model_->velocity()) + winding, winding);
-  double theta = options_.theta;
-  if (theta == 0)
-    theta = theta_of(tendon.stiffness_N_per_m, inertia_factor_.inverse_norm2(row_), dt_s);
+  Implicitness theta{options_.theta, options_.theta};
+  if (options_.theta == 0)
+    theta = implicitness_of(tendon, inertia_factor_.inverse_norm2(row_), dt_s);
   pull_implicitly(tendon, theta, dt_s, force);
 }
 

@@ -5,6 +5,8 @@
 #include "components/plant/plant.hpp"
 #include "firmware/core/laws.h"
 #include "interfaces/robot/robot.hpp"
+#include "sim/world/internal_model.hpp"
+#include "sim/world/virtual_ecus.hpp"
 #include "sim/world/world.hpp"
 #include "tests/sim/formats/mujoco.hpp"
 
@@ -40,6 +42,76 @@ void mujoco_step(benchmark::State& state, const char* robot) {
 BENCHMARK_CAPTURE(mujoco_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(mujoco_step, arm, "arm");
 BENCHMARK_CAPTURE(mujoco_step, ecce4, "ecce4");
+
+/// The same, side by side on one base, until there are so many tendons: what size costs.
+erp::Robot arms(long tendons) {
+  const erp::Robot arm = read("arm");
+  erp::Robot robot = arm;
+  robot.skeletons.clear(), robot.actuators.clear(), robot.joint_sensors.clear();
+  for (int copy = 0; std::ssize(robot.actuators) < tendons; ++copy) {
+    const auto own = [&](std::string& name) {
+      if (name != "torso") name += "_" + std::to_string(copy);
+    };
+    erp::Skeleton skeleton = arm.skeletons[0];
+    if (copy > 0) std::erase_if(skeleton.bodies, [](auto& b) { return b.name == "torso"; });
+    for (auto& body : skeleton.bodies) own(body.name);
+    for (auto& joint : skeleton.joints) own(joint.name), own(joint.parent), own(joint.child);
+    robot.skeletons.push_back(skeleton);
+    for (erp::Actuator actuator : arm.actuators) {
+      own(actuator.name);
+      for (auto& point : actuator.tendon.path) std::visit([&](auto& p) { own(p.body); }, point);
+      robot.actuators.push_back(actuator);
+    }
+  }
+  robot.actuators.resize(static_cast<std::size_t>(tendons));
+  return robot;
+}
+
+void tendons_step(benchmark::State& state) {
+  sim::World world(arms(state.range(0)));
+  const std::vector<double> voltage_V(world.actuators().size(), 0.1);
+  for (auto _ : state) world.step(voltage_V, 0.001);
+  state.counters["steps_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.SetComplexityN(state.range(0));
+}
+void tendons_mujoco(benchmark::State& state) {
+  const erp::Robot robot = arms(state.range(0));
+  const peer::Mujoco peer(robot);
+  for (std::size_t k = 0; k < robot.actuators.size(); ++k)
+    peer.data->ctrl[k] = robot.actuators[k].tendon.pretension_N;
+  for (auto _ : state) mj_step(peer.model.get(), peer.data.get());
+  state.counters["steps_per_s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.SetComplexityN(state.range(0));
+}
+#define ERP_SIZES Arg(11)->Arg(22)->Arg(44)->Arg(54)->Arg(108)->Arg(216)->Complexity()
+BENCHMARK(tendons_step)->ERP_SIZES;
+BENCHMARK(tendons_mujoco)->ERP_SIZES;
+
+/// 2 ms of a whole robot: firmware of all ECUs, sensors, two physics steps.
+void ecu_tick(benchmark::State& state, const char* name) {
+  const erp::Robot robot = read(name);
+  sim::World world(robot);
+  sim::VirtualEcus ecus(robot);
+  for (auto _ : state) ecus.tick(world);
+  state.counters["times_real_time"] = benchmark::Counter(
+      0.002 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(ecu_tick, ecce4, "ecce4");
+
+/// Two candidates, 100 steps ahead each, on so many threads.
+void two_ahead(benchmark::State& state) {
+  const erp::Robot robot = read("ecce4");
+  sim::InternalModel model(robot, {}, static_cast<int>(state.range(0)));
+  const sim::WorldState start = sim::World(robot).save();
+  const std::vector<std::vector<double>> candidates(
+      2, std::vector<double>(robot.actuators.size(), 0.1));
+  for (auto _ : state) benchmark::DoNotOptimize(model.ahead(start, candidates, 100, 0.001));
+  state.counters["steps_per_s"] = benchmark::Counter(200 * static_cast<double>(state.iterations()),
+                                                     benchmark::Counter::kIsRate);
+}
+BENCHMARK(two_ahead)->Arg(1)->Arg(2)->UseRealTime();
 
 void force_law(benchmark::State& state) {
   const law_force_gains gains{0.1F, 0.2F, 0.5F, 0.6F};

@@ -11,12 +11,16 @@ using recording::parse_csv, recording::Table;
 using sim::lengths_through, sim::poses_of;
 
 TEST_CASE("lengths.csv of each robot is what erp model lengths makes of its poses.csv") {
-  const auto* name = GENERATE("arm", "twin_joint", "seven_dof", "pendulum");
+  const auto* name =
+      GENERATE("arm", "twin_joint", "seven_dof", "pendulum", "ecce1", "ecce2", "ecce3", "ecce4");
   CAPTURE(name);
   const std::string folder = rigs::config(name);
   const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
   const auto poses = poses_of(recording::read_table(folder + "/poses.csv"), robot);
-  const Table made = lengths_through(robot, poses).table;
+  const bool torso = std::string(name).starts_with("ecce");
+  const sim::PlanOptions options{
+      .holding = {.rest_N = torso ? 20.0 : 10, .least_N = torso ? 8.0 : 5}};
+  const Table made = lengths_through(robot, poses, options).table;
   const Table kept = recording::read_table(folder + "/lengths.csv");
   REQUIRE(kept.columns.size() == made.columns.size());
   REQUIRE(kept.rows() == made.rows());

@@ -1,9 +1,9 @@
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
+#include "tests/sim/world/readings.hpp"
 
 namespace {
 
@@ -14,18 +14,6 @@ std::vector<std::string> robot_files() {
       files.push_back(file);
   std::ranges::sort(files);
   return files;
-}
-
-/// The largest angle between two readings of any joint.
-double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointReading> b) {
-  double apart = 0;
-  for (std::size_t j = 0; j < a.size(); ++j) {
-    const auto &p = a[j].position, &q = b[j].position;
-    const Eigen::Quaterniond from(p[0], p[1], p[2], p[3]), to(q[0], q[1], q[2], q[3]);
-    const bool turns = sim::coordinates_of(a[j].type) >= 3;
-    apart = std::max(apart, turns ? from.angularDistance(to) : std::abs(p[0] - q[0]));
-  }
-  return apart;
 }
 
 }  // namespace

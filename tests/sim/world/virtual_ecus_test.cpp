@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
@@ -37,6 +38,23 @@ TEST_CASE("without gains the ECUs boot, apply nothing and report what they read"
   CHECK(flexor.fresh);
 }
 
+TEST_CASE("the second motor set is designed for and meets them as well") {
+  erp::Robot robot = hinge_rig();
+  const erp::Robot motors = erp::read_robot(rigs::config("parts/motors.xml"));
+  robot.motor_types = motors.motor_types;
+  for (auto& actuator : robot.actuators) actuator.motor = "geared_12V";
+  Limb limb(robot, {.lock = {"elbow"}});
+  pull(limb, 2, 500);
+  pull(limb, 40, 500);
+  double squares = 0;
+  for (int k = 0; k < 1000; ++k) {
+    pull(limb, 40, 1);
+    squares += std::pow(limb.world.actuators()[0].tension_N - 40, 2) / 1000;
+  }
+  CHECK(std::sqrt(squares) <= 0.236);  // on the physical robot (paper, Fig. 6)
+  CHECK(limb.all_running());
+}
+
 TEST_CASE("2 to 40 N on the rig's flexor, forearm held: paper's figures are met") {
   Limb limb(hinge_rig(), {.lock = {"elbow"}});
   pull(limb, 2, 500);
@@ -66,6 +84,35 @@ TEST_CASE("without commands the channels trip, and the voltage goes to zero") {
   limb.ecus.fill(frame);
   CHECK(frame.channels._buffer[0].fault == ECU_FAULT_COMMAND_TIMEOUT);
   CHECK(frame.channels._buffer[0].duty_counts == 0);
+}
+
+TEST_CASE("sensors of ball joints, potentiometers and latency reach the frame") {
+  erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
+  robot.joint_sensors = {{.joint = "shoulder", .about = erp::AxisName::y, .ecu = 0, .input = 0}};
+  robot.potentiometers = {{.actuator = robot.actuators[0].name,
+                           .ecu = 0,
+                           .input = 2,
+                           .bits = 16,
+                           .range_rad = 60,
+                           .start_rad = 30}};
+  robot.potentiometers[0].sampling.latency_s = 0.003;
+  Limb limb(robot);
+  std::vector<double> lines(robot.actuators.size(), 0.0);
+  lines[0] = -0.01;
+  std::vector<double> shaft_rad{0};
+  for (int k = 0; k < 200; ++k) {
+    limb.follow_lines(lines);
+    shaft_rad.push_back(limb.world.actuators()[0].shaft_rad);
+  }
+  erp::EcuFrame frame;
+  limb.ecus.fill(frame);
+  REQUIRE(frame.analogs._length == 2);
+  const auto samples = erp::samples(frame.analogs);
+  CHECK(samples[0].counts == std::lround(sim::angle_rad(limb.world.joints()[0], erp::AxisName::y) /
+                                         (2 * std::numbers::pi) * 16384));
+  const double seen_rad = 30 - samples[1].counts * 60.0 / 65535;  // 3 ms ago: between two ticks
+  CHECK(seen_rad <= std::max(shaft_rad[198], shaft_rad[199]) + 1e-3);
+  CHECK(seen_rad >= std::min(shaft_rad[198], shaft_rad[199]) - 1e-3);
 }
 
 TEST_CASE("the joint sensor's counts are the joint's angle") {

@@ -34,7 +34,7 @@ async function ourFileTheirReader() {
   execFileSync(fixture, ["write", `${folder}/ours.mcap`, `${folder}/ours.jsonl`]);
   const bytes = readFileSync(`${folder}/ours.mcap`);
   const expected = readFileSync(`${folder}/ours.jsonl`, "utf8").trim().split("\n").map(expectedOf);
-  assert.equal(expected.length, 3 * 14);
+  assert.equal(expected.length, 3 * 15);
 
   const reader = await McapIndexedReader.Initialize({ readable: readable(bytes), decompressHandlers });
   assert.equal(reader.header.profile, "");
@@ -59,7 +59,7 @@ async function ourFileTheirReader() {
   assert.deepEqual(found, expected);
   const attachments = [];
   for await (const attachment of reader.readAttachments()) attachments.push(attachment);
-  assert.equal(attachments.length, 15);
+  assert.equal(attachments.length, 16);
   assert.equal(new TextDecoder().decode(attachments[0].data), '<robot name="rig"/>');
 
   const stream = new McapStreamReader({ decompressHandlers, validateCrcs: true });

@@ -1,0 +1,98 @@
+#include "tests/bench/accuracy/motor_energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/actuator/motor.hpp"
+#include "tests/bench/accuracy/figure.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace accuracy {
+namespace {
+
+using rigs::spindle_radius_m, sim::MotorState;
+
+struct Run {
+  double speed_rad_per_s, voltage_V, tension_N;  ///< the speed at the start
+};
+
+/// At one instant, or energies over a time.
+struct Powers {
+  double electrical_W = 0, copper_W = 0, friction_W = 0, gear_W = 0, line_W = 0;
+  void add(double weight, const Powers& other) {
+    electrical_W += weight * other.electrical_W, copper_W += weight * other.copper_W;
+    friction_W += weight * other.friction_W, gear_W += weight * other.gear_W;
+    line_W += weight * other.line_W;
+  }
+  double balance_W() const { return electrical_W - copper_W - friction_W - gear_W - line_W; }
+  double turned_over_W() const {
+    return std::abs(electrical_W) + copper_W + friction_W + gear_W + std::abs(line_W);
+  }
+};
+
+// Mesh torque, motor.hpp:  T = e (N τ_m J_G + J_M N² X) / (e J_M N² + J_G)
+//   τ_m = K_T i − µ_M N ω − s τ_CM, X = µ_G ω + s τ_CG + r F, e = η where T ω ≥ 0, else 1/η
+// The gear keeps (1/e − 1) T ω.
+double kept_by_gear_W(const erp::MotorType& m, const MotorState& x, double tension_N) {
+  const double w = x.speed_rad_per_s, n = m.gear_ratio, sign = w > 0 ? 1 : w < 0 ? -1 : 0;
+  const double rotor_Nm = m.torque_Nm_per_A * x.current_A - m.rotor_viscous_Nm_s_per_rad * n * w -
+                          sign * m.rotor_coulomb_Nm;
+  const double load_Nm =
+      m.gear_viscous_Nm_s_per_rad * w + sign * m.gear_coulomb_Nm + spindle_radius_m * tension_N;
+  const double mesh = n * rotor_Nm * m.gear_inertia_kg_m2 + m.rotor_inertia_kg_m2 * n * n * load_Nm;
+  const double e = mesh * w >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
+  const double inertia = e * m.rotor_inertia_kg_m2 * n * n + m.gear_inertia_kg_m2;
+  return (1 / e - 1) * e * mesh / inertia * w;
+}
+
+Powers powers(const erp::MotorType& m, const MotorState& x, const Run& run) {
+  const double i = x.current_A, w = x.speed_rad_per_s, n = m.gear_ratio;
+  const double viscous = m.rotor_viscous_Nm_s_per_rad * n * n + m.gear_viscous_Nm_s_per_rad;
+  const double coulomb_Nm = m.rotor_coulomb_Nm * n + m.gear_coulomb_Nm;
+  return {run.voltage_V * i, m.resistance_ohm * i * i, viscous * w * w + coulomb_Nm * std::abs(w),
+          kept_by_gear_W(m, x, run.tension_N), spindle_radius_m * run.tension_N * w};
+}
+
+// ½ L i² + ½ (J_M N² + J_G) ω²
+double stored_J(const erp::MotorType& m, const MotorState& x) {
+  const double inertia = m.rotor_inertia_kg_m2 * m.gear_ratio * m.gear_ratio + m.gear_inertia_kg_m2;
+  return 0.5 * m.inductance_H * x.current_A * x.current_A +
+         0.5 * inertia * x.speed_rad_per_s * x.speed_rad_per_s;
+}
+
+// Σ powers dt = Δ stored; the integrals by Simpson's rule
+void audit(const erp::MotorType& m, const Run& run, MotorAudit& worst) {
+  const double h = 2e-6;
+  const sim::Motor motor(m, spindle_radius_m, h);
+  const auto after = [&](const MotorState& x, double t) {
+    return step(motor, x, run.voltage_V, run.tension_N, t);
+  };
+  MotorState x{0, run.speed_rad_per_s, 0};
+  const double before_J = stored_J(m, x);
+  Powers energies;
+  for (int i = 0; i < 25000; ++i) {
+    const MotorState end = after(x, h);
+    Powers over_step;
+    over_step.add(h / 6, powers(m, x, run));
+    over_step.add(h / 6 * 4, powers(m, after(x, h / 2), run));
+    over_step.add(h / 6, powers(m, end, run));
+    worst.gear_gives_W = larger(worst.gear_gives_W, std::max(0.0, -over_step.gear_W / h));
+    energies.add(1, over_step);
+    x = end;
+  }
+  const double left_J = energies.balance_W() - stored_J(m, x) + before_J;
+  worst.left_over = larger(worst.left_over, std::abs(left_J) / energies.turned_over_W());
+}
+
+}  // namespace
+
+MotorAudit audit_motor(const erp::MotorType& type) {
+  MotorAudit worst;
+  // Chosen: winding driven, winding braked, let out driven, let out braked; then slack, short.
+  for (const Run& run : {Run{2, 8, 60}, Run{6, -2, 60}, Run{-2, -9, 60}, Run{-6, 2, 90},
+                         Run{3, -6, 0}, Run{-4, 0, 150}})
+    audit(type, run, worst);
+  return worst;
+}
+
+}  // namespace accuracy

@@ -1,0 +1,103 @@
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+
+#include "sim/formats/formats.hpp"
+#include "sim/world/world.hpp"
+#include "tests/bench/accuracy/figure.hpp"
+#include "tests/sim/formats/file.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace accuracy {
+namespace {
+
+using sim::World;
+
+/// The elbow of the hinge rig after 0.2 s under 2 V and −1 V.
+double elbow_rad(double dt_s) {
+  World world(erp::read_robot(rigs::config("hinge_rig/robot.xml")), {.usual_step_s = dt_s});
+  for (int k = 0; k < std::lround(0.2 / dt_s); ++k) world.step(std::vector{2.0, -1.0}, dt_s);
+  return world.joints()[0].position[0];
+}
+
+// error ~ dt^p:  p = log₂ (error(2 dt) / error(dt))
+double order() {
+  const double exact_rad = elbow_rad(1e-3 / 32);
+  return std::log2(std::abs(elbow_rad(1e-3) - exact_rad) / std::abs(elbow_rad(5e-4) - exact_rad));
+}
+
+void append_values(const World& world, std::vector<double>& all) {
+  for (const auto& joint : world.joints()) {
+    all.insert(all.end(), joint.position.begin(), joint.position.end());
+    all.insert(all.end(), joint.velocity_rad_per_s.begin(), joint.velocity_rad_per_s.end());
+  }
+  for (const auto& a : world.actuators())
+    for (const double value :
+         {a.tension_N, a.length_m, a.current_A, a.speed_rad_per_s, a.shaft_rad, a.line_m})
+      all.push_back(value);
+}
+
+/// Steps of 1 ms under voltages that swing by ±2 V, chosen; all values after each.
+std::vector<double> drive(World& world, int from, int to) {
+  std::vector<double> voltage_V(world.actuators().size()), all;
+  for (int i = from; i < to; ++i) {
+    for (std::size_t k = 0; k < voltage_V.size(); ++k)
+      voltage_V[k] = 2 * std::sin(0.01 * i + static_cast<double>(k));
+    world.step(voltage_V, 1e-3);
+    append_values(world, all);
+  }
+  return all;
+}
+
+/// Bit by bit.
+double differing(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto differ = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) != std::bit_cast<std::uint64_t>(y);
+  };
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0, std::plus(), differ);
+}
+
+double differing_in_reruns(const erp::Robot& robot) {
+  World one(robot), other(robot);
+  const auto first = drive(one, 0, 2000), second = drive(other, 0, 2000);
+  one.reset();
+  return differing(first, second) + differing(first, drive(one, 0, 2000));
+}
+
+double differing_when_restored(const erp::Robot& robot) {
+  World straight(robot), other(robot);
+  drive(straight, 0, 700);
+  drive(other, 300, 350);  // somewhere else
+  other.restore(straight.save());
+  return differing(drive(straight, 700, 1200), drive(other, 700, 1200));
+}
+
+double robots_changed_by_collada() {
+  double changed = 0;
+  for (const auto& folder : std::filesystem::directory_iterator(rigs::config(""))) {
+    const auto path = folder.path() / "robot.xml";
+    if (!std::filesystem::exists(path)) continue;
+    const erp::Robot robot = erp::read_robot(path);
+    const File collada(formats::to_collada(robot), ".dae");
+    changed += erp::write_robot(formats::from_collada(collada.path)) != erp::write_robot(robot);
+  }
+  return changed;
+}
+
+}  // namespace
+
+Figures order_and_repetition() {
+  const erp::Robot arm = erp::read_robot(rigs::config("arm/robot.xml"));
+  return {
+      {9, "order in dt of the hinge rig's elbow angle, less 1", std::abs(order() - 1), 0.25, ""},
+      {9, "values that differ when the arm runs again, anew and after a reset",
+       differing_in_reruns(arm), 0, "values"},
+      {9, "values that differ in 500 steps after save and restore", differing_when_restored(arm), 0,
+       "values"},
+      {9, "robots that a COLLADA file changes", robots_changed_by_collada(), 0, "robots"}};
+}
+
+}  // namespace accuracy
