@@ -18,7 +18,7 @@ namespace robot_check {
 /// The bounds of interfaces/idl/*.idl; a test compares them with the generated messages.
 inline constexpr std::size_t longest_name = 32;
 inline constexpr std::size_t most_actuators = 64, most_joints = 128, most_bodies = 128,
-                             most_imus = 32;
+                             most_imus = 32, most_path_elements = 12;
 
 /// Collects errors about elements that know their place.
 class Findings {

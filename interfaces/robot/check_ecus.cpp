@@ -2,9 +2,12 @@
 #include <utility>
 
 #include "interfaces/robot/check.hpp"
+#include "interfaces/xml/values.hpp"
 
 namespace erp::robot_check {
 namespace {
+
+constexpr double most_imu_Hz = 500;
 
 /// A mirror's offset can carry an ecu out of what the XSD allows.
 template <class Item>
@@ -55,7 +58,10 @@ void check_inputs(const Robot& robot, Findings& findings) {
   for (const Potentiometer& sensor : robot.potentiometers) {
     check_input(sensor, "the shaft of " + xml::quote(sensor.actuator), taken, findings);
     if (sensor.start_rad > sensor.range_rad)
-      findings.add(sensor, "start_rad lies beyond range_rad", "start within its range");
+      findings.add(sensor,
+                   "start_rad=\"" + xml::write_number(sensor.start_rad) +
+                       "\" lies beyond range_rad=\"" + xml::write_number(sensor.range_rad) + "\"",
+                   "start within its range");
   }
 }
 
@@ -81,7 +87,14 @@ void check_sensed_joints(const Robot& robot, Findings& findings) {
       if (joint.name == sensor.joint) check_angle(sensor, joint, findings);
   for (const JointSensor& sensor : robot.joint_sensors)
     if (sensor.min_rad && sensor.max_rad && !(*sensor.min_rad < *sensor.max_rad))
-      findings.add(sensor, "min_rad is not below max_rad", "swap them");
+      findings.add(sensor,
+                   "min_rad=\"" + xml::write_number(*sensor.min_rad) +
+                       "\" is not below max_rad=\"" + xml::write_number(*sensor.max_rad) + "\"",
+                   "give the lower end as min_rad");
+  for (const Imu& imu : robot.imus)
+    if (imu.sampling.rate_Hz > most_imu_Hz)
+      findings.add(imu, "rate_Hz=\"" + xml::write_number(imu.sampling.rate_Hz) + "\" is too fast",
+                   "give at most 500: the host reads it each 2 ms");
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ void check_names(const Robot& robot, Findings& findings) {
   check_count(robot, robot.joints(), most_joints, "joints", findings);
   check_count(robot, robot.actuators, most_actuators, "actuators", findings);
   check_count(robot, robot.imus, most_imus, "imus", findings);
+  check_count(robot, robot.analog_inputs(), most_joints, "analog inputs in use", findings);
 }
 
 void check_references(const Robot& robot, Findings& findings) {

@@ -10,8 +10,17 @@ namespace {
 using xml::quote;
 using xml::write_number;
 
-double distance_m(const Vec3& a, const Vec3& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+/// From a sphere's centre, or from a cylinder's axis.
+double distance_m(const Vec3& point, const Pulley& pulley) {
+  Vec3 from{};
+  for (std::size_t i = 0; i < 3; ++i) from[i] = point[i] - pulley.center_m[i];
+  if (pulley.shape == PulleyShape::cylinder && pulley.axis) {
+    const Vec3& a = *pulley.axis;
+    const double size2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    const double along = (from[0] * a[0] + from[1] * a[1] + from[2] * a[2]) / size2;
+    for (std::size_t i = 0; i < 3 && size2 > 0; ++i) from[i] -= along * a[i];
+  }
+  return std::hypot(from[0], from[1], from[2]);
 }
 
 bool is_attach(const std::variant<Attach, Pulley>& point) {
@@ -20,6 +29,9 @@ bool is_attach(const std::variant<Attach, Pulley>& point) {
 
 void check_ends(const Actuator& actuator, Findings& findings) {
   const auto& path = actuator.tendon.path;
+  if (path.size() > most_path_elements)
+    findings.add(actuator.tendon, "the path has " + std::to_string(path.size()) + " points",
+                 "give at most " + std::to_string(most_path_elements));
   if (path.size() < 2)
     findings.add(actuator.tendon, "the path has " + std::to_string(path.size()) + " points",
                  "it needs at least two <attach>: the motor's end and the distal end");
@@ -31,12 +43,12 @@ void check_ends(const Actuator& actuator, Findings& findings) {
 /// Between a point inside a sphere and the sphere there is no tangent. Bodies apart may come
 /// together in some pose; that is the simulator's to notice.
 void check_inside(const Attach& point, const Pulley& pulley, Findings& findings) {
-  const double apart_m = distance_m(point.at_m, pulley.center_m);
+  const double apart_m = distance_m(point.at_m, pulley);
   if (point.body != pulley.body || apart_m >= pulley.radius_m) return;
   findings.add(point,
                "at_m=" + quote(xml::Codec<Vec3>::write(point.at_m)) + " lies " +
                    write_number(apart_m) +
-                   " m from the centre of the pulley beside it, "
+                   " m from the middle of the pulley beside it, "
                    "inside its radius_m=" +
                    quote(write_number(pulley.radius_m)),
                "move it out, or make the pulley smaller");

@@ -39,6 +39,14 @@ void reflect(Pulley& pulley) {
   if (auto& axis = pulley.axis) axis = reflected_axis(*axis);
 }
 
+/// A rotation vector's image is (−x, y, −z): what a sensor reads of it changes sign with the axes.
+void reflect(JointSensor& sensor) {
+  if (!sensor.about || *sensor.about == AxisName::y) return;
+  std::swap(sensor.min_rad, sensor.max_rad);
+  for (auto* end : {&sensor.min_rad, &sensor.max_rad})
+    if (*end) **end = negated(**end);
+}
+
 /// Replaces the front of names.
 struct Rename {
   const Mirror& mirror;
@@ -70,7 +78,7 @@ Robot mirrored(Robot part, const Mirror& mirror) {
       std::visit([&](auto& p) { reflect(p), renamed(p.body); }, point);
   }
   for (Pretension& pretension : part.pretensions) renamed(pretension.actuator);
-  for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint);
+  for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint), reflect(sensor);
   for (Potentiometer& sensor : part.potentiometers) renamed(sensor.actuator);
   for (Imu& imu : part.imus) imu.at_m = reflected(imu.at_m), renamed.each(imu.name, imu.body);
   return part;

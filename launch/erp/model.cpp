@@ -37,13 +37,22 @@ erp::Robot from_format_of(const std::string& file) {
       file + ": no format that can be read has this ending; give .dae, .urdf or .sdf");
 }
 
+std::vector<sim::TimedPose> poses_in(const std::string& file, const erp::Robot& robot) {
+  const recording::Table table = recording::read_table(file);
+  try {
+    return sim::poses_of(table, robot);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file + ": " + error.what());
+  }
+}
+
+}  // namespace
+
 void write_file(const std::string& file, const std::string& text) {
   std::ofstream out(file);
   if (!(out << text) || !out.flush())
     throw std::invalid_argument(file + ": cannot be written; name another file");
 }
-
-}  // namespace
 
 ModelFigures figures_of(const erp::Robot& robot) {
   ModelFigures f{.name = robot.name};
@@ -106,7 +115,7 @@ int model_balance(const std::string& robot_file, double least_N, double rest_N, 
 int model_lengths(const std::string& robot_file, const std::string& table_file, double least_N,
                   double rest_N, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
-  const auto poses = sim::poses_of(recording::read_table(table_file), robot);
+  const auto poses = poses_in(table_file, robot);
   const sim::LengthPlan plan =
       sim::lengths_through(robot, poses, {.holding = {.rest_N = rest_N, .least_N = least_N}});
   recording::write_csv(plan.table, out);

@@ -17,9 +17,7 @@ int give(const std::string& file, const std::function<int(std::ostream&)>& print
   std::ostringstream text;
   const int code = print(text);
   if (file.empty()) return std::cout << text.str(), code;
-  std::ofstream out(file);
-  if (!(out << text.str()) || !out.flush())
-    throw std::invalid_argument(file + ": cannot be written; name another file");
+  write_file(file, text.str());
   return code;
 }
 
@@ -29,8 +27,12 @@ void add_statics(CLI::App& model, Chosen& chosen) {
   auto out = std::make_shared<std::string>();
   auto least = std::make_shared<double>(5), rest = std::make_shared<double>(10);
   const auto add_options = [=](CLI::App* verb) {
-    verb->add_option("--least", *least, "no tendon pulls less, N")->capture_default_str();
-    verb->add_option("--rest", *rest, "what each would like to pull, N")->capture_default_str();
+    verb->add_option("--least", *least, "no tendon pulls less, N")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber);
+    verb->add_option("--rest", *rest, "what each would like to pull, N")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber);
     verb->add_option("--out", *out, "a file to write; else it is printed");
   };
   auto* balance = model.add_subcommand(

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <stdexcept>
 
 #include "sim/actuator/muscle_jacobian.hpp"
 #include "sim/actuator/spring.hpp"
@@ -20,28 +21,6 @@ struct Statics {
   MatrixXd jacobian;  ///< ∂L/∂q, actuators × coordinates
   VectorXd gravity_Nm;
 };
-
-Statics statics_of(const erp::Robot& robot, const RobotTree& tree, SkeletonModel& model,
-                   const Pose& pose) {
-  std::vector<JointReading> joints;
-  for (std::size_t j = 0; j < pose.size(); ++j) {
-    joints.push_back(start_of(tree.joints[j]));
-    joints[j].position = pose[j];
-  }
-  model.place(joints);
-  const auto actuators = static_cast<Eigen::Index>(robot.actuators.size());
-  Statics s{VectorXd(actuators), MatrixXd(actuators, model.coordinates()), {}};
-  VectorXd row;
-  for (Eigen::Index k = 0; k < actuators; ++k) {
-    const Routing routing(robot.actuators[static_cast<std::size_t>(k)].tendon, tree.names);
-    const PathShape shape = routing.solve(model.poses());
-    length_gradient(shape, levers_of(routing, model), model, row);
-    s.length_m[k] = shape.length_m;
-    s.jacobian.row(k) = row;
-  }
-  model.gravity_torques(s.gravity_Nm);
-  return s;
-}
 
 /// f = max(f_min, f_rest + J λ) with Jᵀ f = b.
 VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options) {
@@ -73,24 +52,75 @@ Pose starting_pose(const erp::Robot& robot) {
   return pose;
 }
 
-Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options) {
-  const RobotTree tree(robot);
-  const xml::Vec3 g = robot.gravity_m_per_s2();
-  SkeletonModel model(tree, {g[0], g[1], g[2]});
-  const Statics start = statics_of(robot, tree, model, starting_pose(robot));
-  const Statics now = statics_of(robot, tree, model, pose);
+struct PoseHolder::Inside {
+  explicit Inside(const erp::Robot& r)
+      : robot(r), tree(r), model(tree, gravity_of(r)), shapes(r.actuators.size()) {
+    for (const erp::Actuator& actuator : robot.actuators) {
+      routings.emplace_back(actuator.tendon, tree.names);
+      levers.push_back(levers_of(routings.back(), model));
+    }
+    for (std::size_t k = 0; k < shapes.size(); ++k) shapes[k] = routings[k].solve(model.poses());
+    start_m = statics(starting_pose(robot)).length_m;
+  }
+  static Vec3 gravity_of(const erp::Robot& r) {
+    const xml::Vec3 g = r.gravity_m_per_s2();
+    return {g[0], g[1], g[2]};
+  }
+
+  Statics statics(const Pose& pose) {
+    std::vector<JointReading> joints;
+    for (std::size_t j = 0; j < pose.size(); ++j) {
+      joints.push_back(start_of(tree.joints[j]));
+      joints[j].position = pose[j];
+    }
+    model.place(joints);
+    const auto actuators = static_cast<Eigen::Index>(shapes.size());
+    Statics s{VectorXd(actuators), MatrixXd(actuators, model.coordinates()), {}};
+    VectorXd row;
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      routings[k].solve(model.poses(), shapes[k]);
+      if (const int element = shapes[k].pierced(); element >= 0)
+        throw std::invalid_argument("actuator \"" + robot.actuators[k].name + "\": in this pose " +
+                                    "a point beside element " + std::to_string(element + 1) +
+                                    " of its path lies inside that pulley");
+      length_gradient(shapes[k], levers[k], model, row);
+      s.length_m[static_cast<Eigen::Index>(k)] = shapes[k].length_m;
+      s.jacobian.row(static_cast<Eigen::Index>(k)) = row;
+    }
+    model.gravity_torques(s.gravity_Nm);
+    return s;
+  }
+
+  erp::Robot robot;
+  RobotTree tree;
+  SkeletonModel model;
+  std::vector<Routing> routings;
+  std::vector<Levers> levers;
+  std::vector<PathShape> shapes;  ///< in the last pose
+  VectorXd start_m;
+};
+
+PoseHolder::PoseHolder(const erp::Robot& robot) : inside_(std::make_unique<Inside>(robot)) {}
+PoseHolder::~PoseHolder() = default;
+
+Holding PoseHolder::hold(const Pose& pose, const HoldingOptions& options) {
+  const Statics now = inside_->statics(pose);
   const VectorXd f = balance(now.jacobian, -now.gravity_Nm, options);
   Holding holding;
   holding.unbalanced_Nm = (now.jacobian.transpose() * f + now.gravity_Nm).norm();
-  for (std::size_t k = 0; k < robot.actuators.size(); ++k) {
-    const erp::Tendon& tendon = robot.actuators[k].tendon;
+  for (std::size_t k = 0; k < inside_->shapes.size(); ++k) {
+    const erp::Tendon& tendon = inside_->robot.actuators[k].tendon;
     const Spring spring = Spring::of(tendon);
     const auto i = static_cast<Eigen::Index>(k);
     holding.tension_N.push_back(f[i]);
-    holding.line_m.push_back(now.length_m[i] - start.length_m[i] -
+    holding.line_m.push_back(now.length_m[i] - inside_->start_m[i] -
                              (spring.stretch_m(f[i]) - spring.stretch_m(tendon.pretension_N)));
   }
   return holding;
+}
+
+Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options) {
+  return PoseHolder(robot).hold(pose, options);
 }
 
 }  // namespace sim

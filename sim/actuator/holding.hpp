@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "interfaces/robot/robot.hpp"
@@ -27,7 +28,22 @@ struct Holding {
   double unbalanced_Nm = 0;               ///< what no tensions can hold; of free bodies in N
 };
 
-/// Throws std::invalid_argument as RobotTree and Routing do.
+/// Holds one pose after the other: turns around pulleys are counted from pose to pose, the first
+/// from where the robot starts.
+class PoseHolder {
+ public:
+  /// Throws std::invalid_argument as RobotTree and Routing do.
+  explicit PoseHolder(const erp::Robot& robot);
+  ~PoseHolder();
+  /// Throws std::invalid_argument, naming the actuator, where a point of a path lies in its pulley.
+  Holding hold(const Pose& pose, const HoldingOptions& options = {});
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+/// One pose. Throws as PoseHolder does.
 Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options = {});
 
 /// The pose a robot starts in.

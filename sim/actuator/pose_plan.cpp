@@ -6,11 +6,15 @@
 #include <stdexcept>
 
 #include "interfaces/values.hpp"
+#include "interfaces/xml/values.hpp"
 #include "interfaces/xml/words.hpp"
 
 namespace sim {
 namespace {
 
+constexpr double unit_within = 1e-3;  // chosen: of a quaternion's length
+constexpr double angle_within =
+    1e-2;  // chosen: recordings overrun their stops a little, with noise
 constexpr double rounding_m = 1e-7, rounding_s = 1e-6;  // so that files stay readable
 
 /// Never −0.
@@ -21,6 +25,35 @@ struct PoseColumn {
   std::size_t joint, entry;
   const recording::Column* column;
 };
+
+/// What recordings hold beside: the sensors of ball joints, and how free bodies are turned.
+bool of_no_use(const std::string& column, const erp::Robot& robot) {
+  for (const erp::JointSensor& sensor : robot.joint_sensors)
+    if (sensor.about && column == erp::sample_name(sensor) + ".angle_rad") return true;
+  for (const erp::Joint& joint : robot.joints())
+    if (joint.type == erp::JointType::free && column.starts_with(joint.name + ".q")) return true;
+  return false;
+}
+
+/// Refuses what no joint can do.
+void check_pose(const TimedPose& timed, std::size_t row, const std::vector<erp::Joint>& joints) {
+  const auto refuse = [&](const erp::Joint& joint, const std::string& what) {
+    throw std::invalid_argument("row " + std::to_string(row + 1) + ", joint " +
+                                xml::quote(joint.name) + ": " + what);
+  };
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const erp::Joint& joint = joints[j];
+    const auto& p = timed.pose[j];
+    const double size = std::hypot(std::hypot(p[0], p[1]), std::hypot(p[2], p[3]));
+    if (joint.type == erp::JointType::spherical && !(std::abs(size - 1) < unit_within))
+      refuse(joint, "its quaternion has length " + xml::write_number(size) + "; give a unit one");
+    if (joint.type != erp::JointType::revolute) continue;
+    if (!(p[0] >= joint.min_rad - angle_within && p[0] <= joint.max_rad + angle_within))
+      refuse(joint, xml::write_number(p[0]) + " rad is out of its range, " +
+                        xml::write_number(joint.min_rad) + " … " +
+                        xml::write_number(joint.max_rad));
+  }
+}
 
 std::vector<PoseColumn> pose_columns(const recording::Table& table, const erp::Robot& robot) {
   std::vector<std::string> known;
@@ -38,7 +71,8 @@ std::vector<PoseColumn> pose_columns(const recording::Table& table, const erp::R
   for (const recording::Column& column : table.columns) {
     const auto signal = recording::signal_of(column.name);
     const bool of_a_joint = signal == "angle_rad" || (signal.size() == 2 && signal[0] == 'q');
-    if (of_a_joint && std::ranges::find(known, column.name) == known.end())
+    if (of_a_joint && std::ranges::find(known, column.name) == known.end() &&
+        !of_no_use(column.name, robot))
       throw std::invalid_argument("column " + xml::quote(column.name) + " belongs to no joint; " +
                                   xml::did_you_mean(column.name, known));
   }
@@ -51,12 +85,14 @@ std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot&
   const recording::Column* time = table.find("time_s");
   if (!time || time->values.empty()) throw std::invalid_argument("the table has no rows");
   const auto columns = pose_columns(table, robot);
+  const auto joints = robot.joints();
   std::vector<TimedPose> poses;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     TimedPose next{time->values[row], poses.empty() ? starting_pose(robot) : poses.back().pose};
     for (const PoseColumn& c : columns)
       if (const double value = c.column->values[row]; !std::isnan(value))
         next.pose[c.joint][c.entry] = value;
+    check_pose(next, row, joints);
     poses.push_back(next);
   }
   return poses;
@@ -84,7 +120,7 @@ Pose between(const Pose& from, const Pose& to, double share,
 class Planner {
  public:
   Planner(const erp::Robot& robot, const PlanOptions& options)
-      : robot_(robot), joints_(robot.joints()), options_(options) {
+      : holder_(robot), joints_(robot.joints()), options_(options) {
     plan_.table.columns.push_back({"time_s", {}});
     for (const erp::Actuator& a : robot.actuators) {
       plan_.table.columns.push_back({a.name + ".mode", {}});
@@ -93,8 +129,8 @@ class Planner {
   }
 
   void hold(double time_s, const Pose& pose) {
-    const Holding holding = hold_pose(robot_, pose, options_.holding);
-    if (holding.unbalanced_Nm > plan_.unbalanced_Nm)
+    const Holding holding = holder_.hold(pose, options_.holding);
+    if (!(holding.unbalanced_Nm <= plan_.unbalanced_Nm))
       plan_.unbalanced_Nm = holding.unbalanced_Nm, plan_.at_s = time_s;
     add(time_s, holding.line_m);
   }
@@ -120,7 +156,7 @@ class Planner {
     last_m_ = line_m;
   }
 
-  const erp::Robot& robot_;
+  PoseHolder holder_;
   std::vector<erp::Joint> joints_;
   PlanOptions options_;
   LengthPlan plan_;

@@ -16,7 +16,7 @@ struct TimedPose {
 
 /// The poses of a table, a row each: columns <j>.angle_rad, or <j>.qw … <j>.qz of a spherical
 /// joint; joints without a column stay where they start. Throws std::invalid_argument, naming the
-/// column that belongs to no joint, or a table without rows.
+/// column that belongs to no joint, the row and joint out of range; or a table without rows.
 std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot& robot);
 
 struct PlanOptions {

@@ -52,7 +52,7 @@ Way way_about(const Vec3& a, const Vec3& b, const Vec3& axis, double last_rad) {
   const bool forward = sine < 1e-12 || cross.dot(axis) >= 0;
   const Vec3 normal = sine < 1e-12 ? axis : Vec3((forward ? 1 : -1) / sine * cross);
   const double once = forward ? angle : turn - angle;
-  return {normal, once + turn * std::round((last_rad - once) / turn)};
+  return {normal, once + turn * std::ceil((last_rad - once) / turn - 0.5)};  // a tie: the fewer
 }
 
 /// The point of the sphere at `angle` from `direction`, turning about `axis`.
@@ -66,6 +66,7 @@ Wrap wrap_around(const Vec3& a, const Vec3& b, double r, const End& from, const 
   const double angle = way.angle_rad - from.angle_rad - to.angle_rad;
   Wrap result;
   result.around_rad = way.angle_rad;
+  result.about = way.axis;
   result.inside = from.inside || to.inside;
   if (result.inside || !(angle > 0)) {
     result.length_m = (b - a).norm();

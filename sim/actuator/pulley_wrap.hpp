@@ -17,6 +17,9 @@
 /// one nearest to the last. Cylinder: the same in the plane across its axis, L_⊥; unrolled, the
 /// line is straight: L = √(L_⊥² + z²), z from A to B along the axis.
 ///
+/// A sphere with an axis leaps where the plane of A, B and the centre comes to hold the axis: keep
+/// such lines about across it, or take a cylinder, which has no such place.
+///
 /// L is C¹ where the line lifts off. Ignores friction, and that a cord on a sphere may slip.
 namespace sim {
 
@@ -26,9 +29,10 @@ struct Wrap {
   double length_m = 0;                    ///< from A to B
   double wrapped_m = 0, wrapped_rad = 0;  ///< on the pulley; 0 when the line does not touch
   bool touches = false;
-  Vec3 entry_m, exit_m;   ///< where it touches, from the centre; unset when it does not
-  double around_rad = 0;  ///< φ, its turns counted
-  bool inside = false;    ///< an end lies inside: no answer, the straight line is given
+  Vec3 entry_m, exit_m;        ///< where it touches, from the centre; unset when it does not
+  Vec3 about = Vec3::UnitZ();  ///< the way turns right-handed about it
+  double around_rad = 0;       ///< φ, its turns counted
+  bool inside = false;         ///< an end lies inside: no answer, the straight line is given
 };
 
 /// A, B and side relative to the sphere's centre, in one frame. `side` zero: the shorter way.

@@ -13,20 +13,10 @@ namespace {
 constexpr int most_turns = 60;           // chosen
 constexpr int turns_to_leave = 20;       // chosen: later, a node that touches stays
 constexpr double at_rest_m = 1e-9;       // chosen: a node that moves less rests
-constexpr double touching_m = 1e-6;      // chosen: so near it begins a step on a solid
+constexpr double good_enough_m = 1e-5;   // chosen: beyond it a step has not found the answer
 constexpr double fastest_m_per_s = 100;  // chosen: no rope of a robot moves so fast
-constexpr double creep_m_per_s = 1e-4;   // v₀
 constexpr double longest_step_m = 0.02;  // chosen: of a node in one of Newton's steps
 constexpr int most_nodes = 200;
-
-Vec3 velocity_of(const BodyTwist& twist, const BodyPose& pose, const Vec3& at) {
-  return twist.linear_m_per_s + twist.angular_rad_per_s.cross(at - pose.position_m);
-}
-
-Clearance in_world(const Solid& solid, const BodyPose& pose, const Vec3& at) {
-  const Clearance own = clearance(solid, pose.rotation.transpose() * (at - pose.position_m));
-  return {own.distance_m, pose.rotation * own.outwards};
-}
 
 }  // namespace
 
@@ -54,7 +44,8 @@ Rope::Rope(const erp::Rope& rope, const TendonLaw& law, const Routing& routing,
   nodes_.resize(n + 1);
   segments_.resize(n);
   state_.tension_N.assign(n, 0.0);
-  state_.forces.reserve(n + 1);
+  state_.forces.reserve(3 * n + 2);
+  state_.line_m = law_.rest_m;
 }
 
 Vec3 Rope::point(const PathElement& end, std::span<const BodyPose> poses) const {
@@ -62,16 +53,51 @@ Vec3 Rope::point(const PathElement& end, std::span<const BodyPose> poses) const 
   return pose.position_m + pose.rotation * end.at_m;
 }
 
+void Rope::require_fine(double length_m) const {
+  double smallest_m = length_m;
+  for (const Solid& solid : solids_)
+    smallest_m =
+        std::min(smallest_m,
+                 radius_m_ + (solid.half_m.isZero(0) ? solid.radius_m : solid.half_m.minCoeff()));
+  if (length_m / static_cast<double>(segments()) <= smallest_m) return;
+  throw std::invalid_argument(
+      "a rope of " + std::to_string(length_m) + " m and nodes=" + std::to_string(segments()) +
+      " could step over a solid of half its size, " + std::to_string(smallest_m) +
+      " m; give nodes=" + std::to_string(static_cast<int>(std::ceil(length_m / smallest_m))));
+}
+
 void Rope::lay(std::span<const Vec3> line, double shaft_rad) {
   const auto n = segments();
   for (std::size_t i = 0; i <= n; ++i)
     state_.nodes_m[i] = along_line(line, static_cast<double>(i) / static_cast<double>(n));
   std::ranges::fill(state_.velocities_m_per_s, Vec3::Zero());
-  state_.rest_m = law_.rest_m - law_.radius_m * shaft_rad;
+  state_.rest_m = state_.line_m - law_.radius_m * shaft_rad;
   const double tension_N = law_.spring.force_N(length_m() - state_.rest_m);
   std::ranges::fill(state_.tension_N, tension_N);
   for (Node& node : nodes_) node = {};
   balance(0);
+}
+
+void Rope::settle(std::span<const BodyPose> poses, double shaft_rad,
+                  std::optional<double> pretension_N) {
+  constexpr int most_steps = 500;  // chosen
+  constexpr double step_s = 0.001;
+  const std::vector<BodyTwist> still(poses.size());
+  for (int k = 0; k < most_steps; ++k) {
+    step({poses, still, Vec3::Zero()}, shaft_rad, step_s);
+    if (pretension_N)
+      state_.line_m = length_m() - law_.spring.stretch_m(*pretension_N) + law_.radius_m * shaft_rad;
+  }
+  std::ranges::fill(state_.velocities_m_per_s, Vec3::Zero());
+  state_.troubles = 0;  // of falling into place
+}
+
+void Rope::restore(const RopeState& state) {
+  if (state.nodes_m.size() != state_.nodes_m.size() ||
+      state.velocities_m_per_s.size() != state_.velocities_m_per_s.size() ||
+      state.tension_N.size() != state_.tension_N.size())
+    throw std::invalid_argument("this state is of a rope with another number of nodes");
+  state_ = state;
 }
 
 double Rope::length_m() const {
@@ -83,17 +109,19 @@ double Rope::length_m() const {
 
 void Rope::step(const Surroundings& around, double shaft_rad, double dt_s) {
   begin(around, shaft_rad, dt_s);
+  double moved_m = 0;
   bool rests = false;
   for (int turn = 0; turn < most_turns && !rests; ++turn) {
     touch(around, dt_s, turn == 0);
     stretch();
     stiffen(dt_s);
     solve();
-    rests = go() < at_rest_m;
+    moved_m = go();
+    rests = moved_m < at_rest_m;
     stretch();
     rests = !rub(dt_s, turn < turns_to_leave) && rests;
   }
-  end(around, rests, dt_s);
+  end(around, moved_m < good_enough_m, dt_s);
 }
 
 /// Where nodes would go, and the law of each segment.
@@ -109,34 +137,13 @@ void Rope::begin(const Surroundings& around, double shaft_rad, double dt_s) {
     segments_[i].give_m_per_N = 1 / (parts * (slope + law_.damping_N_s_per_m / dt_s));
     segments_[i].kept_m = stretch - segments_[i].give_m_per_N * force;
   }
-  state_.rest_m = law_.rest_m - law_.radius_m * shaft_rad;
+  state_.rest_m = state_.line_m - law_.radius_m * shaft_rad;
   start_m_ = x;
   for (std::size_t i = 1; i < n; ++i) {
-    nodes_[i].on = nullptr, nodes_[i].drag_kg_per_s = 0;
+    nodes_[i].on = 0, nodes_[i].drag_kg_per_s = 0;
     nodes_[i].free_m = x[i] + dt_s * state_.velocities_m_per_s[i] + dt_s * dt_s * around.gravity;
   }
   x.front() = point(ends_[0], around.poses), x.back() = point(ends_[1], around.poses);
-}
-
-/// Which solid each node is on: the one it is deepest in, if it does not lie on one already.
-void Rope::touch(const Surroundings& around, double dt_s, bool at_start) {
-  for (std::size_t i = 1; i < segments(); ++i) {
-    Node& node = nodes_[i];
-    const Vec3& at = state_.nodes_m[i];
-    double deepest = at_start ? touching_m : -at_rest_m;
-    for (const Solid& solid : solids_) {
-      const BodyPose& pose = around.poses[static_cast<std::size_t>(solid.body)];
-      const Clearance found = in_world(solid, pose, at);
-      const double above = found.distance_m - radius_m_;
-      if (&solid == node.on) node.normal = found.outwards, node.above_m = above;
-      if (above >= deepest || &solid == node.on) continue;
-      deepest = above;
-      node.on = &solid, node.normal = found.outwards, node.above_m = above;
-    }
-    if (!node.on) continue;
-    const auto body = static_cast<std::size_t>(node.on->body);
-    node.carried_m = start_m_[i] + dt_s * velocity_of(around.twists[body], around.poses[body], at);
-  }
 }
 
 /// The tensions of this shape.
@@ -157,12 +164,7 @@ void Rope::stretch() {
   }
 }
 
-Eigen::Matrix3d Rope::Node::across() const {
-  if (!on) return Eigen::Matrix3d::Identity();
-  return Eigen::Matrix3d::Identity() - normal * normal.transpose();
-}
-
-/// Newton's system. A node on a solid moves to its surface, Δx = −above n, and along it.
+/// Newton's system. A node on solids moves to their surfaces and along them.
 void Rope::stiffen(double dt_s) {
   const auto& x = state_.nodes_m;
   const double inertia = node_kg_ / (dt_s * dt_s);
@@ -173,7 +175,7 @@ void Rope::stiffen(double dt_s) {
     node.after = -segments_[i].stiffness;
     node.right = pull_on(i) - inertia * (x[i] - node.free_m) -
                  node.drag_kg_per_s / dt_s * (x[i] - node.carried_m);
-    node.step = node.on ? Vec3(-node.above_m * node.normal) : Vec3(Vec3::Zero());
+    stay_outside(node);
   }
   for (std::size_t i = 1; i < segments(); ++i) {
     Node& node = nodes_[i];
@@ -183,11 +185,10 @@ void Rope::stiffen(double dt_s) {
   }
   for (std::size_t i = 1; i < segments(); ++i) {
     Node& node = nodes_[i];
-    const Eigen::Matrix3d p = node.across();
+    const Eigen::Matrix3d& p = node.across;
     node.right = p * node.right;
-    node.own = p * node.own * p;
-    if (node.on) node.own += inertia * node.normal * node.normal.transpose();
-    if (i + 1 < segments()) node.after = p * node.after * nodes_[i + 1].across();
+    node.own = p * node.own * p + inertia * (Eigen::Matrix3d::Identity() - p);
+    if (i + 1 < segments()) node.after = p * node.after * nodes_[i + 1].across;
   }
 }
 
@@ -227,26 +228,6 @@ double Rope::go() {
   return farthest;
 }
 
-/// What each solid pushes with, and the drag of that; nodes that would be held back leave. True if
-/// one did.
-bool Rope::rub(double dt_s, bool may_leave) {
-  bool left = false;
-  for (std::size_t i = 1; i < segments(); ++i) {
-    Node& node = nodes_[i];
-    if (!node.on) continue;
-    const Vec3& at = state_.nodes_m[i];
-    const double push_N =
-        node.normal.dot(node_kg_ / (dt_s * dt_s) * (at - node.free_m) - pull_on(i));
-    if (push_N < 0 && may_leave) {
-      node.on = nullptr, node.drag_kg_per_s = 0, left = true;
-      continue;
-    }
-    const double slides = (node.across() * (at - node.carried_m)).norm() / dt_s;
-    node.drag_kg_per_s = friction_ * std::max(0.0, push_N) / std::max(slides, creep_m_per_s);
-  }
-  return left;
-}
-
 void Rope::end(const Surroundings& around, bool rests, double dt_s) {
   double fastest = 0;
   for (std::size_t i = 0; i <= segments(); ++i) {
@@ -258,21 +239,7 @@ void Rope::end(const Surroundings& around, bool rests, double dt_s) {
   if (!rests || ran_away) ++state_.troubles;
   if (!ran_away) return balance(dt_s);
   const std::array<Vec3, 2> straight{point(ends_[0], around.poses), point(ends_[1], around.poses)};
-  lay(straight, (law_.rest_m - state_.rest_m) / law_.radius_m);
-}
-
-/// The forces on the bones: the rope's own pull at its ends, and what the nodes that touch pass on.
-void Rope::balance(double dt_s) {
-  const auto n = segments();
-  const auto& x = state_.nodes_m;
-  const auto way = [&](std::size_t i) { return Vec3((x[i + 1] - x[i]).stableNormalized()); };
-  state_.forces.clear();
-  state_.forces.push_back({ends_[0].body, x.front(), state_.tension_N.front() * way(0)});
-  state_.forces.push_back({ends_[1].body, x.back(), -state_.tension_N.back() * way(n - 1)});
-  for (std::size_t i = 1; i < n && dt_s > 0; ++i)
-    if (nodes_[i].on)
-      state_.forces.push_back({nodes_[i].on->body, x[i],
-                               pull_on(i) - node_kg_ / (dt_s * dt_s) * (x[i] - nodes_[i].free_m)});
+  lay(straight, (state_.line_m - state_.rest_m) / law_.radius_m);
 }
 
 }  // namespace sim

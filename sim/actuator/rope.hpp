@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,16 +18,17 @@
 ///   C = |x_i+1 − x_i| − rest,   T = max(0, F(C₋) + (n κ + n D/dt)(C − C₋))      C₋ before the step
 ///
 /// implicit, stable for any κ; convex, solved by Newton's method, whose matrix has 3×3 blocks on
-/// three diagonals. A node that would enter a solid slides on its surface, with Coulomb's friction,
-/// regularised: a drag µ N / max(|v|, v₀), so that below v₀ = 0.1 mm/s a rope that should stick
-/// creeps.
+/// three diagonals. A node that would enter a solid, or up to three, slides on their surfaces, with
+/// Coulomb's friction, regularised: a drag µ N / max(|v|, v₀), so that below v₀ = 0.1 mm/s a rope
+/// that should stick creeps.
 ///
 /// The bones feel the pull at its ends and the reaction of each node that touches, both a step
 /// late: with lines stiffer than what they hold is heavy (κ dt² ≥ m) that is unstable. The watchdog
 /// (`troubles`) counts the steps at which the nodes did not come to rest or ran away, faster than
 /// 100 m/s; then the rope is laid anew, straight.
 ///
-/// Ignores: bending, twist, the rope's thickness but as a distance from solids, other ropes.
+/// Ignores: bending, twist, the rope's thickness but as a distance from solids, other ropes; and
+/// what lies between two nodes, so they must be near each other: see `require_fine`.
 namespace sim {
 
 /// A force on a body, at a point; world axes.
@@ -40,6 +42,7 @@ struct RopeState {
   std::vector<double> tension_N;                  ///< of each segment
   std::vector<BodyForce> forces;                  ///< on the bones: the ends, then the nodes
   double rest_m = 0;
+  double line_m = 0;  ///< L_K0 + L_R: settled with its pretension
   long troubles = 0;
 };
 
@@ -52,14 +55,21 @@ struct Surroundings {
 
 class Rope {
  public:
-  /// The solids it may touch: all but those that hold one of its ends in their inside; and the
-  /// pulleys of its path. Throws std::invalid_argument for a mass that is not positive or a number
-  /// of nodes out of 2 … 200.
+  /// The solids it may touch: all but those of an end's own body that hold that end in their
+  /// inside; and the pulleys of its path. Throws std::invalid_argument for a mass that is not
+  /// positive or a number of nodes out of 2 … 200.
   Rope(const erp::Rope& rope, const TendonLaw& law, const Routing& routing,
        std::vector<Solid> solids);
 
+  /// Throws std::invalid_argument if a rope of that length could step over a solid: its nodes stand
+  /// farther apart than the smallest radius or half edge. Says how many nodes it needs.
+  void require_fine(double length_m) const;
   /// Laid along a line from end to end, at rest, with the tension the tendon's law gives.
   void lay(std::span<const Vec3> line_m, double shaft_rad);
+  /// Lets it come to rest among still bodies; with a pretension, its line becomes so long that it
+  /// then pulls with that.
+  void settle(std::span<const BodyPose> poses, double shaft_rad,
+              std::optional<double> pretension_N = {});
   /// The bodies have moved there, and the shaft. No heap.
   void step(const Surroundings& around, double shaft_rad, double dt_s);
 
@@ -70,21 +80,30 @@ class Rope {
   long troubles() const { return state_.troubles; }
 
   const RopeState& state() const { return state_; }
-  void restore(const RopeState& state) { state_ = state; }
+  /// Throws std::invalid_argument for the state of a rope of another size.
+  void restore(const RopeState& state);
 
  private:
+  /// A solid that a node lies on.
+  struct Touch {
+    const Solid* solid = nullptr;
+    Vec3 normal = Vec3::Zero();
+    double above_m = 0;  ///< of its surface; negative: inside
+    double push_N = 0;
+  };
   /// A node in the step.
   struct Node {
     Vec3 free_m = Vec3::Zero();     ///< x°
     Vec3 carried_m = Vec3::Zero();  ///< where the solid it is on would carry it
-    Vec3 normal = Vec3::Zero();     ///< of that solid's surface
-    double above_m = 0;             ///< of it; negative: inside
     double drag_kg_per_s = 0;
-    const Solid* on = nullptr;
+    std::array<Touch, 3> touches;
+    std::size_t on = 0;                                    ///< how many of them
+    Eigen::Matrix3d across = Eigen::Matrix3d::Identity();  ///< takes away what leads off them
     // a row of Newton's system: own Δx + after Δx_next = right
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero(), after = Eigen::Matrix3d::Zero();
     Vec3 right = Vec3::Zero(), step = Vec3::Zero();
-    Eigen::Matrix3d across() const;  ///< 1 − n nᵀ, or 1
+    std::span<Touch> touching() { return {touches.data(), on}; }
+    std::span<const Touch> touching() const { return {touches.data(), on}; }
   };
   struct Segment {
     double give_m_per_N, kept_m;  ///< T = (C − kept) / give
@@ -95,11 +114,15 @@ class Rope {
   Vec3 point(const PathElement& end, std::span<const BodyPose> poses) const;
   void begin(const Surroundings& around, double shaft_rad, double dt_s);
   void touch(const Surroundings& around, double dt_s, bool at_start);
+  void touch(Node& node, const Vec3& at, std::span<const BodyPose> poses, double nearer_m) const;
+  static void stay_outside(Node& node);
   void stretch();
   void stiffen(double dt_s);
   void solve();
   Vec3 pull_on(std::size_t node) const;
   double go();
+  Vec3 held_by_solids(std::size_t node, double dt_s) const;
+  static double press(Node& node, const Vec3& held);
   bool rub(double dt_s, bool may_leave);
   void end(const Surroundings& around, bool rests, double dt_s);
   void balance(double dt_s);

@@ -78,11 +78,15 @@ void Routing::solve(std::span<const BodyPose> poses, PathShape& shape) const {
 }
 
 void Routing::require_outside(std::span<const BodyPose> poses) const {
-  const PathShape shape = solve(poses);
-  for (int k = 0; k < shape.elements; ++k)
-    if (shape.inside[k])
-      throw std::invalid_argument("element " + std::to_string(k + 1) +
-                                  " of the path: a neighbouring point lies inside this pulley");
+  if (const int k = solve(poses).pierced(); k >= 0)
+    throw std::invalid_argument("element " + std::to_string(k + 1) +
+                                " of the path: a neighbouring point lies inside this pulley");
+}
+
+int PathShape::pierced() const {
+  for (int k = 0; k < elements; ++k)
+    if (inside[k]) return k;
+  return -1;
 }
 
 void Routing::place(PathShape& shape, std::span<const BodyPose> poses) const {
@@ -128,6 +132,7 @@ double Routing::wrap_one(PathShape& shape, std::span<const BodyPose> poses, doub
   shape.wrapped_rad[k] = wrap.wrapped_rad;
   shape.wrapped_m[k] = wrap.wrapped_m;
   shape.around_rad[k] = wrap.around_rad;
+  shape.about[k] = wrap.about;
   shape.inside[k] = wrap.inside;
   return moved;
 }

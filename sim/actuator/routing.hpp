@@ -45,12 +45,15 @@ struct PathShape {
   double length_m = 0;
   int elements = 0;
   std::array<Vec3, max_path_elements> entry_m, exit_m;  ///< world; equal for a point
-  std::array<double, max_path_elements> wrapped_rad, wrapped_m;
+  std::array<Vec3, max_path_elements> about;            ///< axis of the way around a pulley
+  std::array<double, max_path_elements> wrapped_rad{}, wrapped_m{};
   /// φ of pulleys with an axis; the next shape counts their turns from here.
-  std::array<double, max_path_elements> around_rad;
-  std::array<bool, max_path_elements> touches;
-  std::array<bool, max_path_elements> inside;  ///< a point is inside this pulley: it is passed by
+  std::array<double, max_path_elements> around_rad{};
+  std::array<bool, max_path_elements> touches{};
+  std::array<bool, max_path_elements> inside{};  ///< a point is inside this pulley: it is passed by
   std::array<PathPull, max_path_elements> pulls;
+  /// The first pulley that a neighbouring point is inside of; −1: none.
+  int pierced() const;
   std::span<const PathPull> pulled() const { return {pulls.data(), std::size_t(elements)}; }
 };
 

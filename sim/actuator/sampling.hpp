@@ -20,18 +20,21 @@ class Sampled {
   Sampled(const erp::Sampling& sampling, double interval_s)
       : period_s_(sampling.rate_Hz > 0 ? 1 / sampling.rate_Hz : 0),
         latency_s_(sampling.latency_s),
+        slack_s_(1e-3 * interval_s),
         kept_(2 + static_cast<std::size_t>(latency_s_ / std::max(period_s_, interval_s))) {}
 
   /// False: it looks when asked and says so at once.
   bool timed() const { return period_s_ > 0 || latency_s_ > 0; }
 
-  /// At a time not before the last; `see()` is called if it looks now. No heap.
+  /// `see()` is called if it looks now. A time before the last begins anew. No heap.
   template <class See>
   void offer(double time_s, See&& see) {
-    if (count_ > 0 && time_s < next_s_ - slack_s) return;
+    if (time_s < offered_s_) count_ = 0;
+    offered_s_ = time_s;
+    if (period_s_ > 0 && count_ > 0 && time_s < next_s_ - slack_s_) return;
     kept_[count_ % kept_.size()] = {time_s, see()};
     ++count_;
-    next_s_ = period_s_ > 0 ? (std::floor((time_s + slack_s) / period_s_) + 1) * period_s_ : time_s;
+    if (period_s_ > 0) next_s_ = (std::floor((time_s + slack_s_) / period_s_) + 1) * period_s_;
   }
 
   struct Seen {
@@ -46,15 +49,14 @@ class Sampled {
     return kept_[k % kept_.size()];
   }
   bool arrived(const Seen& seen, double time_s) const {
-    return seen.time_s <= time_s - latency_s_ + slack_s;
+    return seen.time_s <= time_s - latency_s_ + slack_s_;
   }
 
  private:
-  static constexpr double slack_s = 1e-9;  // rounding of times that were added up
-  double period_s_, latency_s_;
+  double period_s_, latency_s_, slack_s_;  ///< slack: of times that are rounded
   std::vector<Seen> kept_;
   std::size_t count_ = 0;
-  double next_s_ = 0;
+  double next_s_ = 0, offered_s_ = 0;
 };
 
 }  // namespace sim

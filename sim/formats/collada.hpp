@@ -10,7 +10,8 @@
 /// has degrees and principal axes).
 ///
 /// Of what stands in both, the standard elements have the word: where they differ from the extra
-/// by more than rounding, another program has changed them. (Not of solids: those are the extra's.)
+/// by more than rounding, another program has changed them. (Not of solids, starting angles and the
+/// mass of what stands: those are the extra's.)
 namespace formats {
 
 inline constexpr auto collada_namespace = "http://www.collada.org/2008/03/COLLADASchema";

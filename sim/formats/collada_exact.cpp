@@ -72,6 +72,16 @@ void take(erp::Body& own, const erp::Body& given) {
   own.inertia_kg_m2 = given.inertia_kg_m2, own.products_kg_m2 = given.products_kg_m2;
 }
 
+void take_gravity(erp::Robot& robot, const xml::Vec3& given) {
+  if (same(robot.gravity_m_per_s2(), given, 10)) return;
+  for (erp::Skeleton& skeleton : robot.skeletons) skeleton.gravity_m_per_s2.reset();
+  robot.skeletons.front().gravity_m_per_s2 = given;
+}
+
+bool moved(const std::vector<erp::Joint>& joints, const std::string& body) {
+  return std::ranges::find(joints, body, &erp::Joint::child) != joints.end();
+}
+
 }  // namespace
 
 erp::Robot with_skeleton(erp::Robot robot, const erp::Robot& standard) {
@@ -80,9 +90,13 @@ erp::Robot with_skeleton(erp::Robot robot, const erp::Robot& standard) {
   expect_all(bodies, robot.bodies());
   expect_all(joints, robot.joints());
   for (erp::Skeleton& skeleton : robot.skeletons) {
-    for (erp::Body& body : skeleton.bodies) take(body, named(bodies, body.name));
+    for (erp::Body& body : skeleton.bodies) {
+      const erp::Body& given = named(bodies, body.name);
+      if (moved(joints, body.name)) take(body, given);  // a root's mass plays no part
+    }
     for (erp::Joint& joint : skeleton.joints) take(joint, named(joints, joint.name));
   }
+  take_gravity(robot, standard.gravity_m_per_s2());
   return robot;
 }
 

@@ -115,6 +115,17 @@ class Document {
     return std::move(linkage_);
   }
 
+  /// Of the first physics scene that has one.
+  std::optional<xml::Vec3> gravity_m_per_s2() const {
+    for (const Foreign& library : root_.all("library_physics_scenes"))
+      for (const Foreign& scene : library.all("physics_scene"))
+        if (const auto common = scene.one("technique_common"); common && common->one("gravity")) {
+          const Vec3 g = meter_ * (upright_ * vec(common->need("gravity").numbers(3)));
+          return xml::Vec3{g.x(), g.y(), g.z()};
+        }
+    return {};
+  }
+
   /// The robot.xml inside, if there is one.
   std::optional<erp::Robot> exact() const {
     for (const Foreign& extra : model().all("extra"))
@@ -208,6 +219,8 @@ erp::Robot from_collada(const std::string& file) {
     root.refuse("version=\"" + version + "\" has no kinematics", "export COLLADA 1.5");
   Document document(root);
   erp::Robot standard = robot_of(document.linkage());
+  if (const auto gravity = document.gravity_m_per_s2())
+    standard.skeletons.front().gravity_m_per_s2 = gravity;
   auto exact = document.exact();
   return exact ? with_skeleton(std::move(*exact), standard) : standard;
 }

@@ -106,7 +106,7 @@ class Scene {
                            pulley_edge,
                            "",
                            1});
-    strokes.push_back({sim::path_line(routing, shape, model_.poses(), arc_step_rad), 0, muscle,
+    strokes.push_back({sim::path_line(routing, shape, arc_step_rad), 0, muscle,
                        nullptr, actuator.name, 2});
   }
 

@@ -12,19 +12,19 @@ constexpr double near_m = 0.01;      // at 1 ms, 10 m/s away
 constexpr double rounding_m = 1e-3;  // of a box
 
 /// All points within `radius` of a core; Bullet calls it the margin.
-struct Solid {
+struct Hull {
   std::unique_ptr<btConvexShape> shape;
   btTransform in_body;
   double radius = 0;
   double reach = 0;  ///< of the core from the solid's own centre
 };
 
-Solid solid_of(const erp::Sphere& s) {
+Hull hull_of(const erp::Sphere& s) {
   return {std::make_unique<btSphereShape>(s.radius_m),
           btTransform(btQuaternion::getIdentity(), bt(s.at_m)), s.radius_m, 0};
 }
 
-Solid solid_of(const erp::Capsule& c) {
+Hull hull_of(const erp::Capsule& c) {
   const btVector3 from = bt(c.from_m), to = bt(c.to_m);
   const double length = from.distance(to);
   const btVector3 along = length > 0 ? (to - from) / length : btVector3(0, 0, 1);
@@ -33,7 +33,7 @@ Solid solid_of(const erp::Capsule& c) {
           btTransform(turned, (from + to) / 2), c.radius_m, length / 2};
 }
 
-Solid solid_of(const erp::Box& b) {
+Hull hull_of(const erp::Box& b) {
   const btVector3 half = bt(b.size_m) / 2;
   const double radius = std::min(rounding_m, half[half.minAxis()] / 5);
   auto shape = std::make_unique<btBoxShape>(half);
@@ -42,12 +42,12 @@ Solid solid_of(const erp::Box& b) {
           half.length()};
 }
 
-std::vector<Solid> solids_of(const erp::Body& body) {
-  std::vector<Solid> solids;
+std::vector<Hull> hulls_of(const erp::Body& body) {
+  std::vector<Hull> solids;
   for (const erp::Part& part : body.parts)
     std::visit(
         [&](const auto& p) {
-          if constexpr (requires { solid_of(p); }) solids.push_back(solid_of(p));
+          if constexpr (requires { hull_of(p); }) solids.push_back(hull_of(p));
         },
         part);
   return solids;
@@ -61,7 +61,7 @@ struct Touch {
 };
 
 /// Bullet gives its normal in the first solid's frame; the two points are in the world.
-Touch touch(const Solid& a, const btTransform& at_a, const Solid& b, const btTransform& at_b) {
+Touch touch(const Hull& a, const btTransform& at_a, const Hull& b, const btTransform& at_b) {
   btGjkEpaSolver2::sResults found;
   const btVector3 guess = at_a.getOrigin() - at_b.getOrigin();
   const bool apart =
@@ -82,12 +82,12 @@ struct Contacts::Solids {
   struct Pair {
     int a, b;        ///< bodies
     double mass_kg;  ///< of the lighter one that moves
-    const Solid *solid_a, *solid_b;
+    const Hull *solid_a, *solid_b;
   };
-  std::vector<std::vector<Solid>> of_body;
+  std::vector<std::vector<Hull>> of_body;
   std::vector<Pair> pairs;
 
-  static btTransform placed(const Solid& solid, const BodyPose& pose) {
+  static btTransform placed(const Hull& solid, const BodyPose& pose) {
     const Eigen::Matrix3d& r = pose.rotation;
     const btMatrix3x3 turned(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
                              r(2, 2));
@@ -97,7 +97,7 @@ struct Contacts::Solids {
 
 Contacts::Contacts(const RobotTree& tree, const erp::Robot& robot)
     : solids_(std::make_unique<Solids>()) {
-  for (const TreeBody& body : tree.bodies) solids_->of_body.push_back(solids_of(body.body));
+  for (const TreeBody& body : tree.bodies) solids_->of_body.push_back(hulls_of(body.body));
   const auto index = [&](const std::string& name) {
     return static_cast<int>(std::ranges::find(tree.names, name) - tree.names.begin());
   };
@@ -106,8 +106,8 @@ Contacts::Contacts(const RobotTree& tree, const erp::Robot& robot)
       const int a = index(contact.body), b = index(contact.on);
       const double m_a = tree.bodies[a].mass.mass_kg, m_b = tree.bodies[b].mass.mass_kg;
       const double lighter = m_a > 0 && m_b > 0 ? std::min(m_a, m_b) : std::max(m_a, m_b);
-      for (const Solid& solid_a : solids_->of_body[a])
-        for (const Solid& solid_b : solids_->of_body[b])
+      for (const Hull& solid_a : solids_->of_body[a])
+        for (const Hull& solid_b : solids_->of_body[b])
           solids_->pairs.push_back({a, b, lighter, &solid_a, &solid_b});
     }
 }
@@ -138,7 +138,7 @@ void point(const Touch& t, int a, int b, const SkeletonModel& model,
 int Contacts::find(const SkeletonModel& model, double dt, std::span<OneSidedForce> forces) const {
   int found = 0;
   for (const Solids::Pair& pair : solids_->pairs) {
-    const Solid &a = *pair.solid_a, &b = *pair.solid_b;
+    const Hull &a = *pair.solid_a, &b = *pair.solid_b;
     const btTransform at_a = Solids::placed(a, model.poses()[pair.a]);
     const btTransform at_b = Solids::placed(b, model.poses()[pair.b]);
     const double reach = a.reach + a.radius + b.reach + b.radius + near_m;

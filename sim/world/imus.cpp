@@ -49,12 +49,12 @@ void Imus::look(const World& world) {
 bool Imus::next(erp::ImuFrame& frame) {
   double earliest = std::numeric_limits<double>::infinity();
   for (const Unit& unit : units_)
-    if (unit.seen_s > unit.said_s) earliest = std::min(earliest, unit.seen_s);
+    if (unit.seen_s != unit.said_s) earliest = std::min(earliest, unit.seen_s);
   if (!std::isfinite(earliest)) return false;
   frame.stamp_ns = std::llround(1e9 * earliest);
   frame.imus._length = 0;
   for (Unit& unit : units_) {
-    if (unit.seen_s != earliest || unit.said_s >= earliest) continue;
+    if (unit.seen_s != earliest || unit.said_s == earliest) continue;
     unit.said_s = earliest;
     erp::append(frame.imus, sample_of(unit.name, unit.readings.said(time_s_).value));
   }

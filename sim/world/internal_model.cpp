@@ -1,19 +1,27 @@
 #include "sim/world/internal_model.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sim {
 
 InternalModel::InternalModel(const erp::Robot& robot, const WorldOptions& options, int threads) {
   if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   for (int k = 0; k < threads; ++k) worlds_.push_back(std::make_unique<World>(robot, options));
-  for (auto& world : worlds_) workers_.emplace_back([this, &world] { work(*world); });
+  try {
+    for (auto& world : worlds_) workers_.emplace_back([this, &world] { work(*world); });
+  } catch (...) {  // no more threads to be had
+    stop();
+    throw;
+  }
 }
 
-InternalModel::~InternalModel() {
+InternalModel::~InternalModel() { stop(); }
+
+void InternalModel::stop() {
   {
     const std::scoped_lock lock(mutex_);
-    stop_ = true;
+    stopping_ = true;
   }
   begin_.notify_all();
   for (std::thread& worker : workers_) worker.join();
@@ -22,8 +30,8 @@ InternalModel::~InternalModel() {
 void InternalModel::work(World& world) {
   for (long seen = 0;;) {
     std::unique_lock lock(mutex_);
-    begin_.wait(lock, [&] { return stop_ || round_ > seen; });
-    if (stop_) return;
+    begin_.wait(lock, [&] { return stopping_ || round_ > seen; });
+    if (stopping_) return;
     seen = round_;
     const Job job = job_;
     lock.unlock();
@@ -39,7 +47,7 @@ void InternalModel::take_part(World& world, const Job& job) {
       (*job.play)(world, k);
     } catch (...) {
       const std::scoped_lock lock(mutex_);
-      if (!error_) error_ = std::current_exception();
+      if (!error_ || k < error_of_) error_ = std::current_exception(), error_of_ = k;
     }
 }
 

@@ -34,7 +34,7 @@ class InternalModel {
 
   /// Calls play(world, k) for each k = 0 … candidates − 1, in a world that stands in `from`; in any
   /// order, so many at a time as there are threads. Returns when all are through; what a play threw
-  /// is thrown here, the first of them.
+  /// is thrown here, that of the lowest k. To be called by one thread at a time, not out of a play.
   void each(const WorldState& from, int candidates, const std::function<void(World&, int)>& play);
 
   /// Where each candidate's voltages, held, lead to.
@@ -48,6 +48,7 @@ class InternalModel {
     const std::function<void(World&, int)>* play = nullptr;
     int candidates = 0;
   };
+  void stop();
   void work(World& world);
   void take_part(World& world, const Job& job);
 
@@ -58,9 +59,10 @@ class InternalModel {
   Job job_;
   long round_ = 0;  ///< which job this is
   int busy_ = 0;    ///< workers that are still at it
-  bool stop_ = false;
+  bool stopping_ = false;
   std::atomic<int> next_ = 0;
   std::exception_ptr error_;
+  int error_of_ = 0;  ///< which candidate's
 };
 
 }  // namespace sim

@@ -1,8 +1,10 @@
 #include "sim/world/sim_node.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "firmware/core/ecu.h"
+#include "interfaces/xml/values.hpp"
 
 namespace sim {
 namespace {
@@ -12,16 +14,26 @@ constexpr std::int64_t repeat_ns = 200'000'000;  // chosen: lockstep, for an ans
 constexpr std::uint64_t pose_period = 10;        // ticks: pictures at 50 Hz
 constexpr std::uint64_t clock_period = 50;       // ticks: 10 Hz
 
+constexpr double tick_s = 1e-9 * tick_ns;
+
+int substeps_of(const SimNode::Params& params) {
+  const int substeps = static_cast<int>(std::lround(params.physics_Hz * tick_s));
+  if (std::abs(substeps / tick_s - params.physics_Hz) > 1e-6)
+    throw std::invalid_argument("physics_Hz=" + xml::write_number(params.physics_Hz) +
+                                " is no multiple of 500; give 500, 1000, 1500 …");
+  return substeps;
+}
+
 WorldOptions world_options(const SimNode::Params& params) {
   WorldOptions options;
-  options.usual_step_s = 1 / params.physics_Hz;
+  options.usual_step_s = tick_s / substeps_of(params);
   for (const auto& lock : params.locks) options.lock.push_back(lock.joint);
   return options;
 }
 
 VirtualEcuOptions ecu_options(const SimNode::Params& params) {
   VirtualEcuOptions options;
-  options.substeps = static_cast<int>(std::lround(params.physics_Hz * 1e-9 * tick_ns));
+  options.substeps = substeps_of(params);
   options.seed = static_cast<std::uint64_t>(params.seed);
   return options;
 }
@@ -36,8 +48,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     : node_(node),
       world_(robot, world_options(params)),
       ecus_(robot, ecu_options(params)),
-      rope_said_(robot.actuators.size()),
-      imus_(world_, static_cast<std::uint64_t>(params.seed), 1e-9 * tick_ns),
+      imus_(world_, static_cast<std::uint64_t>(params.seed), tick_s),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
       clock_out_(node.advertise<erp::Clock>()),
@@ -88,7 +99,7 @@ void SimNode::on_command(const erp::EcuCommand& command) {
 void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
   ecus_.tick(world_);
-  watch_ropes();
+  watch_world();
   ++ticks_;
   if (at_end()) node_.finish();
   else measure_and_say();
@@ -134,16 +145,33 @@ void SimNode::publish_imus() {
   while (imus_.next(imu_frame_)) imus_out_->publish(imu_frame_);
 }
 
-/// Says it of each rope once.
-void SimNode::watch_ropes() {
-  for (std::size_t k = 0; k < rope_said_.size(); ++k) {
+void SimNode::say_once(std::size_t actuator, const std::string& code, const std::string& text) {
+  if (!said_.emplace(actuator, code).second) return;
+  const auto& actuators = world_.robot().actuators;
+  node_.report(erp::Severity::warning, actuator < actuators.size() ? actuators[actuator].name : "",
+               code, text);
+}
+
+/// What the simulation cannot do, said once; without finite velocities it ends.
+void SimNode::watch_world() {
+  const std::size_t count = world_.robot().actuators.size();
+  for (std::size_t k = 0; k < count; ++k) {
     const Rope* rope = world_.rope(static_cast<int>(k));
-    if (!rope || rope->troubles() == 0 || rope_said_[k]) continue;
-    rope_said_[k] = true;
-    node_.report(erp::Severity::warning, world_.robot().actuators[k].name, "rope_unstable",
-                 "the rope did not come to rest within a step: do not trust this tendon from here "
-                 "on; give it a softer line, a shorter step (physics_Hz), or remove <rope>");
+    if (rope && rope->troubles() > 0)
+      say_once(k, "rope_unstable",
+               "the rope did not come to rest within a step: do not trust this tendon from here "
+               "on; give it a softer line, a shorter step (physics_Hz), or remove <rope>");
+    if (!rope && world_.path(static_cast<int>(k)).pierced() >= 0)
+      say_once(k, "point_in_pulley",
+               "a point of its path came inside the pulley beside it, which it now passes by: the "
+               "tendon's length has leapt; move the point or the pulley");
   }
+  if (world_.unsettled() > 0)
+    say_once(count, "step_unsettled", "the forces of a step did not settle; give a shorter step");
+  if (world_.sound()) return;
+  node_.report(erp::Severity::fault, "", "not_finite",
+               "the velocities are no longer finite numbers; the simulation ends");
+  node_.finish(1);
 }
 
 void SimNode::publish_clock(bool finished) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ class SimNode {
     void visit(auto& v) { v.required("joint", joint); }
   };
   struct Params {
-    double physics_Hz = 1000;  ///< a multiple of the ECUs' 500 Hz
+    double physics_Hz = 1000;  ///< a multiple of the ECUs' 500 Hz, or std::invalid_argument
     int seed = 1;              ///< of the sensors' noise
     std::string bus;           ///< "": ECUs speak DDS; otherwise CAN frames on this bus
     std::vector<Lock> locks;   ///< joints held still
@@ -54,14 +55,15 @@ class SimNode {
   void say_again();
   void publish_truth();
   void publish_imus();
-  void watch_ropes();
+  void watch_world();
+  void say_once(std::size_t actuator, const std::string& code, const std::string& text);
   void publish_clock(bool finished);
   void on_command(const erp::EcuCommand& command);
 
   node::Node& node_;
   World world_;
   VirtualEcus ecus_;
-  std::vector<bool> rope_said_;  ///< of each actuator: its rope's trouble
+  std::set<std::pair<std::size_t, std::string>> said_;  ///< of which actuator, what
   Imus imus_;
   std::unique_ptr<BusFront> bus_;  ///< null: the ECUs speak DDS
   node::Publisher<erp::EcuFrame>* frame_out_ = nullptr;

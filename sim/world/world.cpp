@@ -27,22 +27,41 @@ void World::reset() {
     }
   readings_.assign(chains_.size(), {});
   make_solver();
-  time_s_ = 0;
+  time_s_ = time_rest_s_ = 0;
+  unsettled_ = 0, sound_ = true;
   read();
-  lay_ropes();
+  make_ropes();
   read_tensions();
 }
 
+void World::make_ropes() {
+  for (std::size_t k = 0; k < chains_.size(); ++k) {
+    const erp::Actuator& actuator = robot_.actuators[k];
+    Chain& chain = chains_[k];
+    if (!actuator.rope) continue;
+    chain.rope = std::make_unique<Rope>(*actuator.rope, chain.tendon, chain.routing,
+                                        solids_of(robot_.bodies(), tree_.names));
+    try {
+      chain.rope->require_fine(chain.shape.length_m);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("actuator \"" + actuator.name + "\": " + error.what());
+    }
+  }
+  lay_ropes();
+  for (std::size_t k = 0; k < chains_.size(); ++k)
+    if (chains_[k].rope)
+      chains_[k].rope->settle(poses(), 0, robot_.actuators[k].tendon.pretension_N);
+}
+
+/// Along their paths, at rest.
 void World::lay_ropes() {
   constexpr double arc_step_rad = 0.05;
   for (std::size_t k = 0; k < chains_.size(); ++k) {
-    const auto& rope = robot_.actuators[k].rope;
     Chain& chain = chains_[k];
-    if (!rope) continue;
-    std::vector<Solid> solids = solids_of(robot_.bodies(), tree_.names);
-    chain.rope = std::make_unique<Rope>(*rope, chain.tendon, chain.routing, std::move(solids));
-    chain.rope->lay(path_line(chain.routing, chain.shape, poses(), arc_step_rad),
-                    chain.state.shaft_rad);
+    if (!chain.rope) continue;
+    chain.rope->lay(path_line(chain.routing, chain.shape, arc_step_rad), chain.state.shaft_rad);
+    chain.rope->settle(poses(), chain.state.shaft_rad);
+    readings_[k].length_m = chain.rope->length_m();
   }
 }
 
@@ -142,10 +161,14 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
   }
   if (tension_N.empty()) add_rope_impulses(dt_s);
   velocity_ = v;
+  if (!sound_) return velocity_.setZero(), void();
   drive(dt_s);
   solver_->approach(driven_, velocity_);  // v¹ need not be exact
   drive(dt_s);
-  solver_->solve(driven_, velocity_);
+  if (!solver_->solve(driven_, velocity_)) ++unsettled_;
+  if (velocity_.allFinite()) return;
+  sound_ = false;
+  velocity_.setZero();
 }
 
 void World::add_rope_impulses(double dt_s) {
@@ -192,9 +215,16 @@ void World::step_pulled(std::span<const double> tension_N, double dt_s) {
 
 void World::move(double dt_s) {
   bones_->move(velocity_, dt_s);
-  time_s_ += dt_s;
+  pass_time(dt_s);
   read();
   move_ropes(dt_s);
+}
+
+/// Compensated (Kahan 1965): after an hour of milliseconds the time is still the nearest number.
+void World::pass_time(double dt_s) {
+  const double step_s = dt_s - time_rest_s_, next_s = time_s_ + step_s;
+  time_rest_s_ = (next_s - time_s_) - step_s;
+  time_s_ = next_s;
 }
 
 void World::move_ropes(double dt_s) {
@@ -209,7 +239,7 @@ void World::move_ropes(double dt_s) {
 }
 
 WorldState World::save() const {
-  WorldState state{time_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}};
+  WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}};
   for (const Chain& chain : chains_) {
     state.motors.push_back(chain.state);
     state.around_rad.push_back(chain.shape.around_rad);
@@ -224,7 +254,7 @@ void World::restore(const WorldState& state) {
       state.tension_N.size() != chains_.size() || state.around_rad.size() != chains_.size() ||
       std::ssize(state.ropes) != std::ranges::count_if(chains_, &Chain::has_rope))
     throw std::invalid_argument("this state is of another robot");
-  time_s_ = state.time_s;
+  time_s_ = state.time_s, time_rest_s_ = state.time_rest_s;
   auto rope = state.ropes.begin();
   for (std::size_t k = 0; k < chains_.size(); ++k) {
     chains_[k].state = state.motors[k];
@@ -241,6 +271,7 @@ void World::set_joint(int joint, const JointReading& reading) {
   all[static_cast<std::size_t>(joint)] = reading;
   bones_->place(all);
   read();
+  lay_ropes();
   read_tensions();
 }
 

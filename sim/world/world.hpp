@@ -50,7 +50,7 @@ struct ActuatorReading {
 
 /// All that a world's future depends on.
 struct WorldState {
-  double time_s = 0;
+  double time_s = 0, time_rest_s = 0;  ///< the rest: what adding up has rounded away
   std::vector<JointReading> joints;
   std::vector<MotorState> motors;
   std::vector<double> tension_N;                                  ///< over the last step
@@ -74,7 +74,8 @@ class World {
   /// A world of the same robot and options goes on from there bit by bit as the one that was saved.
   WorldState save() const;
   void restore(const WorldState& state);
-  /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are.
+  /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are. Ropes are laid
+  /// anew.
   void set_joint(int joint, const JointReading& reading);
 
   /// Joint positions and velocities, and where the bodies are; source "sim". Stamps are not set.
@@ -90,6 +91,10 @@ class World {
   const std::vector<std::string>& body_names() const { return tree_.names; }
   const std::vector<erp::Joint>& joint_list() const { return tree_.joints; }
   const PathShape& path(int actuator) const { return chains_[actuator].shape; }
+  /// Steps whose forces did not settle; their velocities are near the answer.
+  long unsettled() const { return unsettled_; }
+  /// False: a step led to no finite velocities; since then nothing moves.
+  bool sound() const { return sound_; }
   /// Null: this tendon is no rope.
   const Rope* rope(int actuator) const { return chains_[actuator].rope.get(); }
   /// Of the bones: kinetic and potential.
@@ -112,7 +117,9 @@ class World {
   void read_tensions();
   void find_forces(double dt_s, bool springs);
   void move(double dt_s);
+  void make_ropes();
   void lay_ropes();
+  void pass_time(double dt_s);
   void add_rope_impulses(double dt_s);
   void move_ropes(double dt_s);
   void pull(std::size_t chain, double dt_s);
@@ -130,7 +137,9 @@ class World {
   std::unique_ptr<StepSolver> solver_;
   std::vector<Chain> chains_;
   std::vector<ActuatorReading> readings_;
-  double time_s_ = 0;
+  double time_s_ = 0, time_rest_s_ = 0;
+  long unsettled_ = 0;
+  bool sound_ = true;
 
   // what a step works with
   std::vector<OneSidedForce> forces_;  ///< of the tendons, the stops, the contacts

@@ -50,7 +50,7 @@ struct Hung {
       : law(sim::TendonLaw::at_rest(t, {{}, 0.0045}, routing.solve(poses_0()).length_m)),
         rope(type, law, routing, std::move(solids)) {
     const auto shape = routing.solve(poses_0());
-    rope.lay(sim::path_line(routing, shape, poses_0(), 0.02), 0);
+    rope.lay(sim::path_line(routing, shape, 0.02), 0);
   }
   static std::vector<BodyPose> poses_0() { return std::vector<BodyPose>(2); }
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "interfaces/robot/check.hpp"
 #include "tests/sim/rigs.hpp"
 
 using sim::BodyPose, sim::BodyTwist, sim::PathShape, sim::Routing, sim::Vec3;
@@ -180,6 +181,21 @@ TEST_CASE("a line around a cylinder is straight once it is unrolled") {
   const Vec3 out = (shape.entry_m[2] - shape.exit_m[1]).normalized();
   CHECK(in.z() == Approx(rise / shape.length_m));
   CHECK(out.z() == Approx(in.z()));
+}
+
+TEST_CASE("robots are checked for as many path elements as a routing holds") {
+  CHECK(sim::max_path_elements == erp::robot_check::most_path_elements);
+}
+
+TEST_CASE("ends on one side of a shaft begin without a turn around it") {
+  erp::Pulley shaft = pulley("base", {0, 0, 0}, 0.025);
+  shaft.shape = erp::PulleyShape::cylinder;
+  shaft.axis = {0, 1, 0};
+  const Routing routing(
+      tendon({attach("base", {0, -0.1, -0.05}), shaft, attach("base", {0, 0.1, -0.1})}), bodies);
+  const PathShape shape = routing.solve(std::vector<BodyPose>(3));
+  CHECK_FALSE(shape.touches[1]);
+  CHECK(shape.length_m == Approx(std::hypot(0.2, 0.05)));
 }
 
 TEST_CASE("a path that makes no sense is refused") {

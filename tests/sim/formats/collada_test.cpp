@@ -137,6 +137,17 @@ TEST_CASE("what another program changed in the standard elements holds") {
                     Catch::Contains("body \"arm\" is not in the extra"));
 }
 
+TEST_CASE("a base that weighs something, and another gravity, go through as well") {
+  erp::Robot robot = read("hinge_rig");
+  erp::Body& base = robot.skeletons[0].bodies[0];
+  base.density_kg_per_m3 = 1000;
+  base.parts = {erp::Box{{}, {0, 0, 0}, {0.1, 0.1, 0.1}}, erp::Weight{{}, {0, 0, 0}, 2, ""}};
+  const std::string text = formats::to_collada(robot);
+  CHECK(erp::write_robot(through_file(text)) == erp::write_robot(robot));
+  const erp::Robot moon = through_file(replaced(text, "<gravity>0 0 -9.81", "<gravity>0 0 -1.62"));
+  CHECK(moon.gravity_m_per_s2() == xml::Vec3{0, 0, -1.62});
+}
+
 TEST_CASE("without our extra the skeleton comes through") {
   for (const auto& name : robots) {
     CAPTURE(name);
@@ -186,5 +197,5 @@ TEST_CASE("a broken file is refused with its place and a remedy") {
   CHECK_THAT(said(replaced(foreign, "0 100 0", "0 1OO 0")), Contains(":7:"));
   CHECK_THAT(said(replaced(foreign, "<axis>0 0 1</axis>", "")), Contains("has no <axis>"));
   CHECK_THAT(said(replaced(foreign, "revolute sid", "prismatic sid")), Contains("prismatic"));
-  CHECK_THAT(said(replaced(foreign, "</joint>", "")), Contains(":"));
+  CHECK_THAT(said(replaced(foreign, "</joint>", "")), Contains(":4:") && Contains("joint"));
 }

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "sim/world/imus.hpp"
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
 
@@ -29,6 +30,33 @@ void operator delete(void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+TEST_CASE("ropes on bones, timed sensors and inertial units do not touch the heap either") {
+  erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+  auto& path = robot.actuators[0].tendon.path;
+  path = {path.front(), path[path.size() - 2], path.back()};
+  robot.actuators[0].rope = erp::Rope{{}, 60, 0.004, 0, 0.1, ""};
+  for (auto& type : robot.sensor_types) type.sampling = {250, 0.007};
+  erp::Imu imu;
+  imu.name = "imu", imu.body = "forearm", imu.acceleration_range_m_per_s2 = 40;
+  imu.turning_range_rad_per_s = 20, imu.sampling = {100, 0.004};
+  robot.imus = {imu};
+  Limb limb(robot);
+  sim::Imus imus(limb.world, 1, 0.002);
+  erp::ImuFrame frame;
+  const auto tick = [&] {
+    limb.follow_lines({-0.005, 0.005});
+    imus.look(limb.world);
+    while (imus.next(frame)) {
+    }
+  };
+  for (int k = 0; k < 50; ++k) tick();
+  REQUIRE(limb.world.rope(0)->forces().size() > 3);
+  const std::size_t before = allocations;
+  for (int k = 0; k < 100; ++k) limb.ecus.tick(limb.world), imus.look(limb.world), imus.next(frame);
+  const std::size_t after = allocations;
+  CHECK(after == before);
+}
 
 TEST_CASE("a tick of the arm, its ECUs and its frame does not touch the heap") {
   Limb limb(erp::read_robot(rigs::config("arm/robot.xml")));

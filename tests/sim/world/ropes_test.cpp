@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "sim/world/world.hpp"
 #include "tests/sim/rigs.hpp"
@@ -40,8 +41,45 @@ TEST_CASE("a rope moves the joint as the tendon that finds its path at once does
   CHECK(path.rope(0) == nullptr);
 }
 
+/// The same, with a groove of two bones and friction in the rope's way.
+erp::Robot groove_rig() {
+  erp::Robot robot = rope_rig();
+  robot.actuators[0].rope->friction = 0.2;
+  robot.actuators[0].rope->radius_m = 0.001;
+  erp::Body& base = robot.skeletons[0].bodies[0];
+  for (const double y : {-0.02, 0.02})
+    base.parts.push_back(erp::Sphere{{}, {-0.025, y, 0.15}, 0.025});
+  return robot;
+}
+
+TEST_CASE("with bones in its way a rope starts with its pretension and rests in their groove") {
+  sim::World world(groove_rig());
+  CHECK(world.actuators()[0].tension_N == Approx(5).epsilon(0.01));
+  for (int k = 0; k < 300; ++k) world.step(std::vector<double>{2.0, -0.5}, 0.001);
+  CHECK(world.rope(0)->troubles() == 0);
+  std::set<double> sides;
+  for (const auto& force : world.rope(0)->forces())
+    if (force.at_m.z() > 0.1 && force.at_m.z() < 0.2)
+      sides.insert(std::copysign(1, force.force_N.y()));
+  CHECK(sides.size() == 2);  // both bones are pushed, apart
+}
+
+TEST_CASE("a rope whose nodes could step over a bone is refused, with the number it needs") {
+  erp::Robot robot = groove_rig();
+  robot.actuators[0].rope->nodes = 5;
+  CHECK_THROWS_WITH(sim::World(robot), Catch::Contains("flexor") && Catch::Contains("give nodes="));
+}
+
+TEST_CASE("a joint that is put elsewhere takes its rope along") {
+  sim::World world(rope_rig());
+  world.set_joint(0, {erp::JointType::revolute, {-0.2}, {}, {}, {}});
+  CHECK(world.rope(0)->troubles() == 0);
+  CHECK(world.actuators()[0].length_m == Approx(world.path(0).length_m).epsilon(1e-3));
+}
+
 TEST_CASE("a world with a rope goes on from what was saved, bit by bit") {
-  sim::World one(rope_rig()), other(rope_rig());
+  const erp::Robot robot = GENERATE(rope_rig(), groove_rig());
+  sim::World one(robot), other(robot);
   const std::vector<double> voltage_V{1.0, 0.2};
   for (int k = 0; k < 100; ++k) one.step(voltage_V, 0.001);
   other.restore(one.save());
@@ -49,6 +87,9 @@ TEST_CASE("a world with a rope goes on from what was saved, bit by bit") {
   CHECK(one.joints()[0].position == other.joints()[0].position);
   CHECK(one.actuators()[0].tension_N == other.actuators()[0].tension_N);
   CHECK(one.rope(0)->state().nodes_m == other.rope(0)->state().nodes_m);
+  erp::Robot coarse = robot;
+  coarse.actuators[0].rope->nodes = 60;
+  CHECK_THROWS_AS(sim::World(coarse).restore(one.save()), std::invalid_argument);
 }
 
 TEST_CASE("a line far stiffer than what it holds is heavy is unstable as a rope, and it is said") {
