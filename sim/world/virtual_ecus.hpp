@@ -15,6 +15,8 @@
 ///   measure -> counts -> ecu_tick -> duty -> V = duty / 1023 · supply, held over the tick ->
 ///   measure
 ///
+/// What ECUs and sensors remember is theirs: a World's `save` does not hold it.
+///
 /// A duty of 0 shorts the motor (it brakes), as the H-bridge of the ECU does.
 namespace sim {
 

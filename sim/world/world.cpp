@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/actuator/path_line.hpp"
-
 namespace sim {
 
 World::World(const erp::Robot& robot, const WorldOptions& options)
@@ -32,37 +30,6 @@ void World::reset() {
   read();
   make_ropes();
   read_tensions();
-}
-
-void World::make_ropes() {
-  for (std::size_t k = 0; k < chains_.size(); ++k) {
-    const erp::Actuator& actuator = robot_.actuators[k];
-    Chain& chain = chains_[k];
-    if (!actuator.rope) continue;
-    chain.rope = std::make_unique<Rope>(*actuator.rope, chain.tendon, chain.routing,
-                                        solids_of(robot_.bodies(), tree_.names));
-    try {
-      chain.rope->require_fine(chain.shape.length_m);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("actuator \"" + actuator.name + "\": " + error.what());
-    }
-  }
-  lay_ropes();
-  for (std::size_t k = 0; k < chains_.size(); ++k)
-    if (chains_[k].rope)
-      chains_[k].rope->settle(poses(), 0, robot_.actuators[k].tendon.pretension_N);
-}
-
-/// Along their paths, at rest.
-void World::lay_ropes() {
-  constexpr double arc_step_rad = 0.05;
-  for (std::size_t k = 0; k < chains_.size(); ++k) {
-    Chain& chain = chains_[k];
-    if (!chain.rope) continue;
-    chain.rope->lay(path_line(chain.routing, chain.shape, arc_step_rad), chain.state.shaft_rad);
-    chain.rope->settle(poses(), chain.state.shaft_rad);
-    readings_[k].length_m = chain.rope->length_m();
-  }
 }
 
 World::Chain World::make_chain(const erp::Actuator& actuator) const {
@@ -171,16 +138,6 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
   velocity_.setZero();
 }
 
-void World::add_rope_impulses(double dt_s) {
-  for (const Chain& chain : chains_) {
-    if (!chain.rope) continue;
-    for (const BodyForce& force : chain.rope->forces()) {
-      const Vec6 given = dt_s * wrench(force.at_m, force.force_N);
-      for (const int d : model_->movers(force.body)) momentum_[d] += model_->axis(d).dot(given);
-    }
-  }
-}
-
 /// H v − dt b at the middle of v and what is known of v⁺.
 void World::drive(double dt_s) {
   middle_ = 0.5 * (model_->velocity() + velocity_);
@@ -227,17 +184,6 @@ void World::pass_time(double dt_s) {
   time_s_ = next_s;
 }
 
-void World::move_ropes(double dt_s) {
-  const xml::Vec3 g = robot_.gravity_m_per_s2();
-  const Surroundings around{poses(), twists(), Vec3(g[0], g[1], g[2])};
-  for (std::size_t k = 0; k < chains_.size(); ++k) {
-    Chain& chain = chains_[k];
-    if (!chain.rope) continue;
-    chain.rope->step(around, chain.state.shaft_rad, dt_s);
-    readings_[k].length_m = chain.rope->length_m();
-  }
-}
-
 WorldState World::save() const {
   WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}};
   for (const Chain& chain : chains_) {
@@ -271,7 +217,7 @@ void World::set_joint(int joint, const JointReading& reading) {
   all[static_cast<std::size_t>(joint)] = reading;
   bones_->place(all);
   read();
-  lay_ropes();
+  for (std::size_t k = 0; k < chains_.size(); ++k) lay_rope(k, {});
   read_tensions();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -118,7 +119,7 @@ class World {
   void find_forces(double dt_s, bool springs);
   void move(double dt_s);
   void make_ropes();
-  void lay_ropes();
+  void lay_rope(std::size_t chain, std::optional<double> pretension_N);
   void pass_time(double dt_s);
   void add_rope_impulses(double dt_s);
   void move_ropes(double dt_s);

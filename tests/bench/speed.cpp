@@ -16,29 +16,35 @@ erp::Robot read(const std::string& robot) {
   return erp::read_robot(ERP_SOURCE_DIR "/configs/" + robot + "/robot.xml");
 }
 
-/// One physics step of 1 ms, motors and tendons included, no ECUs.
-void world_step(benchmark::State& state, const char* robot) {
-  sim::World world(read(robot));
-  const std::vector<double> voltage_V(world.actuators().size(), 0.1);
-  for (auto _ : state) world.step(voltage_V, 0.001);
+void count_steps(benchmark::State& state) {
   state.counters["steps_per_s"] =
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
+
+void step_ours(benchmark::State& state, const erp::Robot& robot) {
+  sim::World world(robot);
+  const std::vector<double> voltage_V(world.actuators().size(), 0.1);
+  for (auto _ : state) world.step(voltage_V, 0.001);
+  count_steps(state);
+}
+
+void step_mujoco(benchmark::State& state, const erp::Robot& robot) {
+  const peer::Mujoco peer(robot);
+  for (std::size_t k = 0; k < robot.actuators.size(); ++k)
+    peer.data->ctrl[k] = robot.actuators[k].tendon.pretension_N;
+  for (auto _ : state) mj_step(peer.model.get(), peer.data.get());
+  count_steps(state);
+}
+
+/// One physics step of 1 ms, motors and tendons included, no ECUs.
+void world_step(benchmark::State& state, const char* robot) { step_ours(state, read(robot)); }
 BENCHMARK_CAPTURE(world_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(world_step, arm, "arm");
 BENCHMARK_CAPTURE(world_step, ecce4, "ecce4");
 
 /// The exported model in MuJoCo, beside it: the same bones, tendons, frictions and limits, but
 /// without motors, springs and spindles.
-void mujoco_step(benchmark::State& state, const char* robot) {
-  const erp::Robot parsed = read(robot);
-  const peer::Mujoco peer(parsed);
-  for (std::size_t k = 0; k < parsed.actuators.size(); ++k)
-    peer.data->ctrl[k] = parsed.actuators[k].tendon.pretension_N;
-  for (auto _ : state) mj_step(peer.model.get(), peer.data.get());
-  state.counters["steps_per_s"] =
-      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-}
+void mujoco_step(benchmark::State& state, const char* robot) { step_mujoco(state, read(robot)); }
 BENCHMARK_CAPTURE(mujoco_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(mujoco_step, arm, "arm");
 BENCHMARK_CAPTURE(mujoco_step, ecce4, "ecce4");
@@ -68,21 +74,11 @@ erp::Robot arms(long tendons) {
 }
 
 void tendons_step(benchmark::State& state) {
-  sim::World world(arms(state.range(0)));
-  const std::vector<double> voltage_V(world.actuators().size(), 0.1);
-  for (auto _ : state) world.step(voltage_V, 0.001);
-  state.counters["steps_per_s"] =
-      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  step_ours(state, arms(state.range(0)));
   state.SetComplexityN(state.range(0));
 }
 void tendons_mujoco(benchmark::State& state) {
-  const erp::Robot robot = arms(state.range(0));
-  const peer::Mujoco peer(robot);
-  for (std::size_t k = 0; k < robot.actuators.size(); ++k)
-    peer.data->ctrl[k] = robot.actuators[k].tendon.pretension_N;
-  for (auto _ : state) mj_step(peer.model.get(), peer.data.get());
-  state.counters["steps_per_s"] =
-      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  step_mujoco(state, arms(state.range(0)));
   state.SetComplexityN(state.range(0));
 }
 #define ERP_SIZES Arg(11)->Arg(22)->Arg(44)->Arg(54)->Arg(108)->Arg(216)->Complexity()

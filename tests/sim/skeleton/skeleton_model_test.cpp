@@ -2,70 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "sim/world/bullet_skeleton.hpp"
 #include "tests/sim/skeletons.hpp"
+#include "tests/sim/thicket.hpp"
 
 using namespace sim;
+using rigs::Draw, rigs::posture, rigs::thicket;
 
 namespace {
 
 const Vec3 down(0.3, -0.2, -9.81);  // not along an axis
-
-class Draw {
- public:
-  explicit Draw(unsigned seed) : random_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  xml::Vec3 vector(double size) {
-    return {between(-size, size), between(-size, size), between(-size, size)};
-  }
-
- private:
-  std::mt19937 random_;
-};
-
-/// Two trees of eight bodies, with branches, of every joint type.
-erp::Robot thicket(Draw& draw) {
-  std::vector<erp::Body> bodies{rigs::root("left"), rigs::root("right")};
-  std::vector<erp::Joint> joints;
-  for (int k = 0; k < 16; ++k) {
-    const std::string name = "bone_" + std::to_string(k);
-    const std::string parent = k < 2 ? bodies[k].name : "bone_" + std::to_string(k - 1 - k % 2);
-    const double a = draw.between(0.01, 0.02);
-    bodies.push_back(rigs::bone(name, draw.between(0.3, 3), draw.vector(0.1),
-                                {a, draw.between(0.01, 0.02), draw.between(0.012, 0.018)}));
-    const auto type = k % 5 == 4   ? erp::JointType::fixed
-                      : k % 3 == 0 ? erp::JointType::spherical
-                                   : erp::JointType::revolute;
-    joints.push_back(
-        rigs::joint("joint_" + std::to_string(k), type, parent, name, draw.vector(0.3)));
-    joints.back().axis = draw.vector(1);
-    joints.back().initial_rad = draw.between(-1, 1);
-  }
-  return rigs::robot(bodies, joints);
-}
-
-std::vector<JointReading> posture(const std::vector<erp::Joint>& joints, Draw& draw) {
-  std::vector<JointReading> all;
-  for (const auto& joint : joints) {
-    JointReading reading{.type = joint.type};
-    for (double& v : reading.velocity_rad_per_s) v = draw.between(-3, 3);
-    if (joint.type == erp::JointType::spherical) {
-      Eigen::Vector4d q(draw.between(-1, 1), draw.between(-1, 1), draw.between(-1, 1),
-                        draw.between(0.1, 1));
-      q.normalize();
-      for (int i = 0; i < 4; ++i) reading.position[static_cast<std::size_t>(i)] = q[i];
-    } else {
-      reading.position[0] =
-          joint.type == erp::JointType::fixed ? joint.initial_rad : draw.between(-2, 2);
-    }
-    all.push_back(reading);
-  }
-  return all;
-}
 
 Eigen::VectorXd random_vector(int n, Draw& draw) {
   return Eigen::VectorXd::NullaryExpr(n, [&] { return draw.between(-5, 5); });

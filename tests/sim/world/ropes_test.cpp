@@ -92,7 +92,8 @@ TEST_CASE("a world with a rope goes on from what was saved, bit by bit") {
   CHECK_THROWS_AS(sim::World(coarse).restore(one.save()), std::invalid_argument);
 }
 
-TEST_CASE("a line far stiffer than what it holds is heavy is unstable as a rope, and it is said") {
+TEST_CASE(
+    "a line far stiffer than what it holds is heavy is unstable as a rope, and it is counted") {
   erp::Robot robot = rope_rig();
   robot.actuators[0].tendon.stiffness_N_per_m = 1e8;
   sim::World world(robot);
