@@ -62,8 +62,8 @@ Node::~Node() {
   close(signals_);
 }
 
-void Node::every(std::int64_t period_ns, std::function<void()> act) {
-  timers_.push_back({period_ns, monotonic_ns() + period_ns, std::move(act)});
+void Node::every(std::int64_t period_ns, std::function<void()> act, std::int64_t make_up_ns) {
+  periodics_.push_back({{period_ns, make_up_ns, monotonic_ns()}, std::move(act)});
 }
 
 void Node::watch(int descriptor, std::function<void()> act) {
@@ -90,7 +90,7 @@ void Node::activate() {
   look_around();
   if (finished_) return;
   const auto now_ns = monotonic_ns();
-  for (auto& timer : timers_) timer.due_ns = now_ns + timer.period_ns;
+  for (auto& periodic : periodics_) periodic.timer.restart(now_ns);
   for (const auto& port : ports_) port->poll(false);  // what came while inactive is old
   set_lifecycle(erp::Lifecycle::active);
   for (auto& act : activate_) act();
@@ -175,19 +175,17 @@ void Node::run_timers() {
   if (now_ns >= heartbeat_due_ns_) heartbeat();
   if (start_due_ns_ && now_ns >= *start_due_ns_) start_due_ns_.reset(), activate();
   if (!active()) return;
-  for (auto& timer : timers_) {
-    if (now_ns < timer.due_ns) continue;
-    const auto late = (now_ns - timer.due_ns) / timer.period_ns;
-    state_.overruns += static_cast<std::uint64_t>(late);
-    timer.due_ns += (late + 1) * timer.period_ns;
-    timer.act();
+  for (auto& periodic : periodics_) {
+    if (now_ns < periodic.timer.next_ns()) continue;
+    state_.overruns += static_cast<std::uint64_t>(periodic.timer.take(now_ns));
+    periodic.act();
   }
 }
 
 void Node::wait() {
   std::int64_t due_ns = std::min(heartbeat_due_ns_, start_due_ns_.value_or(heartbeat_due_ns_));
   if (active())
-    for (const auto& timer : timers_) due_ns = std::min(due_ns, timer.due_ns);
+    for (const auto& periodic : periodics_) due_ns = std::min(due_ns, periodic.timer.next_ns());
   const auto left_ns = std::max<std::int64_t>(0, due_ns - monotonic_ns());
   const timespec timeout{left_ns / 1'000'000'000, left_ns % 1'000'000'000};
   const auto n = active() ? polled_.size() : polled_.size() - watches_.size();

@@ -14,6 +14,7 @@
 #include "components/node/options.hpp"
 #include "components/node/peers.hpp"
 #include "components/node/port.hpp"
+#include "components/node/timer.hpp"
 #include "interfaces/values.hpp"
 
 /// One process on the bus: its ports, its life, its heartbeat.
@@ -50,9 +51,9 @@ class Node {
     return own(std::make_unique<Subscription<M>>(participant_, wake_, gate_, active_, where, depth,
                                                  identity_, std::move(use)));
   }
-  /// Calls `act` each period of real time while active. A tick that is late by more than a period
-  /// counts as an overrun, and the ticks it swallowed are left out.
-  void every(std::int64_t period_ns, std::function<void()> act);
+  /// Calls `act` each period of real time while active; late calls as in Timer, those left out
+  /// count as overruns.
+  void every(std::int64_t period_ns, std::function<void()> act, std::int64_t make_up_ns = 0);
   /// Calls `act` while active whenever the descriptor has something to read.
   void watch(int descriptor, std::function<void()> act);
   void on_activate(std::function<void()> act) { activate_.push_back(std::move(act)); }
@@ -70,8 +71,8 @@ class Node {
   int spin();
 
  private:
-  struct Timer {
-    std::int64_t period_ns, due_ns;
+  struct Periodic {
+    Timer timer;
     std::function<void()> act;
   };
   struct Watch {
@@ -106,7 +107,7 @@ class Node {
   Peers peers_;
   Gate gate_{wake_};
   std::vector<std::unique_ptr<Port>> ports_;
-  std::vector<Timer> timers_;
+  std::vector<Periodic> periodics_;
   std::vector<Watch> watches_;
   std::vector<pollfd> polled_;  ///< wake, signals, then one a watch
   std::vector<std::function<void()>> activate_, deactivate_;

@@ -7,19 +7,12 @@
 #include <vector>
 
 #include "components/plant/drive.hpp"
+#include "components/plant/notice.hpp"
 #include "interfaces/topics.hpp"
 
 /// The robot-independent layer between controllers and any device: units, limits, arbitration by
 /// priority and freshness, the safe action, re-arming. Pure: time comes in, messages come out.
 namespace plant {
-
-/// Something worth saying once.
-struct Notice {
-  erp::Severity severity;
-  std::string_view subject;  ///< actuator
-  std::string_view code;
-  std::string text;
-};
 
 class Plant {
  public:
@@ -44,8 +37,10 @@ class Plant {
   bool waits_for_gains(std::size_t actuator) const { return boots_[actuator]; }
   /// Forgets what the device said, if it has been silent for too long. True when it just happened.
   bool check_device(std::int64_t now_ns);
-  /// What happened since the last call.
-  std::vector<Notice> take_notices() { return std::exchange(notices_, {}); }
+  /// What happened since the last call, what befell many actuators alike as one.
+  std::vector<Notice> take_notices() {
+    return together(std::exchange(notices_, {}), drives_.size());
+  }
 
  private:
   void sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns);

@@ -135,8 +135,7 @@ void PlantNode::send_gains() {
 
 void PlantNode::say_notices() {
   for (const auto& notice : plant_.take_notices())
-    node_.report(notice.severity, std::string(notice.subject), std::string(notice.code),
-                 notice.text);
+    node_.report(notice.severity, notice.subject, notice.code, notice.text);
 }
 
 void PlantNode::publish_owners() {

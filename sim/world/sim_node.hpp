@@ -16,7 +16,8 @@
 /// run the firmware. Each 2 ms it measures, publishes an ecu_frame and moves on under the commands
 /// it has.
 ///
-///   realtime   ticks by the clock; ticks it cannot keep are left out and counted as overruns
+///   realtime   ticks by the clock; up to 0.2 s behind it catches up at twice the rate, what is
+///              further behind is left out and counted as overruns
 ///   lockstep   a tick follows the command that answers the last frame, as fast as that comes
 ///
 /// With `bus` set it is the robot behind a CAN bus instead, and a gateway is the device.

@@ -231,3 +231,24 @@ TEST_CASE("an actuator this robot does not have is said") {
   REQUIRE(notices.size() == 1);
   CHECK(notices[0].text.find("flexr") != std::string::npos);
 }
+
+plant::Notice stale(const std::string& actuator) {
+  return {erp::Severity::warning, actuator, "stale_command", "a went stale"};
+}
+
+TEST_CASE("what befalls all actuators at once is said once") {
+  const auto said = plant::together({stale("flexor"), stale("extensor"), stale("biceps")}, 3);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].subject == "all 3 actuators");
+  CHECK(said[0].text == "a went stale");
+}
+
+TEST_CASE("what befalls some of the actuators names the first, and the rest stays as it was") {
+  const plant::Notice fault{erp::Severity::fault, "", "device_lost", "no frame"};
+  const auto said = plant::together({stale("a"), fault, stale("b"), stale("c"), stale("d")}, 54);
+  REQUIRE(said.size() == 2);
+  CHECK(said[0].subject == "4 actuators");
+  CHECK(said[0].text == "a went stale (a, b, c …)");
+  CHECK(said[1].code == "device_lost");
+  CHECK(plant::together({stale("a"), stale("b")}, 54).size() == 2);
+}
