@@ -32,6 +32,7 @@ void append_part(Robot& robot, const Robot& part) {
   append(robot.joint_sensors, part.joint_sensors);
   append(robot.potentiometers, part.potentiometers);
   append(robot.imus, part.imus);
+  append(robot.effects, part.effects);
 }
 
 void shift_ecus(Robot& part, int offset) {

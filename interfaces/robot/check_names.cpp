@@ -95,6 +95,13 @@ void check_references(const Robot& robot, Findings& findings) {
     check_reference(sensor, "actuator", sensor.actuator, actuators, "actuator", findings);
   for (const Imu& imu : robot.imus)
     check_reference(imu, "body", imu.body, bodies, "body", findings);
+  auto places = joints;
+  for (const auto* more : {&bodies, &actuators})
+    places.insert(places.end(), more->begin(), more->end());
+  places.push_back(robot.name);
+  for (const Effect& effect : robot.effects)
+    check_reference(effect, "on", effect.on, places, "actuator, joint or body, nor the robot",
+                    findings);
 }
 
 }  // namespace erp::robot_check

@@ -78,6 +78,7 @@ Robot mirrored(Robot part, const Mirror& mirror) {
       std::visit([&](auto& p) { reflect(p), renamed(p.body); }, point);
   }
   for (Pretension& pretension : part.pretensions) renamed(pretension.actuator);
+  for (Effect& effect : part.effects) renamed(effect.on);
   for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint), reflect(sensor);
   for (Potentiometer& sensor : part.potentiometers) renamed(sensor.actuator);
   for (Imu& imu : part.imus) imu.at_m = reflected(imu.at_m), renamed.each(imu.name, imu.body);

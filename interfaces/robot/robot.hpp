@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "interfaces/robot/actuator.hpp"
+#include "interfaces/robot/effect.hpp"
 #include "interfaces/robot/sensors.hpp"
 #include "interfaces/robot/skeleton.hpp"
 #include "interfaces/xml/fields.hpp"
@@ -65,6 +66,7 @@ struct Robot {
   std::vector<JointSensor> joint_sensors;
   std::vector<Potentiometer> potentiometers;
   std::vector<Imu> imus;
+  std::vector<Effect> effects;
   std::vector<Pretension> pretensions;  ///< the last one that names an actuator counts
   std::vector<Include> includes;
   std::vector<Mirror> mirrors;
@@ -79,6 +81,7 @@ struct Robot {
     v.list(joint_sensors);
     v.list(potentiometers);
     v.list(imus);
+    v.list(effects);
     v.list(pretensions);
   }
 

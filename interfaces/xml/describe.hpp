@@ -31,6 +31,9 @@ class Describer {
   void required(const char* name, const T&, const Range& range = any) {
     all_.push_back({indent_ + name, Codec<T>::words(range), "", true});
   }
+  void rest(const std::vector<Attribute>&) {
+    all_.push_back({indent_ + "…", "attributes as its type has them", "", false});
+  }
   template <class T>
   void child(T& value) {
     all_.push_back({indent_ + "<" + T::element + ">", "one", "", false});

@@ -8,11 +8,6 @@
 /// An XML text as a tree of plain structs in which everything knows its place.
 namespace xml {
 
-struct Attribute {
-  Place place;  ///< of the name's first letter
-  std::string name, value;
-};
-
 struct Element {
   Place place;  ///< of the `<`
   std::string name;

@@ -14,6 +14,8 @@
 ///     v.list(bodies);                                  // std::vector: any number of children
 ///     v.list(path);                                    // std::vector of std::variant: of several
 ///     kinds
+///     v.rest(parameters);                              // attributes not named above, as they
+///     stand
 ///   }
 namespace xml {
 
@@ -23,6 +25,12 @@ using Vec3 = std::array<double, 3>;
 struct Place {
   std::string file;
   int line = 0, column = 0;
+};
+
+/// An attribute as it stands in the file.
+struct Attribute {
+  Place place;  ///< of the name's first letter
+  std::string name, value;
 };
 
 /// Which numbers an attribute may take.

@@ -42,6 +42,14 @@ void Reader::refuse(const Attribute& attribute, const Refusal& refusal) {
                              refusal.remedy));
 }
 
+void Reader::rest(std::vector<Attribute>& values) {
+  for (const Attribute& a : element_.attributes)
+    if (!has(known_attributes_, a.name) && !belongs_to_editors(a.name)) {
+      values.push_back(a);
+      known_attributes_.push_back(a.name);
+    }
+}
+
 /// One mistake, one error: a misspelt name is not reported as missing as well.
 void Reader::refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
                             const std::vector<std::string>& known,

@@ -55,6 +55,8 @@ class Reader {
     for (const Element& child : element_.children) (append_if_named<Kinds>(values, child), ...);
   }
 
+  void rest(std::vector<Attribute>& values);
+
   /// Refuses unknown attributes and children, stray text, and what is missing.
   void finish();
 

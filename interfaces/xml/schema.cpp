@@ -81,6 +81,7 @@ std::string complex_type(const SchemaParts& parts) {
   else if (!text.empty()) text = "<xs:all>" + text + "</xs:all>";
   for (const SchemaParts::Attribute& attribute : parts.attributes)
     text += attribute_text(attribute);
+  if (parts.others) text += "<xs:anyAttribute processContents=\"skip\"/>";
   return text.empty() ? "<xs:complexType/>" : "<xs:complexType>" + text + "</xs:complexType>";
 }
 

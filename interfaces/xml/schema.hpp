@@ -20,6 +20,7 @@ struct SchemaParts {
   };
   std::vector<Attribute> attributes;
   std::vector<Child> children;
+  bool others = false;  ///< attributes of other names too
 };
 
 /// `<xs:complexType>` of an element. XSD 1.0 knows unordered children (xs:all) only up to one of
@@ -58,6 +59,8 @@ class Schema {
     (parts_.children.push_back({Kinds::element, type_of<Kinds>(), SchemaParts::Child::any_number}),
      ...);
   }
+
+  void rest(const std::vector<Attribute>&) { parts_.others = true; }
 
   template <class T>
   static std::string type_of() {

@@ -30,6 +30,14 @@ class Setter {
   void required(const char* name, T& value, const Range& range = any) {
     (*this)(name, value, range);
   }
+  void rest(std::vector<Attribute>& values) {
+    for (Attribute& attribute : values) {
+      known_.push_back(attribute.name.c_str());
+      if (!tail_.empty() || head_ != attribute.name) continue;
+      found_ = true;
+      attribute.value = text_;
+    }
+  }
   template <class T>
   void child(T& value) {
     enter(T::element, value);

@@ -44,7 +44,10 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
     const std::size_t d = distance(name, candidate);
-    if (d < best_distance && d < candidate.size()) best = candidate, best_distance = d;
+    const bool closer =
+        d < best_distance || (d == best_distance && !best.empty() &&
+                              edit_distance(name, candidate) < edit_distance(name, best));
+    if (closer && d < candidate.size()) best = candidate, best_distance = d;
   }
   return best;
 }

@@ -56,6 +56,10 @@ class Writer {
     for (auto& value : values) std::visit([this](auto& kind) { child(kind); }, value);
   }
 
+  void rest(const std::vector<Attribute>& values) {
+    for (const Attribute& a : values) attributes_.emplace_back(a.name, a.value);
+  }
+
   /// `value` as the element <name>; it is not changed (`visit` is not const).
   template <class T>
   static std::string text_of(T& value, const std::string& name, std::size_t depth) {

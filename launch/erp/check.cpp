@@ -9,6 +9,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "launch/erp/ask.hpp"
+#include "sim/effects/library.hpp"
 
 namespace launch {
 namespace {
@@ -32,7 +33,7 @@ class Checker {
  private:
   void check_as(const xml::Element& root, const std::string& file) {
     if (root.name == erp::Robot::element) {
-      erp::read_robot(file);
+      sim::effects::read_effects(erp::read_robot(file));
       praise(file);
     } else if (root.name == erp::Graph::element) {
       const erp::Graph graph = erp::read_graph(file);

@@ -22,6 +22,7 @@
 /// At ω = 0 the shaft sticks (only L di/dt = V − R i) until the current leaves the band
 ///   N e₋ (K_T i + τ_CM) ≥ r F − τ_CG   and   N η (K_T i − τ_CM) ≤ r F + τ_CG.
 ///
+/// What else rubs or pulls can be given for a step (MotorLoad), held over it like V and F.
 /// Ignores: saturation, cogging, heating, backlash; a Stribeck rise of the friction at rest.
 namespace sim {
 
@@ -31,6 +32,12 @@ struct MotorState {
   double shaft_rad = 0;        ///< gearbox shaft; positive: wound up since the start
 };
 
+/// What acts on the gearbox shaft over a step.
+struct MotorLoad {
+  double tension_N = 0;                     ///< F
+  double more_up_Nm = 0, more_down_Nm = 0;  ///< added to τ_CG winding up and unwinding
+};
+
 /// A motor's constants, prepared. Throws std::invalid_argument if they make no stable motor.
 class Motor {
  public:
@@ -38,15 +45,15 @@ class Motor {
   Motor(const erp::MotorType& type, double spindle_radius_m, double usual_step_s = 0.001);
 
   /// The direction in which a resting shaft starts to turn, 0 if it sticks.
-  int breakaway(double current_A, double tension_N) const;
+  int breakaway(double current_A, const MotorLoad& load) const;
   /// The mesh torque's sign at a speed of sign `direction`: true if the motor drives the load.
-  bool drives(const MotorState& state, double tension_N, int direction) const;
+  bool drives(const MotorState& state, const MotorLoad& load, int direction) const;
 
   const erp::MotorType& type() const { return type_; }
   double spindle_radius_m() const { return radius_m_; }
 
  private:
-  friend MotorState step(const Motor&, MotorState, double, double, double);
+  friend MotorState step(const Motor&, MotorState, double, const MotorLoad&, double);
   friend class MotorRun;
   struct Branch {
     PlaneSystem system;
@@ -57,10 +64,12 @@ class Motor {
     double low_A, high_A;  ///< currents between which a resting shaft sticks
   };
   Branch branch(double efficiency) const;
-  Vec2 input(const Branch& branch, double voltage_V, double tension_N, int direction) const;
-  Band band(double tension_N) const;
+  /// τ_CG in a direction.
+  double dry_Nm(const MotorLoad& load, int direction) const;
+  Vec2 input(const Branch& branch, double voltage_V, const MotorLoad& load, int direction) const;
+  Band band(const MotorLoad& load) const;
   /// T's sign as a linear function p·(i, ω) + k, times `direction`.
-  double mesh_constant(double tension_N, int direction) const;
+  double mesh_constant(const MotorLoad& load, int direction) const;
 
   erp::MotorType type_;
   double radius_m_, usual_step_s_;
@@ -70,7 +79,11 @@ class Motor {
 
 /// `state` after dt_s with voltage and tension held. dt_s ≥ 0, any size; exact, friction included:
 /// stops, breakaways and changes of the power's direction are found inside the step.
-MotorState step(const Motor& motor, MotorState state, double voltage_V, double tension_N,
+MotorState step(const Motor& motor, MotorState state, double voltage_V, const MotorLoad& load,
                 double dt_s);
+inline MotorState step(const Motor& motor, const MotorState& state, double voltage_V,
+                       double tension_N, double dt_s) {
+  return step(motor, state, voltage_V, MotorLoad{tension_N}, dt_s);
+}
 
 }  // namespace sim

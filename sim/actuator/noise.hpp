@@ -21,7 +21,6 @@ class Noise {
     return radius * std::cos(angle);
   }
 
- private:
   /// In (0, 1].
   double uniform() {
     std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
@@ -30,6 +29,7 @@ class Noise {
     return static_cast<double>(((z ^ (z >> 31)) >> 11) + 1) * 0x1p-53;
   }
 
+ private:
   std::uint64_t state_;
   double spare_ = 0;
   bool has_spare_ = false;

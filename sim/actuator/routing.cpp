@@ -156,6 +156,15 @@ void Routing::pull(PathShape& shape) const {
   }
 }
 
+double bend_rad(const PathShape& shape) {
+  double sum = 0;
+  for (std::size_t k = 1; k + 1 < static_cast<std::size_t>(shape.elements); ++k) {
+    const double half_sine = std::min(1.0, shape.pulls[k].direction.norm() / 2);
+    sum += shape.wrapped_rad[k] > 0 ? shape.wrapped_rad[k] : 2 * std::asin(half_sine);
+  }
+  return sum;
+}
+
 double length_rate_m_per_s(const PathShape& shape, std::span<const BodyPose> poses,
                            std::span<const BodyTwist> twists) {
   double rate = 0;

@@ -81,6 +81,9 @@ class Routing {
   std::vector<PathElement> elements_;
 };
 
+/// How far the path turns: around its pulleys and at its points.
+double bend_rad(const PathShape& shape);
+
 /// dL/dt at this shape.
 double length_rate_m_per_s(const PathShape& shape, std::span<const BodyPose> poses,
                            std::span<const BodyTwist> twists);

@@ -24,17 +24,28 @@ SensorScale::SensorScale(const erp::MotorType& motor, const erp::SensorType& sen
       tension_counts_max((1 << sensors.tension_bits) - 1) {}
 
 ActuatorSensors::ActuatorSensors(const erp::MotorType& motor, const erp::SensorType& sensors,
-                                 std::uint64_t seed)
+                                 std::uint64_t seed, effects::Acting effects)
     : scale_(motor, sensors),
+      gear_ratio_(motor.gear_ratio),
       current_noise_A_(sensors.current_noise_A),
       tension_noise_N_(sensors.tension_noise_N),
-      noise_(seed) {}
+      noise_(seed),
+      effects_(std::move(effects)) {}
 
-ActuatorCounts ActuatorSensors::read(double shaft_rad, double current_A, double tension_N) {
-  const double current = current_A + current_noise_A_ * noise_.normal();
-  const double tension = tension_N + tension_noise_N_ * noise_.normal();
+ActuatorCounts ActuatorSensors::read(double shaft_rad, double current_A, double tension_N,
+                                     double time_s) {
+  double shaft = shaft_rad;
+  double current = current_A + current_noise_A_ * noise_.normal();
+  double tension = tension_N + tension_noise_N_ * noise_.normal();
+  if (!effects_.empty()) {
+    const effects::SensorSample now{time_s, time_s - read_s_, gear_ratio_};
+    shaft = effects_.read(effects::Sense::shaft, shaft, now);
+    current = effects_.read(effects::Sense::current, current, now);
+    tension = effects_.read(effects::Sense::tension, tension, now);
+    read_s_ = time_s;
+  }
   return {
-      static_cast<std::int32_t>(std::floor(shaft_rad / scale_.shaft_rad_per_count + 0.5)),
+      static_cast<std::int32_t>(std::floor(shaft / scale_.shaft_rad_per_count + 0.5)),
       static_cast<std::int16_t>(convert(current, scale_.current_A_per_count,
                                         -scale_.current_counts_max - 1, scale_.current_counts_max)),
       static_cast<std::uint16_t>(
@@ -49,16 +60,22 @@ double angle_rad(const JointReading& joint, std::optional<erp::AxisName> about) 
   return angle * turn.axis()[static_cast<int>(*about)];
 }
 
-JointAngleSensor::JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed)
+JointAngleSensor::JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed,
+                                   effects::Acting effects)
     : rad_per_count_(2 * std::numbers::pi / (1 << sensor.bits_per_rev)),
       noise_rad_(sensor.noise_rad),
       min_rad_(sensor.min_rad.value_or(-std::numeric_limits<double>::infinity())),
       max_rad_(sensor.max_rad.value_or(std::numeric_limits<double>::infinity())),
       about_(sensor.about),
-      noise_(seed) {}
+      noise_(seed),
+      effects_(std::move(effects)) {}
 
-std::int32_t JointAngleSensor::read(const JointReading& joint) {
-  const double seen = angle_rad(joint, about_) + noise_rad_ * noise_.normal();
+std::int32_t JointAngleSensor::read(const JointReading& joint, double time_s) {
+  double seen = effects_.bearing_rad(angle_rad(joint, about_)) + noise_rad_ * noise_.normal();
+  if (!effects_.empty()) {
+    seen = effects_.read(effects::Sense::joint, seen, {time_s, time_s - read_s_, 1});
+    read_s_ = time_s;
+  }
   return static_cast<std::int32_t>(
       std::round(std::clamp(seen, min_rad_, max_rad_) / rad_per_count_));
 }

@@ -4,6 +4,7 @@
 
 #include "interfaces/robot/robot.hpp"
 #include "sim/actuator/noise.hpp"
+#include "sim/effects/acting.hpp"
 #include "sim/skeleton/joint_reading.hpp"
 
 /// What an ECU's converters read (paper, 2.3 and 4.3), as counts.
@@ -15,8 +16,8 @@
 ///   potentiometer = ⌊(S_P + noise) / q⌉    S_P = (L_K − L_K0)/r + S_P0 = S_P0 − θ (eq. 5, in rad),
 ///                                          q = range / (2^bits − 1), 0 … 2^bits − 1
 ///
-/// Beyond its range a converter stays at its rail. Ignores: gain and offset errors, lost encoder
-/// steps, the potentiometer's dead angle.
+/// Beyond its range a converter stays at its rail. Effects on a sensor act on value and noise,
+/// before the converter. Ignores: lost encoder steps, the potentiometer's dead angle.
 namespace sim {
 
 /// Counts to SI for one actuator.
@@ -33,29 +34,35 @@ struct ActuatorCounts {
   std::uint16_t tension = 0;
 };
 
-/// One actuator's converters.
+/// One actuator's converters. `effects`: of that actuator; those on its sensors act.
 class ActuatorSensors {
  public:
-  ActuatorSensors(const erp::MotorType& motor, const erp::SensorType& sensors, std::uint64_t seed);
-  ActuatorCounts read(double shaft_rad, double current_A, double tension_N);
+  ActuatorSensors(const erp::MotorType& motor, const erp::SensorType& sensors, std::uint64_t seed,
+                  effects::Acting effects = {});
+  ActuatorCounts read(double shaft_rad, double current_A, double tension_N, double time_s = 0);
   const SensorScale& scale() const { return scale_; }
 
  private:
   SensorScale scale_;
-  double current_noise_A_, tension_noise_N_;
+  double gear_ratio_, current_noise_A_, tension_noise_N_;
   Noise noise_;
+  effects::Acting effects_;
+  double read_s_ = 0;
 };
 
-/// A joint angle sensor.
+/// A joint angle sensor. `effects`: of that joint; those on its bearing and sensor act.
 class JointAngleSensor {
  public:
-  JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed);
-  std::int32_t read(const JointReading& joint);
+  JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed,
+                   effects::Acting effects = {});
+  std::int32_t read(const JointReading& joint, double time_s = 0);
 
  private:
   double rad_per_count_, noise_rad_, min_rad_, max_rad_;
   std::optional<erp::AxisName> about_;
   Noise noise_;
+  effects::Acting effects_;
+  double read_s_ = 0;
 };
 
 /// An absolute potentiometer on the gearbox shaft.

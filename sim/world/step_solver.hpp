@@ -58,6 +58,8 @@ class StepSolver {
   /// `forces`: the most there will be.
   StepSolver(int coordinates, int forces, std::vector<JointFriction> frictions);
 
+  /// Of the friction given as the n-th; before `begin`.
+  void set_coulomb(std::size_t n, double coulomb_Nm) { frictions_[n].coulomb_Nm = coulomb_Nm; }
   /// A new posture: H and the forces; kept by reference until the last `solve` of the step.
   void begin(const Eigen::MatrixXd& h, std::span<const OneSidedForce> forces, double dt_s);
   /// Moves v near v⁺ for the momentum p = H v + dt τ: Newton's first step, unchecked.

@@ -7,6 +7,7 @@
 #include "interfaces/topics.hpp"
 #include "sim/actuator/sampling.hpp"
 #include "sim/actuator/sensors.hpp"
+#include "sim/world/bus_effects.hpp"
 #include "sim/world/world.hpp"
 
 /// The ECUs of a simulated robot: firmware/core on one channel an actuator, between the world's
@@ -16,6 +17,8 @@
 ///   measure
 ///
 /// What ECUs and sensors remember is theirs: a World's `save` does not hold it.
+///
+/// Effects of the robot on its sensors and its bus act here.
 ///
 /// A duty of 0 shorts the motor (it brakes), as the H-bridge of the ECU does.
 namespace sim {
@@ -27,8 +30,8 @@ struct VirtualEcuOptions {
 
 class VirtualEcus {
  public:
-  /// Throws std::invalid_argument: no substep, a sensor on a joint or actuator there
-  /// is not.
+  /// Throws as effects::equip, and std::invalid_argument: no substep, a sensor on a joint or
+  /// actuator there is not.
   explicit VirtualEcus(const erp::Robot& robot, const VirtualEcuOptions& options = {});
   VirtualEcus(const VirtualEcus&) = delete;
   VirtualEcus& operator=(const VirtualEcus&) = delete;
@@ -64,8 +67,11 @@ class VirtualEcus {
     Sampled<std::int32_t> readings;
     std::int32_t counts;
   };
-  void add_channels(const erp::Robot& robot, std::uint64_t& seed);
-  void add_analogs(const erp::Robot& robot, std::uint64_t& seed);
+  using Effects = std::span<const effects::Placed>;
+  void add_channels(const erp::Robot& robot, Effects acting, std::uint64_t& seed);
+  void add_analogs(const erp::Robot& robot, Effects acting, std::uint64_t& seed);
+  void obey(const erp::EcuCommand& command);
+  void report(erp::EcuFrame& frame) const;
   void look(const World& world, bool all);
   Channel* find(int ecu, int channel);
 
@@ -74,6 +80,7 @@ class VirtualEcus {
   std::vector<Analog> analogs_;
   std::vector<ecu_channel*> channel_pointers_;
   std::vector<double> voltage_V_;
+  BusEffects bus_;
   bool measured_ = false;
 };
 

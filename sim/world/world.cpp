@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim/effects/library.hpp"
+
 namespace sim {
 
 World::World(const erp::Robot& robot, const WorldOptions& options)
-    : robot_(robot), options_(options), tree_(robot) {
+    : equipped_(std::make_shared<effects::Equipped>(effects::equip(robot))),
+      robot_(equipped_->robot),
+      options_(options),
+      tree_(robot_) {
   reset();
 }
 
@@ -42,16 +47,26 @@ World::Chain World::make_chain(const erp::Actuator& actuator) const {
           TendonLaw::at_rest(actuator.tendon, actuator.spindle, shape.length_m),
           MotorState{},
           shape,
-          nullptr};
+          nullptr,
+          effects::Acting(equipped_->acting, actuator.name, effects::Seat::actuator),
+          {0, actuator.spindle.radius_m},
+          shape.length_m,
+          robot_.motor_of(actuator).resistance_ohm};
 }
 
 void World::make_solver() {
   std::vector<JointFriction> frictions;
+  joint_effects_.clear();
   for (int j = 0; j < static_cast<int>(tree_.joints.size()); ++j)
     if (const erp::Joint& joint = tree_.joints[j];
-        model_->first_of(j) >= 0 && joint.type != erp::JointType::free)
-      frictions.push_back({model_->first_of(j), coordinates_of(joint.type),
-                           joint.viscous_Nm_s_per_rad, joint.coulomb_Nm});
+        model_->first_of(j) >= 0 && joint.type != erp::JointType::free) {
+      const int first = model_->first_of(j), dofs = coordinates_of(joint.type);
+      effects::Acting acting(equipped_->acting, joint.name, effects::Seat::joint);
+      if (!acting.empty())
+        joint_effects_.push_back(
+            {j, first, dofs, frictions.size(), joint.coulomb_Nm, std::move(acting)});
+      frictions.push_back({first, dofs, joint.viscous_Nm_s_per_rad, joint.coulomb_Nm});
+    }
   const int n = model_->coordinates();
   limits_ = std::make_unique<JointLimits>(*model_, tree_.joints);
   contacts_ = std::make_unique<Contacts>(tree_, robot_);
@@ -69,9 +84,12 @@ void World::read() {
     chain.routing.solve(poses(), chain.shape);
     const MotorState& motor = chain.state;
     readings_[k] = {
-        readings_[k].tension_N, chain.rope ? chain.rope->length_m() : chain.shape.length_m,
-        motor.current_A,        motor.speed_rad_per_s,
-        motor.shaft_rad,        chain.tendon.line_m(motor.shaft_rad)};
+        readings_[k].tension_N,
+        chain.rope ? chain.rope->length_m() : chain.shape.length_m,
+        motor.current_A,
+        motor.speed_rad_per_s,
+        motor.shaft_rad,
+        chain.effects.empty() ? chain.tendon.line_m(motor.shaft_rad) : -chain.wound.value};
   }
 }
 
@@ -82,22 +100,34 @@ void World::read_tensions() {
     const double rate = length_rate_m_per_s(chain.shape, poses(), twists());
     readings_[k].tension_N = chain.tendon.tension_N(
         chain.shape.length_m, rate, chain.state.shaft_rad, chain.state.speed_rad_per_s);
+    if (!chain.effects.empty()) {
+      const Line line = line_of(k, 0);
+      const double damper =
+          chain.tendon.damping_N_s_per_m *
+          (line.path_slope * rate + chain.wound.slope * chain.state.speed_rad_per_s);
+      readings_[k].tension_N = line.stretch_m > 0
+                                   ? std::max(0.0, chain.tendon.spring.force_N(line.stretch_m) +
+                                                       line.pull.value + damper)
+                                   : 0.0;
+    }
     if (chain.rope) readings_[k].tension_N = chain.rope->tension_N();
   }
 }
 
 void World::pull(std::size_t k, double dt_s) {
-  const Chain& chain = chains_[k];
+  Chain& chain = chains_[k];
   OneSidedForce& force = forces_[k];
   force.row.clear();
   if (chain.rope) return void(force.start_N = 0);
   length_gradient(chain.shape, chain.levers, *model_, row_);
+  const Line line = line_of(k, dt_s);
+  if (line.path_slope != 1) row_ *= line.path_slope;
   for (const int d : chain.levers.coordinates)
     if (row_[d] != 0) force.row.push_back({d, row_[d]});
-  const double winding = chain.tendon.radius_m * chain.state.speed_rad_per_s;
-  const StretchedTendon tendon =
-      stretched(chain.tendon, chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad),
-                row_.dot(model_->velocity()) + winding, winding);
+  const double winding = chain.wound.slope * chain.state.speed_rad_per_s;
+  StretchedTendon tendon =
+      stretched(chain.tendon, line.stretch_m, row_.dot(model_->velocity()) + winding, winding);
+  tendon.spring_N += line.pull.value, tendon.stiffness_N_per_m += line.pull.slope;
   Implicitness theta{options_.theta, options_.theta};
   if (options_.theta == 0)
     theta = implicitness_of(tendon, inertia_factor_.inverse_norm2(row_), dt_s);
@@ -120,13 +150,16 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
   const Eigen::VectorXd& v = model_->velocity();
   model_->inertia(inertia_);
   find_forces(dt_s, tension_N.empty());
+  affect_joints();
   solver_->begin(inertia_, std::span(forces_).first(force_count_), dt_s);
   momentum_.noalias() = inertia_ * v;
   for (std::size_t k = 0; k < tension_N.size(); ++k) {
     length_gradient(chains_[k].shape, chains_[k].levers, *model_, row_);
-    momentum_ -= dt_s * tension_N[k] * row_;
+    momentum_ -= dt_s * tension_N[k] * line_of(k, dt_s).path_slope * row_;
   }
   if (tension_N.empty()) add_rope_impulses(dt_s);
+  for (JointEffects& joint : joint_effects_)
+    momentum_.segment(joint.first, joint.dofs) += dt_s * torque_of(joint);
   velocity_ = v;
   if (!sound_) return velocity_.setZero(), void();
   drive(dt_s);
@@ -158,7 +191,7 @@ void World::step(std::span<const double> voltage_V, double dt_s) {
     const double tension_N =
         chains_[k].rope ? chains_[k].rope->tension_N() : solver_->forces_N()[k];
     readings_[k].tension_N = tension_N;
-    chains_[k].state = sim::step(chains_[k].motor, chains_[k].state, voltage_V[k], tension_N, dt_s);
+    turn_motor(k, voltage_V[k], tension_N, dt_s);
   }
   move(dt_s);
 }
@@ -185,12 +218,17 @@ void World::pass_time(double dt_s) {
 }
 
 WorldState World::save() const {
-  WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}};
+  WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}, {}};
   for (const Chain& chain : chains_) {
     state.motors.push_back(chain.state);
     state.around_rad.push_back(chain.shape.around_rad);
     if (chain.rope) state.ropes.push_back(chain.rope->state());
+    chain.effects.save(state.effects);
+    if (!chain.effects.empty())
+      state.effects.push_back(
+          {chain.wound.value, chain.wound.slope, chain.motor.type().resistance_ohm});
   }
+  for (const JointEffects& joint : joint_effects_) joint.acting.save(state.effects);
   for (const ActuatorReading& reading : readings_) state.tension_N.push_back(reading.tension_N);
   return state;
 }
@@ -198,16 +236,20 @@ WorldState World::save() const {
 void World::restore(const WorldState& state) {
   if (state.joints.size() != tree_.joints.size() || state.motors.size() != chains_.size() ||
       state.tension_N.size() != chains_.size() || state.around_rad.size() != chains_.size() ||
-      std::ssize(state.ropes) != std::ranges::count_if(chains_, &Chain::has_rope))
+      std::ssize(state.ropes) != std::ranges::count_if(chains_, &Chain::has_rope) ||
+      state.effects.size() != save().effects.size())
     throw std::invalid_argument("this state is of another robot");
   time_s_ = state.time_s, time_rest_s_ = state.time_rest_s;
   auto rope = state.ropes.begin();
+  std::span<const effects::Memory> memories = state.effects;
   for (std::size_t k = 0; k < chains_.size(); ++k) {
     chains_[k].state = state.motors[k];
     chains_[k].shape.around_rad = state.around_rad[k];
     if (chains_[k].rope) chains_[k].rope->restore(*rope++);
     readings_[k].tension_N = state.tension_N[k];
+    restore_effects(chains_[k], memories);
   }
+  for (JointEffects& joint : joint_effects_) joint.acting.restore(memories);
   bones_->place(state.joints);
   read();
 }

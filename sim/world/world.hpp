@@ -12,12 +12,17 @@
 #include "sim/actuator/rope.hpp"
 #include "sim/actuator/routing.hpp"
 #include "sim/actuator/tendon.hpp"
+#include "sim/effects/acting.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
 #include "sim/world/bullet_skeleton.hpp"
 #include "sim/world/contacts.hpp"
 #include "sim/world/implicit_tendon.hpp"
 #include "sim/world/joint_limits.hpp"
 #include "sim/world/step_solver.hpp"
+
+namespace sim::effects {
+struct Equipped;
+}
 
 /// A robot, simulated: bones in Bullet, tendons over them, motors at their ends.
 ///
@@ -30,6 +35,8 @@
 ///
 /// v⁺ = v¹ would feed energy into ball joints: 7 J in 10 s into the free arm at 1 ms, against 0.07
 /// J.
+///
+/// The robot's effects (sim/effects) act in its chains and joints, each held over a step.
 ///
 /// Tendons that are ropes (rope.hpp) follow the bones: their forces act over the next step.
 ///
@@ -57,12 +64,13 @@ struct WorldState {
   std::vector<double> tension_N;                                  ///< over the last step
   std::vector<std::array<double, max_path_elements>> around_rad;  ///< how far round its pulleys
   std::vector<RopeState> ropes;                                   ///< of the tendons that are ropes
+  std::vector<effects::Memory> effects;                           ///< what they remember
 };
 
 class World {
  public:
-  /// Throws std::invalid_argument for a robot that cannot be simulated: see RobotTree, Routing,
-  /// Motor; and for a point inside a pulley, with the actuator's name.
+  /// Throws std::invalid_argument for a robot that cannot be simulated: see effects::equip,
+  /// RobotTree, Routing, Motor; and for a point inside a pulley, with the actuator's name.
   explicit World(const erp::Robot& robot, const WorldOptions& options = {});
   ~World();
 
@@ -83,6 +91,7 @@ class World {
   void fill(erp::JointState& joints) const;
   void fill(erp::BodyPose& bodies) const;
 
+  /// With what its effects have changed.
   const erp::Robot& robot() const { return robot_; }
   double time_s() const { return time_s_; }
   std::span<const ActuatorReading> actuators() const { return readings_; }
@@ -110,7 +119,22 @@ class World {
     MotorState state;
     PathShape shape;
     std::unique_ptr<Rope> rope;  ///< null: a tendon that finds its path at once
+    effects::Acting effects;
+    effects::Sloped wound;  ///< line on the spindle, m and m/rad
+    double start_m = 0;     ///< length of the path
+    double cold_ohm = 0;    ///< the winding's resistance at the start
     bool has_rope() const { return rope != nullptr; }
+  };
+  struct JointEffects {
+    int joint, first, dofs;
+    std::size_t friction;  ///< its place among the solver's
+    double coulomb_Nm;     ///< without effects
+    effects::Acting acting;
+  };
+  /// A tendon with its effects, at the start of a step.
+  struct Line {
+    double stretch_m, path_slope;
+    effects::Sloped pull;
   };
   Chain make_chain(const erp::Actuator& actuator) const;
   void make_solver();
@@ -124,10 +148,18 @@ class World {
   void add_rope_impulses(double dt_s);
   void move_ropes(double dt_s);
   void pull(std::size_t chain, double dt_s);
+  effects::ChainSample sample(std::size_t chain, double dt_s) const;
+  Line line_of(std::size_t chain, double dt_s);
+  void heat(Chain& chain, double ohm) const;
+  void restore_effects(Chain& chain, std::span<const effects::Memory>& memories) const;
+  void affect_joints();
+  Eigen::VectorXd torque_of(JointEffects& joint) const;
+  void turn_motor(std::size_t chain, double voltage_V, double tension_N, double dt_s);
   void expect(std::span<const double> inputs, const char* what) const;
   void solve(double dt_s, std::span<const double> tension_N = {});
   void drive(double dt_s);
 
+  std::shared_ptr<const effects::Equipped> equipped_;
   erp::Robot robot_;
   WorldOptions options_;
   RobotTree tree_;
@@ -137,6 +169,7 @@ class World {
   std::unique_ptr<Contacts> contacts_;
   std::unique_ptr<StepSolver> solver_;
   std::vector<Chain> chains_;
+  std::vector<JointEffects> joint_effects_;
   std::vector<ActuatorReading> readings_;
   double time_s_ = 0, time_rest_s_ = 0;
   long unsettled_ = 0;

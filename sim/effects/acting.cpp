@@ -1,0 +1,181 @@
+#include "sim/effects/acting.hpp"
+
+#include <type_traits>
+
+#include "sim/effects/library.hpp"
+
+namespace sim::effects {
+
+struct Acting::Item {
+  AnyEffect effect;
+  Memory memory{};
+};
+
+Acting::Acting() = default;
+Acting::Acting(const Acting&) = default;
+Acting::Acting(Acting&&) noexcept = default;
+Acting& Acting::operator=(const Acting&) = default;
+Acting& Acting::operator=(Acting&&) noexcept = default;
+Acting::~Acting() = default;
+
+Acting::Acting(std::span<const Placed> all, const std::string& on, Seat seat) {
+  for (const Placed& placed : all)
+    if (placed.on == on && about(placed.effect).seat == seat) items_.push_back({placed.effect, {}});
+  empty_ = items_.empty();
+}
+
+/// Calls `use(effect, memory)` for those that it takes.
+template <class Use>
+void Acting::each(Use use) {
+  for (Item& item : items_)
+    std::visit(
+        [&](auto& effect) {
+          if constexpr (std::is_invocable_v<Use&, decltype(effect), Memory&>)
+            use(effect, item.memory);
+        },
+        item.effect);
+}
+
+void Acting::save(std::vector<Memory>& memories) const {
+  for (const Item& item : items_) memories.push_back(item.memory);
+}
+
+void Acting::restore(std::span<const Memory>& memories) {
+  for (Item& item : items_) item.memory = memories.front(), memories = memories.subspan(1);
+}
+
+double Acting::voltage_V(double volts, const ChainSample& s) {
+  each(
+      [&](auto& e, Memory&) requires requires { e.voltage_V(volts, s); } {
+        volts = e.voltage_V(volts, s);
+      });
+  return volts;
+}
+
+double Acting::resistance_ohm(double ohm, const ChainSample& s) {
+  each(
+      [&](auto& e, Memory& m) requires requires { e.resistance_ohm(ohm, s, m); } {
+        ohm = e.resistance_ohm(ohm, s, m);
+      });
+  return ohm;
+}
+
+double Acting::torque_Nm(const ChainSample& s) {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.torque_Nm(s); } { sum += e.torque_Nm(s); });
+  return sum;
+}
+
+double Acting::friction_Nm(int direction, const ChainSample& s) {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.friction_Nm(direction, s); } {
+        sum += e.friction_Nm(direction, s);
+      });
+  return sum;
+}
+
+Sloped Acting::wound(const ChainSample& s, Sloped line) {
+  each(
+      [&](auto& e, Memory& m) requires requires { e.wound(s, line, m); } {
+        line = e.wound(s, line, m);
+      });
+  return line;
+}
+
+Sloped Acting::path(const ChainSample& s, Sloped path) {
+  each(
+      [&](auto& e, Memory&) requires requires { e.path(s, path); } { path = e.path(s, path); });
+  return path;
+}
+
+Sloped Acting::pull(const ChainSample& s) {
+  Sloped sum;
+  each(
+      [&](auto& e, Memory& m) requires requires { e.pull(s, m); } {
+        const Sloped one = e.pull(s, m);
+        sum.value += one.value, sum.slope += one.slope;
+      });
+  return sum;
+}
+
+double Acting::motor_side_N(double far_N, const ChainSample& s) {
+  each(
+      [&](auto& e, Memory&) requires requires { e.motor_side_N(far_N, s); } {
+        far_N = e.motor_side_N(far_N, s);
+      });
+  return far_N;
+}
+
+double Acting::joint_friction_Nm(double speed) {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.joint_friction_Nm(speed); } {
+        sum += e.joint_friction_Nm(speed);
+      });
+  return sum;
+}
+
+Sloped Acting::joint_torque(double angle_rad) {
+  Sloped sum;
+  each(
+      [&](auto& e, Memory&) requires requires { e.joint_torque(angle_rad); } {
+        const Sloped one = e.joint_torque(angle_rad);
+        sum.value += one.value, sum.slope += one.slope;
+      });
+  return sum;
+}
+
+double Acting::bearing_rad(double angle_rad) {
+  each(
+      [&](auto& e, Memory& m) requires requires { e.bearing_rad(angle_rad, m); } {
+        angle_rad = e.bearing_rad(angle_rad, m);
+      });
+  return angle_rad;
+}
+
+double Acting::read(Sense sense, double value, const SensorSample& s) {
+  each(
+      [&](auto& e, Memory& m) requires requires { e.read(value, s, m); } {
+        if (e.sense == sense) value = e.read(value, s, m);
+      });
+  return value;
+}
+
+double Acting::undo(Sense sense, double said, const SensorSample& s) {
+  each(
+      [&](auto& e, Memory& m) requires requires { e.undo(said, s, m); } {
+        if (e.sense == sense) said = e.undo(said, s, m);
+      });
+  return said;
+}
+
+double Acting::command_delay_s(const Draw& draw) {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.command_delay_s(0.0); } {
+        sum += e.command_delay_s(draw());
+      });
+  return sum;
+}
+
+double Acting::frame_delay_s(const Draw& draw) {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.frame_delay_s(0.0); } {
+        sum += e.frame_delay_s(draw());
+      });
+  return sum;
+}
+
+bool Acting::loses_command(const Draw& draw) {
+  bool lost = false;
+  each(
+      [&](auto& e, Memory&) requires requires { e.loses_command(0.0); } {
+        lost |= e.loses_command(draw());
+      });
+  return lost;
+}
+
+}  // namespace sim::effects

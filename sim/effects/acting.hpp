@@ -1,0 +1,58 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/effects/effect.hpp"
+
+/// Effects at work: those on one thing, in the order of the chain, with what they remember. Each
+/// seam goes through all that have it.
+namespace sim::effects {
+
+struct Placed;
+
+class Acting {
+ public:
+  using Draw = std::function<double()>;  ///< uniform in 0 … 1, anew for each
+
+  Acting();
+  Acting(std::span<const Placed> all, const std::string& on, Seat seat);
+  Acting(const Acting&);
+  Acting(Acting&&) noexcept;
+  Acting& operator=(const Acting&);
+  Acting& operator=(Acting&&) noexcept;
+  ~Acting();
+  bool empty() const { return empty_; }
+
+  /// What they remember, to be saved and restored.
+  void save(std::vector<Memory>& memories) const;
+  /// Takes its own from the front of the rest.
+  void restore(std::span<const Memory>& memories);
+
+  double voltage_V(double volts, const ChainSample& s);
+  double resistance_ohm(double ohm, const ChainSample& s);
+  double torque_Nm(const ChainSample& s);
+  double friction_Nm(int direction, const ChainSample& s);
+  Sloped wound(const ChainSample& s, Sloped line);
+  Sloped path(const ChainSample& s, Sloped path);
+  Sloped pull(const ChainSample& s);
+  double motor_side_N(double far_N, const ChainSample& s);
+  double joint_friction_Nm(double speed);
+  Sloped joint_torque(double angle_rad);
+  double bearing_rad(double angle_rad);
+  double read(Sense sense, double value, const SensorSample& s);
+  double undo(Sense sense, double said, const SensorSample& s);
+  double command_delay_s(const Draw& draw);
+  double frame_delay_s(const Draw& draw);
+  bool loses_command(const Draw& draw);
+
+ private:
+  struct Item;
+  template <class Use>
+  void each(Use use);
+  std::vector<Item> items_;
+  bool empty_ = true;
+};
+
+}  // namespace sim::effects

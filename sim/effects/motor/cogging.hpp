@@ -1,0 +1,32 @@
+#pragma once
+#include <cmath>
+
+#include "sim/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The rotor's teeth are drawn to the magnets: a torque that comes and goes with its angle.
+///
+///   τ = N (a sin n N θ + b cos n N θ)          against winding up, on the gearbox shaft
+///
+/// The gear's efficiency is left out of it.
+/// Source: Hanselman, Brushless Permanent Magnet Motor Design, 2006, ch. 7.
+struct MotorCogging {
+  static constexpr About about{"motor_cogging", Stage::motor, Seat::actuator,
+                               "very slow turning under a steady load"};
+
+  double sine_Nm = 0, cosine_Nm = 0;  // a, b; on the motor's shaft
+  double periods_per_turn = 12;       // n, of the motor's shaft
+
+  void visit(auto& v) {
+    v("sine_Nm", sine_Nm, Bounds{-0.02, 0.02});
+    v("cosine_Nm", cosine_Nm, Bounds{-0.02, 0.02});
+    v.shape("periods_per_turn", periods_per_turn, Bounds{1, 100});
+  }
+  double torque_Nm(const ChainSample& s) const {
+    const double phase = periods_per_turn * s.gear_ratio * s.shaft_rad;
+    return s.gear_ratio * (sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase));
+  }
+};
+
+}  // namespace sim::effects

@@ -1,0 +1,155 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/effects/all.hpp"
+
+using namespace sim::effects;
+
+namespace {
+
+ChainSample at(double shaft_rad, double tension_N = 0) {
+  ChainSample s;
+  s.dt_s = 0.001, s.radius_m = 0.005, s.shaft_rad = shaft_rad, s.tension_N = tension_N;
+  s.load_Nm = s.radius_m * tension_N;
+  return s;
+}
+
+Sloped plain_line(const ChainSample& s) { return {s.radius_m * s.shaft_rad, s.radius_m}; }
+
+}  // namespace
+
+TEST_CASE("backlash is crossed in slack and closed by a load") {
+  GearboxBacklash play;
+  play.width_rad = 0.1;
+  Memory memory{};
+  const auto wound = [&](double shaft_rad, double tension_N) {
+    const ChainSample s = at(shaft_rad, tension_N);
+    return play.wound(s, plain_line(s), memory).value;
+  };
+  CHECK(wound(1.0, 20) == Approx(0.005 * 1.0));    // on the flank
+  CHECK(wound(0.96, 0) == Approx(0.005 * 1.0));    // the spindle stays
+  CHECK(wound(0.8, 0) == Approx(0.005 * 0.9));     // the other flank takes it along
+  CHECK(wound(0.85, 0) == Approx(0.005 * 0.9));    // back across the play
+  CHECK(wound(0.95, 0) == Approx(0.005 * 0.95));   // and wound up again
+  CHECK(wound(0.93, 20) == Approx(0.005 * 0.93));  // a load keeps it there
+}
+
+TEST_CASE("layers: the line wound is the integral of the radius") {
+  SpindleLayers layers;
+  layers.growth_m_per_rad = 1e-4;
+  Memory memory{};
+  double sum = 0;
+  for (int k = 0; k < 1000; ++k) sum += 0.01 * (0.005 + 1e-4 * (0.01 * k + 0.005));
+  const ChainSample s = at(10);
+  const Sloped line = layers.wound(s, plain_line(s), memory);
+  CHECK(line.value == Approx(sum));
+  CHECK(line.slope == Approx(0.006));
+  layers.growth_m_per_rad = -1e-3;  // a fifth of the radius is left
+  CHECK(layers.wound(s, plain_line(s), memory).slope == Approx(0.001));
+}
+
+TEST_CASE("slip loses line in proportion to load and way, both ways") {
+  SpindleSlip slip;
+  slip.per_N = 1e-4;
+  Memory memory{};
+  double lost = 0;
+  for (const double shaft : {1.0, 0.0, 1.0}) {
+    const ChainSample s = at(shaft, 50);
+    lost = plain_line(s).value - slip.wound(s, plain_line(s), memory).value;
+  }
+  CHECK(lost == Approx(3 * 0.005 * 50 * 1e-4));
+}
+
+TEST_CASE("creep decays by 1/e in its time constant") {
+  TendonCreep creep{1000, 2};
+  Memory memory{};
+  ChainSample s = at(0);
+  creep.pull(s, memory);
+  s.stretch_m = 0.01;
+  Sloped pull = creep.pull(s, memory);
+  CHECK(pull.value == Approx(10).epsilon(1e-3));
+  for (int k = 1; k < 2000; ++k) pull = creep.pull(s, memory);
+  CHECK(pull.value == Approx(10 / std::exp(1.0)).epsilon(1e-6));
+}
+
+TEST_CASE("hysteresis: a closed loop of stretch costs energy, whatever the steps") {
+  const auto loop_J = [](int steps) {
+    TendonHysteresis braid{3, 5e-4};
+    Memory memory{};
+    double work = 0, last_m = 0;
+    ChainSample s = at(0);
+    braid.pull(s, memory);
+    for (int k = 1; k <= 3 * steps; ++k) {
+      s.stretch_m = 0.003 * (1 - std::cos(2 * M_PI * k / steps));
+      const double force = braid.pull(s, memory).value;
+      if (k > 2 * steps) work += force * (s.stretch_m - last_m);
+      last_m = s.stretch_m;
+    }
+    return work;
+  };
+  const double fine = loop_J(20000);
+  CHECK(fine > 0.9 * 2 * 3 * 0.006 * 0.8);  // near ± F_h over the loop's two ways
+  CHECK(fine < 2 * 3 * 0.006);
+  CHECK(loop_J(500) == Approx(fine).epsilon(0.05));
+}
+
+TEST_CASE("capstan: Euler's ratio, the greater pull at the end the line runs to") {
+  RoutingCapstan rubs;
+  rubs.friction = 0.2;
+  ChainSample s = at(0, 10);
+  s.wrap_rad = 2, s.line_speed_m_per_s = 0.1;
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(0.4)));
+  s.line_speed_m_per_s = -0.1;
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.4)));
+}
+
+TEST_CASE("the winding's warmth: steady rise of resistance, and its time") {
+  MotorThermalResistance warm{10, 5};
+  Memory memory{};
+  ChainSample s = at(0);
+  s.current_A = 2;
+  double ohm = 0;
+  for (int k = 0; k < 100000; ++k) ohm = warm.resistance_ohm(0.5, s, memory);
+  const double rise_K = 10 * ohm * 4;  // R_th i² R
+  CHECK(ohm == Approx(0.5 * (1 + 0.00393 * rise_K)));
+}
+
+TEST_CASE("a dead band takes its volts, a supply gives way") {
+  const MotorDeadBand band{0.5};
+  ChainSample s = at(0);
+  CHECK(band.voltage_V(3, s) == Approx(2.5));
+  CHECK(band.voltage_V(-3, s) == Approx(-2.5));
+  CHECK(band.voltage_V(0.3, s) == 0);
+  const SupplySag sag{0.5};
+  Memory memory{};
+  s.supply_V = 12, s.voltage_V = 6;
+  CHECK(sag.resistance_ohm(0.4, s, memory) == Approx(0.4 + 0.25 * 0.5));
+}
+
+TEST_CASE("play in a bearing: the sensor's shaft is taken along at its edge") {
+  const JointPlay play{0.02};
+  Memory memory{};
+  CHECK(play.bearing_rad(0.005, memory) == 0);
+  CHECK(play.bearing_rad(0.05, memory) == Approx(0.04));
+  CHECK(play.bearing_rad(0.035, memory) == Approx(0.04));
+  CHECK(play.bearing_rad(0.0, memory) == Approx(0.01));
+}
+
+TEST_CASE("what a sensor's effect does, its inverse undoes") {
+  const auto round_trip = [](const auto& effect) {
+    Memory there{}, back{};
+    double worst = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const SensorSample s{0.002 * k, 0.002, 128};
+      const double value = std::sin(0.01 * k);
+      worst =
+          std::fmax(worst, std::abs(effect.undo(effect.read(value, s, there), s, back) - value));
+    }
+    return worst;
+  };
+  CHECK(round_trip(SensorOffset<Sense::tension>{2}) < 1e-12);
+  CHECK(round_trip(SensorGain<Sense::current>{0.2}) < 1e-12);
+  CHECK(round_trip(SensorDrift<Sense::joint>{0.01}) < 1e-12);
+  CHECK(round_trip(SensorEccentricity<Sense::shaft>{0.2, 0.1}) < 1e-9);
+  CHECK(round_trip(SensorLowPass<Sense::tension>{0.02}) < 1e-9);
+}
