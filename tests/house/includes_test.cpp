@@ -29,14 +29,16 @@ const std::vector<Rule> rules{
     {"components/",
      {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},
-    {"sim/diagnosis/", {"interfaces/", "firmware/core/", "sim/"}},
+    {"sim/diagnosis/",
+     {"interfaces/", "firmware/core/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/effects/", {"interfaces/"}},
     {"sim/skeleton/", {"interfaces/"}},
     {"sim/formats/", {"interfaces/", "sim/skeleton/", "sim/actuator/"}},
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
     {"launch/",
-     {"interfaces/", "components/node/", "sim/formats/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
+     {"interfaces/", "components/node/", "sim/formats/", "sim/effects/", "sim/actuator/",
+      "sim/skeleton/"}},
 };
 
 // Headers of others that have one home.

@@ -15,7 +15,7 @@ inline const std::map<std::string, std::map<std::string, double>>& all() {
       {"bus_jitter", {{"spread_s", 0.01}}},
       {"bus_frame_loss", {{"probability", 0.3}}},
       {"motor_resistance", {{"relative", 0.3}}},
-      {"motor_torque_constant", {{"relative", -0.2}}},
+      {"motor_torque_constant", {{"relative", -0.05}}},
       {"motor_inductance", {{"relative", 10}}},
       {"motor_thermal_resistance", {{"kelvin_per_W", 30}, {"time_constant_s", 2}}},
       {"motor_cogging", {{"sine_Nm", 1e-3}, {"cosine_Nm", -5e-4}}},

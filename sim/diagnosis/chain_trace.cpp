@@ -1,0 +1,192 @@
+#include "sim/diagnosis/chain_trace.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace sim::diagnosis {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double resting_rad_per_s = 0.02;  // chosen: an encoder step in a few rows
+
+using effects::Sloped;
+
+/// The rows of one chain, one after the other.
+class Tracer {
+ public:
+  Tracer(ChainModel model, const ActuatorSignals& measured, const PathTrace& path, double period_s,
+         double speed_half_width_s)
+      : m_(std::move(model)),
+        in_(measured),
+        path_(path),
+        period_s_(period_s),
+        bump_(speed_half_width_s, period_s),
+        law_{Spring::of(m_.actuator.tendon), m_.actuator.tendon.damping_N_s_per_m,
+             m_.actuator.spindle.radius_m, 0} {
+    law_.rest_m = m_.start_m - law_.spring.stretch_m(m_.actuator.tendon.pretension_N);
+  }
+
+  ChainTrace run() {
+    undo_sensors();
+    out_.tension_measured = !in_.tension_N.empty(), out_.current_measured = !in_.current_A.empty();
+    rows_ = std::max({out_.shaft_rad.size(), in_.voltage_V.size(), in_.tension_N.size()});
+    out_.speed_rad_per_s = bump_.rates(out_.shaft_rad);
+    if (!path_.length_m.empty()) path_rate_ = bump_.rates(path_.length_m);
+    if (!path_.length_m.empty() && !m_.effects.empty()) calm_path_m_ = calm(path_.length_m);
+    const bool turning = !out_.shaft_rad.empty();
+    if (turning && !path_.length_m.empty())
+      out_.spring_N.assign(rows_, nan), out_.path_slope.assign(rows_, 1);
+    if (turning && !in_.voltage_V.empty())
+      out_.terminal_V.assign(rows_, nan), out_.resistance_ohm.assign(rows_, nan);
+    for (std::size_t k = 0; k < rows_; ++k) take(k);
+    if (!out_.tension_measured) out_.tension_N = out_.spring_N;
+    find_drive();
+    return std::move(out_);
+  }
+
+ private:
+  void undo_sensors() {
+    const auto undone = [&](effects::Sense sense, const Signal& said) {
+      Signal value = said;
+      if (!m_.effects.empty())
+        for (std::size_t k = 0; k < said.size(); ++k)
+          value[k] = m_.effects.undo(sense, said[k],
+                                     {period_s_ * double(k), period_s_, m_.motor.gear_ratio});
+      return value;
+    };
+    out_.shaft_rad = undone(effects::Sense::shaft, in_.shaft_rad);
+    out_.current_A = undone(effects::Sense::current, in_.current_A);
+    out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
+  }
+
+  /// For what remembers: noise would wear a hysteresis down.
+  Signal calm(const Signal& noisy) const {
+    constexpr double half_width_s = 0.03;
+    const Bump bump(half_width_s, period_s_);
+    Signal calm = noisy;
+    for (std::size_t k = bump.reach(); k + bump.reach() < noisy.size(); ++k)
+      calm[k] = bump.mean(noisy, k);
+    return calm;
+  }
+
+  effects::ChainSample sample(std::size_t k) const {
+    const auto at = [k](const Signal& signal) {
+      return signal.empty() || std::isnan(signal[k]) ? 0.0 : signal[k];
+    };
+    effects::ChainSample s;
+    s.dt_s = period_s_;
+    s.supply_V = m_.motor.supply_V, s.gear_ratio = m_.motor.gear_ratio;
+    s.voltage_V = at(in_.voltage_V), s.current_A = at(out_.current_A);
+    s.shaft_rad = at(out_.shaft_rad), s.speed_rad_per_s = at(out_.speed_rad_per_s);
+    s.radius_m = law_.radius_m;
+    s.tension_N = out_.tension_measured || k == 0 ? at(out_.tension_N) : at_spring(k - 1);
+    s.load_Nm = s.radius_m * s.tension_N;
+    s.path_m = at(path_.length_m), s.path_change_m = s.path_m - m_.start_m;
+    s.wrap_rad = at(path_.wrap_rad);
+    return s;
+  }
+  double at_spring(std::size_t k) const {
+    return out_.spring_N.empty() || std::isnan(out_.spring_N[k]) ? 0.0 : out_.spring_N[k];
+  }
+
+  void take(std::size_t k) {
+    effects::ChainSample s = sample(k);
+    Sloped wound{s.radius_m * s.shaft_rad, s.radius_m}, path{s.path_m, 1}, pull;
+    if (!m_.effects.empty()) {
+      wound = m_.effects.wound(s, wound), path = m_.effects.path(s, path);
+      const double noisy_m = s.path_m;
+      s.stretch_m = path.value - law_.rest_m + wound.value;
+      if (k < calm_path_m_.size()) s.stretch_m += path.slope * (calm_path_m_[k] - noisy_m);
+      pull = m_.effects.pull(s);
+    }
+    s.stretch_m = path.value - law_.rest_m + wound.value;
+    s.line_speed_m_per_s = wound.slope * s.speed_rad_per_s;
+    if (!out_.spring_N.empty()) stretch(k, s, path, wound, pull);
+    if (!out_.terminal_V.empty()) {
+      out_.terminal_V[k] = m_.effects.voltage_V(in_.voltage_V[k], s);
+      out_.resistance_ohm[k] = m_.effects.resistance_ohm(m_.motor.resistance_ohm, s);
+    }
+    samples_.push_back(s);
+    wound_slope_.push_back(wound.slope);
+  }
+
+  void stretch(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
+               Sloped pull) {
+    const double rate = path.slope * path_rate_[k] + wound.slope * out_.speed_rad_per_s[k];
+    const double force =
+        law_.spring.force_N(s.stretch_m) + law_.damping_N_s_per_m * rate + pull.value;
+    out_.spring_N[k] = std::isnan(rate) ? nan : s.stretch_m > 0 ? std::max(0.0, force) : 0.0;
+    out_.path_slope[k] = path.slope;
+  }
+
+  /// i: as measured, or as the motor's law has it.
+  double current_A(std::size_t k) const {
+    if (out_.current_measured) return out_.current_A[k];
+    return (out_.terminal_V[k] -
+            m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * out_.speed_rad_per_s[k]) /
+           out_.resistance_ohm[k];
+  }
+  /// ī over the period that ends at row k, but for what the speed changes.
+  double mean_A(std::size_t k) const {
+    const double tau = m_.motor.inductance_H / m_.motor.resistance_ohm / period_s_;
+    const double now = current_A(k);
+    return now + tau * -std::expm1(-1 / tau) * (current_A(k - 1) - now);
+  }
+
+  void find_drive() {
+    const bool driven = out_.current_measured || !out_.terminal_V.empty();
+    if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
+    out_.drive_Nm.assign(rows_, nan);
+    for (std::size_t k = 1; k + 1 < rows_; ++k)
+      out_.drive_Nm[k] = drive_Nm(k, 0.5 * (mean_A(k) + mean_A(k + 1)));
+  }
+
+  double drive_Nm(std::size_t k, double mean_A) {
+    const erp::MotorType& m = m_.motor;
+    const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
+    if (!(std::abs(omega) > resting_rad_per_s)) return nan;
+    const int way = omega > 0 ? 1 : -1;
+    effects::ChainSample s = samples_[k];
+    s.tension_N = out_.tension_N[k];
+    const double near_N =
+        m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
+    s.load_Nm = wound_slope_[k] * near_N;
+    const double dry = std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(way, s));
+    const double load =
+        m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm + m_.effects.torque_Nm(s);
+    const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
+    return n * (m.torque_Nm_per_A * mean_A - m.rotor_viscous_Nm_s_per_rad * n * omega -
+                way * m.rotor_coulomb_Nm) -
+           load / e;
+  }
+
+  ChainModel m_;
+  const ActuatorSignals& in_;
+  const PathTrace& path_;
+  double period_s_;
+  Bump bump_;
+  TendonLaw law_;
+  std::size_t rows_ = 0;
+  Signal path_rate_, calm_path_m_, wound_slope_;
+  std::vector<effects::ChainSample> samples_;
+  ChainTrace out_;
+};
+
+}  // namespace
+
+ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
+                 double period_s, double speed_half_width_s) {
+  return Tracer(std::move(model), measured, path, period_s, speed_half_width_s).run();
+}
+
+double balance_inertia(const erp::MotorType& m, double period_s) {
+  const double n2 = m.gear_ratio * m.gear_ratio;
+  const double inertia = m.rotor_inertia_kg_m2 * n2 + m.gear_inertia_kg_m2 / m.gear_efficiency;
+  const double damping = n2 * m.torque_Nm_per_A * m.back_emf_V_s_per_rad / m.resistance_ohm;
+  // ω_k − mean ω = c (ω_k − ω_k−1) while the speed settles with damping/inertia
+  const double x = damping / inertia * period_s, left = std::exp(-x);
+  const double c = x > 1e-6 ? ((1 - left) / x - left) / (1 - left) : 0.5;
+  return inertia - c * damping * period_s;
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,40 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "interfaces/recording/table.hpp"
+#include "interfaces/robot/robot.hpp"
+
+/// A recording laid out for a robot: rows at even times, its signals by actuator and joint.
+namespace sim::diagnosis {
+
+/// Empty: not recorded. NaN: this sample was not taken.
+using Signal = std::vector<double>;
+
+struct ActuatorSignals {
+  Signal mode, reference, voltage_V, current_A, shaft_rad, tension_N;
+};
+
+/// A revolute joint's angle, or a spherical one's quaternion w x y z.
+struct JointSignals {
+  Signal angle_rad;
+  std::array<Signal, 4> quaternion;
+};
+
+struct Episode {
+  std::string name;
+  double period_s = 0;
+  std::size_t rows = 0;
+  std::vector<ActuatorSignals> actuators;  ///< in the order of robot.xml
+  std::vector<JointSignals> joints;
+};
+
+/// Checks a table and lays it out. Times are put on an even grid: rows that repeat a time are
+/// dropped, rows that are missing become NaN; single samples far off both neighbours become NaN,
+/// and up to three NaN in a row are interpolated. What was done is told in `remarks`. Throws
+/// std::invalid_argument: no row, no column of this robot, a gap of more than a minute.
+Episode lay_out(const recording::Table& table, const erp::Robot& robot, const std::string& name,
+                std::vector<std::string>& remarks);
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,128 @@
+#include "sim/diagnosis/skeletal.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace sim::diagnosis {
+namespace {
+
+Vec3 gravity_of(const erp::Robot& robot) {
+  const auto g = robot.gravity_m_per_s2();
+  return {g[0], g[1], g[2]};
+}
+
+bool was_measured(const JointSignals& joint, erp::JointType type) {
+  if (type == erp::JointType::revolute) return !joint.angle_rad.empty();
+  if (type == erp::JointType::spherical) return !joint.quaternion[3].empty();
+  return type == erp::JointType::fixed;
+}
+
+}  // namespace
+
+Skeletal::Skeletal(const erp::Robot& robot) : tree_(robot), model_(tree_, gravity_of(robot)) {
+  std::vector<JointReading> start;
+  for (const erp::Joint& joint : tree_.joints) start.push_back(start_of(joint));
+  model_.place(start);
+  for (const erp::Actuator& actuator : robot.actuators) {
+    const Routing routing(actuator.tendon, tree_.names);
+    Tendon tendon{routing, levers_of(routing, model_), routing.solve(model_.poses()), 0, {}};
+    tendon.start_m = tendon.shape.length_m;
+    for (int j = 0; j < static_cast<int>(tree_.joints.size()); ++j)
+      for (const int c : tendon.levers.coordinates)
+        if (c >= model_.first_of(j) && model_.first_of(j) >= 0 &&
+            c < model_.first_of(j) + coordinates_of(tree_.joints[std::size_t(j)].type))
+          if (tendon.crossed.empty() || tendon.crossed.back() != j) tendon.crossed.push_back(j);
+    tendons_.push_back(std::move(tendon));
+  }
+}
+
+bool Skeletal::measured(std::span<const JointSignals> joints) const {
+  for (std::size_t j = 0; j < tree_.joints.size(); ++j)
+    if (!was_measured(joints[j], tree_.joints[j].type)) return false;
+  return true;
+}
+
+JointReading Skeletal::reading(const JointSignals& joint, std::size_t j, std::size_t row) const {
+  JointReading reading = start_of(tree_.joints[j]);
+  if (!was_measured(joint, reading.type)) return reading;
+  if (reading.type == erp::JointType::revolute) reading.position[0] = joint.angle_rad[row];
+  if (reading.type == erp::JointType::spherical)
+    for (std::size_t k = 0; k < 4; ++k) reading.position[k] = joint.quaternion[k][row];
+  return reading;
+}
+
+std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std::size_t rows) {
+  std::vector<PathTrace> traces(tendons_.size());
+  std::vector<bool> known(tendons_.size());
+  for (std::size_t a = 0; a < tendons_.size(); ++a) {
+    known[a] = std::ranges::all_of(tendons_[a].crossed, [&](int j) {
+      return was_measured(joints[std::size_t(j)], tree_.joints[std::size_t(j)].type);
+    });
+    if (known[a]) traces[a] = {Signal(rows), Signal(rows)};
+  }
+  std::vector<JointReading> posture(tree_.joints.size());
+  for (std::size_t k = 0; k < rows; ++k) {
+    bool taken = true;
+    for (std::size_t j = 0; j < posture.size(); ++j) {
+      posture[j] = reading(joints[j], j, k);
+      for (const double p : posture[j].position) taken &= !std::isnan(p);
+    }
+    if (taken) model_.place(posture);
+    for (std::size_t a = 0; a < tendons_.size(); ++a) {
+      if (!known[a]) continue;
+      if (taken) tendons_[a].routing.solve(model_.poses(), tendons_[a].shape);
+      traces[a].length_m[k] = taken ? tendons_[a].shape.length_m : recording::not_taken;
+      traces[a].wrap_rad[k] = taken ? bend_rad(tendons_[a].shape) : recording::not_taken;
+    }
+  }
+  return traces;
+}
+
+Motion Skeletal::motion(std::span<const JointSignals> joints, const Bump& bump,
+                        std::size_t row) const {
+  Motion motion{{}, Eigen::VectorXd::Zero(model_.coordinates()), true};
+  for (std::size_t j = 0; j < tree_.joints.size(); ++j) {
+    JointReading r = start_of(tree_.joints[j]);
+    const int first = model_.first_of(static_cast<int>(j));
+    if (r.type == erp::JointType::revolute) {
+      const Signal& angle = joints[j].angle_rad;
+      r.position[0] = bump.mean(angle, row), r.velocity_rad_per_s[0] = bump.rate(angle, row);
+      if (first >= 0) motion.acceleration[first] = bump.acceleration(angle, row);
+    }
+    if (r.type == erp::JointType::spherical) {
+      Eigen::Vector4d q, rate, bend;  // x y z w
+      for (int k = 0; k < 4; ++k) {
+        const Signal& part = joints[j].quaternion[std::size_t((k + 1) % 4)];
+        q[k] = bump.mean(part, row), rate[k] = bump.rate(part, row);
+        bend[k] = bump.acceleration(part, row);
+      }
+      const double length = q.norm();
+      const Eigen::Quaterniond turned(Eigen::Vector4d(q / length));
+      const auto of = [&](const Eigen::Vector4d& d) -> Eigen::Vector3d {
+        return 2 * (turned.conjugate() * Eigen::Quaterniond(Eigen::Vector4d(d / length))).vec();
+      };
+      const Eigen::Vector3d omega = of(rate), alpha = of(bend);
+      r.position = {turned.w(), turned.x(), turned.y(), turned.z()};
+      r.velocity_rad_per_s = {omega.x(), omega.y(), omega.z()};
+      if (first >= 0) motion.acceleration.segment<3>(first) = alpha;
+    }
+    for (const double p : r.position) motion.taken &= !std::isnan(p);
+    motion.joints.push_back(r);
+  }
+  return motion;
+}
+
+Eigen::VectorXd Skeletal::inverse(const Motion& motion) {
+  model_.place(motion.joints);
+  model_.inverse(motion.acceleration, torque_);
+  for (Tendon& tendon : tendons_) tendon.routing.solve(model_.poses(), tendon.shape);
+  return torque_;
+}
+
+const Eigen::VectorXd& Skeletal::gradient(std::size_t a) {
+  length_gradient(tendons_[a].shape, tendons_[a].levers, model_, row_);
+  return row_;
+}
+
+}  // namespace sim::diagnosis

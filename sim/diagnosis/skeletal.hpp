@@ -1,0 +1,63 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/actuator/muscle_jacobian.hpp"
+#include "sim/diagnosis/bump.hpp"
+#include "sim/diagnosis/episode.hpp"
+
+/// The bones of a robot under a recording's joint angles: the tendons' paths at every row, and the
+/// balance of torques around one.
+namespace sim::diagnosis {
+
+/// A tendon's path over the rows; empty where a joint that it crosses was not measured.
+struct PathTrace {
+  Signal length_m, wrap_rad;
+};
+
+/// Angles, speeds and accelerations under a window; of spherical joints ω and its rate in the
+/// child's frame.
+struct Motion {
+  std::vector<JointReading> joints;
+  Eigen::VectorXd acceleration;
+  bool taken = true;  ///< false: a sample was not taken
+};
+
+class Skeletal {
+ public:
+  explicit Skeletal(const erp::Robot& robot);
+
+  std::vector<PathTrace> paths(std::span<const JointSignals> joints, std::size_t rows);
+  /// All joints were measured.
+  bool measured(std::span<const JointSignals> joints) const;
+  Motion motion(std::span<const JointSignals> joints, const Bump& bump, std::size_t row) const;
+  /// H q̈ + C + τ_G of that motion, by coordinate; also places the bones there.
+  Eigen::VectorXd inverse(const Motion& motion);
+  /// ∂L/∂q of a tendon where the bones were placed last.
+  const Eigen::VectorXd& gradient(std::size_t actuator);
+
+  const std::vector<erp::Joint>& joint_list() const { return tree_.joints; }
+  int first_of(int joint) const { return model_.first_of(joint); }
+  int coordinates() const { return model_.coordinates(); }
+  /// The length at the initial pose.
+  double start_m(std::size_t actuator) const { return tendons_[actuator].start_m; }
+
+ private:
+  struct Tendon {
+    Routing routing;
+    Levers levers;
+    PathShape shape;
+    double start_m;
+    std::vector<int> crossed;  ///< joints
+  };
+  JointReading reading(const JointSignals& joint, std::size_t j, std::size_t row) const;
+
+  RobotTree tree_;
+  SkeletonModel model_;
+  std::vector<Tendon> tendons_;
+  Eigen::VectorXd row_, torque_;
+};
+
+}  // namespace sim::diagnosis

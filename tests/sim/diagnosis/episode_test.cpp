@@ -1,0 +1,79 @@
+#include "sim/diagnosis/episode.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/diagnosis/bump.hpp"
+#include "tests/sim/rigs.hpp"
+
+using namespace sim::diagnosis;
+
+namespace {
+
+recording::Table sine(int rows) {
+  recording::Table table{{{"time_s", {}}, {"flexor.shaft_rad", {}}, {"flexor.voltage_V", {}}}};
+  for (int k = 0; k < rows; ++k) {
+    table.columns[0].values.push_back(0.002 * k);
+    table.columns[1].values.push_back(std::sin(0.02 * k));
+    table.columns[2].values.push_back(k % 50 < 25 ? 6 : -6);
+  }
+  return table;
+}
+
+erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+
+}  // namespace
+
+TEST_CASE("rows that repeat are dropped, rows that are missing are left open or bridged") {
+  recording::Table table = sine(1000);
+  for (auto& column : table.columns) {
+    column.values.insert(column.values.begin() + 101, column.values[100]);  // one twice
+    column.values.erase(column.values.begin() + 301, column.values.begin() + 303);
+    column.values.erase(column.values.begin() + 500, column.values.begin() + 520);
+  }
+  std::vector<std::string> remarks;
+  const Episode episode = lay_out(table, hinge_rig(), "run.csv", remarks);
+  CHECK(episode.rows == 1000);
+  CHECK(episode.period_s == Approx(0.002));
+  const Signal& shaft = episode.actuators[0].shaft_rad;
+  CHECK(shaft[301] == Approx(std::sin(0.02 * 301)).margin(1e-3));
+  CHECK(std::isnan(shaft[510]));
+  CHECK(shaft[999] == Approx(std::sin(0.02 * 999)));
+  CHECK(episode.actuators[0].current_A.empty());
+  CHECK(episode.actuators[1].shaft_rad.empty());
+  REQUIRE(remarks.size() == 2);
+  CHECK(remarks[0] == "run.csv: 1 rows repeat a time: dropped");
+  CHECK(remarks[1] == "run.csv: 22 rows are missing");
+}
+
+TEST_CASE("a sample far off its neighbours is dropped, a voltage that leaps is not") {
+  recording::Table table = sine(1000);
+  table.columns[1].values[400] += 3;
+  std::vector<std::string> remarks;
+  const Episode episode = lay_out(table, hinge_rig(), "run.csv", remarks);
+  CHECK(episode.actuators[0].shaft_rad[400] == Approx(std::sin(8.0)).margin(1e-3));
+  CHECK(episode.actuators[0].voltage_V == table.columns[2].values);
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0] == "run.csv: flexor.shaft_rad: 1 outliers dropped");
+}
+
+TEST_CASE("recordings of other machines, and cut ones, are refused with a word why") {
+  std::vector<std::string> remarks;
+  recording::Table other{
+      {{"time_s", sine(100).columns[0].values}, {"knee.current_A", Signal(100)}}};
+  CHECK_THROWS_WITH(lay_out(other, hinge_rig(), "x", remarks),
+                    Catch::Contains("no column of robot \"hinge_rig\""));
+  recording::Table gap = sine(100);
+  for (std::size_t k = 50; k < 100; ++k) gap.columns[0].values[k] += 100;
+  CHECK_THROWS_WITH(lay_out(gap, hinge_rig(), "x", remarks), Catch::Contains("no rows for"));
+}
+
+TEST_CASE("under a window parabolas have their mean, rate and acceleration") {
+  const Bump bump(0.03, 0.002);
+  Signal x;
+  for (int k = 0; k < 40; ++k) x.push_back(3 + 2 * (0.002 * k) + 5 * (0.002 * k) * (0.002 * k));
+  CHECK(bump.rate(x, 20) == Approx(2 + 10 * 0.04));
+  CHECK(bump.acceleration(x, 20) == Approx(10));
+  CHECK(bump.mean(Signal(40, 7.0), 20) == Approx(7));
+  CHECK(bump.acceleration(Signal(40, 7.0), 20) == Approx(0).margin(1e-9));
+}
