@@ -155,9 +155,7 @@ class Tracer {
     const double load =
         m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm + m_.effects.torque_Nm(s);
     const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
-    return n * (m.torque_Nm_per_A * mean_A - m.rotor_viscous_Nm_s_per_rad * n * omega -
-                way * m.rotor_coulomb_Nm) -
-           load / e;
+    return n * (m.torque_Nm_per_A * mean_A - way * m.rotor_coulomb_Nm) - load / e;
   }
 
   ChainModel m_;
@@ -186,7 +184,8 @@ double balance_inertia(const erp::MotorType& m, double period_s) {
   // ω_k − mean ω = c (ω_k − ω_k−1) while the speed settles with damping/inertia
   const double x = damping / inertia * period_s, left = std::exp(-x);
   const double c = x > 1e-6 ? ((1 - left) / x - left) / (1 - left) : 0.5;
-  return inertia - c * damping * period_s;
+  const double start_s = m.inductance_H / m.resistance_ohm;
+  return inertia - damping * (c * period_s - start_s);
 }
 
 }  // namespace sim::diagnosis

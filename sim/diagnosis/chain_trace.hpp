@@ -24,7 +24,7 @@ struct ChainTrace {
   Signal tension_N;        ///< F at the far end: measured, or else the spring's
   Signal spring_N;         ///< F as the spring's law has it
   Signal path_slope;       ///< of the effects on the path
-  Signal drive_Nm;  ///< N (K_T ī − µ_M N ω − s τ_CM) − X/e; NaN where the shaft rests
+  Signal drive_Nm;         ///< N (K_T ī − s τ_CM) − X/e; NaN where the shaft rests
   bool tension_measured = false, current_measured = false;
 };
 
@@ -32,7 +32,8 @@ ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTr
                  double period_s, double speed_half_width_s);
 
 /// What multiplies ω̇ in the gearbox's balance: J_M N² + J_G/η, less what the current changes within
-/// a period (it falls as the motor speeds up: K_E N ω̇ Ts/2R, seen from its end).
+/// a period, seen from its end. It falls as the motor speeds up, i = i_k + (K_E N/R)(ω_k − ω),
+/// after a start from the last period's end that is over in L/R.
 double balance_inertia(const erp::MotorType& motor, double period_s);
 
 }  // namespace sim::diagnosis

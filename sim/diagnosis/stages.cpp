@@ -94,11 +94,15 @@ void Stages::add_motor(const View& view, std::size_t a, std::vector<Residual>& a
     // of the current before, so much is left at the end of a period
     const double kept = std::exp(-view.episode.period_s * c.resistance_ohm[k] / m.inductance_H);
     const double settled_A = (c.current_A[k] - kept * c.current_A[k - 1]) / (1 - kept);
-    left[k] = c.terminal_V[k] - c.resistance_ohm[k] * settled_A -
-              m.back_emf_V_s_per_rad * m.gear_ratio * c.speed_rad_per_s[k];
+    left[k] = c.terminal_V[k] - c.resistance_ohm[k] * settled_A;
   }
-  all.push_back(under_windows(view, effects::Stage::motor, actuator.name, "V",
-                              [&](const Bump& bump, std::size_t k) { return bump.mean(left, k); }));
+  const double back_emf = m.back_emf_V_s_per_rad * m.gear_ratio;
+  all.push_back(under_windows(
+      view, effects::Stage::motor, actuator.name, "V", [&](const Bump& bump, std::size_t k) {
+        const double lag_s = m.inductance_H / bump.mean(c.resistance_ohm, k);
+        return bump.mean(left, k) -
+               back_emf * (bump.rate(c.shaft_rad, k) - lag_s * bump.acceleration(c.shaft_rad, k));
+      }));
 }
 
 void Stages::add_gearbox(const View& view, std::size_t a, std::vector<Residual>& all) const {
@@ -106,11 +110,13 @@ void Stages::add_gearbox(const View& view, std::size_t a, std::vector<Residual>&
   if (c.drive_Nm.empty()) return;
   const erp::Actuator& actuator = equipped_.robot.actuators[a];
   erp::MotorType motor = equipped_.robot.motor_of(actuator);
+  const double viscous = motor.rotor_viscous_Nm_s_per_rad * motor.gear_ratio * motor.gear_ratio;
   all.push_back(under_windows(
       view, effects::Stage::gearbox, actuator.name, "Nm", [&](const Bump& bump, std::size_t k) {
         if (!c.resistance_ohm.empty()) motor.resistance_ohm = bump.mean(c.resistance_ohm, k);
         const double inertia = balance_inertia(motor, view.episode.period_s);
-        return inertia * bump.acceleration(c.shaft_rad, k) - bump.mean(c.drive_Nm, k);
+        return inertia * bump.acceleration(c.shaft_rad, k) + viscous * bump.rate(c.shaft_rad, k) -
+               bump.mean(c.drive_Nm, k);
       }));
 }
 

@@ -9,7 +9,7 @@
 /// Where model and recording part: the chain cut at every measured signal, each stage driven by
 /// what was measured at its ends, so that an error upstream cannot pose as one downstream.
 ///
-///   motor     V − R i − K_E N ω                                             (V)
+///   motor     V − R i − L di/dt − K_E N ω,  where V is held di/dt = −K_E N ω̇/R  (V)
 ///   gearbox   J_M N² ω̇ − N (K_T ī − µ_M N ω − s τ_CM) + X/e                 (Nm),
 ///             X = µ_G ω + s τ_CG + r F, e as in motor.hpp
 ///   tendon    F − [f(Δx) + D dΔx/dt],  Δx from q and θ                       (N)

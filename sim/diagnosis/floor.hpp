@@ -1,0 +1,20 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "sim/diagnosis/stages.hpp"
+
+/// The noise floor: what the sensors' specification alone leaves in the residuals.
+namespace sim::diagnosis {
+
+/// The same recording as such sensors might have said it another time: noise and half a step of
+/// each converter, drawn from the robot's sensor types, on top of what was recorded; and tensions
+/// half a period later, which no data sheet excludes.
+Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_t seed);
+
+/// Of each residual of `stages.residuals(episode)`, the rms of what saying it again changes.
+/// `robot` has the sensors. A stage without a window has 0.
+std::vector<double> floors(Stages& stages, const Episode& episode, const erp::Robot& robot,
+                           std::uint64_t seed = 1);
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/diagnosis/stages.hpp"
+
+/// Where the gap lies: which stages are left with more than the noise of their sensors.
+///
+///   excess = ⟨(r/σ)²⟩ − 1          r residual, σ its noise floor; 0: nothing but noise
+///   share  = excess / Σ excess      of the stages that leave their floor; 0 for the others
+///
+/// with intervals from a block bootstrap over seconds of the recordings.
+namespace sim::diagnosis {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+struct StageGap {
+  effects::Stage stage;
+  std::string on;
+  const char* unit;
+  double rms = 0, floor = 0;  ///< in that unit
+  double excess = 0;
+  Interval excess_interval;  ///< 95 %
+  double share = 0;
+  std::size_t windows = 0;
+  /// It leaves its floor: the interval's low end is above the practical floor.
+  bool open = false;
+};
+
+struct WhereOptions {
+  double block_s = 1;           ///< of the bootstrap
+  int draws = 400;              ///< of the bootstrap
+  double practical_excess = 1;  ///< chosen: 1.4 times the floor may be the method's own
+  std::uint64_t seed = 1;
+};
+
+/// The gap of each stage over all episodes, the largest share first.
+/// Throws std::invalid_argument when no stage is to be had from what was recorded.
+std::vector<StageGap> where(const erp::Robot& robot, std::span<const Episode> episodes,
+                            const WhereOptions& options = {});
+
+}  // namespace sim::diagnosis
