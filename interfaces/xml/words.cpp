@@ -16,9 +16,11 @@ std::string_view stem(std::string_view name) { return name.substr(0, name.find('
 
 std::size_t distance(std::string_view name, std::string_view candidate) {
   const bool unit_forgotten = candidate.starts_with(std::string(name) + "_");
+  const bool group_forgotten = candidate.ends_with("_" + std::string(name));
   const bool other_unit = name.find('_') != name.npos && stem(name) == stem(candidate);
   const std::size_t letters = edit_distance(name, candidate);
-  return unit_forgotten || other_unit ? std::min<std::size_t>(letters, 2) : letters;
+  return unit_forgotten || group_forgotten || other_unit ? std::min<std::size_t>(letters, 2)
+                                                         : letters;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <ostream>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 
 #include "interfaces/graph/graph.hpp"
@@ -26,6 +27,8 @@ class Checker {
       check_as(xml::read_document(file), file);
     } catch (const xml::Errors& errors) {
       complain(errors.what());
+    } catch (const std::invalid_argument& error) {
+      complain(file + ": " + error.what());
     }
   }
   int exit_code() const { return sound_ ? 0 : 2; }
@@ -33,7 +36,7 @@ class Checker {
  private:
   void check_as(const xml::Element& root, const std::string& file) {
     if (root.name == erp::Robot::element) {
-      sim::effects::read_effects(erp::read_robot(file));
+      sim::effects::equip(erp::read_robot(file));
       praise(file);
     } else if (root.name == erp::Graph::element) {
       const erp::Graph graph = erp::read_graph(file);

@@ -22,7 +22,7 @@ const std::map<std::string_view, Words> words_of = {
     {"severity", {"info", "warning", "fault"}}};
 
 /// Word k belongs to bit k.
-const Words actuator_bits = {"voltage", "current", "shaft", "line", "tension"};
+const Words actuator_bits = {"voltage", "current", "shaft", "line", "tension", "potentiometer"};
 const Words joint_bits = {"angle"};
 
 std::string bits(std::uint64_t value, const Words& words) {

@@ -13,6 +13,7 @@
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "sim/actuator/pose_plan.hpp"
+#include "sim/effects/library.hpp"
 #include "sim/formats/formats.hpp"
 #include "sim/skeleton/joint_reading.hpp"
 
@@ -86,8 +87,16 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
 }
 
 int model_export(const std::string& robot_file, const std::string& out_file) {
-  const std::string text = in_format_of(out_file, erp::read_robot(robot_file));
-  write_file(out_file, text);
+  const erp::Robot robot = erp::read_robot(robot_file);
+  write_file(out_file, in_format_of(out_file, robot));
+  const bool skeleton = out_file.ends_with(".urdf") || out_file.ends_with(".sdf");
+  if (skeleton && !robot.actuators.empty())
+    fmt::print(stderr,
+               "{} has the skeleton alone: {} actuators with tendons and sensors are left out\n",
+               out_file, robot.actuators.size());
+  if (!out_file.ends_with(".dae") && !out_file.ends_with(".svg") && !robot.effects.empty())
+    fmt::print(stderr, "{} has the nominal robot: {} effects are left out\n", out_file,
+               robot.effects.size());
   return 0;
 }
 
@@ -95,6 +104,21 @@ int model_import(const std::string& foreign_file, const std::string& robot_file)
   const erp::Robot robot = from_format_of(foreign_file);
   xml::throw_if_any(erp::check_robot(robot));
   write_file(robot_file, erp::write_robot(robot));
+  return 0;
+}
+
+int model_effects(const std::string& part, std::ostream& out) {
+  bool any = false;
+  for (sim::effects::AnyEffect effect : sim::effects::library()) {
+    const sim::effects::About& about = sim::effects::about(effect);
+    if (about.type.find(part) == about.type.npos) continue;
+    any = true;
+    out << fmt::format("{}  on: {}  shown by: {}\n", about.type, word(about.seat), about.shown_by);
+    for (const auto& p : sim::effects::parameters(effect))
+      out << fmt::format("    {:<26} {:>8} … {:<8} default {}\n", p.name, p.bounds.low,
+                         p.bounds.high, *p.value);
+  }
+  if (!any) throw std::invalid_argument("no type of effect contains \"" + part + "\"");
   return 0;
 }
 

@@ -23,6 +23,10 @@ ModelFigures figures_of(const erp::Robot& robot);
 /// A line a figure, or one JSON object. Throws xml::Errors. Returns the exit code.
 int model_info(const std::string& robot_file, bool json, std::ostream& out);
 
+/// Prints the effects whose type contains `part`: on what they sit, what shows them, their
+/// parameters with bounds. Throws std::invalid_argument when there is none. Returns the exit code.
+int model_effects(const std::string& part, std::ostream& out);
+
 /// Prints, as a part to be included in robot.xml, the pretensions that balance the starting pose
 /// against gravity: no tendon below `least_N`, all as near to `rest_N` as can be; and on stderr
 /// what they cannot balance. Throws xml::Errors. Returns the exit code.

@@ -12,8 +12,8 @@ namespace launch {
 
 class Screen {
  public:
+  /// The last table stays when the screen goes: what is printed next stands below it.
   explicit Screen(std::FILE* out);
-  ~Screen() { clear(); }
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 

@@ -90,6 +90,12 @@ void add_model(CLI::App& app, Chosen& chosen) {
   import_verb->add_option("out", *out, "the new robot.xml")->required();
   import_verb->callback([=, &chosen] { chosen = [=] { return model_import(*robot, *out); }; });
   add_statics(*model, chosen);
+
+  auto part = std::make_shared<std::string>();
+  auto* effects = model->add_subcommand(
+      "effects", "What <effect> in robot.xml may say: types, places, parameters, bounds");
+  effects->add_option("part", *part, "only types that contain this: gearbox, delay …");
+  effects->callback([=, &chosen] { chosen = [=] { return model_effects(*part, std::cout); }; });
 }
 
 }  // namespace launch

@@ -1,6 +1,9 @@
 #include "launch/erp/screen.hpp"
 
+#include <pty.h>
+#include <unistd.h>
 #include <catch2/catch.hpp>
+
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -38,4 +41,27 @@ TEST_CASE("without a terminal only changes are written, as plain lines") {
         "    0.00  sim: starting\n"
         "    0.00  plant: active\n"
         "    1.50  done\n");
+}
+
+TEST_CASE("on a terminal the last table stays, and what is printed after it too") {
+  int master = -1, slave = -1;
+  REQUIRE(openpty(&master, &slave, nullptr, nullptr, nullptr) == 0);
+  std::FILE* terminal = fdopen(slave, "w");
+  {
+    launch::Screen screen(terminal);
+    CHECK(screen.is_terminal());
+    screen.show(status("active", "active"));
+    screen.show(status("ended", "ended"));
+  }
+  std::fprintf(terminal, "the summary\n");
+  std::fflush(terminal);
+  char said[4096];
+  const auto length = read(master, said, sizeof said);
+  std::fclose(terminal), close(master);
+  REQUIRE(length > 0);
+  const std::string text(said, static_cast<std::size_t>(length));
+  const auto last_erased = text.rfind("\033[J"), summary = text.find("the summary");
+  REQUIRE(summary != text.npos);
+  CHECK(last_erased < text.rfind("ended"));
+  CHECK(text.rfind("ended") < summary);
 }
