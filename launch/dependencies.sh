@@ -3,7 +3,7 @@
 #   dependencies.sh build | test
 set -euo pipefail
 
-build=(git ca-certificates g++ gcc cmake ninja-build pkg-config cyclonedds-dev cyclonedds-tools
+build=(git ca-certificates g++ gcc make cmake ninja-build pkg-config cyclonedds-dev cyclonedds-tools
   libbullet-dev libeigen3-dev libtinyxml2-dev libspdlog-dev libcli11-dev zlib1g-dev libzstd-dev
   gnuplot-nox)
 test=(catch2 libbenchmark-dev libmujoco-dev libcollada-dom-dev libboost-filesystem-dev libxml2-utils user-mode-linux kmod iproute2 can-utils

@@ -19,6 +19,7 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
   add_listen(app, chosen);
   add_log(app, chosen);
   add_model(app, chosen);
+  add_gap(app, chosen);
   add_new(app, chosen);
 }
 

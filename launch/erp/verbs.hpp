@@ -14,6 +14,7 @@ void add_look(CLI::App& app, Chosen& chosen);    ///< ps, ls, graph
 void add_listen(CLI::App& app, Chosen& chosen);  ///< hz, echo, delay
 void add_log(CLI::App& app, Chosen& chosen);
 void add_model(CLI::App& app, Chosen& chosen);
+void add_gap(CLI::App& app, Chosen& chosen);
 void add_new(CLI::App& app, Chosen& chosen);
 
 }  // namespace launch

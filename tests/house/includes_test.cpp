@@ -37,8 +37,8 @@ const std::vector<Rule> rules{
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
     {"launch/",
-     {"interfaces/", "components/node/", "sim/formats/", "sim/effects/", "sim/actuator/",
-      "sim/skeleton/"}},
+     {"interfaces/", "components/node/", "sim/formats/", "sim/diagnosis/", "sim/effects/",
+      "sim/actuator/", "sim/skeleton/"}},
 };
 
 // Headers of others that have one home.

@@ -1,0 +1,56 @@
+#include "launch/erp/gap.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "sim/diagnosis/where.hpp"
+
+namespace launch {
+namespace {
+
+namespace diagnosis = sim::diagnosis;
+
+std::vector<diagnosis::Episode> read(const erp::Robot& robot,
+                                     const std::vector<std::string>& recordings,
+                                     std::ostream& remarks) {
+  std::vector<diagnosis::Episode> episodes;
+  std::vector<std::string> mended;
+  for (const std::string& file : recordings)
+    episodes.push_back(diagnosis::lay_out(recording::read_table(file, {.robot = robot.name}), robot,
+                                          file, mended));
+  for (const std::string& remark : mended) remarks << remark << "\n";
+  return episodes;
+}
+
+void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
+  const std::string share = gap.open ? fmt::format("{:.0f} %", 100 * gap.share) : "-";
+  out << fmt::format("{:<8} {:<24} {:>9.3g} {:<3} {:>9.3g} {:>7.1f} {:>7} {:>8}\n",
+                     sim::effects::word(gap.stage), gap.on, gap.rms, gap.unit, gap.floor,
+                     gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);
+}
+
+void print_words(const std::vector<diagnosis::StageGap>& gaps, std::ostream& out) {
+  std::string open;
+  for (const auto& gap : gaps)
+    if (gap.open)
+      open += fmt::format("{}{} of {}", open.empty() ? "" : ", ", sim::effects::word(gap.stage),
+                          gap.on);
+  if (open.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
+  else out << "the gap is in: " << open << "\n";
+}
+
+}  // namespace
+
+int gap_where(const std::string& robot_file, const std::vector<std::string>& recordings,
+              std::ostream& out, std::ostream& remarks) {
+  const erp::Robot robot = erp::read_robot(robot_file);
+  const auto gaps = diagnosis::where(robot, read(robot, recordings, remarks));
+  out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
+                     "floor", "times", "share", "windows");
+  for (const auto& gap : gaps) print_row(gap, out);
+  print_words(gaps, out);
+  return 0;
+}
+
+}  // namespace launch

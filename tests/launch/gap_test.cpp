@@ -1,0 +1,42 @@
+#include "launch/erp/gap.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+const std::string robot_file = rigs::config("hinge_rig/robot.xml");
+
+/// A recording of the rig with these effects, as a CSV file.
+std::string recorded(const std::string& name, const std::vector<erp::Effect>& effects) {
+  erp::Robot robot = erp::read_robot(robot_file);
+  robot.effects = effects;
+  const auto file = (std::filesystem::temp_directory_path() / name).string();
+  std::ofstream out(file);
+  recording::write_csv(rig_recording::table_of_run(robot, {.seconds = 8}), out);
+  return file;
+}
+
+std::string said_of(const std::vector<std::string>& files) {
+  std::ostringstream out, remarks;
+  CHECK(launch::gap_where(robot_file, files, out, remarks) == 0);
+  CHECK(remarks.str().empty());
+  return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("recordings of the robot as modelled show no gap, an effect shows its stage") {
+  const auto plain = recorded("erp_gap_plain.csv", {});
+  const auto rubs = recorded("erp_gap_rubs.csv",
+                             {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}});
+  CHECK_THAT(said_of({plain}), Catch::Contains("no gap"));
+  CHECK_THAT(said_of({rubs}), Catch::Contains("the gap is in: gearbox of extensor\n"));
+  std::filesystem::remove(plain), std::filesystem::remove(rubs);
+}
