@@ -7,6 +7,7 @@
 /// A recording as a table to compute with: one row a cycle, one column a signal.
 ///
 ///   time_s                    since the first row
+///   sequence                  of the frame: the device's tick (on request)
 ///   <a>.mode                  what the ECU followed (erp::Mode as a number; a word in CSV)
 ///   <a>.reference             V, m (change of line length since the start), A or N, by mode
 ///   <a>.voltage_V             as the ECU commanded it
@@ -41,9 +42,10 @@ std::string_view signal_of(std::string_view column);
 bool holds_mode(std::string_view column);
 
 struct TableOptions {
-  std::string robot;     ///< empty: the only one in the recording
-  bool lines = false;    ///< with <a>.line_m
-  bool targets = false;  ///< with <a>.target_mode and <a>.target
+  std::string robot;       ///< empty: the only one in the recording
+  bool sequences = false;  ///< with sequence, from MCAP
+  bool lines = false;      ///< with <a>.line_m
+  bool targets = false;    ///< with <a>.target_mode and <a>.target
   /// Where spherical joints come from; empty: motion_capture if recorded, else sim.
   std::string pose_source;
 };

@@ -208,6 +208,10 @@ class Builder {
     const std::int64_t start_ns = rows_[order.front()].stamp_ns;
     for (const Row& row : rows_)
       table.columns[0].values.push_back(static_cast<double>(row.stamp_ns - start_ns) / 1e9);
+    if (options_.sequences) {
+      Column& sequence = table.columns.emplace_back(Column{"sequence", {}});
+      for (const Row& row : rows_) sequence.values.push_back(static_cast<double>(row.sequence));
+    }
     if (std::ranges::is_sorted(order)) return table;
     for (Column& column : table.columns) {
       std::vector<double> sorted;

@@ -17,8 +17,9 @@ std::vector<diagnosis::Episode> read(const erp::Robot& robot,
   std::vector<diagnosis::Episode> episodes;
   std::vector<std::string> mended;
   for (const std::string& file : recordings)
-    episodes.push_back(diagnosis::lay_out(recording::read_table(file, {.robot = robot.name}), robot,
-                                          file, mended));
+    episodes.push_back(
+        diagnosis::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
+                           robot, file, mended));
   for (const std::string& remark : mended) remarks << remark << "\n";
   return episodes;
 }
@@ -30,14 +31,25 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
                      gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);
 }
 
-void print_words(const std::vector<diagnosis::StageGap>& gaps, std::ostream& out) {
-  std::string open;
+/// The stages for which `holds`, in words.
+std::string named(const std::vector<diagnosis::StageGap>& gaps, bool diagnosis::StageGap::*holds,
+                  bool wanted) {
+  std::string names;
   for (const auto& gap : gaps)
-    if (gap.open)
-      open += fmt::format("{}{} of {}", open.empty() ? "" : ", ", sim::effects::word(gap.stage),
-                          gap.on);
-  if (open.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
-  else out << "the gap is in: " << open << "\n";
+    if (gap.*holds == wanted)
+      names += fmt::format("{}{} of {}", names.empty() ? "" : ", ", sim::effects::word(gap.stage),
+                           gap.on);
+  return names;
+}
+
+void print_words(const std::vector<diagnosis::StageGap>& gaps, std::ostream& out) {
+  const std::string open = named(gaps, &diagnosis::StageGap::open, true);
+  const std::string unjudged = named(gaps, &diagnosis::StageGap::judged, false);
+  if (!unjudged.empty())
+    out << "not judged, for want of windows in which they move: " << unjudged << "\n";
+  if (!open.empty()) out << "the gap is in: " << open << "\n";
+  else if (unjudged.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
+  else out << "no gap in the others: they are left with the noise of their sensors\n";
 }
 
 }  // namespace

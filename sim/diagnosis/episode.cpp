@@ -54,6 +54,25 @@ Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
   return grid;
 }
 
+constexpr double tick_s = 0.002;  // the firmware's period
+
+/// The frames are numbered by the firmware's ticks, without a restart.
+bool counts_ticks(const recording::Column& tick, const recording::Column& time) {
+  std::vector<double> period;
+  for (std::size_t k = 1; k < tick.values.size(); ++k) {
+    const double ticks = tick.values[k] - tick.values[k - 1];
+    if (!(ticks > 0)) return false;
+    period.push_back((time.values[k] - time.values[k - 1]) / ticks);
+  }
+  return !period.empty() && std::abs(median(std::move(period)) / tick_s - 1) < 0.1;
+}
+
+std::vector<double> times_of(const recording::Column& tick) {
+  std::vector<double> time_s;
+  for (const double n : tick.values) time_s.push_back((n - tick.values.front()) * tick_s);
+  return time_s;
+}
+
 Signal on_grid(const Grid& grid, const recording::Column* column) {
   if (!column || std::ranges::all_of(column->values, [](double x) { return std::isnan(x); }))
     return {};
@@ -110,7 +129,14 @@ class Layout {
       : table_(table), name_(std::move(name)), remarks_(remarks) {
     const recording::Column* time = table.find("time_s");
     if (!time) throw std::invalid_argument(name_ + ": no column time_s");
-    grid_ = even_grid(time->values, name_);
+    const recording::Column* tick = table.find("sequence");
+    grid_ = even_grid(tick && counts_ticks(*tick, *time) ? times_of(*tick) : time->values, name_);
+    if (100 * grid_.repeated > grid_.row_of.size())
+      throw std::invalid_argument(
+          name_ + ": " + std::to_string(grid_.repeated) + " of " +
+          std::to_string(grid_.row_of.size()) +
+          " rows come less than half a period after another: their times are those of arrival, "
+          "not of measurement; give a recording that numbers its frames, or one of even times");
     if (grid_.repeated) remark(std::to_string(grid_.repeated) + " rows repeat a time: dropped");
     if (grid_.missing) remark(std::to_string(grid_.missing) + " rows are missing");
   }

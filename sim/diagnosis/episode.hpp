@@ -33,7 +33,9 @@ struct Episode {
 /// Checks a table and lays it out. Times are put on an even grid: rows that repeat a time are
 /// dropped, rows that are missing become NaN; single samples far off both neighbours become NaN,
 /// and up to three NaN in a row are interpolated. What was done is told in `remarks`. Throws
-/// std::invalid_argument: no row, no column of this robot, a gap of more than a minute.
+/// std::invalid_argument: no row, no column of this robot, a gap of more than a minute, times of
+/// arrival. Where frames are numbered by the device's ticks (column `sequence`), those are the
+/// time: stamps in real time come early and late.
 Episode lay_out(const recording::Table& table, const erp::Robot& robot, const std::string& name,
                 std::vector<std::string>& remarks);
 

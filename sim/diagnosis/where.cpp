@@ -93,7 +93,8 @@ StageGap gap_of(const Collected& collected, const WhereOptions& options) {
   gap.windows = whole.windows;
   gap.excess = excess_of(whole);
   gap.excess_interval = bootstrap(collected.blocks, options.draws, options.seed);
-  gap.open = gap.excess_interval.low > options.practical_excess;
+  gap.judged = gap.windows >= options.least_windows;
+  gap.open = gap.judged && gap.excess_interval.low > options.practical_excess;
   return gap;
 }
 

@@ -27,14 +27,16 @@ struct StageGap {
   Interval excess_interval;  ///< 95 %
   double share = 0;
   std::size_t windows = 0;
-  /// It leaves its floor: the interval's low end is above the practical floor.
+  bool judged = false;  ///< it has enough windows
+  /// It is judged and leaves its floor: the interval's low end is above the practical floor.
   bool open = false;
 };
 
 struct WhereOptions {
-  double block_s = 1;           ///< of the bootstrap
-  int draws = 400;              ///< of the bootstrap
-  double practical_excess = 1;  ///< chosen: 1.4 times the floor may be the method's own
+  double block_s = 1;              ///< of the bootstrap
+  int draws = 400;                 ///< of the bootstrap
+  double practical_excess = 1;     ///< chosen: 1.4 times the floor may be the method's own
+  std::size_t least_windows = 50;  ///< to judge a stage, chosen
   std::uint64_t seed = 1;
 };
 

@@ -46,7 +46,7 @@ struct Change {
           if (joint.name == on) effect.change_joint(joint), changed = true;
       if constexpr (requires { effect.change_body(part.bodies[0]); })
         for (erp::Body& body : part.bodies)
-          if (body.name == on) resolve(body), effect.change_body(body), changed = true;
+          if (body.name == on) effect.change_body(body), changed = true;
     }
     if constexpr (requires { effect.change_robot(robot, on); })
       effect.change_robot(robot, on), changed = true;
@@ -82,6 +82,10 @@ Equipped equip(const erp::Robot& nominal) {
     robot.effects.clear();  // a change may add others
     for (const Placed& p : placed) {
       refuse_on_rope(robot, p);
+      if (about(p.effect).seat == Seat::body)
+        for (erp::Skeleton& part : robot.skeletons)
+          for (erp::Body& body : part.bodies)
+            if (body.name == p.on) resolve(body);
       if (!std::visit(Change{robot, p.on}, p.effect)) result.acting.push_back(p);
     }
   }

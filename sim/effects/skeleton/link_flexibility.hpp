@@ -11,7 +11,7 @@ namespace sim::effects {
 /// joint's axis.
 ///
 ///   halves of m/2 and I/4, centres at c ± d c/|c|,  d = √(I/2m):  together m, c and I;
-///   τ = −c δ − D ω_δ
+///   τ = −k δ − D ω_δ
 ///
 /// I: the mean of the body's principal inertias across its length, taken as I_xx. Tendons and
 /// pulleys stay with the inner half; a robot whose bones hang on this one keeps them there.

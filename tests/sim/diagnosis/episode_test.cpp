@@ -46,6 +46,24 @@ TEST_CASE("rows that repeat are dropped, rows that are missing are left open or 
   CHECK(remarks[1] == "run.csv: 22 rows are missing");
 }
 
+TEST_CASE(
+    "ticks of the device count where stamps come early and late; without them it is refused") {
+  recording::Table table = sine(1000);
+  Signal ticks;
+  for (std::size_t k = 0; k < 1000; ++k) {
+    ticks.push_back(static_cast<double>(7 + k));
+    if (k % 10 == 5) table.columns[0].values[k] += 0.0015;  // late, and the next soon after
+  }
+  std::vector<std::string> remarks;
+  CHECK_THROWS_WITH(lay_out(table, hinge_rig(), "x", remarks), Catch::Contains("of arrival"));
+  table.columns.push_back({"sequence", ticks});
+  const Episode episode = lay_out(table, hinge_rig(), "x", remarks);
+  CHECK(episode.rows == 1000);
+  CHECK(episode.period_s == Approx(0.002).epsilon(1e-9));
+  CHECK(episode.actuators[0].shaft_rad == table.columns[1].values);
+  CHECK(remarks.empty());
+}
+
 TEST_CASE("a sample far off its neighbours is dropped, a voltage that leaps is not") {
   recording::Table table = sine(1000);
   table.columns[1].values[400] += 3;

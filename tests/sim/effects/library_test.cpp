@@ -134,3 +134,11 @@ TEST_CASE("a tilted base turns gravity, a bent link keeps mass, centre and inert
   REQUIRE(acting.size() == 1);  // the spring between them
   CHECK(acting[0].on == "forearm_bend");
 }
+
+TEST_CASE("a bone made of solids bends as well") {
+  erp::Robot arm = erp::read_robot(rigs::config("arm/robot.xml"));
+  const std::size_t bodies = arm.bodies().size();
+  arm.effects = {
+      {{}, "skeleton_link_flexibility", "forearm", {{{}, "compliance_rad_per_Nm", "0.1"}}}};
+  CHECK(effects::equip(arm).robot.bodies().size() == bodies + 1);
+}
