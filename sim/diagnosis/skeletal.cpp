@@ -52,15 +52,14 @@ JointReading Skeletal::reading(const JointSignals& joint, std::size_t j, std::si
   return reading;
 }
 
-std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std::size_t rows) {
-  std::vector<PathTrace> traces(tendons_.size());
-  std::vector<bool> known(tendons_.size());
-  for (std::size_t a = 0; a < tendons_.size(); ++a) {
-    known[a] = std::ranges::all_of(tendons_[a].crossed, [&](int j) {
-      return was_measured(joints[std::size_t(j)], tree_.joints[std::size_t(j)].type);
-    });
-    if (known[a]) traces[a] = {Signal(rows), Signal(rows)};
-  }
+std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std::size_t rows,
+                                       std::span<const std::size_t> actuators) {
+  std::vector<PathTrace> traces(actuators.size());
+  for (std::size_t n = 0; n < actuators.size(); ++n)
+    if (std::ranges::all_of(tendons_[actuators[n]].crossed, [&](int j) {
+          return was_measured(joints[std::size_t(j)], tree_.joints[std::size_t(j)].type);
+        }))
+      traces[n] = {Signal(rows, recording::not_taken), Signal(rows, recording::not_taken)};
   std::vector<JointReading> posture(tree_.joints.size());
   for (std::size_t k = 0; k < rows; ++k) {
     bool taken = true;
@@ -68,12 +67,13 @@ std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std
       posture[j] = reading(joints[j], j, k);
       for (const double p : posture[j].position) taken &= !std::isnan(p);
     }
-    if (taken) model_.place(posture);
-    for (std::size_t a = 0; a < tendons_.size(); ++a) {
-      if (!known[a]) continue;
-      if (taken) tendons_[a].routing.solve(model_.poses(), tendons_[a].shape);
-      traces[a].length_m[k] = taken ? tendons_[a].shape.length_m : recording::not_taken;
-      traces[a].wrap_rad[k] = taken ? bend_rad(tendons_[a].shape) : recording::not_taken;
+    if (!taken) continue;
+    model_.place(posture);
+    for (std::size_t n = 0; n < actuators.size(); ++n) {
+      if (traces[n].length_m.empty()) continue;
+      Tendon& tendon = tendons_[actuators[n]];
+      tendon.routing.solve(model_.poses(), tendon.shape);
+      traces[n].length_m[k] = tendon.shape.length_m, traces[n].wrap_rad[k] = bend_rad(tendon.shape);
     }
   }
   return traces;
@@ -116,13 +116,27 @@ Motion Skeletal::motion(std::span<const JointSignals> joints, const Bump& bump,
 Eigen::VectorXd Skeletal::inverse(const Motion& motion) {
   model_.place(motion.joints);
   model_.inverse(motion.acceleration, torque_);
-  for (Tendon& tendon : tendons_) tendon.routing.solve(model_.poses(), tendon.shape);
   return torque_;
 }
 
-const Eigen::VectorXd& Skeletal::gradient(std::size_t a) {
-  length_gradient(tendons_[a].shape, tendons_[a].levers, model_, row_);
-  return row_;
+std::vector<Eigen::MatrixXd> Skeletal::gradients(std::span<const Motion> motions,
+                                                 std::span<const std::size_t> actuators) {
+  const auto columns = static_cast<Eigen::Index>(motions.size());
+  std::vector<Eigen::MatrixXd> all(
+      actuators.size(),
+      Eigen::MatrixXd::Constant(model_.coordinates(), columns, recording::not_taken));
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const Motion& motion = motions[std::size_t(k)];
+    if (!motion.taken) continue;
+    model_.place(motion.joints);
+    for (std::size_t n = 0; n < actuators.size(); ++n) {
+      Tendon& tendon = tendons_[actuators[n]];
+      tendon.routing.solve(model_.poses(), tendon.shape);
+      length_gradient(tendon.shape, tendon.levers, model_, row_);
+      all[n].col(k) = row_;
+    }
+  }
+  return all;
 }
 
 }  // namespace sim::diagnosis

@@ -29,14 +29,17 @@ class Skeletal {
  public:
   explicit Skeletal(const erp::Robot& robot);
 
-  std::vector<PathTrace> paths(std::span<const JointSignals> joints, std::size_t rows);
+  /// Of some actuators, in their order.
+  std::vector<PathTrace> paths(std::span<const JointSignals> joints, std::size_t rows,
+                               std::span<const std::size_t> actuators);
   /// All joints were measured.
   bool measured(std::span<const JointSignals> joints) const;
   Motion motion(std::span<const JointSignals> joints, const Bump& bump, std::size_t row) const;
-  /// H q̈ + C + τ_G of that motion, by coordinate; also places the bones there.
+  /// H q̈ + C + τ_G of that motion, by coordinate.
   Eigen::VectorXd inverse(const Motion& motion);
-  /// ∂L/∂q of a tendon where the bones were placed last.
-  const Eigen::VectorXd& gradient(std::size_t actuator);
+  /// ∂L/∂q of some tendons, each coordinates × motions; NaN where a sample was not taken.
+  std::vector<Eigen::MatrixXd> gradients(std::span<const Motion> motions,
+                                         std::span<const std::size_t> actuators);
 
   const std::vector<erp::Joint>& joint_list() const { return tree_.joints; }
   int first_of(int joint) const { return model_.first_of(joint); }

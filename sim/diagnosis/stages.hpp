@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/diagnosis/skeletal.hpp"
+#include "sim/diagnosis/explanation.hpp"
 #include "sim/effects/library.hpp"
 
 /// Where model and recording part: the chain cut at every measured signal, each stage driven by
@@ -16,19 +16,12 @@
 ///   joint     H q̈ + C + τ_G + friction + Σ F ∂L/∂q                          (Nm), one a coordinate
 ///
 /// each as a mean under a window (bump.hpp). The current at a row is that at the end of a period
-/// over which the voltage was held. Where a shaft or joint rests, friction is anything within a
-/// band: such windows are left out. Spindle and routing act within the tendon's stage, bodies
+/// over which the voltage was held. Where a joint rests, friction is anything within a
+/// band, and a stop within reach may push: what remains beyond counts. Windows in which a shaft
+/// rests are left out. Spindle and routing act within the tendon's stage, bodies
 /// within the joint's. Without a tension sensor the spring's law takes its place and the tendon's
 /// stage is part of those that use it; without a current the motor's law does.
 namespace sim::diagnosis {
-
-/// One stage's residual at the windows of an episode; NaN: not to be had there.
-struct Residual {
-  effects::Stage stage;
-  std::string on;  ///< actuator or joint
-  const char* unit;
-  std::vector<double> value;
-};
 
 struct Windows {
   double half_width_s = 0.03;
@@ -41,26 +34,35 @@ class Stages {
  public:
   /// Throws as effects::equip.
   explicit Stages(const erp::Robot& robot, const Windows& windows = {});
-  /// The same list for every episode that has the same columns; windows by row, first to last.
-  std::vector<Residual> residuals(const Episode& episode);
-  /// The rows in the middle of the windows.
-  std::vector<std::size_t> rows(const Episode& episode) const;
+  /// The residuals are the same list for every episode that has the same columns.
+  Explanation explain(const Episode& episode);
+  /// The same, with what `reach` leaves untouched taken from `base`: an explanation of the same
+  /// episode by a robot that differs in one effect.
+  Explanation explain(const Episode& episode, const Explanation& base, const Reach& reach);
+  std::vector<Residual> residuals(const Episode& episode) { return explain(episode).residuals; }
+
+  /// What such an effect reaches.
+  Reach reach(const effects::Placed& placed) const;
+  const Windows& windows() const { return windows_; }
 
  private:
-  struct View;  ///< an episode, with what lies between its signals
-  std::vector<JointSignals> undone(const Episode& episode) const;
-  Residual under_windows(const View& view, effects::Stage stage, const std::string& on,
-                         const char* unit,
-                         const std::function<double(const Bump&, std::size_t)>& at) const;
-  void add_motor(const View& view, std::size_t actuator, std::vector<Residual>& all) const;
-  void add_gearbox(const View& view, std::size_t actuator, std::vector<Residual>& all) const;
-  void add_tendon(const View& view, std::size_t actuator, std::vector<Residual>& all) const;
-  void add_joints(View& view, std::vector<Residual>& all);
-  Eigen::VectorXd balance(const View& view, const Motion& motion, const Bump& bump,
-                          std::size_t row);
-  bool glides(const View& view, std::size_t joint, const Bump& bump, std::size_t row) const;
+  struct Touched {
+    bool joints, bones;
+    std::vector<std::size_t> paths, chains;
+  };
+  Explanation renew(const Episode& episode, Explanation explanation, const Touched& touched);
+  std::vector<std::size_t> rows(const Episode& episode) const;
+  JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows) const;
+  Eigen::MatrixXd bones(const Episode& episode, const JointTrace& joints,
+                        std::span<const std::size_t> rows);
+  void add_joints(const Episode& episode, Explanation& explanation) const;
   bool pass_joint(std::size_t joint, const JointReading& reading,
                   Eigen::Ref<Eigen::VectorXd> torque) const;
+  /// How a revolute joint moves over a window.
+  enum class Gait { glides, rests, mixed };
+  Gait gait(const JointTrace& joints, std::size_t joint, const Bump& bump, std::size_t row) const;
+  double leave(const JointTrace& joints, std::size_t joint, const Bump& bump, std::size_t row,
+               double torque_Nm) const;
 
   effects::Equipped equipped_;
   Windows windows_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include "sim/diagnosis/floor.hpp"
@@ -42,20 +41,12 @@ Block sum(std::span<const Block> blocks) {
 
 double excess_of(const Block& b) { return b.floor_square > 0 ? b.square / b.floor_square - 1 : 0; }
 
-Interval bootstrap(const std::vector<Block>& blocks, int draws, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_int_distribution<std::size_t> any(0, blocks.size() - 1);
-  std::vector<double> drawn;
-  for (int d = 0; d < draws; ++d) {
+Interval interval_of(const std::vector<Block>& blocks, const WhereOptions& options) {
+  return middle(bootstrap(blocks.size(), options.draws, options.seed, [&](const auto& drawn) {
     std::vector<Block> sample;
-    for (std::size_t k = 0; k < blocks.size(); ++k) sample.push_back(blocks[any(random)]);
-    drawn.push_back(excess_of(sum(sample)));
-  }
-  std::ranges::sort(drawn);
-  const auto at = [&](double share) {
-    return drawn[static_cast<std::size_t>(share * static_cast<double>(drawn.size() - 1))];
-  };
-  return {at(0.025), at(0.975)};
+    for (const std::size_t k : drawn) sample.push_back(blocks[k]);
+    return excess_of(sum(sample));
+  }));
 }
 
 std::vector<Collected> collect(const erp::Robot& robot, std::span<const Episode> episodes,
@@ -92,7 +83,7 @@ StageGap gap_of(const Collected& collected, const WhereOptions& options) {
   gap.rms = rms(whole.square), gap.floor = rms(whole.floor_square);
   gap.windows = whole.windows;
   gap.excess = excess_of(whole);
-  gap.excess_interval = bootstrap(collected.blocks, options.draws, options.seed);
+  gap.excess_interval = interval_of(collected.blocks, options);
   gap.judged = gap.windows >= options.least_windows;
   gap.open = gap.judged && gap.excess_interval.low > options.practical_excess;
   return gap;

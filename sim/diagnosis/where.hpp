@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/diagnosis/bootstrap.hpp"
 #include "sim/diagnosis/stages.hpp"
 
 /// Where the gap lies: which stages are left with more than the noise of their sensors.
@@ -13,10 +14,6 @@
 ///
 /// with intervals from a block bootstrap over seconds of the recordings.
 namespace sim::diagnosis {
-
-struct Interval {
-  double low = 0, high = 0;
-};
 
 struct StageGap {
   effects::Stage stage;

@@ -1,0 +1,38 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace sim::diagnosis {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// What `of(drawn)` gives for `draws` resamplings of `count` blocks, sorted; drawn: indices of
+/// blocks, `count` of them, with replacement. Source: Efron 1979; of blocks, Künsch 1989.
+template <class Of>
+std::vector<double> bootstrap(std::size_t count, int draws, std::uint64_t seed, Of of) {
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<std::size_t> any(0, count > 0 ? count - 1 : 0);
+  std::vector<double> values;
+  std::vector<std::size_t> drawn(count);
+  for (int d = 0; d < draws && count > 0; ++d) {
+    for (std::size_t& k : drawn) k = any(random);
+    values.push_back(of(drawn));
+  }
+  std::ranges::sort(values);
+  return values;
+}
+
+/// The middle `share` of sorted values.
+inline Interval middle(const std::vector<double>& sorted, double share = 0.95) {
+  if (sorted.empty()) return {};
+  const auto at = [&](double q) {
+    return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1) + 0.5)];
+  };
+  return {at((1 - share) / 2), at((1 + share) / 2)};
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,80 @@
+#include "sim/diagnosis/chain_residuals.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace sim::diagnosis {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+struct Chain {
+  const ChainTrace& trace;
+  const erp::MotorType& motor;
+  double period_s;
+  const Bump& bump;
+};
+
+/// V − R i without the current's start within each period.
+Signal resistive_V(const Chain& c) {
+  const ChainTrace& t = c.trace;
+  Signal left(t.terminal_V.size(), nan);
+  for (std::size_t k = 1; k < left.size(); ++k) {
+    // of the current before, so much is left at the end of a period
+    const double kept = std::exp(-c.period_s * t.resistance_ohm[k] / c.motor.inductance_H);
+    const double settled_A = (t.current_A[k] - kept * t.current_A[k - 1]) / (1 - kept);
+    left[k] = t.terminal_V[k] - t.resistance_ohm[k] * settled_A;
+  }
+  return left;
+}
+
+std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
+  const Signal left = resistive_V(c);
+  const double back_emf = c.motor.back_emf_V_s_per_rad * c.motor.gear_ratio;
+  std::vector<double> value;
+  for (const std::size_t k : rows) {
+    const double lag_s = c.motor.inductance_H / c.bump.mean(c.trace.resistance_ohm, k);
+    value.push_back(c.bump.mean(left, k) -
+                    back_emf * (c.bump.rate(c.trace.shaft_rad, k) -
+                                lag_s * c.bump.acceleration(c.trace.shaft_rad, k)));
+  }
+  return value;
+}
+
+std::vector<double> gearbox_Nm(const Chain& c, std::span<const std::size_t> rows) {
+  erp::MotorType motor = c.motor;
+  const double viscous = motor.rotor_viscous_Nm_s_per_rad * motor.gear_ratio * motor.gear_ratio;
+  std::vector<double> value;
+  for (const std::size_t k : rows) {
+    if (!c.trace.resistance_ohm.empty())
+      motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
+    value.push_back(balance_inertia(motor, c.period_s) * c.bump.acceleration(c.trace.shaft_rad, k) +
+                    viscous * c.bump.rate(c.trace.shaft_rad, k) - c.bump.mean(c.trace.drive_Nm, k));
+  }
+  return value;
+}
+
+std::vector<double> tendon_N(const Chain& c, std::span<const std::size_t> rows) {
+  std::vector<double> value;
+  for (const std::size_t k : rows)
+    value.push_back(c.bump.mean(c.trace.tension_N, k) - c.bump.mean(c.trace.spring_N, k));
+  return value;
+}
+
+}  // namespace
+
+std::vector<Residual> chain_residuals(const ChainTrace& trace, const erp::Actuator& actuator,
+                                      const erp::MotorType& motor, const Episode& episode,
+                                      const Bump& bump, std::span<const std::size_t> rows) {
+  const Chain chain{trace, motor, episode.period_s, bump};
+  std::vector<Residual> all;
+  if (trace.current_measured && !trace.terminal_V.empty())
+    all.push_back({effects::Stage::motor, actuator.name, "V", motor_V(chain, rows)});
+  if (!trace.drive_Nm.empty())
+    all.push_back({effects::Stage::gearbox, actuator.name, "Nm", gearbox_Nm(chain, rows)});
+  if (trace.tension_measured && !trace.spring_N.empty())
+    all.push_back({effects::Stage::tendon, actuator.name, "N", tendon_N(chain, rows)});
+  return all;
+}
+
+}  // namespace sim::diagnosis

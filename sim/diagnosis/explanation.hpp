@@ -1,0 +1,50 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/diagnosis/chain_trace.hpp"
+#include "sim/diagnosis/skeletal.hpp"
+#include "sim/effects/effect.hpp"
+
+/// An episode as a robot with effects explains it. Its pieces are shared with explanations that
+/// differ elsewhere, so that to try one effect costs what that effect reaches.
+namespace sim::diagnosis {
+
+/// One stage's residual at the windows of an episode; NaN: not to be had there.
+struct Residual {
+  effects::Stage stage;
+  std::string on;  ///< actuator or joint
+  const char* unit;
+  std::vector<double> value;
+};
+
+/// The joints over an episode, their sensors' effects undone.
+struct JointTrace {
+  std::vector<JointSignals> signals;
+  std::vector<Signal> speed_rad_per_s;  ///< of revolute joints
+  std::vector<Motion> motions;          ///< one a window; empty: a joint was not measured
+};
+
+struct Explanation {
+  std::vector<std::size_t> rows;  ///< in the middle of the windows
+  std::shared_ptr<const JointTrace> joints;
+  std::vector<std::shared_ptr<const PathTrace>> paths;            ///< one an actuator
+  std::vector<std::shared_ptr<const Eigen::MatrixXd>> gradients;  ///< ∂L/∂q, coordinates × windows
+  std::vector<std::shared_ptr<const ChainTrace>> chains;
+  std::vector<std::shared_ptr<const std::vector<Residual>>> of_chain;
+  /// H q̈ + C + τ_G + friction, coordinates × windows.
+  std::shared_ptr<const Eigen::MatrixXd> bones;
+  std::vector<Residual> residuals;
+};
+
+/// What an effect changes, itself and what follows from it.
+struct Reach {
+  bool joints = false;                    ///< angles: and so everything
+  bool bones = false;                     ///< bodies and joint friction
+  std::optional<std::size_t> chain = {};  ///< this actuator's
+  std::optional<std::size_t> path = {};   ///< and its way over the bones
+};
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,181 @@
+#include "sim/diagnosis/fit.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace sim::diagnosis {
+namespace {
+
+/// A parameter as the optimiser sees it: u = 1 + value/scale, so that a step relative to u is one
+/// relative to the scale.
+struct Knob {
+  double* value;
+  effects::Bounds bounds;
+  double scale;
+
+  double to_u(double v) const { return 1 + v / scale; }
+  double to_value(double u) const { return std::clamp((u - 1) * scale, bounds.low, bounds.high); }
+};
+
+std::vector<Knob> knobs_of(effects::AnyEffect& effect) {
+  std::vector<Knob> knobs;
+  for (const effects::Parameter& p : effects::parameters(effect))
+    if (p.fitted)
+      knobs.push_back({p.value, p.bounds, std::max(std::abs(p.bounds.low), p.bounds.high)});
+  return knobs;
+}
+
+using Effects = std::vector<effects::Placed>;
+
+/// Σ z² of a trial as a cost for Ceres.
+struct Cost {
+  std::function<Trial(const Effects&)> tried;
+  const Trials& trials;
+  std::span<const std::size_t> episodes;
+  Effects& effects;
+  std::vector<Knob>& knobs;
+  std::size_t residuals;
+
+  bool operator()(double const* const* u, double* z) const {
+    for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(u[0][k]);
+    const Trial trial = tried(effects);
+    std::size_t n = 0;
+    for (const std::size_t e : episodes)
+      for (const double one : trials.whitened(trial, e)) z[n++] = std::isnan(one) ? 0 : one;
+    return true;
+  }
+};
+
+struct Least {
+  double square;
+  std::vector<double> u, sigma;
+};
+
+/// From u; sigma in the parameters' units.
+Least minimise(const Cost& given, std::vector<double> u, int iterations) {
+  constexpr double step = 2e-4;  // chosen: of the scale
+  ceres::NumericDiffOptions differences;
+  differences.relative_step_size = step;
+  auto* cost = new ceres::DynamicNumericDiffCostFunction<Cost, ceres::FORWARD>(
+      new Cost(given), ceres::TAKE_OWNERSHIP, differences);
+  const int count = static_cast<int>(u.size());
+  cost->AddParameterBlock(count);
+  cost->SetNumResiduals(static_cast<int>(given.residuals));
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost, nullptr, u.data());
+  for (int k = 0; k < count; ++k) {
+    const Knob& knob = given.knobs[static_cast<std::size_t>(k)];
+    problem.SetParameterLowerBound(u.data(), k, knob.to_u(knob.bounds.low));
+    problem.SetParameterUpperBound(u.data(), k, knob.to_u(knob.bounds.high) - 2 * step);
+  }
+  ceres::Solver::Options options;
+  options.max_num_iterations = iterations;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.function_tolerance = 1e-5;
+  options.parameter_tolerance = 1e-6;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+
+  Least least{2 * summary.final_cost, u, std::vector<double>(u.size(), 0)};
+  ceres::CRSMatrix jacobian;
+  problem.Evaluate({}, nullptr, nullptr, nullptr, &jacobian);
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(jacobian.num_rows, jacobian.num_cols);
+  for (int row = 0; row < jacobian.num_rows; ++row)
+    for (int n = jacobian.rows[std::size_t(row)]; n < jacobian.rows[std::size_t(row) + 1]; ++n)
+      j(row, jacobian.cols[std::size_t(n)]) = jacobian.values[std::size_t(n)];
+  const Eigen::MatrixXd covariance =
+      (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse();
+  for (int k = 0; k < count; ++k)
+    least.sigma[std::size_t(k)] =
+        std::sqrt(std::max(0.0, covariance(k, k))) * given.knobs[std::size_t(k)].scale;
+  return least;
+}
+
+/// Where to begin: as given; and, for what shapes the law, at some shares of its bounds.
+std::vector<std::vector<double>> starts(const std::vector<Knob>& knobs, bool given,
+                                        const FitOptions& options) {
+  constexpr double nudge = 1e-3;  // of the bounds, off a law's kink at its neutral value
+  std::vector<std::vector<double>> all;
+  std::vector<double> first;
+  for (const Knob& knob : knobs) first.push_back(knob.to_u(*knob.value));
+  if (!given) first[0] += knobs[0].bounds.high > 0 ? nudge : -nudge;
+  all.push_back(first);
+  if (given) return all;
+  if (knobs.size() > 1 && knobs[1].bounds.low > 0)
+    for (const double share : options.shape_starts) {
+      const auto& [low, high] = knobs[1].bounds;
+      all.push_back(first);
+      all.back()[1] = knobs[1].to_u(low * std::pow(high / low, share));
+    }
+  return all;
+}
+
+std::size_t count_residuals(const Trials& trials, std::span<const std::size_t> episodes) {
+  std::size_t count = 0;
+  for (const std::size_t e : episodes) count += trials.whitened(trials.bare(), e).size();
+  return count;
+}
+
+bool is_neutral(const effects::Placed& placed) {
+  return effects::written(placed).parameters.empty();
+}
+
+Fit result_of(const effects::Placed& placed, double square, std::span<const double> sigmas) {
+  Fit fit{placed, square, {}, {sigmas.begin(), sigmas.end()}};
+  for (const Knob& knob : knobs_of(fit.placed.effect)) fit.values.push_back(*knob.value);
+  return fit;
+}
+
+}  // namespace
+
+Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
+        std::span<const std::size_t> episodes, const FitOptions& options) {
+  Effects effects{more};
+  std::vector<Knob> knobs = knobs_of(effects[0].effect);
+  const Cost cost{[&](const Effects& e) { return trials.with(base, e[0], episodes); },
+                  trials,
+                  episodes,
+                  effects,
+                  knobs,
+                  count_residuals(trials, episodes)};
+  Least best{};
+  for (const auto& start : starts(knobs, !is_neutral(more), options))
+    if (Least least = minimise(cost, start, options.iterations);
+        best.u.empty() || least.square < best.square)
+      best = std::move(least);
+  for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(best.u[k]);
+  return result_of(effects[0], best.square, best.sigma);
+}
+
+std::vector<Fit> fit_together(const Trials& trials, std::span<const effects::Placed> all,
+                              std::span<const std::size_t> episodes, const FitOptions& options) {
+  Effects effects(all.begin(), all.end());
+  std::vector<Knob> knobs;
+  std::vector<std::size_t> first;
+  for (effects::Placed& placed : effects) {
+    first.push_back(knobs.size());
+    for (const Knob& knob : knobs_of(placed.effect)) knobs.push_back(knob);
+  }
+  first.push_back(knobs.size());
+  const Cost cost{[&](const Effects& e) { return trials.with(e, episodes); },
+                  trials,
+                  episodes,
+                  effects,
+                  knobs,
+                  count_residuals(trials, episodes)};
+  std::vector<double> u;
+  for (const Knob& knob : knobs) u.push_back(knob.to_u(*knob.value));
+  const Least least = minimise(cost, u, options.iterations);
+  for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(least.u[k]);
+  std::vector<Fit> fits;
+  for (std::size_t n = 0; n < effects.size(); ++n)
+    fits.push_back(result_of(effects[n], least.square,
+                             std::span(least.sigma).subspan(first[n], first[n + 1] - first[n])));
+  return fits;
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,31 @@
+#pragma once
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace sim::diagnosis {
+
+/// Calls work(k) for each k < count on some threads; the first exception comes back to the caller
+/// when all have ended.
+template <class Work>
+void in_parallel(std::size_t count, int threads, Work work) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> failures(count);
+  const auto run = [&] {
+    for (std::size_t k; (k = next++) < count;) try {
+        work(k);
+      } catch (...) {
+        failures[k] = std::current_exception();
+      }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int t = 1; t < threads; ++t) others.emplace_back(run);
+    run();
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace sim::diagnosis

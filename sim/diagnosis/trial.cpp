@@ -1,0 +1,93 @@
+#include "sim/diagnosis/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sim/diagnosis/floor.hpp"
+
+namespace sim::diagnosis {
+
+Trials::Trials(const erp::Robot& nominal, std::vector<Episode> episodes, std::uint64_t seed)
+    : nominal_(nominal), episodes_(std::move(episodes)) {
+  Stages stages(nominal);
+  bool any = false;
+  for (const Episode& episode : episodes_) {
+    bare_.of_episode.push_back(stages.explain(episode));
+    floors_.push_back(floors(stages, episode, nominal, seed));
+    any |= !bare_.of_episode.back().residuals.empty();
+  }
+  if (!any)
+    throw std::invalid_argument(
+        "no stage can be judged: a motor needs voltage_V, shaft_rad and current_A; a tendon "
+        "shaft_rad, tension_N and the angles of the joints it crosses");
+}
+
+erp::Robot Trials::robot_with(std::span<const effects::Placed> all) const {
+  erp::Robot robot = nominal_;
+  for (const effects::Placed& placed : all) robot.effects.push_back(effects::written(placed));
+  return robot;
+}
+
+Trial Trials::with(const Trial& base, const effects::Placed& more,
+                   std::span<const std::size_t> episodes) const {
+  Trial trial{base.effects, std::vector<Explanation>(episodes_.size())};
+  trial.effects.push_back(more);
+  Stages stages(robot_with(trial.effects));
+  const Reach reach = stages.reach(more);
+  for (const std::size_t k : episodes)
+    trial.of_episode[k] = stages.explain(episodes_[k], base.of_episode[k], reach);
+  return trial;
+}
+
+Trial Trials::with(std::span<const effects::Placed> all,
+                   std::span<const std::size_t> episodes) const {
+  Trial trial{{all.begin(), all.end()}, std::vector<Explanation>(episodes_.size())};
+  Stages stages(robot_with(all));
+  for (const std::size_t k : episodes) trial.of_episode[k] = stages.explain(episodes_[k]);
+  return trial;
+}
+
+std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) const {
+  const auto& bare = bare_.of_episode[episode].residuals;
+  const auto& tried = trial.of_episode[episode].residuals;
+  std::vector<double> all;
+  for (std::size_t r = 0; r < bare.size(); ++r) {
+    const double floor = floors_[episode][r];
+    for (std::size_t k = 0; k < bare[r].value.size(); ++k) {
+      const double plain = bare[r].value[k];
+      const double with = r < tried.size() ? tried[r].value[k] : plain;
+      const bool judged = floor > 0 && !std::isnan(plain);
+      all.push_back(judged ? (std::isnan(with) ? plain : with) / floor
+                           : std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return all;
+}
+
+std::vector<ScoreBlock> Trials::blocks(const Trial& trial, std::span<const std::size_t> episodes,
+                                       double block_s) const {
+  std::vector<ScoreBlock> blocks;
+  for (const std::size_t e : episodes) {
+    const auto z = whitened(trial, e);
+    const std::size_t windows = bare_.of_episode[e].rows.size(), first = blocks.size();
+    const auto windows_a_block =
+        std::max<std::size_t>(1, static_cast<std::size_t>(block_s / Windows{}.stride_s));
+    blocks.resize(first + (windows + windows_a_block - 1) / windows_a_block);
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      if (std::isnan(z[k])) continue;
+      ScoreBlock& block = blocks[first + k % windows / windows_a_block];
+      block.square += z[k] * z[k], ++block.windows;
+    }
+  }
+  return blocks;
+}
+
+ScoreBlock sum(std::span<const ScoreBlock> blocks) {
+  ScoreBlock sum;
+  for (const ScoreBlock& b : blocks) sum.square += b.square, sum.windows += b.windows;
+  return sum;
+}
+
+}  // namespace sim::diagnosis

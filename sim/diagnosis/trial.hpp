@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/diagnosis/stages.hpp"
+
+/// A robot with effects, tried on recordings: its residuals in units of their noise.
+///
+///   z = r/σ     r residual of a stage at a window, σ the stage's noise floor in that recording
+///   S = Σ z²    over stages and windows that the nominal robot can judge
+///
+/// Where a trial cannot judge a window that the nominal robot can, the nominal residual stays: to
+/// look away explains nothing.
+namespace sim::diagnosis {
+
+/// The residuals of one trial on every recording.
+struct Trial {
+  std::vector<effects::Placed> effects;
+  std::vector<Explanation> of_episode;
+};
+
+/// Sums over about a second of one recording: what the bootstrap draws.
+struct ScoreBlock {
+  double square = 0;  ///< Σ z²
+  std::size_t windows = 0;
+};
+
+class Trials {
+ public:
+  /// Throws as Stages; std::invalid_argument when no stage is to be had from the recordings.
+  Trials(const erp::Robot& nominal, std::vector<Episode> episodes, std::uint64_t seed = 1);
+
+  std::span<const Episode> episodes() const { return episodes_; }
+  const erp::Robot& nominal() const { return nominal_; }
+  /// The robot as it is given.
+  const Trial& bare() const { return bare_; }
+
+  /// The robot with those effects of `base` and one more, on some recordings; the others stay
+  /// empty.
+  Trial with(const Trial& base, const effects::Placed& more,
+             std::span<const std::size_t> episodes) const;
+  Trial with(std::span<const effects::Placed> all, std::span<const std::size_t> episodes) const;
+
+  /// z of one recording: stages one after the other, NaN where the nominal robot cannot judge.
+  std::vector<double> whitened(const Trial& trial, std::size_t episode) const;
+  std::vector<ScoreBlock> blocks(const Trial& trial, std::span<const std::size_t> episodes,
+                                 double block_s = 1) const;
+  /// σ of each residual of an episode.
+  std::span<const double> floor(std::size_t episode) const { return floors_[episode]; }
+
+  /// nominal() with these effects beside its own.
+  erp::Robot robot_with(std::span<const effects::Placed> all) const;
+
+ private:
+  erp::Robot nominal_;
+  std::vector<Episode> episodes_;
+  Trial bare_;
+  std::vector<std::vector<double>> floors_;
+};
+
+/// Σ over blocks.
+ScoreBlock sum(std::span<const ScoreBlock> blocks);
+
+}  // namespace sim::diagnosis
