@@ -41,7 +41,7 @@ inline recording::Table table_of_run(const erp::Robot& robot, const Plan& plan) 
       const auto& said = frame.channels._buffer[a];
       const erp::MotorType& motor = robot.motor_of(robot.actuators[a]);
       const sim::SensorScale scale(motor, robot.sensors_of(robot.actuators[a]));
-      put(3), put(wanted[a]);
+      put(double(erp::Mode::force)), put(wanted[a]);
       put(motor.supply_V * said.duty_counts / ECU_DUTY_MAX);
       put(said.current_counts * scale.current_A_per_count);
       put(said.encoder_counts * scale.shaft_rad_per_count);

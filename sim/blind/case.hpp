@@ -1,0 +1,37 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interfaces/robot/robot.hpp"
+#include "sim/blind/quirks.hpp"
+
+/// A blind case: what is hidden in it, drawn from a seed.
+namespace sim::blind {
+
+enum class Kind { single, null, pair, outside, withheld };
+
+/// Something hidden. `type` as the library of effects calls it; of what the library has not,
+/// a name that begins with "outside_".
+struct Hidden {
+  std::string type, stage, on;
+  std::vector<std::pair<std::string, double>> parameters;
+};
+
+struct Case {
+  std::uint64_t seed = 0;
+  Kind kind = Kind::single;
+  std::vector<Hidden> hidden;
+  Quirks quirks;
+  std::vector<std::string> withhold;  ///< what the diagnosis is told to do without
+};
+
+/// Throws std::invalid_argument for a robot without actuators or joints.
+Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed);
+
+const char* word(Kind kind);
+/// Throws std::invalid_argument for an unknown word.
+Kind kind_of(const std::string& word);
+
+}  // namespace sim::blind

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "interfaces/robot/mass.hpp"
+#include "sim/blind/kinds.hpp"
+
+namespace sim::blind {
+namespace {
+
+constexpr std::pair<Kind, const char*> words[] = {{Kind::single, "single"},
+                                                  {Kind::null, "null"},
+                                                  {Kind::pair, "pair"},
+                                                  {Kind::outside, "outside"},
+                                                  {Kind::withheld, "withheld"}};
+
+std::size_t any(std::size_t count, Random& random) {
+  return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+}
+
+/// Revolute joints only: what has an angle to be loose, stopped or badly read.
+std::size_t any_joint(const erp::Robot& robot, Random& random) {
+  const auto joints = robot.joints();
+  std::vector<std::size_t> turning;
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (joints[k].type == erp::JointType::revolute) turning.push_back(k);
+  if (turning.empty()) throw std::invalid_argument(robot.name + ": no revolute joint");
+  return turning[any(turning.size(), random)];
+}
+
+Hidden hide(const HiddenKind& kind, const erp::Robot& robot, Quirks& quirks, Random& random) {
+  Place place{quirks, robot, any(robot.actuators.size(), random), any_joint(robot, random), {}};
+  std::vector<std::string> moved;
+  for (const erp::Body& body : robot.bodies())
+    if (erp::mass_of(body).mass_kg > 0) moved.push_back(body.name);
+  place.body = moved.at(any(moved.size(), random));
+  const std::string on[] = {robot.actuators[place.chain].name, robot.joints()[place.joint].name,
+                            place.body, robot.name};
+  return {kind.type, kind.stage, on[kind.on], kind.draw(place, random)};
+}
+
+}  // namespace
+
+const char* word(Kind kind) {
+  return std::ranges::find(words, kind, &std::pair<Kind, const char*>::first)->second;
+}
+
+Kind kind_of(const std::string& said) {
+  for (const auto& [kind, name] : words)
+    if (said == name) return kind;
+  throw std::invalid_argument("kind \"" + said +
+                              "\" is none of single, null, pair, outside, withheld");
+}
+
+Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed) {
+  if (robot.actuators.empty()) throw std::invalid_argument(robot.name + ": no actuator");
+  Random random(seed * 0x9e3779b97f4a7c15u + 0x1234567u);
+  Case blind{seed, kind, {}, {}, {}};
+  blind.quirks.chains.resize(robot.actuators.size());
+  blind.quirks.joints.resize(robot.joints().size());
+  const auto hide_one = [&](std::span<const HiddenKind> kinds) -> const HiddenKind& {
+    const HiddenKind& chosen = kinds[any(kinds.size(), random)];
+    blind.hidden.push_back(hide(chosen, robot, blind.quirks, random));
+    return chosen;
+  };
+  if (kind == Kind::single) hide_one(in_library());
+  if (kind == Kind::outside) hide_one(outside_library());
+  if (kind == Kind::pair)
+    while (blind.hidden.size() < 2) {
+      hide_one(in_library());
+      if (blind.hidden.size() == 2 && blind.hidden[0].type == blind.hidden[1].type &&
+          blind.hidden[0].on == blind.hidden[1].on)
+        blind.hidden.pop_back();
+    }
+  if (kind == Kind::withheld) {
+    const HiddenKind& chosen = hide_one(in_library());
+    blind.withhold.emplace_back(chosen.type);
+    for (const char* twin : chosen.twins) blind.withhold.emplace_back(twin);
+  }
+  return blind;
+}
+
+}  // namespace sim::blind

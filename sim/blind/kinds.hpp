@@ -1,0 +1,34 @@
+#pragma once
+#include <functional>
+#include <random>
+#include <span>
+
+#include "sim/blind/case.hpp"
+
+/// What may be hidden, and how large: a table.
+namespace sim::blind {
+
+using Random = std::mt19937_64;
+
+/// Where it sits, for the drawing.
+struct Place {
+  Quirks& quirks;
+  const erp::Robot& robot;
+  std::size_t chain = 0, joint = 0;
+  std::string body;
+};
+
+struct HiddenKind {
+  const char* type;
+  const char* stage;
+  enum On { chain, joint, body, robot } on;
+  /// Draws, sets the quirk and tells what was drawn.
+  std::vector<std::pair<std::string, double>> (*draw)(Place&, Random&);
+  /// What looks the same to the sensors there are.
+  std::vector<const char*> twins = {};
+};
+
+std::span<const HiddenKind> in_library();
+std::span<const HiddenKind> outside_library();
+
+}  // namespace sim::blind
