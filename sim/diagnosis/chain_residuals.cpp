@@ -30,10 +30,12 @@ Signal resistive_V(const Chain& c) {
 
 std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
   const Signal left = resistive_V(c);
+  erp::MotorType motor = c.motor;
   const double back_emf = c.motor.back_emf_V_s_per_rad * c.motor.gear_ratio;
   std::vector<double> value;
   for (const std::size_t k : rows) {
-    const double lag_s = c.motor.inductance_H / c.bump.mean(c.trace.resistance_ohm, k);
+    motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
+    const double lag_s = current_lag_s(motor, c.period_s);
     value.push_back(c.bump.mean(left, k) -
                     back_emf * (c.bump.rate(c.trace.shaft_rad, k) -
                                 lag_s * c.bump.acceleration(c.trace.shaft_rad, k)));
