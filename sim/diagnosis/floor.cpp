@@ -14,6 +14,30 @@ void disturb(Signal& signal, double noise_rms, double step, Noise& noise) {
   for (double& x : signal) x += noise_rms * noise.normal() + step * (noise.uniform() - 0.5);
 }
 
+/// The step of an effect on a sensor, or 0.
+double coarse_step(const std::vector<effects::Placed>& all, const char* type,
+                   const std::string& on) {
+  for (effects::Placed placed : all)
+    if (effects::about(placed.effect).type == type && placed.on == on)
+      return *effects::parameters(placed.effect)[0].value;
+  return 0;
+}
+
+/// The noise of a signal that no data sheet tells of, from its third differences: they leave
+/// little of a motion, and 20 times the noise's variance.
+double noise_of(const Signal& signal) {
+  std::vector<double> square;
+  for (std::size_t k = 3; k < signal.size(); ++k)
+    if (const double d = signal[k] - 3 * signal[k - 1] + 3 * signal[k - 2] - signal[k - 3];
+        !std::isnan(d))
+      square.push_back(d * d);
+  if (square.empty()) return 0;
+  const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
+  std::nth_element(square.begin(), middle, square.end());
+  constexpr double median_of_chi_square = 0.455;
+  return std::sqrt(*middle / 20 / median_of_chi_square);
+}
+
 /// Sampled half a period late: by an amplifier, or by a simulator's step.
 void delay(Signal& signal) {
   constexpr double late = 0.5;
@@ -27,21 +51,35 @@ void delay(Signal& signal) {
 Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_t seed) {
   Episode again = episode;
   Noise noise(seed);
+  const auto coarse = effects::read_effects(robot);
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const erp::SensorType& sensors = robot.sensors_of(robot.actuators[a]);
     const SensorScale scale(robot.motor_of(robot.actuators[a]), sensors);
     ActuatorSignals& s = again.actuators[a];
     delay(s.tension_N);
-    disturb(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
-    disturb(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
-    disturb(s.tension_N, sensors.tension_noise_N, scale.tension_N_per_count, noise);
+    const auto step = [&](const char* type, double finest) {
+      return std::max(finest, coarse_step(coarse, type, robot.actuators[a].name));
+    };
+    disturb(s.shaft_rad, 0, step("sensor_shaft_quantisation", scale.shaft_rad_per_count), noise);
+    disturb(s.current_A, sensors.current_noise_A,
+            step("sensor_current_quantisation", scale.current_A_per_count), noise);
+    disturb(s.tension_N, sensors.tension_noise_N,
+            step("sensor_tension_quantisation", scale.tension_N_per_count), noise);
   }
   const auto joints = robot.joints();
-  for (const erp::JointSensor& sensor : robot.joint_sensors)
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      if (joints[j].name == sensor.joint)
-        disturb(again.joints[j].angle_rad, sensor.noise_rad,
-                2 * std::numbers::pi / std::exp2(sensor.bits_per_rev), noise);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    JointSignals& signals = again.joints[j];
+    const auto sensor =
+        std::ranges::find(robot.joint_sensors, joints[j].name, &erp::JointSensor::joint);
+    if (sensor != robot.joint_sensors.end() && joints[j].type == erp::JointType::revolute) {
+      const double finest = 2 * std::numbers::pi / std::exp2(sensor->bits_per_rev);
+      const double step = coarse_step(coarse, "sensor_joint_quantisation", sensor->joint);
+      disturb(signals.angle_rad, sensor->noise_rad, std::max(finest, step), noise);
+      continue;
+    }
+    disturb(signals.angle_rad, noise_of(signals.angle_rad), 0, noise);
+    for (Signal& part : signals.quaternion) disturb(part, noise_of(part), 0, noise);
+  }
   return again;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/diagnosis/bootstrap.hpp"
-#include "sim/diagnosis/stages.hpp"
+#include "sim/diagnosis/trial.hpp"
 
 /// Where the gap lies: which stages are left with more than the noise of their sensors.
 ///
@@ -37,8 +37,11 @@ struct WhereOptions {
   std::uint64_t seed = 1;
 };
 
-/// The gap of each stage over all episodes, the largest share first.
-/// Throws std::invalid_argument when no stage is to be had from what was recorded.
+/// What a trial leaves of the gap at each stage of some recordings, the largest share first.
+std::vector<StageGap> where(const Trials& trials, const Trial& trial,
+                            std::span<const std::size_t> episodes,
+                            const WhereOptions& options = {});
+/// Of the nominal robot on all of them. Throws as Trials.
 std::vector<StageGap> where(const erp::Robot& robot, std::span<const Episode> episodes,
                             const WhereOptions& options = {});
 

@@ -1,0 +1,45 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/diagnosis/bootstrap.hpp"
+#include "sim/diagnosis/episode.hpp"
+#include "sim/effects/library.hpp"
+
+/// The bus, seen in what the ECUs did: which command, how old, makes the voltage that was applied.
+///
+///   V_k = law(reference_{k−a}, measured)          a: the age in ticks
+///
+/// The law is that of the ECU firmware with the gains designed for the robot (sim/actuator/design),
+/// in length or force control; ticks at a limit, and ticks where commands are too alike to tell
+/// their ages, are left out. An effect on the bus foretells how often each age comes; effects are
+/// compared by their likelihood. A recording whose voltages no command explains, of an ECU with
+/// another law, says nothing of the bus.
+namespace sim::diagnosis {
+
+struct Ages {
+  double period_s = 0;
+  std::vector<std::size_t> ticks;   ///< how often each age was seen
+  std::size_t told = 0, tried = 0;  ///< ticks whose age was found, of those with commands to tell
+};
+
+/// Of one recording, all actuators together.
+Ages command_ages(const Episode& episode, const erp::Robot& robot);
+
+struct BusFit {
+  effects::Placed placed;
+  double value = 0, low = 0, high = 0;
+  double gain = 0;  ///< log-likelihood on the held-out recordings: none 0, the ages' own shares 1
+  bool supported = false;
+};
+
+/// The bus's effects, best first; empty where the ages are all 0 or cannot be told.
+std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
+                            const erp::Robot& robot, const std::vector<std::string>& withhold);
+
+/// The share of ticks in which a command was not the newest.
+double late_share(std::span<const Ages> ages);
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,350 @@
+#include "sim/diagnosis/diagnose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "sim/diagnosis/lattice.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+using effects::Placed;
+
+Named named(const Placed& placed) {
+  const effects::About& about = effects::about(placed.effect);
+  Named n{std::string(about.type), placed.on, about.stage, {}, {}, {}, 0, {}, false, placed};
+  effects::AnyEffect copy = placed.effect;
+  for (const effects::Parameter& p : effects::parameters(copy))
+    if (p.fitted) n.names.emplace_back(p.name), n.values.push_back(*p.value);
+  n.intervals.resize(n.values.size());
+  return n;
+}
+
+Named named(const Ranked& ranked, const DiagnoseOptions& options) {
+  constexpr double of_method = 0.02;  // what the windows' own approximations may shift a value by
+  Named n = named(ranked.fit.placed);
+  for (std::size_t k = 0; k < n.values.size(); ++k) {
+    const double half = 1.96 * ranked.fit.sigmas[k] + of_method * std::abs(n.values[k]);
+    n.intervals[k] = {n.values[k] - half, n.values[k] + half};
+  }
+  n.gain = ranked.gain, n.gain_interval = ranked.gain_interval;
+  n.supported = ranked.gain_interval.low > options.least_gain;
+  return n;
+}
+
+/// Benjamini and Hochberg 1995, at 5 %: what is left of `supported`.
+void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names) {
+  std::vector<std::pair<double, std::size_t>> doubts;
+  for (std::size_t k = 0; k < ranked.size(); ++k) doubts.emplace_back(ranked[k].doubt, k);
+  std::ranges::sort(doubts);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < doubts.size(); ++k)
+    if (doubts[k].first <= 0.05 * static_cast<double>(k + 1) / static_cast<double>(doubts.size()))
+      kept = k + 1;
+  for (std::size_t k = kept; k < doubts.size(); ++k) names[doubts[k].second].supported = false;
+}
+
+/// One diagnosis on its way.
+class Course {
+ public:
+  Course(const erp::Robot& robot, std::vector<Episode> episodes, const DiagnoseOptions& options)
+      : robot_(robot), episodes_(std::move(episodes)), options_(options) {
+    if (episodes_.empty()) throw std::invalid_argument("no recording");
+    if (options_.train.empty() && options_.held_out.empty())
+      std::tie(options_.train, options_.held_out) = split(episodes_);
+    if (options_.held_out.empty()) {
+      options_.held_out = options_.train;
+      result_.warnings.emplace_back(
+          "one recording only: effects are chosen and judged on the same data; record another");
+    }
+    for (const Episode& e : episodes_) result_.recordings.push_back(e.name);
+    for (const std::size_t k : options_.train) result_.train.push_back(episodes_[k].name);
+    for (const std::size_t k : options_.held_out) result_.held_out.push_back(episodes_[k].name);
+  }
+
+  Diagnosis run() {
+    tell("residuals", 0.05);
+    const Trials plain(robot_, episodes_, options_.seed);
+    std::vector<std::size_t> all(episodes_.size());
+    std::iota(all.begin(), all.end(), 0);
+    result_.stages = where(plain, plain.bare(), all, where_options());
+    look_at_bus();
+    erp::Robot known = robot_;  // with what was seen without a fit
+    look_at_lattices(plain, known);
+    if (known.effects.size() > robot_.effects.size()) {
+      const Trials coarse(known, episodes_, options_.seed);
+      search(coarse);
+    } else {
+      search(plain);
+    }
+    close(plain);
+    return std::move(result_);
+  }
+
+ private:
+  void tell(const std::string& what, double share) const {
+    if (options_.progress) options_.progress(what, share);
+  }
+  WhereOptions where_options() const { return {.seed = options_.seed}; }
+
+  void look_at_bus() {
+    std::vector<Ages> train, held_out;
+    for (const std::size_t e : options_.train) train.push_back(command_ages(episodes_[e], robot_));
+    for (const std::size_t e : options_.held_out)
+      held_out.push_back(command_ages(episodes_[e], robot_));
+    const auto fits = fit_bus(train, held_out, robot_, options_.withhold);
+    late_ = late_share(held_out);
+    for (const BusFit& fit : fits) {
+      Named n = named(fit.placed);
+      n.intervals[0] = {fit.low, fit.high};
+      n.gain = fit.gain, n.gain_interval = {fit.gain, fit.gain}, n.supported = fit.supported;
+      bus_.push_back(n);
+    }
+  }
+
+  void look_at_lattices(const Trials& plain, erp::Robot& known) {
+    for (const Placed& placed : coarse_sensors(episodes_, robot_)) {
+      if (std::ranges::count(options_.withhold, effects::about(placed.effect).type)) continue;
+      erp::Robot coarse = robot_;
+      coarse.effects.push_back(effects::written(placed));
+      const Trials trials(coarse, episodes_, options_.seed);
+      const auto before = sum(plain.blocks(plain.bare(), options_.held_out));
+      double after = 0;  // what is left beyond the noise of the coarser sensor, in the old units
+      for (const std::size_t e : options_.held_out) {
+        const auto old = plain.whitened(plain.bare(), e), now = trials.whitened(trials.bare(), e);
+        for (std::size_t k = 0; k < old.size(); ++k)
+          if (!std::isnan(old[k]) && !std::isnan(now[k]))
+            after += now[k] == 0 ? 1 : 1 + (now[k] * now[k] - 1);
+      }
+      const double windows = static_cast<double>(before.windows);
+      Named n = named(placed);
+      const double spread = 0.05 * n.values[0];
+      n.intervals[0] = {n.values[0] - spread, n.values[0] + spread};
+      n.gain = (before.square - std::max(after, windows)) / std::max(before.square - windows, 1e-9);
+      n.gain_interval = {n.gain, n.gain};
+      n.supported = true;  // the readings show it
+      known.effects.push_back(effects::written(placed));
+      lattices_.push_back(n);
+    }
+  }
+
+  /// The stages that are still open on the held-out recordings.
+  std::vector<StageGap> open(const Trials& trials, const Trial& trial) const {
+    auto gaps = where(trials, trial, options_.held_out, where_options());
+    const auto before = where(trials, trials.bare(), options_.held_out, where_options());
+    for (StageGap& gap : gaps) {
+      const auto was = std::ranges::find_if(
+          before, [&](const StageGap& b) { return b.stage == gap.stage && b.on == gap.on; });
+      gap.open = gap.judged && gap.excess_interval.low > where_options().practical_excess &&
+                 gap.excess > std::max(options_.left_excess, options_.left_share * was->excess);
+    }
+    return gaps;
+  }
+  static bool any_open(const std::vector<StageGap>& gaps) {
+    return std::ranges::any_of(gaps, &StageGap::open);
+  }
+
+  WhichOptions which_options(double from, double to) const {
+    WhichOptions which{.train = options_.train,
+                       .held_out = options_.held_out,
+                       .withhold = options_.withhold,
+                       .threads = options_.threads,
+                       .seed = options_.seed};
+    which.progress = [this, from, to](std::size_t done, std::size_t of) {
+      tell("effects", from + (to - from) * static_cast<double>(done) / static_cast<double>(of));
+    };
+    return which;
+  }
+
+  void search(const Trials& trials) {
+    const auto all_gaps = where(trials, trials.bare(), all(), where_options());
+    gap_ = any_open(all_gaps);
+    if (!gap_) return;
+    first_ = rank(trials, trials.bare(), which_options(0.1, 0.5));
+    if (first_.empty()) return;
+    for (const Ranked& r : first_) result_.ranked.push_back(named(r, options_));
+    control_discoveries(first_, result_.ranked);
+    before_ = trials.blocks(trials.bare(), options_.held_out);
+    if (!result_.ranked[0].supported) return;
+    chosen_ = {first_[0].fit.placed};
+    result_.answer = {result_.ranked[0]};
+    trial_ = trials.with(trials.bare(), chosen_[0], all());
+    while (any_open(open(trials, trial_)) && chosen_.size() < options_.most_effects)
+      if (!add_another(trials)) break;
+    if (chosen_.size() > 1) settle(trials);
+    result_.left = open(trials, trial_);
+    open_after_ = any_open(result_.left);
+    for (const std::size_t k : confusable(first_, before_, which_options(0, 0)))
+      if (chosen_.size() == 1) result_.confusable.push_back(result_.ranked[k]);
+  }
+
+  /// The best effect on top of the others, if it takes away half of what they leave.
+  bool add_another(const Trials& trials) {
+    const double share = 0.5 + 0.15 * static_cast<double>(chosen_.size() - 1);
+    const auto more = rank(trials, trial_, which_options(share, share + 0.1));
+    constexpr double worth = 0.5;  // chosen
+    if (more.empty() || more[0].gain < worth || more[0].gain_interval.low < options_.least_gain)
+      return false;
+    chosen_.push_back(more[0].fit.placed);
+    refit(trials);
+    // was an earlier choice a compromise between two?
+    for (std::size_t k = 0; k + 1 < chosen_.size(); ++k) {
+      std::vector<Placed> others = chosen_;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      const Trial without = trials.with(others, all());
+      const auto again = rank(trials, without, which_options(share + 0.1, share + 0.15));
+      if (again.empty() || (again[0].fit.placed.on == chosen_[k].on &&
+                            again[0].fit.placed.effect.index() == chosen_[k].effect.index()))
+        continue;
+      others.push_back(again[0].fit.placed);
+      const auto kept = chosen_;
+      const double was = sum(trials.blocks(trial_, options_.held_out)).square;
+      chosen_ = others;
+      refit(trials);
+      if (sum(trials.blocks(trial_, options_.held_out)).square > was) {
+        chosen_ = kept;
+        refit(trials);
+      }
+    }
+    return true;
+  }
+
+  void refit(const Trials& trials) {
+    fits_ = fit_together(trials, chosen_, options_.train);
+    for (std::size_t k = 0; k < chosen_.size(); ++k) chosen_[k] = fits_[k].placed;
+    trial_ = trials.with(chosen_, all());
+  }
+
+  /// Of several effects: each one's gain is what is lost without it. The most telling first.
+  void settle(const Trials& trials) {
+    result_.answer.clear();
+    const auto whole = sum(before_);
+    const double gap = whole.square - static_cast<double>(whole.windows);
+    const double with_all = sum(trials.blocks(trial_, options_.held_out)).square;
+    for (std::size_t k = 0; k < chosen_.size(); ++k) {
+      std::vector<Placed> others = chosen_;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      const Trial without = trials.with(others, options_.held_out);
+      const auto blocks = trials.blocks(without, options_.held_out);
+      const auto with = trials.blocks(trial_, options_.held_out);
+      Ranked r{fits_[k], {}, {}, (sum(blocks).square - with_all) / gap, {}, 0};
+      r.gain_interval = middle(
+          bootstrap(blocks.size(), 400, options_.seed, [&](const std::vector<std::size_t>& drawn) {
+            double lost = 0, was = 0;
+            for (const std::size_t b : drawn)
+              lost += blocks[b].square - with[b].square,
+                  was += before_[b].square - static_cast<double>(before_[b].windows);
+            return lost / std::max(was, 1e-9);
+          }));
+      Named n = named(r, options_);
+      n.supported = r.gain_interval.low > 0;
+      result_.answer.push_back(n);
+    }
+    std::ranges::stable_sort(result_.answer, std::greater(), &Named::gain);
+  }
+
+  void close(const Trials& plain) {
+    judge();
+    result_.answer.insert(result_.answer.begin(), lattices_.begin(), lattices_.end());
+    if (!bus_.empty()) add_bus();
+    result_.ranked.insert(result_.ranked.begin(), lattices_.begin(), lattices_.end());
+    for (const StageGap& gap : where(plain, plain.bare(), options_.held_out, where_options())) {
+      Closed c{std::string(effects::word(gap.stage)) + " " + gap.on,
+               gap.unit,
+               gap.rms,
+               gap.floor,
+               gap.rms,
+               0,
+               {}};
+      const auto left = std::ranges::find_if(
+          result_.left, [&](const StageGap& l) { return l.stage == gap.stage && l.on == gap.on; });
+      if (left != result_.left.end()) c.after = left->rms;
+      c.closed = closed_of(c);
+      result_.channels.push_back(c);
+    }
+    sum_up(plain);
+    tell("done", 1);
+  }
+
+  static double closed_of(const Closed& c) {
+    return c.before > c.floor ? (c.before - c.after) / (c.before - c.floor) : 0;
+  }
+
+  /// Over all stages, in units of noise.
+  void sum_up(const Trials& plain) {
+    const auto before = plain.blocks(plain.bare(), options_.held_out);
+    const auto after = trial_.of_episode.empty() ? before : plain.blocks(trial_, options_.held_out);
+    const auto of = [&](const std::vector<std::size_t>& drawn) {
+      Closed c{"all", "noise", 0, 1, 0, 0, {}};
+      double was = 0, is = 0, n = 0;
+      for (const std::size_t b : drawn)
+        was += before[b].square, is += after[b].square, n += double(before[b].windows);
+      c.before = std::sqrt(was / std::max(n, 1.0)), c.after = std::sqrt(is / std::max(n, 1.0));
+      c.closed = closed_of(c);
+      return c;
+    };
+    std::vector<std::size_t> every(before.size());
+    std::iota(every.begin(), every.end(), 0);
+    result_.overall = of(every);
+    result_.overall.interval =
+        middle(bootstrap(before.size(), 400, options_.seed,
+                         [&](const std::vector<std::size_t>& drawn) { return of(drawn).closed; }));
+  }
+
+  void judge() {
+    const bool seen = !lattices_.empty() || (!bus_.empty() && bus_[0].supported);
+    if (!gap_) {
+      result_.verdict = seen           ? Verdict::supported
+                        : late_ > 0.02 ? Verdict::none_of_the_known
+                                       : Verdict::no_gap;
+      return;
+    }
+    if (chosen_.empty() || open_after_) result_.verdict = Verdict::none_of_the_known;
+    else result_.verdict = Verdict::supported;
+  }
+
+  void add_bus() {
+    result_.ranked.insert(result_.ranked.begin(), bus_.begin(), bus_.end());
+    if (!bus_[0].supported) return;
+    const bool alone = result_.answer.empty();
+    result_.answer.insert(alone ? result_.answer.begin() : result_.answer.end(), bus_[0]);
+    if (!alone) return;
+    for (std::size_t k = 1; k < bus_.size(); ++k)
+      if (bus_[0].gain - bus_[k].gain < 0.01) result_.confusable.push_back(bus_[k]);
+  }
+
+  std::vector<std::size_t> all() const {
+    std::vector<std::size_t> all(episodes_.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  const erp::Robot& robot_;
+  std::vector<Episode> episodes_;
+  DiagnoseOptions options_;
+  Diagnosis result_;
+  std::vector<Named> bus_, lattices_;
+  std::vector<Ranked> first_;
+  std::vector<ScoreBlock> before_;
+  std::vector<Placed> chosen_;
+  std::vector<Fit> fits_;
+  Trial trial_;
+  bool gap_ = false, open_after_ = false;
+  double late_ = 0;
+};
+
+}  // namespace
+
+const char* word(Verdict verdict) {
+  constexpr const char* words[] = {"no_gap", "supported", "none_of_the_known", "not_identifiable"};
+  return words[static_cast<std::size_t>(verdict)];
+}
+
+Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
+                   const DiagnoseOptions& options) {
+  return Course(robot, std::move(episodes), options).run();
+}
+
+}  // namespace sim::diagnosis

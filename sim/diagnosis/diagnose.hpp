@@ -1,0 +1,74 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/diagnosis/bus.hpp"
+#include "sim/diagnosis/which.hpp"
+
+/// The whole question: where robot and model part, which effect causes it, how far it closes the
+/// gap; on recordings that were not used to choose or fit.
+namespace sim::diagnosis {
+
+enum class Verdict { no_gap, supported, none_of_the_known, not_identifiable };
+const char* word(Verdict verdict);
+
+struct DiagnoseOptions {
+  std::vector<std::size_t> train, held_out;  ///< recordings; both empty: split by the diagnosis
+  std::vector<std::string> withhold;
+  int threads = 2;
+  std::uint64_t seed = 1;
+  std::size_t most_effects = 3;
+  /// A stage counts as explained when what is left of its excess is below this …
+  double left_excess = 2;
+  /// … or below this share of what it was. Both chosen on development cases.
+  double left_share = 0.02;
+  double least_gain = 0.02;  ///< of an effect, lower end of its interval, to be supported
+  /// What is being done, and how much of it in 0 … 1.
+  std::function<void(const std::string&, double)> progress = {};
+};
+
+/// An effect of the answer, or a candidate for it.
+struct Named {
+  std::string type, on;
+  effects::Stage stage;
+  std::vector<std::string> names;  ///< of its parameters
+  std::vector<double> values;
+  std::vector<Interval> intervals;  ///< 95 %
+  double gain = 0;
+  Interval gain_interval;
+  bool supported = false;
+  effects::Placed placed;
+};
+
+/// An error before and after, on held-out recordings.
+struct Closed {
+  std::string channel;  ///< stage and place, or "all"
+  std::string unit;
+  double before = 0, floor = 0, after = 0;  ///< rms
+  double closed = 0;                        ///< (before − after)/(before − floor)
+  Interval interval;
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::no_gap;
+  std::vector<StageGap> stages;   ///< of the nominal robot, all recordings
+  std::vector<StageGap> left;     ///< after the answer, held-out recordings
+  std::vector<Named> answer;      ///< effects that together close the gap
+  std::vector<Named> ranked;      ///< one by one, best first
+  std::vector<Named> confusable;  ///< with the first of the answer
+  Closed overall;
+  std::vector<Closed> channels;
+  std::vector<std::string> recordings, train, held_out, warnings;
+};
+
+/// Throws std::invalid_argument: no recording, recordings in which no stage can be judged.
+Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
+                   const DiagnoseOptions& options = {});
+
+/// Train and held out, by whole recordings: held out are those whose conditions lie farthest
+/// beyond the others', about a third.
+std::pair<std::vector<std::size_t>, std::vector<std::size_t>> split(
+    std::span<const Episode> episodes);
+
+}  // namespace sim::diagnosis

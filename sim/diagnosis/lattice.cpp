@@ -1,0 +1,80 @@
+#include "sim/diagnosis/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/actuator/sensors.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+constexpr double coarse = 1.8;  // times the data sheet's step; chosen
+constexpr std::size_t fewest = 5;
+
+void add(std::vector<effects::Placed>& all, const char* type, const std::string& on, double step,
+         double finest) {
+  if (!(step > coarse * finest)) return;
+  effects::Placed placed{on, *effects::neutral(type)};
+  const effects::Parameter parameter = effects::parameters(placed.effect)[0];
+  *parameter.value = std::min(step, parameter.bounds.high);
+  all.push_back(placed);
+}
+
+}  // namespace
+
+double lattice_step(std::span<const Signal* const> readings, double finest) {
+  std::vector<double> values;
+  for (const Signal* signal : readings)
+    for (const double v : *signal)
+      if (!std::isnan(v)) values.push_back(std::round(v / finest));
+  std::ranges::sort(values);
+  const auto repeats = std::ranges::unique(values);
+  values.erase(repeats.begin(), repeats.end());
+  if (values.size() < fewest) return 0;
+  std::vector<double> gaps;
+  for (std::size_t k = 1; k < values.size(); ++k) gaps.push_back(values[k] - values[k - 1]);
+  std::ranges::sort(gaps);
+  // A lattice's gaps are all its step, or a multiple where a value was not met; the converter
+  // rounds them by one. A few strays, of samples that were interpolated, are passed over.
+  const double small = gaps[gaps.size() / 20];
+  if (small < 2) return small * finest;
+  double sum = 0, count = 0;
+  for (const double gap : gaps) {
+    const double steps = std::round(gap / small);
+    if (gap >= small - 1.5 && steps == 1) sum += gap, ++count;
+  }
+  return count > 0 ? sum / count * finest : small * finest;
+}
+
+std::vector<effects::Placed> coarse_sensors(std::span<const Episode> episodes,
+                                            const erp::Robot& robot) {
+  std::vector<effects::Placed> all;
+  const auto step = [&](auto signal_of, double finest) {
+    std::vector<const Signal*> readings;
+    for (const Episode& e : episodes) readings.push_back(&signal_of(e));
+    return lattice_step(readings, finest);
+  };
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const erp::Actuator& actuator = robot.actuators[a];
+    const SensorScale scale(robot.motor_of(actuator), robot.sensors_of(actuator));
+    const auto look = [&](const char* type, Signal ActuatorSignals::*signal, double finest) {
+      const auto of = [&](const Episode& e) -> const Signal& { return e.actuators[a].*signal; };
+      add(all, type, actuator.name, step(of, finest), finest);
+    };
+    look("sensor_shaft_quantisation", &ActuatorSignals::shaft_rad, scale.shaft_rad_per_count);
+    look("sensor_current_quantisation", &ActuatorSignals::current_A, scale.current_A_per_count);
+    look("sensor_tension_quantisation", &ActuatorSignals::tension_N, scale.tension_N_per_count);
+  }
+  const auto joints = robot.joints();
+  for (const erp::JointSensor& sensor : robot.joint_sensors)
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].name != sensor.joint || joints[j].type != erp::JointType::revolute) continue;
+      const double finest = 2 * std::numbers::pi / std::exp2(sensor.bits_per_rev);
+      const auto of = [&](const Episode& e) -> const Signal& { return e.joints[j].angle_rad; };
+      add(all, "sensor_joint_quantisation", sensor.joint, step(of, finest), finest);
+    }
+  return all;
+}
+
+}  // namespace sim::diagnosis
