@@ -38,8 +38,19 @@ Pose posture(const erp::Robot& robot, double share, Random& random) {
   return pose;
 }
 
+/// All hinges to one end of their range, then to the other.
+void go_to_end(const erp::Robot& robot, std::size_t turn, Pose& pose) {
+  const auto joints = robot.joints();
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    if (joints[k].type != erp::JointType::revolute) continue;
+    const double margin = 0.03 * (joints[k].max_rad - joints[k].min_rad);
+    pose[k][0] = turn % 2 ? joints[k].max_rad - margin : joints[k].min_rad + margin;
+  }
+}
+
 struct Walk {
   double share, pace_s, dwell_s, rest_N, least_N;
+  bool to_the_ends = false;
 };
 
 Excitation through_postures(const erp::Robot& robot, const Walk& walk, double duration_s,
@@ -49,6 +60,7 @@ Excitation through_postures(const erp::Robot& robot, const Walk& walk, double du
     poses.push_back({t, poses.back().pose});
     t += walk.pace_s * between(random, 0.7, 1.3);
     poses.push_back({t, posture(robot, walk.share, random)});
+    if (walk.to_the_ends) go_to_end(robot, poses.size() / 2, poses.back().pose);
     t += walk.dwell_s * between(random, 0.5, 1.5);
   }
   const auto plan = lengths_through(robot, poses, {{walk.rest_N, walk.least_N}, 0.02});
@@ -99,8 +111,8 @@ Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration
 Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
                       std::uint64_t seed) {
   Random random(seed * 977 + static_cast<std::uint64_t>(recording));
-  const Walk slow{0.98, 1.6, 0.5, 10, 4}, low{0.7, 1.0, 0.3, 5, 2}, high{0.8, 0.8, 0.2, 25, 8},
-      fast{0.6, 0.35, 0.1, 15, 5};
+  const Walk slow{0.98, 1.6, 0.5, 10, 4, true}, low{0.7, 1.0, 0.3, 5, 2},
+      high{0.8, 0.8, 0.2, 25, 8}, fast{0.6, 0.35, 0.1, 15, 5};
   if (robot.joints().size() == 1 && recording % 2 == 1) {
     const bool gentle = recording % 4 == 1;
     const Swing swing = gentle ? Swing{8, 12, 0.35, 3, 1.6, 0.0} : Swing{22, 18, 0.5, 6, 2.3, 1.0};

@@ -23,7 +23,10 @@ Signal resistive_V(const Chain& c) {
     // of the current before, so much is left at the end of a period
     const double kept = std::exp(-c.period_s * t.resistance_ohm[k] / c.motor.inductance_H);
     const double settled_A = (t.current_A[k] - kept * t.current_A[k - 1]) / (1 - kept);
-    left[k] = t.terminal_V[k] - t.resistance_ohm[k] * settled_A;
+    const double a = t.current_averaged;
+    const double next_V = k + 1 < left.size() ? t.terminal_V[k + 1] : t.terminal_V[k];
+    left[k] = t.terminal_V[k] + a / 2 * (next_V - t.terminal_V[k]) -
+              t.resistance_ohm[k] * ((1 - a) * settled_A + a * t.current_A[k]);
   }
   return left;
 }
@@ -35,7 +38,7 @@ std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
   std::vector<double> value;
   for (const std::size_t k : rows) {
     motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
-    const double lag_s = current_lag_s(motor, c.period_s);
+    const double lag_s = (1 - c.trace.current_averaged) * current_lag_s(motor, c.period_s);
     value.push_back(c.bump.mean(left, k) -
                     back_emf * (c.bump.rate(c.trace.shaft_rad, k) -
                                 lag_s * c.bump.acceleration(c.trace.shaft_rad, k)));
@@ -50,7 +53,8 @@ std::vector<double> gearbox_Nm(const Chain& c, std::span<const std::size_t> rows
   for (const std::size_t k : rows) {
     if (!c.trace.resistance_ohm.empty())
       motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
-    value.push_back(balance_inertia(motor, c.period_s) * c.bump.acceleration(c.trace.shaft_rad, k) +
+    value.push_back(balance_inertia(motor, c.period_s, 1 - c.trace.current_averaged) *
+                        c.bump.acceleration(c.trace.shaft_rad, k) +
                     viscous * c.bump.rate(c.trace.shaft_rad, k) - c.bump.mean(c.trace.drive_Nm, k));
   }
   return value;

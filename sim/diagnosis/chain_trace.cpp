@@ -50,10 +50,13 @@ class Tracer {
       Signal value = said;
       if (!m_.effects.empty())
         for (std::size_t k = 0; k < said.size(); ++k)
-          value[k] = m_.effects.undo(sense, said[k],
-                                     {period_s_ * double(k), period_s_, m_.motor.gear_ratio});
+          value[k] = m_.effects.undo(
+              sense, said[k],
+              {period_s_ * double(k), period_s_, m_.motor.gear_ratio, rate_of(said, k, period_s_)});
       return value;
     };
+    out_.current_averaged =
+        m_.effects.averaged(effects::Sense::current, {0, period_s_, m_.motor.gear_ratio, 0});
     out_.shaft_rad = undone(effects::Sense::shaft, in_.shaft_rad);
     out_.current_A = undone(effects::Sense::current, in_.current_A);
     out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
@@ -133,12 +136,17 @@ class Tracer {
     return now + tau * -std::expm1(-1 / tau) * (current_A(k - 1) - now);
   }
 
+  /// ī over the two periods around row k.
+  double around_A(std::size_t k) const {
+    const double a = out_.current_averaged;
+    return (1 - a) * 0.5 * (mean_A(k) + mean_A(k + 1)) + a * current_A(k);
+  }
+
   void find_drive() {
     const bool driven = out_.current_measured || !out_.terminal_V.empty();
     if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
     out_.drive_Nm.assign(rows_, nan);
-    for (std::size_t k = 1; k + 1 < rows_; ++k)
-      out_.drive_Nm[k] = drive_Nm(k, 0.5 * (mean_A(k) + mean_A(k + 1)));
+    for (std::size_t k = 1; k + 1 < rows_; ++k) out_.drive_Nm[k] = drive_Nm(k, around_A(k));
   }
 
   double drive_Nm(std::size_t k, double mean_A) {
@@ -202,10 +210,10 @@ double current_lag_s(const erp::MotorType& m, double period_s) {
   return s.end * m.inductance_H / m.resistance_ohm + (0.5 - s.share) * period_s;
 }
 
-double balance_inertia(const erp::MotorType& m, double period_s) {
+double balance_inertia(const erp::MotorType& m, double period_s, double sampled) {
   const Settling s = settling(m, period_s);
   const double start_s = s.end * m.inductance_H / m.resistance_ohm;
-  return s.inertia - s.damping * (s.share * period_s - start_s);
+  return s.inertia - sampled * s.damping * (s.share * period_s - start_s);
 }
 
 }  // namespace sim::diagnosis

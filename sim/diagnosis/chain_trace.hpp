@@ -26,6 +26,7 @@ struct ChainTrace {
   Signal path_slope;       ///< of the effects on the path
   Signal drive_Nm;         ///< N (K_T ī − s τ_CM) − X/e; NaN where the shaft rests
   bool tension_measured = false, current_measured = false;
+  double current_averaged = 0;  ///< share in which the current is a mean around the row
 };
 
 ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
@@ -39,6 +40,7 @@ double current_lag_s(const erp::MotorType& motor, double period_s);
 /// What multiplies ω̇ in the gearbox's balance: J_M N² + J_G/η, less what the current changes within
 /// a period, seen from its end. It falls as the motor speeds up, i = i_k + (K_E N/R)(ω_k − ω),
 /// after a start from the last period's end that is over in L/R.
-double balance_inertia(const erp::MotorType& motor, double period_s);
+/// `sampled`: the share in which currents are those at the rows, not means around them.
+double balance_inertia(const erp::MotorType& motor, double period_s, double sampled = 1);
 
 }  // namespace sim::diagnosis

@@ -137,7 +137,7 @@ class Course {
     for (StageGap& gap : gaps) {
       const auto was = std::ranges::find_if(
           before, [&](const StageGap& b) { return b.stage == gap.stage && b.on == gap.on; });
-      gap.open = gap.judged && gap.excess_interval.low > where_options().practical_excess &&
+      gap.open = gap.open &&
                  gap.excess > std::max(options_.left_excess, options_.left_share * was->excess);
     }
     return gaps;

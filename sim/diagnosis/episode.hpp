@@ -12,6 +12,12 @@ namespace sim::diagnosis {
 /// Empty: not recorded. NaN: this sample was not taken.
 using Signal = std::vector<double>;
 
+/// Central difference, 1/s of the signal's unit; 0 at the ends.
+inline double rate_of(const Signal& signal, std::size_t row, double period_s) {
+  if (row == 0 || row + 1 >= signal.size()) return 0;
+  return (signal[row + 1] - signal[row - 1]) / (2 * period_s);
+}
+
 struct ActuatorSignals {
   Signal mode, reference, voltage_V, current_A, shaft_rad, tension_N;
 };

@@ -98,7 +98,7 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
 /// Where to begin: as given; and, for what shapes the law, at some shares of its bounds.
 std::vector<std::vector<double>> starts(const std::vector<Knob>& knobs, bool given,
                                         const FitOptions& options) {
-  constexpr double nudge = 1e-3;  // of the bounds, off a law's kink at its neutral value
+  constexpr double nudge = 2e-3;  // of the bounds, off a law's kink at its neutral value
   std::vector<std::vector<double>> all;
   std::vector<double> first;
   for (const Knob& knob : knobs) first.push_back(knob.to_u(*knob.value));
@@ -114,6 +114,27 @@ std::vector<std::vector<double>> starts(const std::vector<Knob>& knobs, bool giv
   return all;
 }
 
+/// A joint's stops, at or a little before where it turned back.
+std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& neutral,
+                                   std::span<const std::size_t> episodes) {
+  const auto joints = trials.nominal().joints();
+  const auto j = static_cast<std::size_t>(std::ranges::find(joints, neutral.on, &erp::Joint::name) -
+                                          joints.begin());
+  double low = joints[j].max_rad, high = joints[j].min_rad;
+  for (const std::size_t e : episodes)
+    for (const double angle : trials.episodes()[e].joints[j].angle_rad)
+      if (!std::isnan(angle)) low = std::min(low, angle), high = std::max(high, angle);
+  std::vector<effects::Placed> all;
+  for (const double before_rad : {0.0, 0.01, 0.02, 0.035, 0.05})
+    for (const int side : {1, 2, 3}) {
+      all.push_back(neutral);
+      const auto parameters = effects::parameters(all.back().effect);
+      if (side & 1) *parameters[0].value = std::max(0.0, low - joints[j].min_rad + before_rad);
+      if (side & 2) *parameters[1].value = std::max(0.0, joints[j].max_rad - high + before_rad);
+    }
+  return all;
+}
+
 std::size_t count_residuals(const Trials& trials, std::span<const std::size_t> episodes) {
   std::size_t count = 0;
   for (const std::size_t e : episodes) count += trials.whitened(trials.bare(), e).size();
@@ -124,6 +145,19 @@ bool is_neutral(const effects::Placed& placed) {
   return effects::written(placed).parameters.empty();
 }
 
+/// The one of the tries that leaves least, or the effect as given.
+effects::Placed best_try(const Trials& trials, const Trial& base, const effects::Placed& more,
+                         std::span<const std::size_t> episodes) {
+  effects::Placed best = more;
+  if (!is_neutral(more)) return best;
+  double least = sum(trials.blocks(base, episodes)).square;
+  for (const effects::Placed& one : tries(trials, more, episodes))
+    if (const double square = sum(trials.blocks(trials.with(base, one, episodes), episodes)).square;
+        square < least)
+      least = square, best = one;
+  return best;
+}
+
 Fit result_of(const effects::Placed& placed, double square, std::span<const double> sigmas) {
   Fit fit{placed, square, {}, {sigmas.begin(), sigmas.end()}};
   for (const Knob& knob : knobs_of(fit.placed.effect)) fit.values.push_back(*knob.value);
@@ -132,9 +166,23 @@ Fit result_of(const effects::Placed& placed, double square, std::span<const doub
 
 }  // namespace
 
+std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& neutral,
+                                   std::span<const std::size_t> episodes) {
+  const auto type = effects::about(neutral.effect).type;
+  if (type == "joint_early_stop") return stops(trials, neutral, episodes);
+  std::vector<effects::Placed> all;
+  constexpr double soft = 0.7, stiff = 0.01, ratio = 0.8;  // rad/Nm
+  if (type == "skeleton_link_flexibility")
+    for (double c = soft; c > stiff; c *= ratio) {
+      all.push_back(neutral);
+      *effects::parameters(all.back().effect)[0].value = c;
+    }
+  return all;
+}
+
 Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
         std::span<const std::size_t> episodes, const FitOptions& options) {
-  Effects effects{more};
+  Effects effects{best_try(trials, base, more, episodes)};
   std::vector<Knob> knobs = knobs_of(effects[0].effect);
   const Cost cost{[&](const Effects& e) { return trials.with(base, e[0], episodes); },
                   trials,
@@ -143,7 +191,7 @@ Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
                   knobs,
                   count_residuals(trials, episodes)};
   Least best{};
-  for (const auto& start : starts(knobs, !is_neutral(more), options))
+  for (const auto& start : starts(knobs, !is_neutral(effects[0]), options))
     if (Least least = minimise(cost, start, options.iterations);
         best.u.empty() || least.square < best.square)
       best = std::move(least);

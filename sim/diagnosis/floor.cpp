@@ -38,6 +38,22 @@ double noise_of(const Signal& signal) {
   return std::sqrt(*middle / 20 / median_of_chi_square);
 }
 
+/// What a sensor of such steps would have said with its lattice elsewhere. Its error is no white
+/// noise: it stays for as long as the signal does.
+void requantise(Signal& signal, double step, Noise& noise) {
+  constexpr std::size_t reach = 12;  // rows to each side: a step smoothed over
+  const Signal said = signal;
+  const double shift = noise.uniform();
+  for (std::size_t k = 0; k < said.size(); ++k) {
+    double sum = 0, count = 0;
+    for (std::size_t n = k < reach ? 0 : k - reach; n < std::min(said.size(), k + reach + 1); ++n)
+      if (!std::isnan(said[n])) sum += said[n], ++count;
+    if (count == 0 || std::isnan(said[k])) continue;
+    const double smooth = sum / count;
+    signal[k] = said[k] + step * (std::round(smooth / step + shift) - shift) - smooth;
+  }
+}
+
 /// Sampled half a period late: by an amplifier, or by a simulator's step.
 void delay(Signal& signal) {
   constexpr double late = 0.5;
@@ -57,14 +73,16 @@ Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_
     const SensorScale scale(robot.motor_of(robot.actuators[a]), sensors);
     ActuatorSignals& s = again.actuators[a];
     delay(s.tension_N);
-    const auto step = [&](const char* type, double finest) {
-      return std::max(finest, coarse_step(coarse, type, robot.actuators[a].name));
+    disturb(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
+    disturb(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
+    disturb(s.tension_N, sensors.tension_noise_N, scale.tension_N_per_count, noise);
+    const auto coarsen = [&](const char* type, Signal& signal) {
+      if (const double step = coarse_step(coarse, type, robot.actuators[a].name); step > 0)
+        requantise(signal, step, noise);
     };
-    disturb(s.shaft_rad, 0, step("sensor_shaft_quantisation", scale.shaft_rad_per_count), noise);
-    disturb(s.current_A, sensors.current_noise_A,
-            step("sensor_current_quantisation", scale.current_A_per_count), noise);
-    disturb(s.tension_N, sensors.tension_noise_N,
-            step("sensor_tension_quantisation", scale.tension_N_per_count), noise);
+    coarsen("sensor_shaft_quantisation", s.shaft_rad);
+    coarsen("sensor_current_quantisation", s.current_A);
+    coarsen("sensor_tension_quantisation", s.tension_N);
   }
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -73,8 +91,10 @@ Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_
         std::ranges::find(robot.joint_sensors, joints[j].name, &erp::JointSensor::joint);
     if (sensor != robot.joint_sensors.end() && joints[j].type == erp::JointType::revolute) {
       const double finest = 2 * std::numbers::pi / std::exp2(sensor->bits_per_rev);
-      const double step = coarse_step(coarse, "sensor_joint_quantisation", sensor->joint);
-      disturb(signals.angle_rad, sensor->noise_rad, std::max(finest, step), noise);
+      disturb(signals.angle_rad, sensor->noise_rad, finest, noise);
+      if (const double step = coarse_step(coarse, "sensor_joint_quantisation", sensor->joint);
+          step > 0)
+        requantise(signals.angle_rad, step, noise);
       continue;
     }
     disturb(signals.angle_rad, noise_of(signals.angle_rad), 0, noise);

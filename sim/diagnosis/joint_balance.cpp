@@ -11,7 +11,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double resting_rad_per_s = 0.02;  // chosen: a joint slower than this may stick
 constexpr double near_stop_rad = 0.02;      // chosen: its stop may push
-constexpr double stop_Nm_per_rad = 100;     // chosen: how hard a stop is to pass
+constexpr double stop_gives_rad = 0.06;     // chosen: how far a stop may give way
+constexpr double stop_Nm_per_rad = 20;      // chosen: how hard it is to pass beyond that
 
 std::pair<double, double> range(const Signal& signal, const Bump& bump, std::size_t row) {
   const auto first = signal.begin() + static_cast<std::ptrdiff_t>(row - bump.reach());
@@ -20,9 +21,68 @@ std::pair<double, double> range(const Signal& signal, const Bump& bump, std::siz
   return {*low, *high};
 }
 
+/// A sensor whose shaft is loose trails the bone by half its looseness; while it rests after a
+/// reversal the bone crosses over, evenly as far as one can tell.
+void take_up(Signal& angle, double loose_rad, double period_s) {
+  if (loose_rad == 0 || angle.empty()) return;
+  constexpr double half_width_s = 0.016, still_rad_per_s = 0.03;
+  const Signal speed = Bump(half_width_s, period_s).rates(angle);
+  std::size_t moved = 0;  // the row after which it rests
+  double side = 0;
+  for (std::size_t k = 0; k < angle.size(); ++k) {
+    if (!(std::abs(speed[k]) > still_rad_per_s)) continue;
+    const double now = std::copysign(0.5, speed[k]);
+    for (std::size_t between = moved + 1; between < k; ++between) {
+      const double share = double(between - moved) / double(k - moved);
+      angle[between] += loose_rad * (side + share * (now - side));
+    }
+    angle[k] += loose_rad * now;
+    side = now, moved = k;
+  }
+  for (std::size_t k = moved + 1; k < angle.size(); ++k) angle[k] += loose_rad * side;
+}
+
 }  // namespace
 
-JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size_t> rows) const {
+/// Bones that bend have joints that nobody measured. Each moves as its spring and damper have it,
+/// its bone carried by the measured joints:
+///
+///   I δ̈ = −(τ(q, q̇, q̈, δ, δ̇, 0) + k δ + D δ̇)          τ: inverse dynamics, by symplectic Euler
+void Stages::bend(const Episode& episode, JointTrace& trace) {
+  const Bump bump(windows_.half_width_s, episode.period_s);
+  const std::size_t reach = 2 * bump.reach() + 1;
+  for (std::size_t j = 0; j < trace.signals.size(); ++j) {
+    const erp::Joint& joint = bones_.joint_list()[j];
+    const int coordinate = bones_.first_of(static_cast<int>(j));
+    if (coordinate < 0 || std::ranges::count(recorded_joints_, joint.name)) continue;
+    effects::Acting acting(equipped_.acting, joint.name, effects::Seat::joint);
+    const double stiffness = -acting.joint_torque(0).slope;
+    Signal& bent = trace.signals[j].angle_rad;
+    bent.assign(episode.rows, 0.0);
+    if (!(stiffness > 0) || !bones_.measured(trace.signals)) continue;
+    double angle = 0, speed = 0;
+    bool started = false;
+    for (std::size_t k = reach; k + reach < episode.rows; ++k) {
+      Motion motion = bones_.motion(trace.signals, bump, k);
+      if (!motion.taken) continue;
+      motion.joints[j].position[0] = angle, motion.joints[j].velocity_rad_per_s[0] = speed;
+      motion.acceleration[coordinate] = 0;
+      const double needed = bones_.inverse(motion)[coordinate];
+      if (!started) {
+        angle = -needed / stiffness, started = true;
+      } else {
+        motion.acceleration[coordinate] = 1;
+        const double inertia = bones_.inverse(motion)[coordinate] - needed;
+        const double pushed =
+            -(needed + stiffness * angle + joint.viscous_Nm_s_per_rad * speed) / inertia;
+        speed += episode.period_s * pushed, angle += episode.period_s * speed;
+      }
+      bent[k] = std::clamp(angle, -3.0, 3.0);
+    }
+  }
+}
+
+JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size_t> rows) {
   const auto& joints = bones_.joint_list();
   JointTrace trace;
   trace.signals.resize(joints.size());  // an effect may have added some
@@ -34,12 +94,17 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
           episode.joints[static_cast<std::size_t>(recorded - recorded_joints_.begin())];
     Signal& angle = trace.signals[j].angle_rad;
     effects::Acting acting(equipped_.acting, joints[j].name, effects::Seat::joint);
-    if (!acting.empty())
+    if (!acting.empty()) {
+      const Signal said = angle;
       for (std::size_t k = 0; k < angle.size(); ++k)
-        angle[k] = acting.undo(effects::Sense::joint, angle[k],
-                               {episode.period_s * double(k), episode.period_s, 1});
+        angle[k] = acting.undo(effects::Sense::joint, said[k],
+                               {episode.period_s * double(k), episode.period_s, 1,
+                                rate_of(said, k, episode.period_s)});
+      take_up(angle, acting.looseness_rad(), episode.period_s);
+    }
     trace.speed_rad_per_s.push_back(bump.rates(angle));
   }
+  bend(episode, trace);
   if (bones_.measured(trace.signals))
     for (const std::size_t row : rows)
       trace.motions.push_back(bones_.motion(trace.signals, bump, row));
@@ -105,10 +170,10 @@ double Stages::leave(const JointTrace& joints, std::size_t j, const Bump& bump, 
   const auto [lowest, highest] = range(joints.signals[j].angle_rad, bump, row);
   if (highest > joint.max_rad - near_stop_rad)
     torque_Nm = std::max(0.0, torque_Nm) +
-                stop_Nm_per_rad * std::max(0.0, highest - joint.max_rad - near_stop_rad);
+                stop_Nm_per_rad * std::max(0.0, highest - joint.max_rad - stop_gives_rad);
   if (lowest < joint.min_rad + near_stop_rad)
     torque_Nm = std::min(0.0, torque_Nm) -
-                stop_Nm_per_rad * std::max(0.0, joint.min_rad - near_stop_rad - lowest);
+                stop_Nm_per_rad * std::max(0.0, joint.min_rad - stop_gives_rad - lowest);
   return torque_Nm;
 }
 

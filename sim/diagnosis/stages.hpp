@@ -52,7 +52,8 @@ class Stages {
   };
   Explanation renew(const Episode& episode, Explanation explanation, const Touched& touched);
   std::vector<std::size_t> rows(const Episode& episode) const;
-  JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows) const;
+  JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows);
+  void bend(const Episode& episode, JointTrace& trace);
   Eigen::MatrixXd bones(const Episode& episode, const JointTrace& joints,
                         std::span<const std::size_t> rows);
   void add_joints(const Episode& episode, Explanation& explanation) const;

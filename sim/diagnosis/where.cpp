@@ -68,7 +68,11 @@ StageGap gap_of(const Collected& collected, const WhereOptions& options) {
   gap.rms = gap.floor * std::sqrt(std::max(0.0, gap.excess + 1));
   gap.excess_interval = interval_of(collected.blocks, options);
   gap.judged = gap.windows >= options.least_windows;
-  gap.open = gap.judged && gap.excess_interval.low > options.practical_excess;
+  constexpr std::size_t enough = 10;
+  for (const ScoreBlock& block : collected.blocks)
+    if (block.windows >= enough) gap.worst_excess = std::max(gap.worst_excess, excess_of(block));
+  gap.open = gap.judged && (gap.excess_interval.low > options.practical_excess ||
+                            gap.worst_excess > options.block_excess);
   return gap;
 }
 

@@ -22,10 +22,12 @@ struct StageGap {
   double rms = 0, floor = 0;  ///< in that unit
   double excess = 0;
   Interval excess_interval;  ///< 95 %
-  double share = 0;
+  double worst_excess = 0;   ///< of a block
   std::size_t windows = 0;
   bool judged = false;  ///< it has enough windows
-  /// It is judged and leaves its floor: the interval's low end is above the practical floor.
+  double share = 0;
+  /// It is judged and leaves its floor: the interval's low end is above the practical floor, or a
+  /// block is far above it.
   bool open = false;
 };
 
@@ -33,6 +35,7 @@ struct WhereOptions {
   double block_s = 1;              ///< of the bootstrap
   int draws = 400;                 ///< of the bootstrap
   double practical_excess = 1;     ///< chosen: 1.4 times the floor may be the method's own
+  double block_excess = 20;        ///< chosen: of one block alone; a gap may come and go
   std::size_t least_windows = 50;  ///< to judge a stage, chosen
   std::uint64_t seed = 1;
 };

@@ -22,6 +22,8 @@ std::vector<Placed> candidates(const erp::Robot& robot, const std::vector<std::s
   return all;
 }
 
+constexpr double least_gap = 0.02;  // of noise: below, a share of the gap means nothing; chosen
+
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -51,6 +53,10 @@ double promise(const Trials& trials, const Trial& base, Placed candidate, std::s
       const double square = dot(change, change);
       if (square > 1e-12) best = std::max(best, std::pow(dot(before, change), 2) / square);
     }
+  for (const Placed& one : tries(trials, neutral, only)) {
+    const auto after = trials.whitened(trials.with(base, one, only), episode);
+    best = std::max(best, dot(before, before) - dot(after, after));
+  }
   return best;
 }
 
@@ -89,7 +95,7 @@ void judge(Ranked& r, const Trials& trials, const Trial& base, const WhichOption
       was += before[k].square, is += r.blocks[k].square;
       windows += static_cast<double>(before[k].windows);
     });
-    return (was - is) / std::max(was - windows, 1e-9);
+    return (was - is) / std::max(was - windows, least_gap * windows);
   };
   r.gain = gain([&](auto&& add) {
     for (std::size_t k = 0; k < before.size(); ++k) add(k);

@@ -1,5 +1,6 @@
 #include "sim/effects/acting.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 #include "sim/effects/library.hpp"
@@ -135,6 +136,13 @@ double Acting::bearing_rad(double angle_rad) {
   return angle_rad;
 }
 
+double Acting::looseness_rad() {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.looseness_rad(); } { sum += e.looseness_rad(); });
+  return sum;
+}
+
 double Acting::read(Sense sense, double value, const SensorSample& s) {
   each(
       [&](auto& e, Memory& m) requires requires { e.read(value, s, m); } {
@@ -149,6 +157,15 @@ double Acting::undo(Sense sense, double said, const SensorSample& s) {
         if (e.sense == sense) said = e.undo(said, s, m);
       });
   return said;
+}
+
+double Acting::averaged(Sense sense, const SensorSample& s) {
+  double share = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.averaged(s); } {
+        if (e.sense == sense) share = std::max(share, e.averaged(s));
+      });
+  return share;
 }
 
 double Acting::command_delay_s(const Draw& draw) {

@@ -41,8 +41,10 @@ class Acting {
   double joint_friction_Nm(double speed);
   Sloped joint_torque(double angle_rad);
   double bearing_rad(double angle_rad);
+  double looseness_rad();
   double read(Sense sense, double value, const SensorSample& s);
   double undo(Sense sense, double said, const SensorSample& s);
+  double averaged(Sense sense, const SensorSample& s);
   double command_delay_s(const Draw& draw);
   double frame_delay_s(const Draw& draw);
   bool loses_command(const Draw& draw);

@@ -28,8 +28,11 @@
 ///   joint_friction_Nm(speed)          added to its Coulomb friction
 ///   joint_torque(angle)               along its axis
 ///   bearing_rad(angle, memory)        what its sensor's shaft follows
+///   looseness_rad()                   how far that shaft may be off, to and fro together
 /// Seams of sensors (`static constexpr Sense sense`) and of the bus:
 ///   read(value, s, memory)            what the sensor says;   undo(said, s, memory)  its inverse
+///   averaged(s)                       share, 0 … 1, in which `undo` gives the mean around a sample
+///                                     instead of what was there at its instant
 ///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, anew each time
 namespace sim::effects {
 
@@ -81,6 +84,7 @@ struct Sloped {
 struct SensorSample {
   double time_s = 0, dt_s = 0;
   double turns_per_turn = 1;  ///< the sensor's own shaft to what it measures
+  double said_rate = 0;       ///< change of what it says a second, for `undo`
 };
 
 }  // namespace sim::effects

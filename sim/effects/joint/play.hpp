@@ -21,6 +21,7 @@ struct JointPlay {
     double& shaft_rad = memory[0];
     return shaft_rad = std::clamp(shaft_rad, angle_rad - width_rad / 2, angle_rad + width_rad / 2);
   }
+  double looseness_rad() const { return width_rad; }
 };
 
 }  // namespace sim::effects

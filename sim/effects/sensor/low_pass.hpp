@@ -20,23 +20,25 @@ struct SensorLowPass {
   double time_constant_s = 0;  // T
 
   void visit(auto& v) { v("time_constant_s", time_constant_s, Bounds{0, 0.2}); }
+  /// Exact for a value that changes evenly between two readings.
   double read(double value, const SensorSample& s, Memory& memory) const {
-    double &said = memory[0], &began = memory[1];
-    said = value + (began != 0 ? kept(s) : 0) * (said - value);
-    began = 1;
+    double &said = memory[0], &last = memory[1], &began = memory[2];
+    if (began == 0) said = last = value, began = 1;
+    if (time_constant_s > 0 && s.dt_s > 0) {
+      const double left = std::exp(-s.dt_s / time_constant_s);
+      const double behind_s = time_constant_s * (1 - left) / s.dt_s;
+      said = left * said + value - left * last - behind_s * (value - last);
+    } else {
+      said = value;
+    }
+    last = value;
     return said;
   }
-  double undo(double said, const SensorSample& s, Memory& memory) const {
-    double &last = memory[0], &began = memory[1];
-    const double stays = began != 0 ? kept(s) : 0;
-    const double value = (said - stays * last) / (1 - stays);
-    last = said, began = 1;
-    return value;
+  double undo(double said, const SensorSample& s, Memory&) const {
+    return said + time_constant_s * s.said_rate;
   }
-
- private:
-  double kept(const SensorSample& s) const {
-    return time_constant_s > 0 ? std::exp(-s.dt_s / time_constant_s) : 0;
+  double averaged(const SensorSample& s) const {
+    return -std::expm1(-2 * time_constant_s / s.dt_s);
   }
 };
 

@@ -14,8 +14,9 @@ namespace sim::effects {
 ///   τ = −k δ − D ω_δ
 ///
 /// I: the mean of the body's principal inertias across its length, taken as I_xx. Tendons and
-/// pulleys stay with the inner half; a robot whose bones hang on this one keeps them there.
-/// Source: De Luca, Siciliano, 1991 (one assumed mode).
+/// pulleys stay with the inner half; a spring stiffer than 1000 Nm/rad is taken as rigid; a robot
+/// whose bones hang on this one keeps them there. Source: De Luca, Siciliano, 1991 (one assumed
+/// mode).
 struct LinkFlexibility {
   static constexpr About about{"skeleton_link_flexibility", Stage::skeleton, Seat::body,
                                "steps and fast reversals"};
@@ -28,7 +29,7 @@ struct LinkFlexibility {
     v.shape("damping_Nm_s_per_rad", damping_Nm_s_per_rad, Bounds{0, 1});
   }
   void change_robot(auto& robot, const auto& on) const {
-    if (compliance_rad_per_Nm == 0) return;
+    if (compliance_rad_per_Nm < 1e-3) return;
     for (auto& part : robot.skeletons)
       for (std::size_t j = 0; j < part.joints.size(); ++j)
         if (part.joints[j].child == on) return split(robot, part, part.joints[j], on);
