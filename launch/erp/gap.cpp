@@ -11,19 +11,6 @@ namespace {
 
 namespace diagnosis = sim::diagnosis;
 
-std::vector<diagnosis::Episode> read(const erp::Robot& robot,
-                                     const std::vector<std::string>& recordings,
-                                     std::ostream& remarks) {
-  std::vector<diagnosis::Episode> episodes;
-  std::vector<std::string> mended;
-  for (const std::string& file : recordings)
-    episodes.push_back(
-        diagnosis::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
-                           robot, file, mended));
-  for (const std::string& remark : mended) remarks << remark << "\n";
-  return episodes;
-}
-
 void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
   const std::string share = gap.open ? fmt::format("{:.0f} %", 100 * gap.share) : "-";
   out << fmt::format("{:<8} {:<24} {:>9.3g} {:<3} {:>9.3g} {:>7.1f} {:>7} {:>8}\n",
@@ -54,10 +41,23 @@ void print_words(const std::vector<diagnosis::StageGap>& gaps, std::ostream& out
 
 }  // namespace
 
+std::vector<diagnosis::Episode> read_episodes(const erp::Robot& robot,
+                                              const std::vector<std::string>& recordings,
+                                              std::vector<std::string>& mended) {
+  std::vector<diagnosis::Episode> episodes;
+  for (const std::string& file : recordings)
+    episodes.push_back(
+        diagnosis::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
+                           robot, file, mended));
+  return episodes;
+}
+
 int gap_where(const std::string& robot_file, const std::vector<std::string>& recordings,
               std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = erp::read_robot(robot_file);
-  const auto gaps = diagnosis::where(robot, read(robot, recordings, remarks));
+  std::vector<std::string> mended;
+  const auto gaps = diagnosis::where(robot, read_episodes(robot, recordings, mended));
+  for (const std::string& remark : mended) remarks << remark << "\n";
   out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
                      "floor", "times", "share", "windows");
   for (const auto& gap : gaps) print_row(gap, out);

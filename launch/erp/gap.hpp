@@ -1,15 +1,36 @@
 #pragma once
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
-/// `erp gap`: where recordings and a robot's model part.
+#include "interfaces/robot/robot.hpp"
+#include "sim/diagnosis/episode.hpp"
+
+/// `erp gap`: where recordings and a robot's model part, why, and by how much.
 namespace launch {
+
+/// Reads and lays out recordings for a robot; what was mended is told. Throws RecordingError,
+/// std::invalid_argument.
+std::vector<sim::diagnosis::Episode> read_episodes(const erp::Robot& robot,
+                                                   const std::vector<std::string>& recordings,
+                                                   std::vector<std::string>& mended);
 
 /// Prints a row a stage, the largest share of the gap first, and the stages that leave their noise
 /// floor in words; what was mended in the recordings goes to `remarks`. Throws xml::Errors,
 /// RecordingError, std::invalid_argument. Returns the exit code.
 int gap_where(const std::string& robot_file, const std::vector<std::string>& recordings,
               std::ostream& out, std::ostream& remarks);
+
+struct GapDiagnoseOptions {
+  std::string robot, out;  ///< out: a folder, made if need be; empty: nothing is written
+  std::vector<std::string> recordings, train, held_out, withhold;
+  int threads = 2;
+  std::uint64_t seed = 1;
+};
+
+/// Prints where, which and how far, and writes diagnosis.json, report.html and robot.xml. Throws as
+/// gap_where. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
+int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
 
 }  // namespace launch

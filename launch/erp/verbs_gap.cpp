@@ -1,23 +1,93 @@
 #include <iostream>
 #include <memory>
+#include <thread>
 
 #include "launch/erp/gap.hpp"
+#include "launch/erp/gap_blind.hpp"
 #include "launch/erp/verbs.hpp"
 
 namespace launch {
+namespace {
 
-void add_gap(CLI::App& app, Chosen& chosen) {
-  auto* gap = app.add_subcommand("gap", "Where a robot and its model part");
-  gap->require_subcommand(1);
+int all_cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+void add_where(CLI::App& gap, Chosen& chosen) {
   auto robot = std::make_shared<std::string>();
   auto recordings = std::make_shared<std::vector<std::string>>();
-  auto* where = gap->add_subcommand(
+  auto* where = gap.add_subcommand(
       "where", "Which stages of the chain recordings contradict: motor, gearbox, tendon, joint");
   where->add_option("--robot", *robot, "robot.xml, the model")->required();
   where->add_option("--real", *recordings, "recordings of the robot, MCAP or CSV")->required();
   where->callback([=, &chosen] {
     chosen = [=] { return gap_where(*robot, *recordings, std::cout, std::cerr); };
   });
+}
+
+void add_diagnose(CLI::App& gap, Chosen& chosen) {
+  auto o = std::make_shared<GapDiagnoseOptions>();
+  o->threads = all_cores();
+  auto* diagnose = gap.add_subcommand(
+      "diagnose", "Where the gap lies, which effect causes it, how far that effect closes it");
+  diagnose->footer(
+      "Exit codes: 0 supported by recordings held out, 3 no gap, 4 none of the known effects,\n"
+      "5 not identifiable from these recordings; 1 failed, 2 bad usage or input.");
+  diagnose->add_option("--robot", o->robot, "robot.xml, the model")->required();
+  diagnose->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")->required();
+  diagnose->add_option("--train", o->train, "those to choose and fit effects by; default: most");
+  diagnose->add_option("--held-out", o->held_out,
+                       "those to judge them by; default: a third, the farthest off");
+  diagnose->add_option("--withhold", o->withhold, "types of effects to do without");
+  diagnose->add_option("--out", o->out, "folder for report.html, diagnosis.json and robot.xml");
+  diagnose->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  diagnose->add_option("--seed", o->seed, "of the bootstrap");
+  diagnose->callback(
+      [=, &chosen] { chosen = [=] { return gap_diagnose(*o, std::cout, std::cerr); }; });
+}
+
+void add_blind(CLI::App& gap, Chosen& chosen) {
+  auto* blind = gap.add_subcommand("blind", "Cases with something hidden, to try the diagnosis on");
+  blind->require_subcommand(1);
+  auto o = std::make_shared<BlindMakeOptions>();
+  o->threads = all_cores();
+  auto* make = blind->add_subcommand("make", "Draw and record cases; seal what they hide");
+  make->add_option("--robot", o->robot, "robot.xml, the model")->required();
+  make->add_option("--out", o->out, "folder for the cases")->required();
+  make->add_option("--truth", o->truth, "file for what is hidden")->required();
+  make->add_option("--kind", o->kind, "single, null, pair, outside or withheld");
+  make->add_option("--cases", o->cases, "how many")->check(CLI::PositiveNumber);
+  make->add_option("--recordings", o->recordings, "a case")->check(CLI::PositiveNumber);
+  make->add_option("--seconds", o->seconds, "a recording")->check(CLI::PositiveNumber);
+  make->add_option("--seed", o->seed, "of the first case; the next ones follow");
+  make->add_option("--without", o->without, "signals not recorded: tension, current, joint");
+  make->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  make->callback([=, &chosen] { chosen = [=] { return blind_make(*o, std::cout, std::cerr); }; });
+
+  auto folder = std::make_shared<std::string>();
+  auto threads = std::make_shared<int>(all_cores());
+  auto* run = blind->add_subcommand(
+      "run", "Diagnose the cases of a folder; under mpirun, each process its part");
+  run->add_option("folder", *folder, "as blind make left it")->required();
+  run->add_option("--threads", *threads, "default: all cores")->check(CLI::PositiveNumber);
+  run->callback([=, &chosen] {
+    chosen = [=] { return blind_run(*folder, *threads, std::cout, std::cerr); };
+  });
+
+  auto truth = std::make_shared<std::string>();
+  auto* score = blind->add_subcommand("score", "Open the truth and print rates and failures");
+  score->add_option("folder", *folder, "with diagnoses")->required();
+  score->add_option("--truth", *truth, "the sealed file")->required();
+  score->callback(
+      [=, &chosen] { chosen = [=] { return blind_score(*folder, *truth, std::cout); }; });
+}
+
+}  // namespace
+
+void add_gap(CLI::App& app, Chosen& chosen) {
+  auto* gap = app.add_subcommand("gap", "Where a robot and its model part, why, and by how much");
+  gap->require_subcommand(1);
+  add_where(*gap, chosen);
+  add_diagnose(*gap, chosen);
+  add_blind(*gap, chosen);
 }
 
 }  // namespace launch

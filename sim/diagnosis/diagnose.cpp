@@ -265,6 +265,7 @@ class Course {
       result_.channels.push_back(c);
     }
     sum_up(plain);
+    locate(plain);
     tell("done", 1);
   }
 
@@ -291,6 +292,61 @@ class Course {
     result_.overall.interval =
         middle(bootstrap(before.size(), 400, options_.seed,
                          [&](const std::vector<std::size_t>& drawn) { return of(drawn).closed; }));
+  }
+
+  /// The effects of the answer say where; without them the open stages do, and the stage of the
+  /// effect that comes nearest says of which of several causes of one residual it looks.
+  void locate(const Trials& plain) {
+    const bool known = result_.verdict == Verdict::supported;
+    double whole = 0;
+    for (const Named& n : result_.answer) whole += std::max(0.0, n.gain);
+    for (const Named& n : result_.answer) {
+      if (!known) break;
+      Located place{n.stage, n.on, whole > 0 ? n.gain / whole : 1, n.gain_interval, {}};
+      place.when = when(plain, n.on);
+      result_.where.push_back(place);
+    }
+    if (known) add_confusable();
+    for (const StageGap& gap : result_.stages) {
+      if (!gap.open || known) continue;
+      Located place{gap.stage, gap.on, gap.share, gap.excess_interval, when(plain, gap.on)};
+      if (result_.where.empty() && !result_.ranked.empty()) {
+        constexpr double near = 0.3;  // of the gap; chosen
+        const Named& nearest = result_.ranked[0];
+        if (nearest.gain > near) place.stage = nearest.stage, place.on = nearest.on;
+      }
+      const bool same = std::ranges::any_of(result_.where, [&](const Located& other) {
+        return other.stage == place.stage && other.on == place.on;
+      });
+      if (!same) result_.where.push_back(place);
+    }
+    for (const StageGap& gap : result_.left)
+      if (gap.open)
+        result_.unexplained.push_back(
+            {gap.stage, gap.on, gap.excess,
+             shape_of(plain, trial_, gap.stage, gap.on, options_.train, options_.held_out)});
+  }
+
+  /// What cannot be told apart shares its part of the gap.
+  void add_confusable() {
+    std::vector<Located> group{result_.where[0]};
+    for (const Named& n : result_.confusable)
+      if (std::ranges::none_of(group, [&](const Located& other) {
+            return other.stage == n.stage && other.on == n.on;
+          }))
+        group.push_back({n.stage, n.on, 0, result_.where[0].interval, result_.where[0].when});
+    const double share = result_.where[0].share / static_cast<double>(group.size());
+    for (Located& place : group) place.share = share;
+    result_.where.erase(result_.where.begin());
+    result_.where.insert(result_.where.begin(), group.begin(), group.end());
+  }
+
+  /// When the residual of what sits there lives, at its most open stage.
+  std::vector<Region> when(const Trials& plain, const std::string& on) const {
+    const auto most = std::ranges::find_if(
+        result_.stages, [&](const StageGap& gap) { return gap.open && gap.on == on; });
+    if (most == result_.stages.end()) return {};
+    return regions(plain, plain.bare(), most->stage, on, all());
   }
 
   void judge() {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/diagnosis/bus.hpp"
+#include "sim/diagnosis/shape.hpp"
 #include "sim/diagnosis/which.hpp"
 
 /// The whole question: where robot and model part, which effect causes it, how far it closes the
@@ -50,8 +51,27 @@ struct Closed {
   Interval interval;
 };
 
+/// A part of the gap: a stage of the whole chain, bus to sensors, as far as it can be told.
+struct Located {
+  effects::Stage stage;
+  std::string on;
+  double share = 0;
+  Interval interval;
+  std::vector<Region> when;
+};
+
+/// What no effect explains.
+struct Unexplained {
+  effects::Stage stage;
+  std::string on;
+  double excess = 0;
+  std::optional<Shape> shape;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::no_gap;
+  std::vector<Located> where;  ///< the largest share first
+  std::vector<Unexplained> unexplained;
   std::vector<StageGap> stages;   ///< of the nominal robot, all recordings
   std::vector<StageGap> left;     ///< after the answer, held-out recordings
   std::vector<Named> answer;      ///< effects that together close the gap

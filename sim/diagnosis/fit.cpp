@@ -151,7 +151,15 @@ effects::Placed best_try(const Trials& trials, const Trial& base, const effects:
   effects::Placed best = more;
   if (!is_neutral(more)) return best;
   double least = sum(trials.blocks(base, episodes)).square;
-  for (const effects::Placed& one : tries(trials, more, episodes))
+  auto all = tries(trials, more, episodes);
+  for (const double share :
+       {0.1, 0.02, -0.1}) {  // of the bounds: laws that are bent from the start
+    all.push_back(more);
+    const effects::Parameter first = effects::parameters(all.back().effect)[0];
+    *first.value = share * (share > 0 ? first.bounds.high : -first.bounds.low);
+    if (*first.value == 0) all.pop_back();
+  }
+  for (const effects::Placed& one : all)
     if (const double square = sum(trials.blocks(trials.with(base, one, episodes), episodes)).square;
         square < least)
       least = square, best = one;

@@ -108,6 +108,20 @@ void judge(Ranked& r, const Trials& trials, const Trial& base, const WhichOption
             static_cast<double>(drawn.size() + 1);
 }
 
+/// Of those as good as the first, the ones with fewer parameters come first, then in the order of
+/// the chain.
+void prefer_plain(std::vector<Ranked>& ranked) {
+  constexpr double as_good = 1e-3;  // of the gap; chosen
+  if (ranked.empty()) return;
+  const double best = ranked[0].gain;
+  const auto end =
+      std::ranges::find_if(ranked, [&](const Ranked& r) { return r.gain < best - as_good; });
+  std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
+    return std::pair(a.fit.values.size(), a.fit.placed.effect.index()) <
+           std::pair(b.fit.values.size(), b.fit.placed.effect.index());
+  });
+}
+
 }  // namespace
 
 std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOptions& options) {
@@ -122,6 +136,7 @@ std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOpt
     if (options.progress) options.progress(++done, chosen.size());
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
+  prefer_plain(ranked);
   return ranked;
 }
 

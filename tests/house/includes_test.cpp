@@ -31,13 +31,15 @@ const std::vector<Rule> rules{
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},
     {"sim/diagnosis/",
      {"interfaces/", "firmware/core/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
+    // A robot of a physics of its own: of the simulator it may know the bones and paths, no effects.
+    {"sim/blind/", {"interfaces/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/effects/", {"interfaces/"}},
     {"sim/skeleton/", {"interfaces/"}},
     {"sim/formats/", {"interfaces/", "sim/skeleton/", "sim/actuator/"}},
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
     {"launch/",
-     {"interfaces/", "components/node/", "sim/formats/", "sim/diagnosis/", "sim/effects/",
+     {"interfaces/", "components/node/", "sim/formats/", "sim/blind/", "sim/diagnosis/", "sim/effects/",
       "sim/actuator/", "sim/skeleton/"}},
 };
 

@@ -1,0 +1,145 @@
+#include "launch/erp/gap_blind.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "launch/erp/gap.hpp"
+#include "launch/erp/gap_files.hpp"
+#include "launch/erp/gap_truth.hpp"
+#include "launch/erp/model.hpp"
+#include "launch/erp/progress.hpp"
+#include "sim/blind/record.hpp"
+#include "sim/diagnosis/diagnose.hpp"
+#include "sim/diagnosis/parallel.hpp"
+
+namespace launch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// Without the columns of what is not recorded, to nine decimals: below any sensor's step.
+recording::Table as_recorded(recording::Table table, const std::vector<std::string>& without) {
+  const auto hidden = [&](const recording::Column& column) {
+    const auto signal = recording::signal_of(column.name);
+    for (const std::string& what : without) {
+      if (what == "tension" && signal == "tension_N") return true;
+      if (what == "current" && signal == "current_A") return true;
+      if (what == "joint" && (signal == "angle_rad" || signal[0] == 'q')) return true;
+    }
+    return false;
+  };
+  std::erase_if(table.columns, hidden);
+  for (recording::Column& column : table.columns)
+    for (double& value : column.values) value = std::round(value * 1e9) / 1e9;
+  return table;
+}
+
+Json truth_of(const std::string& name, const sim::blind::Case& blind) {
+  Json hidden = Json::array();
+  for (const sim::blind::Hidden& h : blind.hidden) {
+    Json parameters = Json::object();
+    for (const auto& [parameter, value] : h.parameters) parameters[parameter] = value;
+    hidden.push_back(
+        {{"type", h.type}, {"stage", h.stage}, {"on", h.on}, {"parameters", parameters}});
+  }
+  return {{"case", name},
+          {"kind", sim::blind::word(blind.kind)},
+          {"seed", blind.seed},
+          {"hidden", hidden}};
+}
+
+/// Which part of the work is this process's, of how many: under Open MPI, else all.
+std::pair<std::size_t, std::size_t> part_of_work() {
+  const auto number = [](const char* name, std::size_t otherwise) {
+    const char* text = std::getenv(name);
+    return text ? static_cast<std::size_t>(std::strtoul(text, nullptr, 10)) : otherwise;
+  };
+  return {number("OMPI_COMM_WORLD_RANK", 0),
+          std::max<std::size_t>(1, number("OMPI_COMM_WORLD_SIZE", 1))};
+}
+
+}  // namespace
+
+int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream& remarks) {
+  const erp::Robot robot = erp::read_robot(options.robot);
+  const auto kind = sim::blind::kind_of(options.kind);
+  fs::create_directories(options.out);
+  write_file(options.out + "/robot.xml", erp::write_robot(robot));
+  const auto count = static_cast<std::size_t>(options.cases);
+  std::vector<Json> truths(count), cases(count);
+  std::size_t done = 0;
+  std::mutex telling;
+  Progress progress(remarks);
+  sim::diagnosis::in_parallel(count, options.threads, [&](std::size_t k) {
+    const std::string name = fmt::format("case_{:04}", k + 1);
+    const auto blind = sim::blind::draw_case(robot, kind, options.seed + k);
+    fs::create_directories(options.out + "/" + name);
+    Json files = Json::array();
+    for (int r = 0; r < options.recordings; ++r) {
+      const auto excitation = sim::blind::excitation(robot, r, options.seconds, options.seed + k);
+      const auto table =
+          as_recorded(sim::blind::record(robot, blind, excitation,
+                                         (options.seed + k) * 1000 + static_cast<std::uint64_t>(r)),
+                      options.without);
+      std::ostringstream text;
+      recording::write_csv(table, text);
+      files.push_back(fmt::format("{}/{}.csv", name, r + 1));
+      write_file(options.out + "/" + files.back().get<std::string>(), text.str());
+    }
+    cases[k] = {{"case", name}, {"recordings", files}, {"withhold", blind.withhold}};
+    truths[k] = truth_of(name, blind);
+    const std::lock_guard lock(telling);
+    progress.tell("cases", double(++done) / double(count));
+  });
+  const std::string truth = Json(truths).dump(1) + "\n";
+  write_file(options.truth, truth);
+  const Json manifest{{"format", "erp gap blind 1"},
+                      {"robot", "robot.xml"},
+                      {"truth_sha256", sha256(truth)},
+                      {"cases", cases}};
+  write_file(options.out + "/cases.json", manifest.dump(1) + "\n");
+  out << fmt::format("{} cases in {}\nsealed      {}\nsha256      {}\n", count, options.out,
+                     options.truth, sha256(truth));
+  return 0;
+}
+
+int blind_run(const std::string& folder, int threads, std::ostream& out, std::ostream& remarks) {
+  const Json manifest = Json::parse(read_text(folder + "/cases.json"));
+  const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
+  const auto [part, parts] = part_of_work();
+  std::vector<Json> mine;
+  std::size_t n = 0;
+  for (const Json& one : manifest["cases"])
+    if (n++ % parts == part &&
+        !fs::exists(folder + "/" + one["case"].get<std::string>() + "/diagnosis.json"))
+      mine.push_back(one);
+  std::atomic<std::size_t> done = 0;
+  std::mutex telling;
+  Progress progress(remarks);
+  sim::diagnosis::in_parallel(mine.size(), threads, [&](std::size_t k) {
+    std::vector<std::string> files, mended;
+    for (const Json& file : mine[k]["recordings"])
+      files.push_back(folder + "/" + file.get<std::string>());
+    sim::diagnosis::DiagnoseOptions how{.threads = 1};
+    how.withhold = mine[k]["withhold"].get<std::vector<std::string>>();
+    const auto d = sim::diagnosis::diagnose(robot, read_episodes(robot, files, mended), how);
+    const std::string place = folder + "/" + mine[k]["case"].get<std::string>();
+    write_file(place + "/diagnosis.part", diagnosis_json(d, robot));
+    fs::rename(place + "/diagnosis.part", place + "/diagnosis.json");
+    const std::lock_guard lock(telling);
+    progress.tell("diagnoses", double(++done) / double(mine.size()));
+  });
+  out << fmt::format("{} diagnoses in {}\n", mine.size(), folder);
+  return 0;
+}
+
+}  // namespace launch

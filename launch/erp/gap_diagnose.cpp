@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+#include "launch/erp/gap.hpp"
+#include "launch/erp/gap_files.hpp"
+#include "launch/erp/model.hpp"
+#include "launch/erp/progress.hpp"
+
+namespace launch {
+namespace {
+
+namespace diagnosis = sim::diagnosis;
+
+/// The recordings of all three lists, each once, and which of them are to train and to judge.
+struct Sorted {
+  std::vector<std::string> files;
+  std::vector<std::size_t> train, held_out;
+};
+
+Sorted sort(const GapDiagnoseOptions& options) {
+  Sorted sorted;
+  const auto index = [&](const std::string& file) {
+    const auto found = std::ranges::find(sorted.files, file);
+    if (found != sorted.files.end()) return static_cast<std::size_t>(found - sorted.files.begin());
+    sorted.files.push_back(file);
+    return sorted.files.size() - 1;
+  };
+  for (const std::string& file : options.recordings) index(file);
+  for (const std::string& file : options.train) sorted.train.push_back(index(file));
+  for (const std::string& file : options.held_out) sorted.held_out.push_back(index(file));
+  const auto rest = [&](std::vector<std::size_t>& into, const std::vector<std::size_t>& others) {
+    for (std::size_t k = 0; k < sorted.files.size(); ++k)
+      if (!std::ranges::count(others, k)) into.push_back(k);
+  };
+  if (sorted.train.empty() && !sorted.held_out.empty()) rest(sorted.train, sorted.held_out);
+  else if (sorted.held_out.empty() && !sorted.train.empty()) rest(sorted.held_out, sorted.train);
+  if (!options.held_out.empty() && sorted.train.empty())
+    throw std::invalid_argument("--held-out names every recording; leave some to train on");
+  return sorted;
+}
+
+void check_types(const std::vector<std::string>& types) {
+  for (const std::string& type : types)
+    if (!sim::effects::neutral(type))
+      throw std::invalid_argument("--withhold " + type +
+                                  ": no such effect; erp model effects lists them");
+}
+
+std::string told(const diagnosis::Named& n) {
+  std::string text = fmt::format("{} on {}", n.type, n.on);
+  for (std::size_t k = 0; k < n.names.size(); ++k)
+    text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", n.names[k], n.values[k],
+                        n.intervals[k].low, n.intervals[k].high);
+  return text;
+}
+
+void print(const diagnosis::Diagnosis& d, std::ostream& out) {
+  for (const auto& place : d.where)
+    out << fmt::format("where       {} of {}: {:.0f} % of the gap\n",
+                       sim::effects::word(place.stage), place.on, 100 * place.share);
+  for (const auto& n : d.answer) out << "which       " << told(n) << "\n";
+  for (const auto& n : d.confusable) out << "or as well  " << told(n) << "\n";
+  for (const auto& u : d.unexplained) {
+    out << fmt::format("left over   {} of {}, {:.3g} times its noise", sim::effects::word(u.stage),
+                       u.on, std::sqrt(1 + u.excess));
+    if (u.shape && u.shape->explained > 0.1)
+      out << fmt::format("; {:.0f} % of it goes with the {}", 100 * u.shape->explained,
+                         u.shape->variable);
+    out << "\n";
+  }
+  if (d.overall.before > 0 && !d.answer.empty())
+    out << fmt::format(
+        "how far     {:.3g} times the noise before, {:.3g} after: {:.1f} % closed on "
+        "held-out recordings\n",
+        d.overall.before, d.overall.after, 100 * d.overall.closed);
+  out << "verdict     " << diagnosis::word(d.verdict) << "\n";
+}
+
+}  // namespace
+
+int exit_code(diagnosis::Verdict verdict) {
+  switch (verdict) {
+    case diagnosis::Verdict::supported:
+      return 0;
+    case diagnosis::Verdict::no_gap:
+      return 3;
+    case diagnosis::Verdict::none_of_the_known:
+      return 4;
+    case diagnosis::Verdict::not_identifiable:
+      break;
+  }
+  return 5;
+}
+
+int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
+  const erp::Robot robot = erp::read_robot(options.robot);
+  check_types(options.withhold);
+  const Sorted sorted = sort(options);
+  std::vector<std::string> mended;
+  auto episodes = read_episodes(robot, sorted.files, mended);
+  for (const std::string& remark : mended) remarks << remark << "\n";
+  diagnosis::Diagnosis d;
+  {
+    Progress progress(remarks);
+    diagnosis::DiagnoseOptions how{.train = sorted.train,
+                                   .held_out = sorted.held_out,
+                                   .withhold = options.withhold,
+                                   .threads = options.threads,
+                                   .seed = options.seed};
+    how.progress = [&](const std::string& what, double share) { progress.tell(what, share); };
+    d = diagnosis::diagnose(robot, std::move(episodes), how);
+  }
+  d.warnings.insert(d.warnings.begin(), mended.begin(), mended.end());
+  print(d, out);
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    write_file(options.out + "/diagnosis.json", diagnosis_json(d, robot));
+    write_file(options.out + "/report.html", diagnosis_report(d, robot));
+    if (!d.answer.empty()) {
+      erp::Robot with = robot;
+      for (const auto& n : d.answer) with.effects.push_back(sim::effects::written(n.placed));
+      write_file(options.out + "/robot.xml", erp::write_robot(with));
+    }
+    out << "report      " << options.out << "/report.html\n";
+  }
+  return exit_code(d.verdict);
+}
+
+}  // namespace launch

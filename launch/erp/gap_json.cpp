@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "launch/erp/gap_files.hpp"
+
+namespace launch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace sim::diagnosis;
+
+/// Four digits tell all that such figures hold.
+double rounded(double x) {
+  if (x == 0 || !std::isfinite(x)) return 0;
+  const double scale = std::pow(10, 5 - std::ceil(std::log10(std::abs(x))));
+  return std::round(x * scale) / scale;
+}
+
+Json pair_of(const Interval& i) { return Json::array({rounded(i.low), rounded(i.high)}); }
+
+Json json_of(const Located& place) {
+  Json when = Json::array();
+  for (const Region& r : place.when)
+    when.push_back({{"variable", r.variable}, {"fifth", r.fifth}, {"share", rounded(r.share)}});
+  return {{"stage", sim::effects::word(place.stage)},
+          {"on", place.on},
+          {"share", rounded(place.share)},
+          {"interval", pair_of(place.interval)},
+          {"when", when}};
+}
+
+Json json_of(const Named& n) {
+  Json parameters = Json::object(), intervals = Json::object();
+  for (std::size_t k = 0; k < n.names.size(); ++k)
+    parameters[n.names[k]] = rounded(n.values[k]), intervals[n.names[k]] = pair_of(n.intervals[k]);
+  return {{"type", n.type},           {"on", n.on},
+          {"parameters", parameters}, {"intervals", intervals},
+          {"gain", rounded(n.gain)},  {"gain_interval", pair_of(n.gain_interval)},
+          {"supported", n.supported}};
+}
+
+Json json_of(const Closed& c) {
+  return {{"unit", c.unit},
+          {"before", rounded(c.before)},
+          {"floor", rounded(c.floor)},
+          {"after", rounded(c.after)},
+          {"closed", rounded(c.closed)},
+          {"closed_interval", pair_of(c.interval)}};
+}
+
+Json json_of(const StageGap& gap) {
+  return {{"stage", sim::effects::word(gap.stage)},
+          {"on", gap.on},
+          {"unit", gap.unit},
+          {"residual", rounded(gap.rms)},
+          {"floor", rounded(gap.floor)},
+          {"excess", rounded(gap.excess)},
+          {"excess_interval", pair_of(gap.excess_interval)},
+          {"share", rounded(gap.share)},
+          {"windows", gap.windows},
+          {"judged", gap.judged},
+          {"open", gap.open}};
+}
+
+template <class Items>
+Json list_of(const Items& items) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+/// The answer's effects first, then the others as they fitted one by one.
+Json effects_of(const Diagnosis& d) {
+  Json list = list_of(d.answer);
+  for (const Named& n : d.ranked)
+    if (std::ranges::none_of(d.answer,
+                             [&](const Named& a) { return a.type == n.type && a.on == n.on; })) {
+      list.push_back(json_of(n));
+      list.back()["supported"] = false;
+    }
+  return list;
+}
+
+}  // namespace
+
+std::string diagnosis_json(const Diagnosis& d, const erp::Robot& robot) {
+  Json gap = json_of(d.overall);
+  gap["channels"] = Json::object();
+  for (const Closed& c : d.channels) gap["channels"][c.channel] = json_of(c);
+  Json confusable = Json::array();
+  if (!d.confusable.empty()) {
+    confusable.push_back({{"type", d.answer[0].type}, {"on", d.answer[0].on}});
+    for (const Named& n : d.confusable) confusable.push_back({{"type", n.type}, {"on", n.on}});
+  }
+  Json unexplained = Json::array();
+  for (const Unexplained& u : d.unexplained) {
+    Json one{{"stage", sim::effects::word(u.stage)}, {"on", u.on}, {"excess", rounded(u.excess)}};
+    if (u.shape) {
+      one["depends_on"] = u.shape->variable, one["unit"] = u.shape->unit;
+      one["explained"] = rounded(u.shape->explained);
+      one["map"] = {
+          {"at", u.shape->middle}, {"mean", u.shape->mean}, {"deviation", u.shape->deviation}};
+    }
+    unexplained.push_back(one);
+  }
+  const Json all{{"format", "erp gap diagnosis 1"},
+                 {"robot", robot.name},
+                 {"verdict", word(d.verdict)},
+                 {"where", list_of(d.where)},
+                 {"effects", effects_of(d)},
+                 {"confusable", confusable},
+                 {"gap", gap},
+                 {"unexplained", unexplained},
+                 {"residuals", list_of(d.stages)},
+                 {"recordings", d.recordings},
+                 {"train", d.train},
+                 {"held_out", d.held_out},
+                 {"warnings", d.warnings}};
+  return all.dump(1) + "\n";
+}
+
+}  // namespace launch

@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "launch/erp/gap_blind.hpp"
+#include "launch/erp/gap_truth.hpp"
+
+namespace launch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string type_of(const Json& j) { return j["type"].get<std::string>(); }
+std::string on_of(const Json& j) { return j["on"].get<std::string>(); }
+bool same(const Json& a, const Json& b) { return type_of(a) == type_of(b) && on_of(a) == on_of(b); }
+
+/// Shares of yes.
+struct Rate {
+  int yes = 0, of = 0;
+  void count(bool is) { ++of, yes += is; }
+  std::string told() const {
+    return of ? fmt::format("{:5.1f} %  ({} of {})", 100.0 * yes / of, yes, of) : "-";
+  }
+};
+
+/// What one kind of case came to.
+struct Score {
+  std::map<std::string, Rate> rates;
+  std::vector<std::string> failures;
+  double set_size = 0, closed = 0, precision = 0, recall = 0;
+  int sets = 0, closings = 0, answers = 0;
+};
+
+std::vector<Json> answer_of(const Json& diagnosis) {
+  std::vector<Json> all;
+  for (const Json& effect : diagnosis["effects"])
+    if (effect["supported"].get<bool>()) all.push_back(effect);
+  return all;
+}
+
+std::string what(const Json& truth) {
+  std::string text;
+  for (const Json& h : truth["hidden"]) {
+    text += fmt::format("{}{} on {}", text.empty() ? "" : " + ", type_of(h), on_of(h));
+    for (const auto& [name, value] : h["parameters"].items())
+      text += fmt::format(" {}={:.3g}", name, value.get<double>());
+  }
+  return text;
+}
+
+std::string said(const Json& diagnosis) {
+  std::string text = diagnosis["verdict"].get<std::string>();
+  for (const Json& effect : answer_of(diagnosis))
+    text += fmt::format(", {} on {}", type_of(effect), on_of(effect));
+  if (!diagnosis["where"].empty())
+    text += fmt::format(" [{} {}]", diagnosis["where"][0]["stage"].get<std::string>(),
+                        on_of(diagnosis["where"][0]));
+  return text;
+}
+
+bool located(const Json& hidden, const Json& diagnosis) {
+  return !diagnosis["where"].empty() && diagnosis["where"][0]["stage"] == hidden["stage"] &&
+         diagnosis["where"][0]["on"] == hidden["on"];
+}
+
+/// Counts the intervals that hold the true value, of parameters that both call the same.
+void count_intervals(const Json& hidden, const Json& effect, Rate& rate) {
+  for (const auto& [name, value] : hidden["parameters"].items())
+    if (effect["intervals"].contains(name))
+      rate.count(effect["intervals"][name][0] <= value && value <= effect["intervals"][name][1]);
+}
+
+void score_single(const Json& truth, const Json& d, Score& score) {
+  const Json& hidden = truth["hidden"][0];
+  const auto answer = answer_of(d);
+  const bool first = !answer.empty() && same(answer[0], hidden);
+  bool in_set = first;
+  for (const Json& other : d["confusable"]) in_set |= same(other, hidden);
+  score.rates["1 stage and place"].count(located(hidden, d));
+  score.rates["2 true effect first"].count(first);
+  score.rates["3 true effect in the set"].count(in_set);
+  score.set_size += static_cast<double>(std::max<std::size_t>(1, d["confusable"].size()));
+  ++score.sets;
+  for (const Json& effect : d["effects"])
+    if (same(effect, hidden)) count_intervals(hidden, effect, score.rates["4 interval holds"]);
+  if (d["verdict"] != "supported" || !in_set || !located(hidden, d))
+    score.failures.push_back(
+        fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
+}
+
+void score_none(const Json& truth, const Json& d, Score& score) {
+  const Json& hidden = truth["hidden"][0];
+  const bool none = d["verdict"] == "none_of_the_known";
+  const bool stage = !d["where"].empty() && d["where"][0]["stage"] == hidden["stage"];
+  score.rates["1 none of the known"].count(none);
+  score.rates["2 stage"].count(stage);
+  score.rates["3 place"].count(!d["where"].empty() && d["where"][0]["on"] == hidden["on"]);
+  if (!none || !stage)
+    score.failures.push_back(
+        fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
+}
+
+void score_pair(const Json& truth, const Json& d, Score& score) {
+  const auto answer = answer_of(d);
+  int found = 0;
+  for (const Json& hidden : truth["hidden"])
+    found += std::ranges::any_of(answer, [&](const Json& a) { return same(a, hidden); });
+  score.rates["1 both in the answer"].count(found == 2);
+  score.precision += answer.empty() ? 0 : double(found) / double(answer.size());
+  score.recall += found / 2.0, ++score.answers;
+  if (found < 2)
+    score.failures.push_back(
+        fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
+}
+
+void score_null(const Json& truth, const Json& d, Score& score) {
+  const bool alarm = d["verdict"] != "no_gap";
+  score.rates["1 false alarms"].count(alarm);
+  if (alarm)
+    score.failures.push_back(
+        fmt::format("{}: nothing | {}", truth["case"].get<std::string>(), said(d)));
+}
+
+void print(const std::string& kind, const Score& score, std::ostream& out) {
+  out << kind << "\n";
+  for (const auto& [name, rate] : score.rates)
+    out << fmt::format("  {:<28} {}\n", name.substr(2), rate.told());
+  if (score.sets > 0)
+    out << fmt::format("  {:<28} {:5.2f}\n", "mean set size", score.set_size / score.sets);
+  if (score.closings > 0)
+    out << fmt::format("  {:<28} {:5.1f} %\n", "closed, of what truth closes",
+                       100 * score.closed / score.closings);
+  if (score.answers > 0) {
+    const double p = score.precision / score.answers, r = score.recall / score.answers;
+    out << fmt::format("  {:<28} {:5.3f}\n", "F1", p + r > 0 ? 2 * p * r / (p + r) : 0);
+  }
+  if (!score.failures.empty()) out << "  failures: hidden | said\n";
+  for (const std::string& failure : score.failures) out << "    " << failure << "\n";
+}
+
+}  // namespace
+
+int blind_score(const std::string& folder, const std::string& truth_file, std::ostream& out) {
+  const Json manifest = Json::parse(read_text(folder + "/cases.json"));
+  const std::string sealed = read_text(truth_file);
+  if (sha256(sealed) != manifest["truth_sha256"]) {
+    out << truth_file << ": is not the truth of " << folder << ", its hash is another\n";
+    return 1;
+  }
+  const Json truths = Json::parse(sealed);
+  std::map<std::string, Score> scores;
+  for (const Json& truth : truths) {
+    const std::string file = folder + "/" + truth["case"].get<std::string>() + "/diagnosis.json";
+    if (!std::ifstream(file)) {
+      out << truth["case"].get<std::string>() << ": not diagnosed\n";
+      continue;
+    }
+    const Json d = Json::parse(read_text(file));
+    const std::string kind = truth["kind"];
+    Score& score = scores[kind];
+    if (kind == "single") {
+      score_single(truth, d, score);
+      if (const auto most = closed_by_truth(folder, truth); most && *most > 0.02)
+        score.closed += d["gap"]["closed"].get<double>() / *most, ++score.closings;
+    }
+    if (kind == "null") score_null(truth, d, score);
+    if (kind == "pair") score_pair(truth, d, score);
+    if (kind == "outside" || kind == "withheld") score_none(truth, d, score);
+  }
+  for (const auto& [kind, score] : scores) print(kind, score, out);
+  return 0;
+}
+
+}  // namespace launch

@@ -1,0 +1,58 @@
+#include "launch/erp/gap_truth.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "launch/erp/gap.hpp"
+#include "sim/diagnosis/diagnose.hpp"
+
+namespace launch {
+
+std::string sha256(const std::string& text) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr);
+  std::string hex;
+  for (unsigned int k = 0; k < length; ++k) hex += fmt::format("{:02x}", digest[k]);
+  return hex;
+}
+
+std::string read_text(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::invalid_argument(file + ": cannot be read");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::optional<double> closed_by_truth(const std::string& folder,
+                                      const nlohmann::ordered_json& truth) {
+  namespace diagnosis = sim::diagnosis;
+  namespace effects = sim::effects;
+  std::vector<effects::Placed> hidden;
+  for (const auto& one : truth["hidden"]) {
+    const auto neutral = effects::neutral(one["type"].get<std::string>());
+    if (!neutral || effects::about(*neutral).stage == effects::Stage::bus) return {};
+    effects::Placed placed{one["on"], *neutral};
+    for (const effects::Parameter& p : effects::parameters(placed.effect))
+      if (one["parameters"].contains(p.name)) *p.value = one["parameters"][p.name];
+    hidden.push_back(placed);
+  }
+  const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
+  const std::string place = folder + "/" + truth["case"].get<std::string>();
+  const auto d = nlohmann::ordered_json::parse(read_text(place + "/diagnosis.json"));
+  std::vector<std::string> mended;
+  const auto files = d["held_out"].get<std::vector<std::string>>();
+  const diagnosis::Trials trials(robot, read_episodes(robot, files, mended));
+  std::vector<std::size_t> all(files.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+  const auto rms = [](const diagnosis::ScoreBlock& b) {
+    return std::sqrt(b.square / static_cast<double>(std::max<std::size_t>(1, b.windows)));
+  };
+  const double before = rms(sum(trials.blocks(trials.bare(), all)));
+  const double after = rms(sum(trials.blocks(trials.with(hidden, all), all)));
+  return before > 1 ? (before - after) / (before - 1) : 0;
+}
+
+}  // namespace launch
