@@ -1,4 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "launch/erp/gap_files.hpp"
+#include "launch/erp/svg.hpp"
+
 namespace launch {
-std::string diagnosis_report(const sim::diagnosis::Diagnosis&, const erp::Robot&) { return ""; }
+namespace {
+
+using namespace sim::diagnosis;
+using sim::effects::Stage;
+using svg::escaped;
+
+constexpr const char* head = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>Where robot and model part</title><style>
+body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
+h1{font-size:1.5rem;margin:0}h2{font-size:1.15rem;margin:2rem 0 .4rem;border-bottom:1px solid #ddd}
+.verdict{font-size:1.2rem;padding:.6rem 1rem;border-left:6px solid #1e5aa0;background:#f3f6fa;margin:1rem 0}
+table{border-collapse:collapse;margin:.5rem 0}td,th{padding:.2rem .7rem;text-align:right}
+th{border-bottom:1px solid #999;font-weight:600}td:first-child,th:first-child{text-align:left}
+svg{max-width:100%;height:auto;display:block;margin:.6rem 0}svg text{font-size:12px}
+.t{font-weight:600;font-size:13px!important}.band{fill:#dfe9df}.grid{stroke:#e6e6e6}
+.strong{fill:#1e5aa0}.weak{fill:#a9bfd8}.whisker{stroke:#222;stroke-width:1.5}
+.note{color:#555}</style></head><body>
+)";
+
+std::string title_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_gap:
+      return "No gap: robot and model differ by no more than the noise of the sensors.";
+    case Verdict::supported:
+      return "An explanation that recordings held out support.";
+    case Verdict::none_of_the_known:
+      return "There is a gap, and none of the known effects explains it.";
+    case Verdict::not_identifiable:
+      break;
+  }
+  return "These recordings cannot show what the gap is.";
+}
+
+std::string name_of(const Named& n) { return n.type + " on " + n.on; }
+
+std::string parameters_of(const Named& n) {
+  std::string text;
+  for (std::size_t k = 0; k < n.names.size(); ++k)
+    text += fmt::format("{}{} = {:.4g} ({:.4g} … {:.4g})", k ? ", " : "", n.names[k], n.values[k],
+                        n.intervals[k].low, n.intervals[k].high);
+  return text;
+}
+
+std::string summary(const Diagnosis& d) {
+  std::string html = fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d.verdict));
+  if (!d.answer.empty()) html += "<ul>\n";
+  for (const Named& n : d.answer)
+    html += fmt::format("<li><b>{}</b>: {}</li>\n", escaped(name_of(n)), escaped(parameters_of(n)));
+  if (!d.answer.empty()) html += "</ul>\n";
+  if (!d.confusable.empty()) {
+    html += "<p>As good, and not to be told apart by these recordings: ";
+    for (std::size_t k = 0; k < d.confusable.size(); ++k)
+      html += fmt::format("{}{}", k ? ", " : "", escaped(name_of(d.confusable[k])));
+    html += ".</p>\n";
+  }
+  if (d.overall.before > 0)
+    html += fmt::format(
+        "<p>Error on held-out recordings, in units of noise: {:.3g} before, {:.3g} "
+        "after. Closed: {:.1f} % ({:.1f} … {:.1f}).</p>\n",
+        d.overall.before, d.overall.after, 100 * d.overall.closed, 100 * d.overall.interval.low,
+        100 * d.overall.interval.high);
+  return html;
+}
+
+/// The chain of each actuator or joint that has a part of the gap.
+std::string chains(const Diagnosis& d) {
+  const std::vector<std::string> names{"bus",     "motor", "gearbox",  "spindle", "tendon",
+                                       "routing", "joint", "skeleton", "sensor"};
+  std::vector<std::string> places;
+  for (const Located& place : d.where)
+    if (!std::ranges::count(places, place.on)) places.push_back(place.on);
+  std::string html = "<h2>Where</h2>\n";
+  if (places.empty())
+    html += svg::chain("every stage is at its floor", names, std::vector<double>(9, 0.0));
+  for (const std::string& on : places) {
+    std::vector<double> shares(names.size(), 0.0);
+    for (const Located& place : d.where)
+      if (place.on == on) shares[static_cast<std::size_t>(place.stage)] += place.share;
+    html += svg::chain(on, names, shares);
+  }
+  for (const Located& place : d.where)
+    if (!place.when.empty())
+      html += fmt::format(
+          "<p>{} of {}: {:.0f} % of the residual lives in the {} fifth of the {}.</p>\n",
+          sim::effects::word(place.stage), escaped(place.on), 100 * place.when[0].share,
+          place.when[0].fifth, escaped(place.when[0].variable));
+  return html;
+}
+
+std::string stages(const Diagnosis& d) {
+  std::string html =
+      "<table><tr><th>stage</th><th>residual</th><th>floor</th><th>after</th><th>closed</th></"
+      "tr>\n";
+  for (const Closed& c : d.channels)
+    html += fmt::format(
+        "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
+        escaped(c.channel), c.before, c.unit, c.floor, c.after,
+        c.before > 1.5 * c.floor ? fmt::format("{:.1f} %", 100 * c.closed) : "–");
+  return html + "</table>\n";
+}
+
+std::string moments(const Diagnosis& d) {
+  std::string html = d.worst.empty() ? "" : "<h2>The worst moments</h2>\n";
+  for (const Moment& m : d.worst)
+    html += svg::plot(
+        {fmt::format("{} of {}, {}", sim::effects::word(m.stage), m.on, m.recording), "time, s",
+         m.unit, 860, 230, 2 * m.floor},
+        {{"before", "#c0392b", m.time_s, m.before}, {"after", "#1e5aa0", m.time_s, m.after}});
+  return html;
+}
+
+std::string ranking(const Diagnosis& d) {
+  if (d.ranked.empty()) return "";
+  constexpr std::size_t most = 14;
+  std::vector<svg::Bar> bars;
+  std::vector<std::string> rows, columns;
+  std::vector<std::vector<double>> cells;
+  for (const StageGap& gap : d.stages)
+    columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
+  for (std::size_t k = 0; k < d.ranked.size() && k < most; ++k) {
+    const Named& n = d.ranked[k];
+    bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
+                    n.gain_interval.high, n.supported});
+    if (n.signature.empty() || columns.size() > 24) continue;
+    rows.push_back(name_of(n)), cells.push_back(n.signature);
+    cells.back().push_back(std::abs(n.likeness));
+  }
+  columns.push_back("like the first");
+  std::string html =
+      "<h2>Which</h2>\n" +
+      svg::bars("Share of the gap that each effect alone takes away, held out", bars, 1);
+  if (!rows.empty())
+    html +=
+        svg::matrix("Signatures: at which stage an effect shows, in percent", rows, columns, cells);
+  return html;
+}
+
+std::string rest(const Diagnosis& d) {
+  if (d.unexplained.empty()) return "";
+  std::string html = "<h2>What no effect explains</h2>\n";
+  for (const Unexplained& u : d.unexplained) {
+    html += fmt::format("<p>{} of {}: {:.3g} times its noise.", sim::effects::word(u.stage),
+                        escaped(u.on), std::sqrt(1 + u.excess));
+    if (!u.shape) {
+      html += "</p>\n";
+      continue;
+    }
+    html += fmt::format(" A map over the {} foretells {:.0f} % of it.</p>\n",
+                        escaped(u.shape->variable), 100 * std::max(0.0, u.shape->explained));
+    std::vector<double> low = u.shape->mean, high = u.shape->mean;
+    for (std::size_t k = 0; k < low.size(); ++k)
+      low[k] -= u.shape->deviation[k], high[k] += u.shape->deviation[k];
+    html += svg::plot({fmt::format("{} of {}", sim::effects::word(u.stage), u.on),
+                       fmt::format("{}, {}", u.shape->variable, u.shape->unit),
+                       "residual, times noise", 720, 240, 1},
+                      {{"", "#bbb", u.shape->middle, low},
+                       {"", "#bbb", u.shape->middle, high},
+                       {"mean", "#c0392b", u.shape->middle, u.shape->mean}});
+  }
+  return html;
+}
+
+std::string data(const Diagnosis& d) {
+  std::string html = "<h2>Recordings</h2>\n<table><tr><th>file</th><th>used to</th></tr>\n";
+  for (const std::string& name : d.recordings)
+    html += fmt::format("<tr><td>{}</td><td>{}{}</td></tr>\n", escaped(name),
+                        std::ranges::count(d.train, name) ? "choose and fit " : "",
+                        std::ranges::count(d.held_out, name) ? "judge" : "");
+  html += "</table>\n";
+  for (const std::string& warning : d.warnings)
+    html += fmt::format("<p class=\"note\">{}</p>\n", escaped(warning));
+  return html;
+}
+
+}  // namespace
+
+std::string diagnosis_report(const Diagnosis& d, const erp::Robot& robot) {
+  return head + fmt::format("<h1>{}: where robot and model part</h1>\n", escaped(robot.name)) +
+         summary(d) + chains(d) + stages(d) + ranking(d) + moments(d) + rest(d) + data(d) +
+         "</body></html>\n";
+}
+
 }  // namespace launch

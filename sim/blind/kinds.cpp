@@ -64,7 +64,7 @@ const std::vector<HiddenKind> library{
   {"gearbox_viscous", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).viscous, "extra_Nm_s_per_rad", between(r, 0.005, 0.05)); }},
   {"gearbox_stribeck", "gearbox", on_chain, [](P& p, R& r) {
      chain(p).stribeck_Nm = between(r, 0.04, 0.2), chain(p).stribeck_rad_per_s = between(r, 0.2, 1.0);
-     return Drawn{{"extra_Nm", chain(p).stribeck_Nm}, {"speed_rad_per_s", chain(p).stribeck_rad_per_s}}; }},
+     return Drawn{{"tustin_Nm", chain(p).stribeck_Nm}, {"tustin_rad_per_s", chain(p).stribeck_rad_per_s}}; }},
   {"gearbox_load_dependent", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).load_share, "share", between(r, 0.15, 0.7)); }},
   {"gearbox_backlash", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).play_rad, "width_rad", between(r, 0.05, 0.3)); }},
   {"gearbox_inertia", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).rotor, "relative", between(r, 0.1, 1.0)); }},
@@ -80,7 +80,7 @@ const std::vector<HiddenKind> library{
      return Drawn{{"stiffness_N_per_m", chain(p).creep_N_per_m}, {"time_constant_s", chain(p).creep_s}}; }},
   {"tendon_hysteresis", "tendon", on_chain, [](P& p, R& r) {
      chain(p).fibres_N = between(r, 0.8, 4), chain(p).fibres_m = scale(r, 2e-4, 1e-3);
-     return Drawn{{"force_N", chain(p).fibres_N}}; }},
+     return Drawn{{"fibres_N", chain(p).fibres_N}}; }},
   {"tendon_length_offset", "tendon", on_chain, [](P& p, R& r) { return set(chain(p).knot_m, "length_m", sign(r) * between(r, 1.5e-4, 1e-3)); }, {"sensor_shaft_offset"}},
   {"tendon_kite_line", "tendon", on_chain, [](P& p, R& r) { return set(chain(p).line_m_per_N, "compliance_m_per_N", between(r, 1e-5, 8e-5)); }, {"tendon_stiffness", "gearbox_shaft_compliance"}},
   {"routing_capstan", "routing", on_chain, [](P& p, R& r) { return set(chain(p).rub, "friction", between(r, 0.08, 0.3)); }},
@@ -92,7 +92,7 @@ const std::vector<HiddenKind> library{
   {"joint_viscous", "joint", on_joint, [](P& p, R& r) { return set(joint(p).viscous, "extra_Nm_s_per_rad", between(r, 0.05, 0.3)); }},
   {"joint_stribeck", "joint", on_joint, [](P& p, R& r) {
      joint(p).stribeck_Nm = between(r, 0.12, 0.4), joint(p).stribeck_rad_per_s = between(r, 0.15, 0.6);
-     return Drawn{{"extra_Nm", joint(p).stribeck_Nm}, {"speed_rad_per_s", joint(p).stribeck_rad_per_s}}; }},
+     return Drawn{{"tustin_Nm", joint(p).stribeck_Nm}, {"tustin_rad_per_s", joint(p).stribeck_rad_per_s}}; }},
   {"joint_passive_stiffness", "joint", on_joint, [](P& p, R& r) {
      joint(p).spring = between(r, 0.2, 1.5), joint(p).rest_rad = between(r, -0.5, 0.8);
      return Drawn{{"stiffness_Nm_per_rad", joint(p).spring}, {"rest_rad", joint(p).rest_rad}}; }},

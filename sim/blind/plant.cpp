@@ -99,6 +99,8 @@ Plant::Plant(const erp::Robot& nominal, const Quirks& quirks)
     for (int n = 0; n < 60; ++n)
       stretch += (actuator.tendon.pretension_N - spring_N(k, stretch)) * (1 / k.spring + k.line);
     k.rest_m = k.start_m - stretch;
+    if (q.twist_rad_per_Nm > 0)  // the shaft is where it booted, its far end is turned back
+      k.rest_m -= k.radius_m * k.radius_m * q.twist_rad_per_Nm * actuator.tendon.pretension_N;
     most_step_s_ = std::min({most_step_s_, k.two_masses ? two_mass_step_s : usual_step_s,
                              0.9 * k.motor.inductance_H / k.motor.resistance_ohm});
     chains_.push_back(std::move(k));
@@ -106,8 +108,10 @@ Plant::Plant(const erp::Robot& nominal, const Quirks& quirks)
   x_.assign(chains_.size() * c::count + joints_.size() * j::count, 0.0);
   for (std::size_t a = 0; a < chains_.size(); ++a) {
     double* x = &x_[a * c::count];
-    x[c::flowed] = chains_[a].start_m - chains_[a].rest_m;
-    x[c::said_tension] = nominal.actuators[a].tendon.pretension_N;
+    const double pretension_N = nominal.actuators[a].tendon.pretension_N;
+    x[c::spindle] = -chains_[a].q.twist_rad_per_Nm * chains_[a].radius_m * pretension_N;
+    x[c::flowed] = chains_[a].start_m - chains_[a].rest_m + chains_[a].radius_m * x[c::spindle];
+    x[c::said_tension] = pretension_N;
     tension_N_.push_back(x[c::said_tension]);
   }
   for (std::size_t n = 0; n < joints_.size(); ++n) {

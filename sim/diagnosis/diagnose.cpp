@@ -52,16 +52,14 @@ class Course {
   Course(const erp::Robot& robot, std::vector<Episode> episodes, const DiagnoseOptions& options)
       : robot_(robot), episodes_(std::move(episodes)), options_(options) {
     if (episodes_.empty()) throw std::invalid_argument("no recording");
-    if (options_.train.empty() && options_.held_out.empty())
-      std::tie(options_.train, options_.held_out) = split(episodes_);
+    chosen_split_ = options_.train.empty() && options_.held_out.empty();
+    if (chosen_split_) std::tie(options_.train, options_.held_out) = split(episodes_);
     if (options_.held_out.empty()) {
       options_.held_out = options_.train;
       result_.warnings.emplace_back(
           "one recording only: effects are chosen and judged on the same data; record another");
     }
     for (const Episode& e : episodes_) result_.recordings.push_back(e.name);
-    for (const std::size_t k : options_.train) result_.train.push_back(episodes_[k].name);
-    for (const std::size_t k : options_.held_out) result_.held_out.push_back(episodes_[k].name);
   }
 
   Diagnosis run() {
@@ -70,6 +68,9 @@ class Course {
     std::vector<std::size_t> all(episodes_.size());
     std::iota(all.begin(), all.end(), 0);
     result_.stages = where(plain, plain.bare(), all, where_options());
+    if (chosen_split_) hold_out_what_shows(plain);
+    for (const std::size_t k : options_.train) result_.train.push_back(episodes_[k].name);
+    for (const std::size_t k : options_.held_out) result_.held_out.push_back(episodes_[k].name);
     look_at_bus();
     erp::Robot known = robot_;  // with what was seen without a fit
     look_at_lattices(plain, known);
@@ -88,6 +89,27 @@ class Course {
     if (options_.progress) options_.progress(what, share);
   }
   WhereOptions where_options() const { return {.seed = options_.seed}; }
+
+  /// A recording held out that does not show the gap cannot judge: then the one that shows it
+  /// second best is held out, if there are two.
+  void hold_out_what_shows(const Trials& plain) {
+    std::vector<std::pair<double, std::size_t>> shows;
+    for (const std::size_t e : all()) {
+      const std::size_t only[] = {e};
+      double most = 0;
+      for (const StageGap& gap : where(plain, plain.bare(), only, where_options()))
+        if (gap.open) most = std::max(most, gap.excess);
+      if (most > 0) shows.emplace_back(most, e);
+    }
+    const bool shown = std::ranges::any_of(
+        shows, [&](const auto& s) { return std::ranges::count(options_.held_out, s.second); });
+    if (shown || shows.size() < 2) return;
+    std::ranges::sort(shows);
+    options_.held_out = {shows[shows.size() - 2].second};  // the very best is to learn from
+    options_.train.clear();
+    for (const std::size_t e : all())
+      if (e != options_.held_out[0]) options_.train.push_back(e);
+  }
 
   void look_at_bus() {
     std::vector<Ages> train, held_out;
@@ -131,14 +153,18 @@ class Course {
   }
 
   /// The stages that are still open on the held-out recordings.
-  std::vector<StageGap> open(const Trials& trials, const Trial& trial) const {
+  std::vector<StageGap> open(const Trials& trials, const Trial& trial, bool generous) const {
     auto gaps = where(trials, trial, options_.held_out, where_options());
     const auto before = where(trials, trials.bare(), options_.held_out, where_options());
+    double most = 0;
+    for (const StageGap& b : before) most = std::max(most, b.excess);
     for (StageGap& gap : gaps) {
       const auto was = std::ranges::find_if(
           before, [&](const StageGap& b) { return b.stage == gap.stage && b.on == gap.on; });
-      gap.open = gap.open &&
-                 gap.excess > std::max(options_.left_excess, options_.left_share * was->excess);
+      const double share = generous ? options_.single_left_share : options_.left_share;
+      const double of_most = generous ? options_.single_left_of_most * most : 0;
+      gap.open =
+          gap.open && gap.excess > std::max({options_.left_excess, share * was->excess, of_most});
     }
     return gaps;
   }
@@ -165,19 +191,88 @@ class Course {
     first_ = rank(trials, trials.bare(), which_options(0.1, 0.5));
     if (first_.empty()) return;
     for (const Ranked& r : first_) result_.ranked.push_back(named(r, options_));
+    sign(trials);
     control_discoveries(first_, result_.ranked);
     before_ = trials.blocks(trials.bare(), options_.held_out);
     if (!result_.ranked[0].supported) return;
     chosen_ = {first_[0].fit.placed};
     result_.answer = {result_.ranked[0]};
     trial_ = trials.with(trials.bare(), chosen_[0], all());
-    while (any_open(open(trials, trial_)) && chosen_.size() < options_.most_effects)
+    while (any_open(open(trials, trial_, false)) && chosen_.size() < options_.most_effects)
       if (!add_another(trials)) break;
     if (chosen_.size() > 1) settle(trials);
-    result_.left = open(trials, trial_);
+    result_.left = open(trials, trial_, chosen_.size() == 1);
     open_after_ = any_open(result_.left);
     for (const std::size_t k : confusable(first_, before_, which_options(0, 0)))
       if (chosen_.size() == 1) result_.confusable.push_back(result_.ranked[k]);
+  }
+
+  /// What each candidate changes, by stage, and how like the first's change it is.
+  void sign(const Trials& trials) {
+    std::vector<double> first;
+    for (std::size_t k = 0; k < first_.size(); ++k) {
+      std::vector<double> change, square(result_.stages.size(), 0.0);
+      double whole = 0;
+      for (const std::size_t e : options_.held_out) {
+        const auto before = trials.whitened(trials.bare(), e);
+        const auto after = trials.whitened(first_[k].on_held_out, e);
+        std::size_t at = 0;
+        for (const Residual& r : trials.bare().of_episode[e].residuals) {
+          const auto stage = std::ranges::find_if(result_.stages, [&](const StageGap& gap) {
+            return gap.stage == r.stage && gap.on == r.on;
+          });
+          for (std::size_t n = 0; n < r.value.size(); ++n, ++at) {
+            const double d = std::isnan(before[at]) ? 0 : after[at] - before[at];
+            change.push_back(d), whole += d * d;
+            square[std::size_t(stage - result_.stages.begin())] += d * d;
+          }
+        }
+      }
+      for (double& s : square) s /= std::max(whole, 1e-12);
+      if (k == 0) first = change;
+      double dot = 0, size = 0;
+      for (std::size_t n = 0; n < first.size(); ++n)
+        dot += first[n] * change[n], size += first[n] * first[n];
+      result_.ranked[k].signature = square;
+      result_.ranked[k].likeness = dot / std::max(std::sqrt(size * whole), 1e-12);
+      first_[k].on_held_out = {};  // large, and no longer needed
+    }
+  }
+
+  /// The worst second of each stage that is open, in a held-out recording, with two around it.
+  void look_closely(const Trials& plain) {
+    constexpr std::size_t most = 3;
+    for (const StageGap& gap : result_.stages) {
+      if (!gap.open || result_.worst.size() == most) continue;
+      Moment worst{gap.stage, gap.on, gap.unit, "", 0, {}, {}, {}};
+      double largest = -1;
+      for (const std::size_t e : options_.held_out) look_closely(plain, gap, e, largest, worst);
+      result_.worst.push_back(std::move(worst));
+    }
+  }
+  void look_closely(const Trials& plain, const StageGap& gap, std::size_t e, double& largest,
+                    Moment& worst) const {
+    const auto& residuals = plain.bare().of_episode[e].residuals;
+    const auto at = std::ranges::find_if(
+        residuals, [&](const Residual& r) { return r.stage == gap.stage && r.on == gap.on; });
+    if (at == residuals.end()) return;
+    const auto r = static_cast<std::size_t>(at - residuals.begin());
+    const auto size = [&](std::size_t k) { return std::abs(at->value[k]); };
+    std::size_t peak = 0;
+    for (std::size_t k = 0; k < at->value.size(); ++k)
+      if (!std::isnan(at->value[k]) && (std::isnan(at->value[peak]) || size(k) > size(peak)))
+        peak = k;
+    if (std::isnan(at->value[peak]) || size(peak) <= largest) return;
+    largest = size(peak);
+    worst.recording = episodes_[e].name, worst.floor = plain.floor(e)[r];
+    worst.time_s.clear(), worst.before.clear(), worst.after.clear();
+    constexpr std::size_t around = 125;  // windows: 2.5 s
+    const auto& left = trial_.of_episode.empty() ? residuals : trial_.of_episode[e].residuals;
+    for (std::size_t k = peak < around ? 0 : peak - around;
+         k < std::min(at->value.size(), peak + around); ++k) {
+      worst.time_s.push_back(double(plain.bare().of_episode[e].rows[k]) * episodes_[e].period_s);
+      worst.before.push_back(at->value[k]), worst.after.push_back(left[r].value[k]);
+    }
   }
 
   /// The best effect on top of the others, if it takes away half of what they leave.
@@ -266,6 +361,7 @@ class Course {
     }
     sum_up(plain);
     locate(plain);
+    look_closely(plain);
     tell("done", 1);
   }
 
@@ -387,7 +483,7 @@ class Course {
   std::vector<Placed> chosen_;
   std::vector<Fit> fits_;
   Trial trial_;
-  bool gap_ = false, open_after_ = false;
+  bool chosen_split_ = false, gap_ = false, open_after_ = false;
   double late_ = 0;
 };
 

@@ -22,8 +22,11 @@ struct DiagnoseOptions {
   std::size_t most_effects = 3;
   /// A stage counts as explained when what is left of its excess is below this …
   double left_excess = 2;
-  /// … or below this share of what it was. Both chosen on development cases.
+  /// … or below this share of what it was. All chosen on development cases.
   double left_share = 0.02;
+  /// One effect alone may leave more, for a law of another shape: this share, or this one of the
+  /// largest excess.
+  double single_left_share = 0.05, single_left_of_most = 0.005;
   double least_gain = 0.02;  ///< of an effect, lower end of its interval, to be supported
   /// What is being done, and how much of it in 0 … 1.
   std::function<void(const std::string&, double)> progress = {};
@@ -40,6 +43,17 @@ struct Named {
   Interval gain_interval;
   bool supported = false;
   effects::Placed placed;
+  std::vector<double> signature =
+      {};               ///< of what it changes, the share at each of `Diagnosis::stages`
+  double likeness = 0;  ///< cosine of what it changes to what the first of the answer changes
+};
+
+/// A few seconds of a stage's residual in a held-out recording, where it is worst.
+struct Moment {
+  effects::Stage stage;
+  std::string on, unit, recording;
+  double floor = 0;
+  std::vector<double> time_s, before, after;
 };
 
 /// An error before and after, on held-out recordings.
@@ -77,6 +91,7 @@ struct Diagnosis {
   std::vector<Named> answer;      ///< effects that together close the gap
   std::vector<Named> ranked;      ///< one by one, best first
   std::vector<Named> confusable;  ///< with the first of the answer
+  std::vector<Moment> worst;
   Closed overall;
   std::vector<Closed> channels;
   std::vector<std::string> recordings, train, held_out, warnings;

@@ -108,8 +108,14 @@ void judge(Ranked& r, const Trials& trials, const Trial& base, const WhichOption
             static_cast<double>(drawn.size() + 1);
 }
 
-/// Of those as good as the first, the ones with fewer parameters come first, then in the order of
-/// the chain.
+/// A number of the model is off, nothing is new.
+bool corrects(const Placed& placed) {
+  effects::AnyEffect effect = placed.effect;
+  return std::string_view(effects::parameters(effect)[0].name) == "relative";
+}
+
+/// Of those as good as the first, the ones with fewer parameters come first, then those that
+/// correct a number of the model, then in the order of the chain.
 void prefer_plain(std::vector<Ranked>& ranked) {
   constexpr double as_good = 1e-3;  // of the gap; chosen
   if (ranked.empty()) return;
@@ -117,8 +123,10 @@ void prefer_plain(std::vector<Ranked>& ranked) {
   const auto end =
       std::ranges::find_if(ranked, [&](const Ranked& r) { return r.gain < best - as_good; });
   std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
-    return std::pair(a.fit.values.size(), a.fit.placed.effect.index()) <
-           std::pair(b.fit.values.size(), b.fit.placed.effect.index());
+    const auto plainness = [](const Ranked& r) {
+      return std::tuple(r.fit.values.size(), !corrects(r.fit.placed), r.fit.placed.effect.index());
+    };
+    return plainness(a) < plainness(b);
   });
 }
 

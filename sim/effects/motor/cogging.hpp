@@ -9,7 +9,7 @@ namespace sim::effects {
 ///
 ///   τ = N (a sin n N θ + b cos n N θ)          against winding up, on the gearbox shaft
 ///
-/// The gear's efficiency is left out of it.
+/// As its mean over what is turned in a step. The gear's efficiency is left out of it.
 /// Source: Hanselman, Brushless Permanent Magnet Motor Design, 2006, ch. 7.
 struct MotorCogging {
   static constexpr About about{"motor_cogging", Stage::motor, Seat::actuator,
@@ -24,8 +24,10 @@ struct MotorCogging {
     v.shape("periods_per_turn", periods_per_turn, Bounds{1, 100});
   }
   double torque_Nm(const ChainSample& s) const {
-    const double phase = periods_per_turn * s.gear_ratio * s.shaft_rad;
-    return s.gear_ratio * (sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase));
+    const double turns = periods_per_turn * s.gear_ratio;
+    const double phase = turns * s.shaft_rad, swept = turns * s.speed_rad_per_s * s.dt_s / 2;
+    const double mean = std::abs(swept) > 1e-6 ? std::sin(swept) / swept : 1;
+    return s.gear_ratio * mean * (sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase));
   }
 };
 
