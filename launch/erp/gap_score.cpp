@@ -67,6 +67,15 @@ bool located(const Json& hidden, const Json& diagnosis) {
          diagnosis["where"][0]["on"] == hidden["on"];
 }
 
+/// The place that is named first, with other stages that could not be told from it.
+bool in_group(const Json& hidden, const Json& diagnosis) {
+  for (const Json& place : diagnosis["where"])
+    if (place["on"] == hidden["on"] && place["stage"] == hidden["stage"] &&
+        place["share"] == diagnosis["where"][0]["share"])
+      return true;
+  return false;
+}
+
 /// Counts the intervals that hold the true value, of parameters that both call the same.
 void count_intervals(const Json& hidden, const Json& effect, Rate& rate) {
   for (const auto& [name, value] : hidden["parameters"].items())
@@ -81,6 +90,7 @@ void score_single(const Json& truth, const Json& d, Score& score) {
   bool in_set = first;
   for (const Json& other : d["confusable"]) in_set |= same(other, hidden);
   score.rates["1 stage and place"].count(located(hidden, d));
+  score.rates["5 stage and place in the group"].count(in_group(hidden, d));
   score.rates["2 true effect first"].count(first);
   score.rates["3 true effect in the set"].count(in_set);
   score.set_size += static_cast<double>(std::max<std::size_t>(1, d["confusable"].size()));
@@ -98,6 +108,7 @@ void score_none(const Json& truth, const Json& d, Score& score) {
   const bool stage = !d["where"].empty() && d["where"][0]["stage"] == hidden["stage"];
   score.rates["1 none of the known"].count(none);
   score.rates["2 stage"].count(stage);
+  score.rates["4 stage in the reported group"].count(in_group(hidden, d));
   score.rates["3 place"].count(!d["where"].empty() && d["where"][0]["on"] == hidden["on"]);
   if (!none || !stage)
     score.failures.push_back(
@@ -108,8 +119,9 @@ void score_pair(const Json& truth, const Json& d, Score& score) {
   const auto answer = answer_of(d);
   int found = 0;
   for (const Json& hidden : truth["hidden"])
-    found += std::ranges::any_of(answer, [&](const Json& a) { return same(a, hidden); });
-  score.rates["1 both in the answer"].count(found == 2);
+    found += std::ranges::any_of(answer, [&](const Json& a) { return same(a, hidden); }) ||
+             std::ranges::any_of(d["confusable"], [&](const Json& a) { return same(a, hidden); });
+  score.rates["1 both in the answer or its set"].count(found == 2);
   score.precision += answer.empty() ? 0 : double(found) / double(answer.size());
   score.recall += found / 2.0, ++score.answers;
   if (found < 2)

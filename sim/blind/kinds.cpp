@@ -19,8 +19,6 @@ double sign(Random& r) { return r() & 1 ? 1 : -1; }
 ChainQuirks& chain(Place& p) { return p.quirks.chains[p.chain]; }
 JointQuirks& joint(Place& p) { return p.quirks.joints[p.joint]; }
 BodyQuirks& body(Place& p) { return p.quirks.bodies[p.body]; }
-const erp::MotorType& motor(const Place& p) { return p.robot.motor_of(p.robot.actuators[p.chain]); }
-
 /// One number into one quirk.
 Drawn set(double& quirk, const char* name, double value) {
   quirk = value;
@@ -56,7 +54,7 @@ const std::vector<HiddenKind> library{
      return Drawn{{"sine_Nm", chain(p).cog_sine_Nm}, {"cosine_Nm", chain(p).cog_cosine_Nm}}; }},
   {"motor_dead_band", "motor", on_chain, [](P& p, R& r) { return set(chain(p).dead_V, "volts", between(r, 0.1, 0.6)); }},
   {"motor_supply_sag", "motor", on_chain, [](P& p, R& r) { return set(chain(p).source_ohm, "source_ohm", between(r, 0.2, 1.2)); }},
-  {"gearbox_coulomb", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).dry_Nm, "extra_Nm", between(r, 0.02, 0.12)); }},
+  {"gearbox_coulomb", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).dry_Nm, "extra_Nm", between(r, 0.02, 0.12)); }, {"gearbox_stribeck"}},
   {"gearbox_asymmetric", "gearbox", on_chain, [](P& p, R& r) {
      const double a = between(r, 0.02, 0.06);
      chain(p).dry_Nm += 0;
@@ -88,7 +86,7 @@ const std::vector<HiddenKind> library{
   {"routing_moment_arm", "routing", on_chain, [](P& p, R& r) {
      chain(p).arm = sign(r) * between(r, 0.03, 0.15), chain(p).arm_per_m = sign(r) * between(r, 1, 5);
      return Drawn{{"relative", chain(p).arm}, {"relative_per_m", chain(p).arm_per_m}}; }},
-  {"joint_coulomb", "joint", on_joint, [](P& p, R& r) { return set(joint(p).dry_Nm, "extra_Nm", between(r, 0.06, 0.25)); }},
+  {"joint_coulomb", "joint", on_joint, [](P& p, R& r) { return set(joint(p).dry_Nm, "extra_Nm", between(r, 0.06, 0.25)); }, {"joint_stribeck"}},
   {"joint_viscous", "joint", on_joint, [](P& p, R& r) { return set(joint(p).viscous, "extra_Nm_s_per_rad", between(r, 0.05, 0.3)); }},
   {"joint_stribeck", "joint", on_joint, [](P& p, R& r) {
      joint(p).stribeck_Nm = between(r, 0.12, 0.4), joint(p).stribeck_rad_per_s = between(r, 0.15, 0.6);
@@ -101,10 +99,10 @@ const std::vector<HiddenKind> library{
      if (r() & 1) return set(joint(p).min_in_rad, "from_min_rad", a);
      return set(joint(p).max_in_rad, "from_max_rad", a); }},
   {"joint_play", "joint", on_joint, [](P& p, R& r) { return set(joint(p).loose_rad, "width_rad", between(r, 0.01, 0.06)); }},
-  {"skeleton_mass", "skeleton", on_body, [](P& p, R& r) { return set(body(p).mass, "relative", sign(r) * between(r, 0.15, 0.5)); }},
-  {"skeleton_com", "skeleton", on_body, [](P& p, R& r) { return set(body(p).com_m, "outwards_m", sign(r) * between(r, 0.02, 0.05)); }},
+  {"skeleton_mass", "skeleton", on_body, [](P& p, R& r) { return set(body(p).mass, "relative", sign(r) * between(r, 0.15, 0.5)); }, {"skeleton_payload", "skeleton_com"}},
+  {"skeleton_com", "skeleton", on_body, [](P& p, R& r) { return set(body(p).com_m, "outwards_m", sign(r) * between(r, 0.02, 0.05)); }, {"skeleton_payload", "skeleton_mass"}},
   {"skeleton_inertia", "skeleton", on_body, [](P& p, R& r) { return set(body(p).inertia, "relative", between(r, 0.8, 3)); }},
-  {"skeleton_payload", "skeleton", on_body, [](P& p, R& r) { return set(body(p).payload_kg, "mass_kg", between(r, 0.12, 0.5)); }},
+  {"skeleton_payload", "skeleton", on_body, [](P& p, R& r) { return set(body(p).payload_kg, "mass_kg", between(r, 0.12, 0.5)); }, {"skeleton_com", "skeleton_mass"}},
   {"skeleton_base_tilt", "skeleton", on_robot, [](P& p, R& r) { return set(p.quirks.tilt_y_rad, "about_y_rad", sign(r) * between(r, 0.06, 0.3)); }},
   {"skeleton_link_flexibility", "skeleton", on_body, [](P& p, R& r) { return set(body(p).bend_rad_per_Nm, "compliance_rad_per_Nm", between(r, 0.05, 0.3)); }},
   {"sensor_shaft_offset", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::shaft>(p).offset, "offset_rad", sign(r) * between(r, 0.03, 0.2)); }, {"tendon_length_offset"}},
@@ -114,7 +112,7 @@ const std::vector<HiddenKind> library{
   {"sensor_shaft_gain", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::shaft>(p).gain, "relative", sign(r) * between(r, 0.02, 0.1)); }},
   {"sensor_current_gain", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::current>(p).gain, "relative", sign(r) * between(r, 0.05, 0.25)); }},
   {"sensor_tension_gain", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::tension>(p).gain, "relative", sign(r) * between(r, 0.04, 0.2)); }},
-  {"sensor_joint_gain", "sensor", on_joint, [](P& p, R& r) { return set(angle_of(p).gain, "relative", sign(r) * between(r, 0.02, 0.12)); }},
+  {"sensor_joint_gain", "sensor", on_joint, [](P& p, R& r) { return set(angle_of(p).gain, "relative", sign(r) * between(r, 0.02, 0.12)); }, {"sensor_joint_eccentricity"}},
   {"sensor_shaft_drift", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::shaft>(p).rate, "rate_rad_per_s", sign(r) * between(r, 0.005, 0.03)); }},
   {"sensor_current_drift", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::current>(p).rate, "rate_A_per_s", sign(r) * between(r, 0.006, 0.04)); }},
   {"sensor_tension_drift", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::tension>(p).rate, "rate_N_per_s", between(r, 0.08, 0.4)); }},

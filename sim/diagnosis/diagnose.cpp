@@ -312,6 +312,18 @@ class Course {
     trial_ = trials.with(chosen_, all());
   }
 
+  /// What could stand for one of several effects as well.
+  void add_alternatives(const Trials& trials, const Trial& without, const Placed& chosen) {
+    const auto ranked = rank(trials, without, which_options(0.85, 0.95));
+    if (ranked.empty() || ranked[0].fit.placed.on != chosen.on) return;
+    auto same = confusable(ranked, trials.blocks(without, options_.held_out), which_options(0, 0));
+    same.push_back(0);
+    for (const std::size_t k : same)
+      if (ranked[k].fit.placed.effect.index() != chosen.effect.index() ||
+          ranked[k].fit.placed.on != chosen.on)
+        result_.confusable.push_back(named(ranked[k], options_));
+  }
+
   /// Of several effects: each one's gain is what is lost without it. The most telling first.
   void settle(const Trials& trials) {
     result_.answer.clear();
@@ -321,7 +333,8 @@ class Course {
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
       std::vector<Placed> others = chosen_;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      const Trial without = trials.with(others, options_.held_out);
+      const Trial without = trials.with(others, all());
+      add_alternatives(trials, without, fits_[k].placed);
       const auto blocks = trials.blocks(without, options_.held_out);
       const auto with = trials.blocks(trial_, options_.held_out);
       Ranked r{fits_[k], {}, {}, (sum(blocks).square - with_all) / gap, {}, 0};
@@ -410,6 +423,11 @@ class Course {
         constexpr double near = 0.3;  // of the gap; chosen
         const Named& nearest = result_.ranked[0];
         if (nearest.gain > near) place.stage = nearest.stage, place.on = nearest.on;
+        if (nearest.gain > near) {
+          result_.where.push_back(place);
+          add_nearly_as_near(nearest);
+          continue;
+        }
       }
       const bool same = std::ranges::any_of(result_.where, [&](const Located& other) {
         return other.stage == place.stage && other.on == place.on;
@@ -421,6 +439,18 @@ class Course {
         result_.unexplained.push_back(
             {gap.stage, gap.on, gap.excess,
              shape_of(plain, trial_, gap.stage, gap.on, options_.train, options_.held_out)});
+  }
+
+  /// Where no effect explains the gap, the stages of all that come about as near share it.
+  void add_nearly_as_near(const Named& nearest) {
+    constexpr double about_as_near = 0.6;  // of the nearest's gain; chosen
+    for (const Named& n : result_.ranked)
+      if (n.on == nearest.on && n.gain > about_as_near * nearest.gain &&
+          std::ranges::none_of(result_.where,
+                               [&](const Located& other) { return other.stage == n.stage; }))
+        result_.where.push_back({n.stage, n.on, 0, {}, result_.where[0].when});
+    const double share = result_.where[0].share / static_cast<double>(result_.where.size());
+    for (Located& place : result_.where) place.share = share;
   }
 
   /// What cannot be told apart shares its part of the gap.
