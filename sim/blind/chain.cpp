@@ -124,7 +124,7 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
       std::max(0.0, m.gear_viscous_Nm_s_per_rad + q.viscous) * omega + dry * rub + load;
   const double way = out >= 0 ? rub : -rub;
   const double e = std::pow(m.gear_efficiency, std::clamp(way, -1.0, 1.0));
-  const double kt = m.torque_Nm_per_A * (1 - q.saturation_per_A2 * x[c::current] * x[c::current]);
+  const double kt = m.torque_Nm_per_A / (1 + q.saturation_per_A2 * x[c::current] * x[c::current]);
   const double phase = 12 * n * x[c::shaft];
   const double cog = q.cog_sine_Nm * std::sin(phase) + q.cog_cosine_Nm * std::cos(phase);
   const double drive = n * (kt * x[c::current] - m.rotor_viscous_Nm_s_per_rad * n * omega -

@@ -162,9 +162,9 @@ class Course {
       const auto was = std::ranges::find_if(
           before, [&](const StageGap& b) { return b.stage == gap.stage && b.on == gap.on; });
       const double share = generous ? options_.single_left_share : options_.left_share;
+      const double least = generous ? options_.left_excess : options_.search_excess;
       const double of_most = generous ? options_.single_left_of_most * most : 0;
-      gap.open =
-          gap.open && gap.excess > std::max({options_.left_excess, share * was->excess, of_most});
+      gap.open = gap.open && gap.excess > std::max({least, share * was->excess, of_most});
     }
     return gaps;
   }
@@ -275,12 +275,25 @@ class Course {
     }
   }
 
-  /// The best effect on top of the others, if it takes away half of what they leave.
+  /// It takes away half of what the others leave at a stage that is open.
+  bool helps(const Trials& trials, const Placed& more) const {
+    constexpr double worth = 0.5;  // chosen
+    const auto before = open(trials, trial_, false);
+    const auto after = where(trials, trials.with(trial_, more, options_.held_out),
+                             options_.held_out, where_options());
+    return std::ranges::any_of(before, [&](const StageGap& b) {
+      const auto a = std::ranges::find_if(
+          after, [&](const StageGap& g) { return g.stage == b.stage && g.on == b.on; });
+      return b.open && a->excess < (1 - worth) * b.excess;
+    });
+  }
+
+  /// The best effect on top of the others, if it helps.
   bool add_another(const Trials& trials) {
     const double share = 0.5 + 0.15 * static_cast<double>(chosen_.size() - 1);
     const auto more = rank(trials, trial_, which_options(share, share + 0.1));
-    constexpr double worth = 0.5;  // chosen
-    if (more.empty() || more[0].gain < worth || more[0].gain_interval.low < options_.least_gain)
+    if (more.empty() || more[0].gain_interval.low < options_.least_gain ||
+        !helps(trials, more[0].fit.placed))
       return false;
     chosen_.push_back(more[0].fit.placed);
     refit(trials);

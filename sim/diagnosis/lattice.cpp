@@ -9,8 +9,8 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr double coarse = 1.8;  // times the data sheet's step; chosen
-constexpr std::size_t fewest = 5;
+constexpr double coarse = 1.8;     // times the data sheet's step; chosen
+constexpr std::size_t fewest = 8;  // different readings; chosen
 
 void add(std::vector<effects::Placed>& all, const char* type, const std::string& on, double step,
          double finest) {
@@ -19,6 +19,16 @@ void add(std::vector<effects::Placed>& all, const char* type, const std::string&
   const effects::Parameter parameter = effects::parameters(placed.effect)[0];
   *parameter.value = std::min(step, parameter.bounds.high);
   all.push_back(placed);
+}
+
+/// 1: all values are multiples of s but for a common offset.
+double in_step(const std::vector<double>& values, double s) {
+  double c = 0, i = 0;
+  for (const double v : values) {
+    const double phase = 2 * std::numbers::pi * v / s;
+    c += std::cos(phase), i += std::sin(phase);
+  }
+  return std::hypot(c, i) / static_cast<double>(values.size());
 }
 
 }  // namespace
@@ -35,16 +45,14 @@ double lattice_step(std::span<const Signal* const> readings, double finest) {
   std::vector<double> gaps;
   for (std::size_t k = 1; k < values.size(); ++k) gaps.push_back(values[k] - values[k - 1]);
   std::ranges::sort(gaps);
-  // A lattice's gaps are all its step, or a multiple where a value was not met; the converter
-  // rounds them by one. A few strays, of samples that were interpolated, are passed over.
-  const double small = gaps[gaps.size() / 20];
-  if (small < 2) return small * finest;
-  double sum = 0, count = 0;
-  for (const double gap : gaps) {
-    const double steps = std::round(gap / small);
-    if (gap >= small - 1.5 && steps == 1) sum += gap, ++count;
-  }
-  return count > 0 ? sum / count * finest : small * finest;
+  // A few strays, of samples that were interpolated, are passed over.
+  const double guess = gaps[gaps.size() / 20];
+  if (guess < 2) return guess * finest;
+  double best = 0, step = finest;
+  for (double s = guess - 1; s < guess + 1.5; s += guess / 2000)
+    if (const double fits = in_step(values, s); fits > best) best = fits, step = s * finest;
+  constexpr double convincing = 0.7;  // of 1; values anywhere give about 1/sqrt(count); chosen
+  return best > convincing ? step : finest;
 }
 
 std::vector<effects::Placed> coarse_sensors(std::span<const Episode> episodes,

@@ -112,7 +112,7 @@ TEST_CASE("an effect shows at its own stages alone, and is gone where the robot 
       const bool shows = std::ranges::count(sign.at, stage) > 0;
       if (shows) CHECK(value > 1.3 * floor.at(stage));
       else CHECK(value < 1.25 * floor.at(stage));
-      CHECK(right.at(stage) < 1.6 * floor.at(stage));
+      CHECK(right.at(stage) < 1.8 * floor.at(stage));
     }
   }
 }

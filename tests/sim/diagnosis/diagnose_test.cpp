@@ -1,0 +1,121 @@
+#include "sim/diagnosis/diagnose.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "sim/diagnosis/lattice.hpp"
+#include "tests/sim/diagnosis/blind_recording.hpp"
+
+using namespace sim::diagnosis;
+using blind_recording::episodes;
+using blind_recording::hinge_rig;
+using blind_recording::nothing_hidden;
+
+namespace {
+
+double value_of(const Named& n, const std::string& name) {
+  for (std::size_t k = 0; k < n.names.size(); ++k)
+    if (n.names[k] == name) return n.values[k];
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("two physics of the nominal rig agree: nothing hidden, no gap") {
+  const Diagnosis d = diagnose(hinge_rig(), episodes(nothing_hidden()));
+  CHECK(d.verdict == Verdict::no_gap);
+  CHECK(d.where.empty());
+  CHECK(d.answer.empty());
+}
+
+TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings held out") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[1].viscous = 0.02;  // extensor
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  REQUIRE(d.verdict == Verdict::supported);
+  REQUIRE(d.answer.size() == 1);
+  CHECK(d.answer[0].type == "gearbox_viscous");
+  CHECK(d.answer[0].on == "extensor");
+  CHECK(value_of(d.answer[0], "extra_Nm_s_per_rad") == Approx(0.02).epsilon(0.05));
+  CHECK(d.answer[0].intervals[0].low < 0.02);
+  CHECK(d.answer[0].intervals[0].high > 0.02);
+  REQUIRE_FALSE(d.where.empty());
+  CHECK(d.where[0].stage == sim::effects::Stage::gearbox);
+  CHECK(d.where[0].on == "extensor");
+  CHECK(d.overall.closed > 0.9);
+  for (const std::string& name : d.held_out) CHECK(std::ranges::count(d.train, name) == 0);
+}
+
+TEST_CASE("withheld, it is none of the known, at its place") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[0].dead_V = 0.4;  // flexor
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind), {.withhold = {"motor_dead_band"}});
+  CHECK(d.verdict == Verdict::none_of_the_known);
+  REQUIRE_FALSE(d.where.empty());
+  CHECK(d.where[0].on == "flexor");
+  REQUIRE_FALSE(d.unexplained.empty());
+  CHECK(d.unexplained[0].shape.has_value());
+}
+
+TEST_CASE("two effects at once are both named") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[0].ohm = 0.3;
+  blind.quirks.joints[0].viscous = 0.15;
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  CHECK(d.verdict == Verdict::supported);
+  std::vector<std::string> types;
+  for (const Named& n : d.answer) types.push_back(n.type + " " + n.on);
+  CHECK(std::ranges::count(types, "motor_resistance flexor") == 1);
+  CHECK(std::ranges::count(types, "joint_viscous elbow") == 1);
+}
+
+TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[0].knot_m = 4e-4;
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  REQUIRE(d.confusable.size() == 1);
+  CHECK(d.confusable[0].type == "sensor_shaft_offset");
+  CHECK(d.answer[0].type == "tendon_length_offset");
+}
+
+TEST_CASE("late, jittering and lost commands are told apart by their ages") {
+  auto blind = nothing_hidden();
+  const auto told = [&] { return diagnose(hinge_rig(), episodes(blind, 4)).answer.at(0); };
+  SECTION("late") {
+    blind.quirks.command_delay_s = 0.013;
+    const Named n = told();
+    CHECK(n.type == "bus_command_delay");
+    CHECK(value_of(n, "delay_s") == Approx(0.013).margin(0.0012));
+  }
+  SECTION("jitter") {
+    blind.quirks.jitter_s = 0.02;
+    const Named n = told();
+    CHECK(n.type == "bus_jitter");
+    CHECK(value_of(n, "spread_s") == Approx(0.02).margin(0.002));
+  }
+  SECTION("lost") {
+    blind.quirks.loss = 0.4;
+    const Named n = told();
+    CHECK(n.type == "bus_frame_loss");
+    CHECK(value_of(n, "probability") == Approx(0.4).margin(0.03));
+  }
+}
+
+TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
+  auto blind = nothing_hidden();
+  CHECK(coarse_sensors(episodes(blind, 3, 1), hinge_rig()).empty());
+  blind.quirks.chains[1].current.step = 0.2;
+  const auto coarse = coarse_sensors(episodes(blind, 3, 1), hinge_rig());
+  REQUIRE(coarse.size() == 1);
+  CHECK(sim::effects::about(coarse[0].effect).type == "sensor_current_quantisation");
+  CHECK(coarse[0].on == "extensor");
+  CHECK(diagnose(hinge_rig(), episodes(blind)).answer.at(0).type == "sensor_current_quantisation");
+}
+
+TEST_CASE("held out is a whole recording, the one farthest off") {
+  auto all = episodes(nothing_hidden(), 3, 3);
+  for (double& n : all[1].actuators[0].tension_N) n += 800;
+  const auto [train, held_out] = split(all);
+  CHECK(held_out == std::vector<std::size_t>{1});
+  CHECK(train == std::vector<std::size_t>{0, 2});
+}
