@@ -22,7 +22,7 @@ struct DiagnoseOptions {
   std::size_t most_effects = 3;
   /// A stage counts as explained when what is left of its excess is below this …
   double left_excess = 2;
-  double search_excess = 1;  ///< the same, for another effect to be looked for
+  double search_excess = 1.5;  ///< the same, for another effect to be looked for
   /// … or below this share of what it was. All chosen on development cases.
   double left_share = 0.02;
   /// One effect alone may leave more, for a law of another shape: this share, or this one of the

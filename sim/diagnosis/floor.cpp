@@ -10,6 +10,8 @@
 namespace sim::diagnosis {
 namespace {
 
+constexpr double calibration = 0.003;  // of a current sensor at its best; chosen
+
 void disturb(Signal& signal, double noise_rms, double step, Noise& noise) {
   for (double& x : signal) x += noise_rms * noise.normal() + step * (noise.uniform() - 0.5);
 }
@@ -74,6 +76,7 @@ Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_
     ActuatorSignals& s = again.actuators[a];
     delay(s.tension_N);
     disturb(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
+    for (double& i : s.current_A) i *= 1 + calibration;
     disturb(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
     disturb(s.tension_N, sensors.tension_noise_N, scale.tension_N_per_count, noise);
     const auto coarsen = [&](const char* type, Signal& signal) {
