@@ -120,6 +120,7 @@ std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& 
   const auto joints = trials.nominal().joints();
   const auto j = static_cast<std::size_t>(std::ranges::find(joints, neutral.on, &erp::Joint::name) -
                                           joints.begin());
+  if (joints[j].type != erp::JointType::revolute) return {};
   double low = joints[j].max_rad, high = joints[j].min_rad;
   for (const std::size_t e : episodes)
     for (const double angle : trials.episodes()[e].joints[j].angle_rad)
@@ -129,8 +130,12 @@ std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& 
     for (const int side : {1, 2, 3}) {
       all.push_back(neutral);
       const auto parameters = effects::parameters(all.back().effect);
-      if (side & 1) *parameters[0].value = std::max(0.0, low - joints[j].min_rad + before_rad);
-      if (side & 2) *parameters[1].value = std::max(0.0, joints[j].max_rad - high + before_rad);
+      if (side & 1)
+        *parameters[0].value =
+            std::clamp(low - joints[j].min_rad + before_rad, 0.0, parameters[0].bounds.high);
+      if (side & 2)
+        *parameters[1].value =
+            std::clamp(joints[j].max_rad - high + before_rad, 0.0, parameters[1].bounds.high);
     }
   return all;
 }
