@@ -1,7 +1,7 @@
+#include "sim/diagnosis/split.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "sim/diagnosis/diagnose.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -27,8 +27,15 @@ std::vector<std::pair<double, double>> reach(const Episode& episode) {
 
 }  // namespace
 
-std::pair<std::vector<std::size_t>, std::vector<std::size_t>> split(
-    std::span<const Episode> episodes) {
+std::vector<std::size_t> Sets::all() const {
+  std::vector<std::size_t> all = train;
+  all.insert(all.end(), held_out.begin(), held_out.end());
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
+}
+
+Sets split(std::span<const Episode> episodes) {
   const std::size_t count = episodes.size();
   std::vector<std::vector<std::pair<double, double>>> reaches;
   for (const Episode& episode : episodes) reaches.push_back(reach(episode));
@@ -49,10 +56,31 @@ std::pair<std::vector<std::size_t>, std::vector<std::size_t>> split(
   }
   std::ranges::sort(beyond);
   const std::size_t held = count < 2 ? 0 : std::max<std::size_t>(1, count / 3);
-  std::vector<std::size_t> train, held_out;
-  for (std::size_t k = 0; k < count; ++k) (k < held ? held_out : train).push_back(beyond[k].second);
-  std::ranges::sort(train), std::ranges::sort(held_out);
-  return {train, held_out};
+  Sets sets;
+  for (std::size_t k = 0; k < count; ++k)
+    (k < held ? sets.held_out : sets.train).push_back(beyond[k].second);
+  std::ranges::sort(sets.train), std::ranges::sort(sets.held_out);
+  return sets;
+}
+
+Sets hold_out_what_shows(Sets sets, const Trials& plain, const WhereOptions& options) {
+  std::vector<std::pair<double, std::size_t>> shows;
+  const auto all = sets.all();
+  for (const std::size_t e : all) {
+    const std::size_t only[] = {e};
+    double most = 0;
+    for (const StageGap& gap : where(plain, plain.bare(), only, options))
+      if (gap.open) most = std::max(most, gap.excess);
+    if (most > 0) shows.emplace_back(most, e);
+  }
+  const bool shown = std::ranges::any_of(
+      shows, [&](const auto& s) { return std::ranges::count(sets.held_out, s.second) > 0; });
+  if (shown || shows.size() < 2) return sets;
+  std::ranges::sort(shows);
+  sets.held_out = {shows[shows.size() - 2].second};  // the very best is to learn from
+  sets.train = all;
+  std::erase(sets.train, sets.held_out[0]);
+  return sets;
 }
 
 }  // namespace sim::diagnosis

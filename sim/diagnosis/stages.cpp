@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "sim/diagnosis/chain_residuals.hpp"
+#include "sim/diagnosis/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -15,12 +15,6 @@ using Eigen::MatrixXd;
 template <class T>
 std::shared_ptr<const T> keep(T value) {
   return std::make_shared<const T>(std::move(value));
-}
-
-std::vector<std::size_t> each(std::size_t count) {
-  std::vector<std::size_t> all(count);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "sim/diagnosis/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -48,7 +49,7 @@ std::vector<Collected> collect(const Trials& trials, const Trial& trial,
     const auto& residuals = trials.bare().of_episode[e].residuals;
     for (std::size_t r = 0; r < residuals.size(); first += residuals[r++].value.size()) {
       auto place = std::ranges::find_if(all, [&](const Collected& c) {
-        return c.what->stage == residuals[r].stage && c.what->on == residuals[r].on;
+        return same_stage(*c.what, residuals[r].stage, residuals[r].on);
       });
       if (place == all.end()) place = all.insert(place, {&residuals[r], 0, {}});
       collect(std::span(z).subspan(first, residuals[r].value.size()), trials.floor(e)[r],
@@ -95,9 +96,7 @@ std::vector<StageGap> where(const Trials& trials, const Trial& trial,
 std::vector<StageGap> where(const erp::Robot& robot, std::span<const Episode> episodes,
                             const WhereOptions& options) {
   const Trials trials(robot, {episodes.begin(), episodes.end()}, options.seed);
-  std::vector<std::size_t> all(episodes.size());
-  std::iota(all.begin(), all.end(), 0);
-  return where(trials, trials.bare(), all, options);
+  return where(trials, trials.bare(), each(episodes.size()), options);
 }
 
 }  // namespace sim::diagnosis

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -39,6 +40,16 @@ struct WhereOptions {
   std::size_t least_windows = 50;  ///< to judge a stage, chosen
   std::uint64_t seed = 1;
 };
+
+/// Whether something with `stage` and `on` belongs there.
+template <class Item>
+bool same_stage(const Item& item, effects::Stage stage, const std::string& on) {
+  return item.stage == stage && item.on == on;
+}
+template <class Items>
+auto find_stage(Items& items, effects::Stage stage, const std::string& on) {
+  return std::ranges::find_if(items, [&](const auto& i) { return same_stage(i, stage, on); });
+}
 
 /// What a trial leaves of the gap at each stage of some recordings, the largest share first.
 std::vector<StageGap> where(const Trials& trials, const Trial& trial,

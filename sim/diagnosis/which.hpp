@@ -37,7 +37,7 @@ struct Ranked {
   double doubt = 1;        ///< share of draws without a gain
 };
 
-/// Every effect that can change a residual in `open`, best first. Sorted by gain.
+/// Every effect that can change a residual, best first: by gain, ties to the plainer one.
 std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOptions& options);
 
 /// Of `ranked`, which cannot be told from the first: their paired difference to it includes zero,

@@ -115,7 +115,7 @@ TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
 TEST_CASE("held out is a whole recording, the one farthest off") {
   auto all = episodes(nothing_hidden(), 3, 3);
   for (double& n : all[1].actuators[0].tension_N) n += 800;
-  const auto [train, held_out] = split(all);
-  CHECK(held_out == std::vector<std::size_t>{1});
-  CHECK(train == std::vector<std::size_t>{0, 2});
+  const Sets sets = split(all);
+  CHECK(sets.held_out == std::vector<std::size_t>{1});
+  CHECK(sets.train == std::vector<std::size_t>{0, 2});
 }

@@ -1,0 +1,49 @@
+#include "sim/diagnosis/answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim::diagnosis {
+
+Named named(const effects::Placed& placed) {
+  const effects::About& about = effects::about(placed.effect);
+  Named n{std::string(about.type), placed.on, about.stage, {}, {}, {}, 0, {}, false, placed};
+  effects::AnyEffect copy = placed.effect;
+  for (const effects::Parameter& p : effects::parameters(copy))
+    if (p.fitted) n.names.emplace_back(p.name), n.values.push_back(*p.value);
+  n.intervals.resize(n.values.size());
+  return n;
+}
+
+Named named(const Ranked& ranked, double least_gain) {
+  constexpr double of_method = 0.02;  // what the windows' own approximations may shift a value by
+  Named n = named(ranked.fit.placed);
+  for (std::size_t k = 0; k < n.values.size(); ++k) {
+    const double half = 1.96 * ranked.fit.sigmas[k] + of_method * std::abs(n.values[k]);
+    n.intervals[k] = {n.values[k] - half, n.values[k] + half};
+  }
+  n.gain = ranked.gain, n.gain_interval = ranked.gain_interval;
+  n.supported = ranked.gain_interval.low > least_gain;
+  return n;
+}
+
+Named named(const BusFit& fit) {
+  Named n = named(fit.placed);
+  n.intervals[0] = {fit.low, fit.high};
+  n.gain = fit.gain, n.gain_interval = {fit.gain, fit.gain}, n.supported = fit.supported;
+  return n;
+}
+
+void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names) {
+  constexpr double rate = 0.05;
+  std::vector<std::pair<double, std::size_t>> doubts;
+  for (std::size_t k = 0; k < ranked.size(); ++k) doubts.emplace_back(ranked[k].doubt, k);
+  std::ranges::sort(doubts);
+  const auto count = static_cast<double>(doubts.size());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < doubts.size(); ++k)
+    if (doubts[k].first <= rate * static_cast<double>(k + 1) / count) kept = k + 1;
+  for (std::size_t k = kept; k < doubts.size(); ++k) names[doubts[k].second].supported = false;
+}
+
+}  // namespace sim::diagnosis

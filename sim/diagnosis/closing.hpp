@@ -1,0 +1,36 @@
+#pragma once
+#include <vector>
+
+#include "sim/diagnosis/selection.hpp"
+
+/// How far the answer closes the gap, on held-out recordings.
+namespace sim::diagnosis {
+
+/// An error before and after.
+struct Closed {
+  std::string channel;  ///< stage and place, or "all"
+  std::string unit;
+  double before = 0, floor = 0, after = 0;  ///< rms
+  double closed = 0;                        ///< (before − after)/(before − floor)
+  Interval interval;
+};
+
+/// Stage by stage, in its unit.
+std::vector<Closed> closed_by_stage(const Evidence& evidence, const Trials& plain,
+                                    const std::vector<StageGap>& left);
+/// Over all stages, in units of noise.
+Closed closed_overall(const Evidence& evidence, const Trials& plain, const Trial& trial);
+
+/// A few seconds of a stage's residual in a held-out recording, where it is worst.
+struct Moment {
+  effects::Stage stage;
+  std::string on, unit, recording;
+  double floor = 0;
+  std::vector<double> time_s, before, after;
+};
+
+/// Of the stages that are most open.
+std::vector<Moment> worst_moments(const Evidence& evidence, const Trials& plain, const Trial& trial,
+                                  const std::vector<StageGap>& stages);
+
+}  // namespace sim::diagnosis

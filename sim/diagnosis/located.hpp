@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "sim/diagnosis/observed.hpp"
+#include "sim/diagnosis/selection.hpp"
+#include "sim/diagnosis/shape.hpp"
+
+/// Where the gap lies, told from its cause when that is known and from the open stages when not.
+namespace sim::diagnosis {
+
+/// A part of the gap: a stage of the whole chain, bus to sensors, as far as it can be told.
+struct Located {
+  effects::Stage stage;
+  std::string on;
+  double share = 0;
+  Interval interval;
+  std::vector<Region> when;
+};
+
+/// What no effect explains.
+struct Unexplained {
+  effects::Stage stage;
+  std::string on;
+  double excess = 0;
+  std::optional<Shape> shape;
+};
+
+/// Of effects that explain the gap, each its share; what cannot be told apart shares its part.
+std::vector<Located> where_of_answer(const Evidence& evidence, const Trials& plain,
+                                     const std::vector<StageGap>& stages,
+                                     const std::vector<Named>& answer,
+                                     const std::vector<Named>& confusable);
+
+/// Without an answer: the open stages. Of several causes of one residual, the stage of the effect
+/// that comes nearest says of which it looks, and all that come about as near share it.
+std::vector<Located> where_of_stages(const Evidence& evidence, const Trials& plain,
+                                     const std::vector<StageGap>& stages,
+                                     const std::vector<Named>& ranked);
+
+/// The stages that the selection leaves open, with the map that explains most of each.
+std::vector<Unexplained> unexplained(const Evidence& evidence, const Trials& plain,
+                                     const Selection& selection);
+
+}  // namespace sim::diagnosis

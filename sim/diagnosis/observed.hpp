@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "sim/diagnosis/answer.hpp"
+#include "sim/diagnosis/evidence.hpp"
+
+/// What recordings show without a fit to residuals: how old commands are, how coarse readings are.
+namespace sim::diagnosis {
+
+struct Observed {
+  std::vector<Named> bus;      ///< best first; the first may be supported
+  std::vector<Named> sensors;  ///< coarser than their data sheets; the readings show it
+  double late = 0;             ///< share of ticks whose command was not the newest
+
+  bool bus_differs() const { return !bus.empty() && bus[0].supported; }
+  bool any() const { return bus_differs() || !sensors.empty(); }
+};
+
+Observed observe(const Evidence& evidence, const Trials& plain);
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "sim/diagnosis/answer.hpp"
+#include "sim/diagnosis/evidence.hpp"
+
+/// Which effects together explain the residuals: the best alone, others on top of it while a stage
+/// stays open, each reconsidered when another joins.
+namespace sim::diagnosis {
+
+struct Selection {
+  bool gap = false;                ///< some stage leaves its floor
+  std::vector<Named> ranked = {};  ///< one by one, best first
+  std::vector<Named> answer = {};  ///< effects that together close the gap, the most telling first
+  std::vector<Named> confusable = {};  ///< what could stand for one of the answer as well
+  std::vector<StageGap> left = {};     ///< after the answer, held-out recordings
+  Trial trial = {};                    ///< with the answer
+  double interaction = 0;  ///< of the gap: what the answer closes less what each does alone
+
+  bool explained() const;  ///< there is an answer, and no stage stays open
+};
+
+/// `stages`: those that signatures are told by.
+Selection select(const Evidence& evidence, const Trials& trials,
+                 const std::vector<StageGap>& stages);
+
+/// The stages that `trial` leaves open on the held-out recordings. `alone`: it is one effect, which
+/// may leave a little more, for a law of another shape.
+std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,
+                                bool alone);
+
+}  // namespace sim::diagnosis

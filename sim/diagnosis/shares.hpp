@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "sim/diagnosis/answer.hpp"
+#include "sim/diagnosis/evidence.hpp"
+
+/// What each of several effects has to do with the gap that they close together.
+///
+///   v(S) = (S₀ − S_S)/(S₀ − N)                       closed by the subset S of the effects
+///   φ_k  = mean over all orders of joining of v(S + k) − v(S)                (Shapley 1953)
+///
+/// Their sum is what all close; lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
+namespace sim::diagnosis {
+
+struct Shares {
+  std::vector<double> share;  ///< φ, one an effect
+  std::vector<Interval> interval, lost;
+  double interaction = 0;
+};
+
+Shares shares(const Evidence& evidence, const Trials& trials,
+              const std::vector<effects::Placed>& together);
+
+}  // namespace sim::diagnosis
