@@ -22,9 +22,11 @@ std::vector<std::string> Table::owners(std::string_view signal) const {
 
 const std::vector<std::string_view>& known_signals() {
   static const std::vector<std::string_view> signals{
-      "mode",      "reference", "voltage_V",   "current_A", "shaft_rad",
-      "tension_N", "line_m",    "target_mode", "target",    "potentiometer_rad",
-      "angle_rad", "qw",        "qx",          "qy",        "qz"};
+      "mode",      "reference",  "voltage_V",    "current_A",   "shaft_rad",
+      "tension_N", "line_m",     "target_mode",  "target",      "potentiometer_rad",
+      "angle_rad", "qw",         "qx",           "qy",          "qz",
+      "control_V", "position_m", "position_rad", "reference_m", "reference_rad",
+      "pulse_V"};
   return signals;
 }
 

@@ -18,6 +18,9 @@
 ///   <a>.target_mode, .target  what a planner asked for in answer to this row's frame (on request)
 ///   <j>.angle_rad             a revolute joint
 ///   <j>.qw … <j>.qz           a spherical joint
+///   <d>.control_V             of a drive: what its controller said, until the next row
+///   <d>.position_m            of a drive's slide; <d>.position_rad of its shaft
+///   <d>.reference_m, .reference_rad, .pulse_V   of a drive; pulses are part of control_V
 namespace recording {
 
 inline constexpr double not_taken = std::numeric_limits<double>::quiet_NaN();

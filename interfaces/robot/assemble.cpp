@@ -29,6 +29,7 @@ void append_part(Robot& robot, const Robot& part) {
   append(robot.skeletons, part.skeletons);
   append(robot.pretensions, part.pretensions);
   append(robot.actuators, part.actuators);
+  append(robot.drives, part.drives);
   append(robot.joint_sensors, part.joint_sensors);
   append(robot.potentiometers, part.potentiometers);
   append(robot.imus, part.imus);
@@ -46,6 +47,7 @@ std::vector<std::string> names_in(const Robot& part) {
   for (const Body& body : part.bodies()) names.push_back(body.name);
   for (const Joint& joint : part.joints()) names.push_back(joint.name);
   for (const Actuator& actuator : part.actuators) names.push_back(actuator.name);
+  for (const Drive& drive : part.drives) names.push_back(drive.name);
   return names;
 }
 

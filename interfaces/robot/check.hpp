@@ -47,6 +47,7 @@ void check_references(const Robot& robot, Findings& findings);
 void check_ecus(const Robot& robot, Findings& findings);
 void check_skeleton(const Robot& robot, Findings& findings);
 void check_tendons(const Robot& robot, Findings& findings);
+void check_drives(const Robot& robot, Findings& findings);
 
 }  // namespace robot_check
 }  // namespace erp

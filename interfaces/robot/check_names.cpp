@@ -58,6 +58,7 @@ void check_names(const Robot& robot, Findings& findings) {
   check_unique(robot.bodies(), findings);
   check_unique(robot.joints(), findings);
   check_unique(robot.actuators, findings);
+  check_unique(robot.drives, findings);
   check_unique(robot.motor_types, findings);
   check_unique(robot.sensor_types, findings);
   check_unique(robot.imus, findings);
@@ -96,12 +97,13 @@ void check_references(const Robot& robot, Findings& findings) {
   for (const Imu& imu : robot.imus)
     check_reference(imu, "body", imu.body, bodies, "body", findings);
   auto places = joints;
-  for (const auto* more : {&bodies, &actuators})
+  const auto drives = names_of(robot.drives);
+  for (const auto* more : {&bodies, &actuators, &drives})
     places.insert(places.end(), more->begin(), more->end());
   places.push_back(robot.name);
   for (const Effect& effect : robot.effects)
-    check_reference(effect, "on", effect.on, places, "actuator, joint or body, nor the robot",
-                    findings);
+    check_reference(effect, "on", effect.on, places,
+                    "actuator, drive, joint or body, nor the robot", findings);
 }
 
 }  // namespace erp::robot_check

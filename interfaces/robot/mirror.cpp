@@ -77,6 +77,7 @@ Robot mirrored(Robot part, const Mirror& mirror) {
     for (auto& point : actuator.tendon.path)
       std::visit([&](auto& p) { reflect(p), renamed(p.body); }, point);
   }
+  for (Drive& drive : part.drives) renamed.each(drive.name, drive.motor);
   for (Pretension& pretension : part.pretensions) renamed(pretension.actuator);
   for (Effect& effect : part.effects) renamed(effect.on);
   for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint), reflect(sensor);

@@ -73,6 +73,7 @@ std::vector<xml::Error> check_robot(const Robot& robot) {
   check_ecus(robot, findings);
   check_skeleton(robot, findings);
   check_tendons(robot, findings);
+  check_drives(robot, findings);
   return std::move(findings.errors);
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "interfaces/robot/actuator.hpp"
+#include "interfaces/robot/drive.hpp"
 #include "interfaces/robot/effect.hpp"
 #include "interfaces/robot/sensors.hpp"
 #include "interfaces/robot/skeleton.hpp"
@@ -63,6 +64,7 @@ struct Robot {
   std::vector<MotorType> motor_types;
   std::vector<SensorType> sensor_types;
   std::vector<Actuator> actuators;
+  std::vector<Drive> drives;  ///< without tendons: for diagnosis, not on the bus
   std::vector<JointSensor> joint_sensors;
   std::vector<Potentiometer> potentiometers;
   std::vector<Imu> imus;
@@ -78,6 +80,7 @@ struct Robot {
     v.list(motor_types);
     v.list(sensor_types);
     v.list(actuators);
+    v.list(drives);
     v.list(joint_sensors);
     v.list(potentiometers);
     v.list(imus);

@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "sim/diagnosis/drives.hpp"
 #include "sim/diagnosis/where.hpp"
 
 namespace launch {
@@ -41,6 +42,10 @@ void print_words(const std::vector<diagnosis::StageGap>& gaps, std::ostream& out
 
 }  // namespace
 
+erp::Robot read_chains(const std::string& robot_file) {
+  return diagnosis::as_chains(erp::read_robot(robot_file));
+}
+
 std::vector<diagnosis::Episode> read_episodes(const erp::Robot& robot,
                                               const std::vector<std::string>& recordings,
                                               std::vector<std::string>& mended) {
@@ -54,7 +59,7 @@ std::vector<diagnosis::Episode> read_episodes(const erp::Robot& robot,
 
 int gap_where(const std::string& robot_file, const std::vector<std::string>& recordings,
               std::ostream& out, std::ostream& remarks) {
-  const erp::Robot robot = erp::read_robot(robot_file);
+  const erp::Robot robot = read_chains(robot_file);
   std::vector<std::string> mended;
   const auto gaps = diagnosis::where(robot, read_episodes(robot, recordings, mended));
   for (const std::string& remark : mended) remarks << remark << "\n";

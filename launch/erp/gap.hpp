@@ -10,6 +10,9 @@
 /// `erp gap`: where recordings and a robot's model part, why, and by how much.
 namespace launch {
 
+/// The robot, its drives as chains. Throws xml::Errors.
+erp::Robot read_chains(const std::string& robot_file);
+
 /// Reads and lays out recordings for a robot; what was mended is told. Throws RecordingError,
 /// std::invalid_argument.
 std::vector<sim::diagnosis::Episode> read_episodes(const erp::Robot& robot,

@@ -76,6 +76,10 @@ void print(const diagnosis::Diagnosis& d, std::ostream& out) {
         "how far     {:.3g} times the noise before, {:.3g} after: {:.1f} % closed on "
         "held-out recordings\n",
         d.overall.before, d.overall.after, 100 * d.overall.closed);
+  for (const auto& c : d.channels)
+    if (c.before > 1.5 * c.floor && !d.answer.empty())
+      out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
+                         c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
   out << "verdict     " << diagnosis::word(d.verdict) << "\n";
 }
 
@@ -96,7 +100,7 @@ int exit_code(diagnosis::Verdict verdict) {
 }
 
 int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
-  const erp::Robot robot = erp::read_robot(options.robot);
+  const erp::Robot robot = read_chains(options.robot);
   check_types(options.withhold);
   const Sorted sorted = sort(options);
   std::vector<std::string> mended;
@@ -120,7 +124,7 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
     write_file(options.out + "/diagnosis.json", diagnosis_json(d, robot));
     write_file(options.out + "/report.html", diagnosis_report(d, robot));
     if (!d.answer.empty()) {
-      erp::Robot with = robot;
+      erp::Robot with = erp::read_robot(options.robot);
       for (const auto& n : d.answer) with.effects.push_back(sim::effects::written(n.placed));
       write_file(options.out + "/robot.xml", erp::write_robot(with));
     }

@@ -45,6 +45,7 @@ Json json_of(const Closed& c) {
           {"before", rounded(c.before)},
           {"floor", rounded(c.floor)},
           {"after", rounded(c.after)},
+          {"driven_by", rounded(c.driven_by)},
           {"closed", rounded(c.closed)},
           {"closed_interval", pair_of(c.interval)}};
 }

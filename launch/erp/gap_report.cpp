@@ -100,13 +100,15 @@ std::string chains(const Diagnosis& d) {
 
 std::string stages(const Diagnosis& d) {
   std::string html =
-      "<table><tr><th>stage</th><th>residual</th><th>floor</th><th>after</th><th>closed</th></"
-      "tr>\n";
+      "<table><tr><th>stage</th><th>residual</th><th>floor</th><th>after</th><th>closed</th>"
+      "<th>of what drives it, before</th><th>after</th></tr>\n";
   for (const Closed& c : d.channels)
     html += fmt::format(
-        "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
+        "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
+        "<td>{:.2f} %</td><td>{:.2f} %</td></tr>\n",
         escaped(c.channel), c.before, c.unit, c.floor, c.after,
-        c.before > 1.5 * c.floor ? fmt::format("{:.1f} %", 100 * c.closed) : "–");
+        c.before > 1.5 * c.floor ? fmt::format("{:.1f} %", 100 * c.closed) : "–",
+        100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
   return html + "</table>\n";
 }
 

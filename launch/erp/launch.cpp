@@ -77,6 +77,10 @@ std::vector<std::string> parts_of(const std::string& recording, fs::file_time_ty
 int launch_graph(const LaunchOptions& options) {
   const erp::Graph graph = graph_of(options);
   const erp::Robot robot = erp::read_robot(graph.robot);
+  if (!robot.drives.empty())
+    throw std::invalid_argument(graph.robot + ": drive \"" + robot.drives[0].name +
+                                "\" has no place in a graph: ECUs move tendons; recordings of it "
+                                "are for erp gap diagnose");
   const std::string graph_folder = fs::absolute(options.graph_file).parent_path().string();
   const auto find = [&](const std::string& type) { return find_program(type, graph_folder); };
 

@@ -53,12 +53,14 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->add_option("--robot", o->robot, "robot.xml, the model")->required();
   make->add_option("--out", o->out, "folder for the cases")->required();
   make->add_option("--truth", o->truth, "file for what is hidden")->required();
-  make->add_option("--kind", o->kind, "single, null, pair, outside or withheld");
+  make->add_option("--kind", o->kind, "what cases hide")
+      ->check(CLI::IsMember({"single", "null", "pair", "outside", "withheld"}));
   make->add_option("--cases", o->cases, "how many")->check(CLI::PositiveNumber);
   make->add_option("--recordings", o->recordings, "a case")->check(CLI::PositiveNumber);
   make->add_option("--seconds", o->seconds, "a recording")->check(CLI::PositiveNumber);
   make->add_option("--seed", o->seed, "of the first case; the next ones follow");
-  make->add_option("--without", o->without, "signals not recorded: tension, current, joint");
+  make->add_option("--without", o->without, "signals not recorded")
+      ->check(CLI::IsMember({"tension", "current", "joint"}));
   make->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
   make->callback([=, &chosen] { chosen = [=] { return blind_make(*o, std::cout, std::cerr); }; });
 

@@ -57,8 +57,7 @@ Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx)
   const double path = k.shape.length_m + q.arm * change + q.arm_per_m * change * change / 2;
   const double path_slope = 1 + q.arm + q.arm_per_m * change;
   const double stretch = path + q.knot_m - k.rest_m + wound - x[c::lost];
-  const double lost_rate = 0;  // of the damper's: slip is slow
-  const double rate = path_slope * path_rate + wound_slope * speed - lost_rate;
+  const double rate = path_slope * path_rate + wound_slope * speed;  // slip is slow
 
   double force = spring_N(k, stretch) + k.damping * rate;
   force += q.creep_N_per_m * (stretch - x[c::flowed]);
@@ -100,8 +99,7 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
                     ? (ohm * x[c::current] * x[c::current] * q.kelvin_per_W - x[c::heat]) / q.heat_s
                     : 0;
 
-  const double most = 1;
-  dx[c::bristle] = bristle_rate(s, omega, shaft_reach_rad, most);
+  dx[c::bristle] = bristle_rate(s, omega, shaft_reach_rad);
   const double rub = std::clamp(s + shaft_settles_s * dx[c::bristle], -1.2, 1.2);
   double load = line.wound_slope * line.motor_side_N;
   if (k.two_masses) {

@@ -56,9 +56,8 @@ const std::vector<HiddenKind> library{
   {"motor_supply_sag", "motor", on_chain, [](P& p, R& r) { return set(chain(p).source_ohm, "source_ohm", between(r, 0.2, 1.2)); }},
   {"gearbox_coulomb", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).dry_Nm, "extra_Nm", between(r, 0.02, 0.12)); }, {"gearbox_stribeck"}},
   {"gearbox_asymmetric", "gearbox", on_chain, [](P& p, R& r) {
-     const double a = between(r, 0.02, 0.06);
-     chain(p).dry_Nm += 0;
-     return set(chain(p).one_way_Nm, "extra_Nm", sign(r) * a); }},
+     const double size = between(r, 0.02, 0.06);
+     return set(chain(p).one_way_Nm, "extra_Nm", sign(r) * size); }},
   {"gearbox_viscous", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).viscous, "extra_Nm_s_per_rad", between(r, 0.005, 0.05)); }},
   {"gearbox_stribeck", "gearbox", on_chain, [](P& p, R& r) {
      chain(p).stribeck_Nm = between(r, 0.04, 0.2), chain(p).stribeck_rad_per_s = between(r, 0.2, 1.0);

@@ -24,7 +24,8 @@ struct HiddenKind {
   enum On { chain, joint, body, robot } on;
   /// Draws, sets the quirk and tells what was drawn.
   std::vector<std::pair<std::string, double>> (*draw)(Place&, Random&);
-  /// What looks the same to the sensors there are.
+  /// Types that foretell nearly the same readings with some parameters of theirs, by their
+  /// equations: they are withheld with it, or the right answer would be the twin.
   std::vector<const char*> twins = {};
 };
 

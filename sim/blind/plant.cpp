@@ -12,44 +12,10 @@ namespace c = chain_state;
 namespace j = joint_state;
 
 constexpr double usual_step_s = 1e-4, two_mass_step_s = 4e-5;
-constexpr double joint_reach_rad = 2e-4, joint_settles_s = 2e-3;
-constexpr double stop_Nm_per_rad = 300, stop_Nm_s_per_rad = 1;
-constexpr double loose_s = 1e-3;  // how fast a loose shaft is taken along
 
 Vec3 gravity_of(const erp::Robot& robot) {
   const auto g = robot.gravity_m_per_s2();
   return {g[0], g[1], g[2]};
-}
-
-/// Guides and ends that other radii or a shifted end move.
-erp::Tendon bent(erp::Tendon tendon, const ChainQuirks& q, const erp::Robot& robot) {
-  const auto stretch_from = [](erp::Vec3& p, const erp::Vec3& from, double factor) {
-    for (std::size_t i = 0; i < 3; ++i) p[i] = from[i] + factor * (p[i] - from[i]);
-  };
-  const auto far = [](const erp::Vec3& a, const erp::Vec3& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-  };
-  auto& path = tendon.path;
-  for (std::size_t k = 0; k < path.size() && q.pulley != 0; ++k) {
-    auto* pulley = std::get_if<erp::Pulley>(&path[k]);
-    if (!pulley) continue;
-    for (const std::size_t n : {k - 1, k + 1}) {
-      auto* guide = n < path.size() ? std::get_if<erp::Attach>(&path[n]) : nullptr;
-      if (!guide) continue;
-      erp::Vec3 center = pulley->center_m;
-      bool with = guide->body == pulley->body;
-      for (const erp::Joint& joint : robot.joints())
-        if (joint.child == guide->body && joint.parent == pulley->body &&
-            joint.at_m == pulley->center_m)
-          center = {0, 0, 0}, with = true;
-      if (with && far(guide->at_m, center) < 1.1 * pulley->radius_m)
-        stretch_from(guide->at_m, center, 1 + q.pulley);
-    }
-    pulley->radius_m *= 1 + q.pulley;
-  }
-  if (auto* end = std::get_if<erp::Attach>(&path.back()); end && q.shift_m != 0)
-    stretch_from(end->at_m, {0, 0, 0}, 1 + q.shift_m / far(end->at_m, {0, 0, 0}));
-  return tendon;
 }
 
 }  // namespace
@@ -66,45 +32,16 @@ Plant::Plant(const erp::Robot& nominal, const Quirks& quirks)
           1 / quirks.bodies.at(name.substr(0, name.size() - 5)).bend_rad_per_Nm;
   for (const erp::Joint& joint : tree_.joints) joints_.push_back(start_of(joint));
   model_.place(joints_);
-  for (std::size_t a = 0; a < nominal.actuators.size(); ++a) {
-    const erp::Actuator& actuator = nominal.actuators[a];
-    const ChainQuirks& q = quirks.chains[a];
-    const Routing routing(bent(actuator.tendon, q, nominal), tree_.names);
-    Chain k{nominal.motor_of(actuator),
-            q,
-            routing,
-            levers_of(routing, model_),
-            routing.solve(model_.poses()),
-            0,
-            0,
-            0,
-            0,
-            0,
-            0,
-            0,
-            false,
-            {}};
-    k.motor.resistance_ohm *= 1 + q.ohm, k.motor.inductance_H *= 1 + q.henry;
-    k.motor.torque_Nm_per_A *= 1 + q.torque, k.motor.back_emf_V_s_per_rad *= 1 + q.torque;
-    k.motor.rotor_inertia_kg_m2 *= 1 + q.rotor;
-    k.radius_m = actuator.spindle.radius_m * (1 + q.radius);
-    k.spring = actuator.tendon.stiffness_N_per_m * (1 + q.spring);
-    k.cubic = actuator.tendon.cubic_N_per_m3 * (1 + q.spring) + q.cubic;
-    k.damping = std::max(0.0, actuator.tendon.damping_N_s_per_m + q.damping);
-    const auto& line = actuator.tendon.line_stiffness_N_per_m;
-    k.line = (line ? 1 / *line : 0) + q.line_m_per_N;
-    k.two_masses = q.play_rad > 0 || q.twist_rad_per_Nm > 0;
-    k.start_m = k.shape.length_m;
-    double stretch = actuator.tendon.pretension_N / k.spring;
-    for (int n = 0; n < 60; ++n)
-      stretch += (actuator.tendon.pretension_N - spring_N(k, stretch)) * (1 / k.spring + k.line);
-    k.rest_m = k.start_m - stretch;
-    if (q.twist_rad_per_Nm > 0)  // the shaft is where it booted, its far end is turned back
-      k.rest_m -= k.radius_m * k.radius_m * q.twist_rad_per_Nm * actuator.tendon.pretension_N;
+  for (std::size_t a = 0; a < nominal.actuators.size(); ++a)
+    chains_.push_back(chain_of(nominal, a, quirks.chains[a]));
+  for (const Chain& k : chains_)
     most_step_s_ = std::min({most_step_s_, k.two_masses ? two_mass_step_s : usual_step_s,
                              0.9 * k.motor.inductance_H / k.motor.resistance_ohm});
-    chains_.push_back(std::move(k));
-  }
+  start(nominal);
+}
+
+/// At rest, lines at their pretension.
+void Plant::start(const erp::Robot& nominal) {
   x_.assign(chains_.size() * c::count + joints_.size() * j::count, 0.0);
   for (std::size_t a = 0; a < chains_.size(); ++a) {
     double* x = &x_[a * c::count];
@@ -150,63 +87,6 @@ void Plant::derive(const State& x, std::span<const double> voltage_V, double gus
     torque -= line.tension_N * line.path_slope * k.row;
   }
   move_bones(x, torque, gust, dx);
-}
-
-void Plant::move_bones(const State& x, const Eigen::VectorXd& pulled, double gust, State& dx) {
-  Eigen::VectorXd torque = pulled;
-  const std::size_t first_joint = chains_.size() * c::count;
-  for (std::size_t n = 0; n < joints_.size(); ++n) {
-    const int first = model_.first_of(static_cast<int>(n));
-    const int dofs = coordinates_of(joints_[n].type);
-    if (first < 0 || dofs == 0) continue;
-    const erp::Joint& joint = tree_.joints[n];
-    const JointQuirks& q = joint_quirks_[n];
-    const double* s = &x[first_joint + n * j::count];
-    double* ds = &dx[first_joint + n * j::count];
-    double speed = 0;
-    for (int d = 0; d < dofs; ++d) speed = std::hypot(speed, s[j::velocity + d]);
-    const double dry = std::max(0.0, joint.coulomb_Nm + q.dry_Nm) +
-                       q.stribeck_Nm * std::exp(-speed / q.stribeck_rad_per_s);
-    for (int d = 0; d < dofs; ++d) {
-      const double v = s[j::velocity + d];
-      double& rate = ds[j::bristle + d];
-      rate = (v - speed * s[j::bristle + d]) / joint_reach_rad;
-      const double rub = std::clamp(s[j::bristle + d] + joint_settles_s * rate, -1.2, 1.2);
-      torque[first + d] -= std::max(0.0, joint.viscous_Nm_s_per_rad + q.viscous) * v + dry * rub +
-                           q.drag * v * std::abs(v);
-    }
-    torque[first] += gust * q.gusts_Nm;
-    if (dofs == 1) {
-      const double angle = s[j::position], v = s[j::velocity];
-      torque[first] -= q.spring * (angle - q.rest_rad);
-      const double over = angle - (joint.max_rad - q.max_in_rad);
-      const double under = joint.min_rad + q.min_in_rad - angle;
-      if (over > 0) torque[first] -= std::max(0.0, stop_Nm_per_rad * over + stop_Nm_s_per_rad * v);
-      if (under > 0)
-        torque[first] += std::max(0.0, stop_Nm_per_rad * under - stop_Nm_s_per_rad * v);
-      const double off = angle - s[j::bearing], half = q.loose_rad / 2;
-      ds[j::bearing] = (std::max(0.0, off - half) + std::min(0.0, off + half)) / loose_s;
-      const double seen = q.loose_rad > 0 ? s[j::bearing] : angle;
-      ds[j::said] = q.angle.lag_s > 0 ? (seen - s[j::said]) / q.angle.lag_s : 0;
-    }
-  }
-  model_.bias(bias_);
-  model_.inertia(inertia_);
-  const Eigen::VectorXd a = inertia_.llt().solve(torque - bias_);
-  for (std::size_t n = 0; n < joints_.size(); ++n) {
-    const int first = model_.first_of(static_cast<int>(n));
-    const double* s = &x[first_joint + n * j::count];
-    double* ds = &dx[first_joint + n * j::count];
-    const int dofs = first < 0 ? 0 : coordinates_of(joints_[n].type);
-    for (int d = 0; d < dofs; ++d) ds[j::velocity + d] = a[first + d];
-    if (dofs == 1) ds[j::position] = s[j::velocity];
-    if (dofs == 3) {  // q̇ = q ⊗ (0, ω)/2
-      const double w = s[0], i = s[1], k = s[2], l = s[3];
-      const double p = s[j::velocity], q = s[j::velocity + 1], r = s[j::velocity + 2];
-      ds[0] = -(i * p + k * q + l * r) / 2, ds[1] = (w * p + k * r - l * q) / 2;
-      ds[2] = (w * q + l * p - i * r) / 2, ds[3] = (w * r + i * q - k * p) / 2;
-    }
-  }
 }
 
 bool Plant::run(std::span<const double> voltage_V, double duration_s, double gust) {

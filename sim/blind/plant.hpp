@@ -10,10 +10,11 @@
 /// classical Runge–Kutta method of order four at a small step. Written apart from the simulator
 /// and from the library of effects, so that the diagnosis cannot succeed by sharing their form:
 ///
-///   friction     one bristle a contact, ṡ = (ω − |ω| s / g(ω))/δ, torque τ (s + b ṡ)  (Dahl,
-///   LuGre) gear         X/e with e = η^(s sgn X): continuous through standstill backlash     two
-///   masses and a dead zone          shaft: two masses and a spring hysteresis   three elements
-///   that slide (Iwan)    creep: a Maxwell element stops        springs and dampers
+/// - friction: one bristle a contact, ṡ = (ω − |ω| s / g(ω))/δ, torque τ (s + b ṡ)  (Dahl, LuGre)
+/// - gear: X/e with e = η^(s sgn X), continuous through standstill
+/// - backlash: two masses and a dead zone; shaft: two masses and a spring
+/// - hysteresis: three elements that slide (Iwan); creep: a Maxwell element
+/// - stops: springs and dampers
 ///
 /// It shares with the simulator the nominal bones (sim/skeleton: H, C, τ_G) and the paths of the
 /// tendons.
@@ -44,13 +45,16 @@ class Plant {
     Routing routing;
     Levers levers;
     PathShape shape;
-    double start_m, rest_m, radius_m, spring, cubic, damping, line;
-    bool two_masses;
+    double start_m = 0, rest_m = 0, radius_m = 0, spring = 0, cubic = 0, damping = 0, line = 0;
+    bool two_masses = false;
     Eigen::VectorXd row;
   };
   struct Line {
     double tension_N, path_slope, motor_side_N, wound_slope, bend_rad;
   };
+  Chain chain_of(const erp::Robot& nominal, std::size_t actuator, const ChainQuirks& q);
+  double stretch_at(const Chain& chain, double pull_N) const;
+  void start(const erp::Robot& nominal);
   void derive(const State& x, std::span<const double> voltage_V, double gust, State& dx);
   Line pull(Chain& chain, const double* x, double path_rate, double* dx) const;
   void turn(const Chain& chain, const double* x, const Line& line, double voltage_V,

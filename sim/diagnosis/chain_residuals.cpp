@@ -67,6 +67,13 @@ std::vector<double> tendon_N(const Chain& c, std::span<const std::size_t> rows) 
   return value;
 }
 
+double driven_by(const Chain& c, const Signal& driver, std::span<const std::size_t> rows) {
+  double square = 0, count = 0;
+  for (const std::size_t k : rows)
+    if (const double x = c.bump.mean(driver, k); !std::isnan(x)) square += x * x, ++count;
+  return count > 0 ? std::sqrt(square / count) : 0;
+}
+
 }  // namespace
 
 std::vector<Residual> chain_residuals(const ChainTrace& trace, const erp::Actuator& actuator,
@@ -75,11 +82,14 @@ std::vector<Residual> chain_residuals(const ChainTrace& trace, const erp::Actuat
   const Chain chain{trace, motor, episode.period_s, bump};
   std::vector<Residual> all;
   if (trace.current_measured && !trace.terminal_V.empty())
-    all.push_back({effects::Stage::motor, actuator.name, "V", motor_V(chain, rows)});
+    all.push_back({effects::Stage::motor, actuator.name, "V", motor_V(chain, rows),
+                   driven_by(chain, trace.terminal_V, rows)});
   if (!trace.drive_Nm.empty())
-    all.push_back({effects::Stage::gearbox, actuator.name, "Nm", gearbox_Nm(chain, rows)});
+    all.push_back({effects::Stage::gearbox, actuator.name, "Nm", gearbox_Nm(chain, rows),
+                   driven_by(chain, trace.motor_Nm, rows)});
   if (trace.tension_measured && !trace.spring_N.empty())
-    all.push_back({effects::Stage::tendon, actuator.name, "N", tendon_N(chain, rows)});
+    all.push_back({effects::Stage::tendon, actuator.name, "N", tendon_N(chain, rows),
+                   driven_by(chain, trace.tension_N, rows)});
   return all;
 }
 

@@ -56,7 +56,9 @@ class Tracer {
       return value;
     };
     out_.current_averaged =
-        m_.effects.averaged(effects::Sense::current, {0, period_s_, m_.motor.gear_ratio, 0});
+        in_.current_around
+            ? 1
+            : m_.effects.averaged(effects::Sense::current, {0, period_s_, m_.motor.gear_ratio, 0});
     out_.shaft_rad = undone(effects::Sense::shaft, in_.shaft_rad);
     out_.current_A = undone(effects::Sense::current, in_.current_A);
     out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
@@ -145,11 +147,14 @@ class Tracer {
   void find_drive() {
     const bool driven = out_.current_measured || !out_.terminal_V.empty();
     if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
-    out_.drive_Nm.assign(rows_, nan);
-    for (std::size_t k = 1; k + 1 < rows_; ++k) out_.drive_Nm[k] = drive_Nm(k, around_A(k));
+    out_.drive_Nm.assign(rows_, nan), out_.motor_Nm.assign(rows_, nan);
+    for (std::size_t k = 1; k + 1 < rows_; ++k) {
+      out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * around_A(k);
+      out_.drive_Nm[k] = drive_Nm(k);
+    }
   }
 
-  double drive_Nm(std::size_t k, double mean_A) {
+  double drive_Nm(std::size_t k) {
     const erp::MotorType& m = m_.motor;
     const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
     if (!(std::abs(omega) > resting_rad_per_s)) return nan;
@@ -163,7 +168,7 @@ class Tracer {
     const double load =
         m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm + m_.effects.torque_Nm(s);
     const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
-    return n * (m.torque_Nm_per_A * mean_A - way * m.rotor_coulomb_Nm) - load / e;
+    return out_.motor_Nm[k] - n * way * m.rotor_coulomb_Nm - load / e;
   }
 
   ChainModel m_;

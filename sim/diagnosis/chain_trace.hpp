@@ -24,6 +24,7 @@ struct ChainTrace {
   Signal tension_N;        ///< F at the far end: measured, or else the spring's
   Signal spring_N;         ///< F as the spring's law has it
   Signal path_slope;       ///< of the effects on the path
+  Signal motor_Nm;         ///< N K_T ī
   Signal drive_Nm;         ///< N (K_T ī − s τ_CM) − X/e; NaN where the shaft rests
   bool tension_measured = false, current_measured = false;
   double current_averaged = 0;  ///< share in which the current is a mean around the row

@@ -19,6 +19,7 @@ std::vector<Closed> closed_by_stage(const Evidence& evidence, const Trials& plai
   for (const StageGap& gap :
        where(plain, plain.bare(), evidence.sets.held_out, evidence.where_options())) {
     Closed c{std::string(effects::word(gap.stage)) + " " + gap.on, gap.unit, gap.rms, gap.floor};
+    c.driven_by = gap.driven_by;
     c.after = find_stage(left, gap.stage, gap.on)->rms;
     c.closed = closed_of(c);
     all.push_back(c);

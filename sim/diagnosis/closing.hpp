@@ -11,6 +11,7 @@ struct Closed {
   std::string channel;  ///< stage and place, or "all"
   std::string unit;
   double before = 0, floor = 0, after = 0;  ///< rms
+  double driven_by = 0;                     ///< rms of what drives the stage; 0: "all"
   double closed = 0;                        ///< (before − after)/(before − floor)
   Interval interval;
 };

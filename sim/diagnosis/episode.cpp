@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "interfaces/xml/values.hpp"
+#include "sim/diagnosis/drives.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -169,6 +170,13 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
   Episode episode{name, layout.grid().period_s, layout.grid().rows, {}, {}};
   bool any = false;
   for (const erp::Actuator& actuator : robot.actuators) {
+    if (const erp::Drive* drive = drive_of(robot, actuator.name)) {
+      const auto [control, position, current] = drive_columns(*drive);
+      episode.actuators.push_back(drive_signals(*drive, layout.held(control),
+                                                layout.smooth(position), layout.held(current)));
+      any |= !episode.actuators.back().shaft_rad.empty();
+      continue;
+    }
     const std::string a = actuator.name + ".";
     episode.actuators.push_back({layout.held(a + "mode"), layout.held(a + "reference"),
                                  layout.held(a + "voltage_V"), layout.held(a + "current_A"),
@@ -188,8 +196,9 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
     any |= !signals.angle_rad.empty() || !signals.quaternion[0].empty();
   }
   if (!any)
-    throw std::invalid_argument(name + ": no column of robot \"" + robot.name +
-                                "\"; they are called <actuator>.current_A, <joint>.angle_rad, …");
+    throw std::invalid_argument(
+        name + ": no column of robot \"" + robot.name +
+        "\"; they are called <actuator>.current_A, <joint>.angle_rad, <drive>.control_V, …");
   return episode;
 }
 

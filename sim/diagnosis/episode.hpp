@@ -20,6 +20,7 @@ inline double rate_of(const Signal& signal, std::size_t row, double period_s) {
 
 struct ActuatorSignals {
   Signal mode, reference, voltage_V, current_A, shaft_rad, tension_N;
+  bool current_around = false;  ///< it is the mean around a row, not what was at its instant
 };
 
 /// A revolute joint's angle, or a spherical one's quaternion w x y z.
@@ -32,16 +33,16 @@ struct Episode {
   std::string name;
   double period_s = 0;
   std::size_t rows = 0;
-  std::vector<ActuatorSignals> actuators;  ///< in the order of robot.xml
+  std::vector<ActuatorSignals> actuators;  ///< in the order of the robot
   std::vector<JointSignals> joints;
 };
 
-/// Checks a table and lays it out. Times are put on an even grid: rows that repeat a time are
-/// dropped, rows that are missing become NaN; single samples far off both neighbours become NaN,
-/// and up to three NaN in a row are interpolated. What was done is told in `remarks`. Throws
-/// std::invalid_argument: no row, no column of this robot, a gap of more than a minute, times of
-/// arrival. Where frames are numbered by the device's ticks (column `sequence`), those are the
-/// time: stamps in real time come early and late.
+/// Checks a table and lays it out for a robot whose drives are chains (drives.hpp). Times are put
+/// on an even grid: rows that repeat a time are dropped, rows that are missing become NaN; single
+/// samples far off both neighbours become NaN, and up to three NaN in a row are interpolated. What
+/// was done is told in `remarks`. Throws std::invalid_argument: no row, no column of this robot, a
+/// gap of more than a minute, times of arrival. Where frames are numbered by the device's ticks
+/// (column `sequence`), those are the time: stamps in real time come early and late.
 Episode lay_out(const recording::Table& table, const erp::Robot& robot, const std::string& name,
                 std::vector<std::string>& remarks);
 

@@ -10,20 +10,20 @@
 /// What a diagnosis is asked, and what it has to go by.
 namespace sim::diagnosis {
 
+/// An excess that is left counts as none below the largest of these.
+struct Tolerance {
+  double excess, share, of_most;  ///< share: of what it was; of_most: of the largest excess
+};
+
 struct DiagnoseOptions {
   std::vector<std::size_t> train, held_out;  ///< recordings; both empty: split by the diagnosis
   std::vector<std::string> withhold;
   int threads = 2;
   std::uint64_t seed = 1;
   std::size_t most_effects = 3;
-  /// A stage counts as explained when what is left of its excess is below this …
-  double left_excess = 2;
-  double search_excess = 1.5;  ///< the same, for another effect to be looked for
-  /// … or below this share of what it was. All chosen on development cases.
-  double left_share = 0.02;
-  /// One effect alone may leave more, for a law of another shape: this share, or this one of the
-  /// largest excess.
-  double single_left_share = 0.05, single_left_of_most = 0.005;
+  /// What a stage may keep and count as explained, all chosen on development cases: by one effect,
+  /// whose law may be of another shape; by several; before another effect is looked for.
+  Tolerance alone{2, 0.05, 0.005}, together{2, 0.02, 0}, search{1.5, 0.005, 0};
   double least_gain = 0.02;  ///< of an effect, lower end of its interval, to be supported
   /// What is being done, and how much of it in 0 … 1.
   std::function<void(const std::string&, double)> progress = {};

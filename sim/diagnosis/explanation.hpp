@@ -18,6 +18,8 @@ struct Residual {
   std::string on;  ///< actuator or joint
   const char* unit;
   std::vector<double> value;
+  double driven_by =
+      0;  ///< rms of what drives the stage: V, motor torque, tension, pull of tendons
 };
 
 /// The joints over an episode, their sensors' effects undone.

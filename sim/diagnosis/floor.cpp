@@ -75,7 +75,9 @@ Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_
     const SensorScale scale(robot.motor_of(robot.actuators[a]), sensors);
     ActuatorSignals& s = again.actuators[a];
     delay(s.tension_N);
-    disturb(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
+    const bool told = sensors.encoder_counts_per_rev > 0;  // some drives' are not
+    if (told) disturb(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
+    else disturb(s.shaft_rad, noise_of(s.shaft_rad), 0, noise);
     for (double& i : s.current_A) i *= 1 + calibration;
     disturb(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
     disturb(s.tension_N, sensors.tension_noise_N, scale.tension_N_per_count, noise);

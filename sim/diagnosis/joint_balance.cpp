@@ -8,6 +8,13 @@
 namespace sim::diagnosis {
 namespace {
 
+double rms(const Eigen::RowVectorXd& values) {
+  double square = 0, count = 0;
+  for (const double x : values)
+    if (!std::isnan(x)) square += x * x, ++count;
+  return count > 0 ? std::sqrt(square / count) : 0;
+}
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double resting_rad_per_s = 0.02;  // chosen: a joint slower than this may stick
 constexpr double near_stop_rad = 0.02;      // chosen: its stop may push
@@ -182,21 +189,22 @@ void Stages::add_joints(const Episode& episode, Explanation& e) const {
   for (const auto& chain : e.chains)
     if (chain->tension_N.empty()) return;
   const Bump bump(windows_.half_width_s, episode.period_s);
-  Eigen::MatrixXd torques = *e.bones;
+  Eigen::MatrixXd pulls = Eigen::MatrixXd::Zero(e.bones->rows(), e.bones->cols());
   for (std::size_t a = 0; a < e.chains.size(); ++a) {
     const ChainTrace& c = *e.chains[a];
-    for (Eigen::Index k = 0; k < torques.cols(); ++k) {
+    for (Eigen::Index k = 0; k < pulls.cols(); ++k) {
       const std::size_t row = e.rows[static_cast<std::size_t>(k)];
       const double slope = c.path_slope.empty() ? 1 : c.path_slope[row];
-      torques.col(k) += bump.mean(c.tension_N, row) * slope * e.gradients[a]->col(k);
+      pulls.col(k) += bump.mean(c.tension_N, row) * slope * e.gradients[a]->col(k);
     }
   }
+  const Eigen::MatrixXd torques = *e.bones + pulls;
   const auto& joints = bones_.joint_list();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const int first = bones_.first_of(static_cast<int>(j)), count = coordinates_of(joints[j].type);
     if (first < 0 || !std::ranges::count(recorded_joints_, joints[j].name)) continue;
     for (int d = first; d < first + count; ++d) {
-      Residual residual{effects::Stage::joint, joints[j].name, "Nm", {}};
+      Residual residual{effects::Stage::joint, joints[j].name, "Nm", {}, rms(pulls.row(d))};
       for (Eigen::Index k = 0; k < torques.cols(); ++k)
         residual.value.push_back(
             count == 1 ? leave(*e.joints, j, bump, e.rows[std::size_t(k)], torques(d, k))

@@ -5,8 +5,7 @@
 namespace sim::diagnosis {
 
 std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,
-                                bool alone) {
-  const DiagnoseOptions& o = evidence.options;
+                                const Tolerance& tolerance) {
   const auto of = [&](const Trial& t) {
     return where(trials, t, evidence.sets.held_out, evidence.where_options());
   };
@@ -16,10 +15,8 @@ std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, 
   auto gaps = of(trial);
   for (StageGap& gap : gaps) {
     const double was = find_stage(before, gap.stage, gap.on)->excess;
-    const double share = alone ? o.single_left_share : o.left_share;
-    const double least = alone ? o.left_excess : o.search_excess;
-    const double of_most = alone ? o.single_left_of_most * most : 0;
-    gap.open = gap.open && gap.excess > std::max({least, share * was, of_most});
+    gap.open = gap.open && gap.excess > std::max({tolerance.excess, tolerance.share * was,
+                                                  tolerance.of_most * most});
   }
   return gaps;
 }

@@ -35,9 +35,15 @@ std::vector<Located> where_of_answer(const Evidence& evidence, const Trials& pla
   double whole = 0;
   for (const Named& n : answer) whole += std::max(0.0, n.gain);
   std::vector<Located> places, others;
-  for (const Named& n : answer)
-    places.push_back({n.stage, n.on, whole > 0 ? n.gain / whole : 1, n.gain_interval,
-                      when(evidence, plain, stages, n.on)});
+  for (const Named& n : answer) {
+    const double share = whole > 0 ? std::max(0.0, n.gain) / whole : 1;
+    if (const auto same = find_stage(places, n.stage, n.on); same != places.end())
+      same->share += share, same->interval.low += n.gain_interval.low,
+          same->interval.high += n.gain_interval.high;
+    else
+      places.push_back(
+          {n.stage, n.on, share, n.gain_interval, when(evidence, plain, stages, n.on)});
+  }
   const Located& first = places.at(0);
   for (const Named& n : confusable)
     if (!same_stage(first, n.stage, n.on) && !has(others, n.stage, n.on))

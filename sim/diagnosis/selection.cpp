@@ -1,7 +1,11 @@
 #include "sim/diagnosis/selection.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 
+#include "sim/diagnosis/parallel.hpp"
+#include "sim/diagnosis/promise.hpp"
 #include "sim/diagnosis/shares.hpp"
 #include "sim/diagnosis/signature.hpp"
 
@@ -31,61 +35,71 @@ class Together {
   const std::vector<Placed>& chosen() const { return chosen_; }
   const std::vector<Fit>& fits() const { return fits_; }
   Trial& trial() { return trial_; }
-  std::vector<StageGap> left(bool alone) const {
-    return left_open(evidence_, trials_, trial_, alone);
+  std::vector<StageGap> left(const Tolerance& tolerance) const {
+    return left_open(evidence_, trials_, trial_, tolerance);
   }
 
-  /// The best effect on top of the others, if it helps.
+  /// Of the effects that promise most beside the others, the one that leaves least when all are
+  /// fitted together, if it helps.
   bool add_another() {
+    const Evidence& evidence = evidence_;
     const double done = 0.5 + 0.15 * static_cast<double>(size() - 1);
-    const auto more = rank(trials_, trial_, evidence_.which_options(done, done + 0.1));
-    if (more.empty() || more[0].gain_interval.low < evidence_.options.least_gain ||
-        !helps(more[0].fit.placed))
-      return false;
-    chosen_.push_back(more[0].fit.placed);
-    refit();
+    const auto which = evidence.which_options(done, done + 0.1);
+    const auto more = most_promising(trials_, trial_, which, tried_together);
+    std::vector<std::optional<Together>> joined(more.size());
+    in_parallel(more.size(), which.threads, [&](std::size_t k) {
+      if (has(more[k])) return;
+      joined[k] = *this;
+      joined[k]->chosen_.push_back(fit(trials_, trial_, more[k], sets().train).placed);
+      joined[k]->refit();
+    });
+    std::erase(joined, std::nullopt);
+    if (joined.empty()) return false;
+    auto& best = *std::ranges::min_element(joined, {}, [](const auto& j) { return j->square(); });
+    if (!best->helps(*this)) return false;
+    *this = std::move(*best);
     for (std::size_t k = 0; k + 1 < chosen_.size(); ++k) reconsider(k, done + 0.1, done + 0.15);
     return true;
   }
 
  private:
-  const Sets& sets() const { return evidence_.sets; }
-  double square() const { return sum(trials_.blocks(trial_, sets().held_out)).square; }
+  static constexpr std::size_t tried_together = 6;  // chosen
+  const Sets& sets() const { return evidence_.get().sets; }
+  bool has(const Placed& other) const {
+    return std::ranges::any_of(chosen_, [&](const Placed& p) { return named(p).is(other); });
+  }
+  double square() const { return sum(trials_.get().blocks(trial_, sets().held_out)).square; }
 
-  /// It takes away half of what the others leave at a stage that is open.
-  bool helps(const Placed& more) const {
+  /// It takes away half of what was left at a stage that was open.
+  bool helps(const Together& before) const {
     constexpr double worth = 0.5;  // chosen
-    const auto after = where(trials_, trials_.with(trial_, more, sets().held_out), sets().held_out,
-                             evidence_.where_options());
-    return std::ranges::any_of(left(false), [&](const StageGap& b) {
-      return b.open && find_stage(after, b.stage, b.on)->excess < (1 - worth) * b.excess;
+    const auto now = where(trials_, trial_, sets().held_out, evidence_.get().where_options());
+    return std::ranges::any_of(before.left(evidence_.get().options.search), [&](const StageGap& b) {
+      return b.open && find_stage(now, b.stage, b.on)->excess < (1 - worth) * b.excess;
     });
   }
 
   /// An earlier choice may have been a compromise between two.
   void reconsider(std::size_t k, double from, double to) {
     auto others = all_but(chosen_, k);
-    const auto again =
-        rank(trials_, trials_.with(others, sets().all()), evidence_.which_options(from, to));
+    const auto again = rank(trials_, trials_.get().with(others, sets().all()),
+                            evidence_.get().which_options(from, to));
     if (again.empty() || named(again[0].fit.placed).is(chosen_[k])) return;
+    Together other = *this;
     others.push_back(again[0].fit.placed);
-    const auto kept = chosen_;
-    const double was = square();
-    chosen_ = others;
-    refit();
-    if (square() <= was) return;
-    chosen_ = kept;
-    refit();
+    other.chosen_ = others;
+    other.refit();
+    if (other.square() < square()) *this = std::move(other);
   }
 
   void refit() {
     fits_ = fit_together(trials_, chosen_, sets().train);
     for (std::size_t k = 0; k < chosen_.size(); ++k) chosen_[k] = fits_[k].placed;
-    trial_ = trials_.with(chosen_, sets().all());
+    trial_ = trials_.get().with(chosen_, sets().all());
   }
 
-  const Evidence& evidence_;
-  const Trials& trials_;
+  std::reference_wrapper<const Evidence> evidence_;
+  std::reference_wrapper<const Trials> trials_;
   std::vector<Placed> chosen_;
   std::vector<Fit> fits_;
   Trial trial_;
@@ -139,7 +153,8 @@ Selection select(const Evidence& evidence, const Trials& trials,
   if (first.empty() || !s.ranked[0].supported) return s;
   s.answer = {s.ranked[0]};
   Together together(evidence, trials, first[0].fit.placed);
-  while (any_open(together.left(false)) && together.size() < evidence.options.most_effects)
+  while (any_open(together.left(evidence.options.search)) &&
+         together.size() < evidence.options.most_effects)
     if (!together.add_another()) break;
   const bool alone = together.size() == 1;
   if (!alone) settle(evidence, trials, together, s);
@@ -147,7 +162,7 @@ Selection select(const Evidence& evidence, const Trials& trials,
     for (const std::size_t k : confusable(
              first, trials.blocks(trials.bare(), evidence.sets.held_out), evidence.which_options()))
       s.confusable.push_back(s.ranked[k]);
-  s.left = together.left(alone);
+  s.left = together.left(alone ? evidence.options.alone : evidence.options.together);
   s.trial = std::move(together.trial());
   return s;
 }

@@ -24,9 +24,8 @@ struct Selection {
 Selection select(const Evidence& evidence, const Trials& trials,
                  const std::vector<StageGap>& stages);
 
-/// The stages that `trial` leaves open on the held-out recordings. `alone`: it is one effect, which
-/// may leave a little more, for a law of another shape.
+/// The stages that `trial` leaves open on the held-out recordings.
 std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,
-                                bool alone);
+                                const Tolerance& tolerance);
 
 }  // namespace sim::diagnosis

@@ -25,6 +25,10 @@ Skeletal::Skeletal(const erp::Robot& robot) : tree_(robot), model_(tree_, gravit
   for (const erp::Joint& joint : tree_.joints) start.push_back(start_of(joint));
   model_.place(start);
   for (const erp::Actuator& actuator : robot.actuators) {
+    if (actuator.tendon.path.empty()) {  // a drive
+      tendons_.emplace_back(std::nullopt);
+      continue;
+    }
     const Routing routing(actuator.tendon, tree_.names);
     Tendon tendon{routing, levers_of(routing, model_), routing.solve(model_.poses()), 0, {}};
     tendon.start_m = tendon.shape.length_m;
@@ -56,7 +60,7 @@ std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std
                                        std::span<const std::size_t> actuators) {
   std::vector<PathTrace> traces(actuators.size());
   for (std::size_t n = 0; n < actuators.size(); ++n)
-    if (std::ranges::all_of(tendons_[actuators[n]].crossed, [&](int j) {
+    if (tendons_[actuators[n]] && std::ranges::all_of(tendons_[actuators[n]]->crossed, [&](int j) {
           return was_measured(joints[std::size_t(j)], tree_.joints[std::size_t(j)].type);
         }))
       traces[n] = {Signal(rows, recording::not_taken), Signal(rows, recording::not_taken)};
@@ -71,7 +75,7 @@ std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std
     model_.place(posture);
     for (std::size_t n = 0; n < actuators.size(); ++n) {
       if (traces[n].length_m.empty()) continue;
-      Tendon& tendon = tendons_[actuators[n]];
+      Tendon& tendon = *tendons_[actuators[n]];
       tendon.routing.solve(model_.poses(), tendon.shape);
       traces[n].length_m[k] = tendon.shape.length_m, traces[n].wrap_rad[k] = bend_rad(tendon.shape);
     }
@@ -130,7 +134,11 @@ std::vector<Eigen::MatrixXd> Skeletal::gradients(std::span<const Motion> motions
     if (!motion.taken) continue;
     model_.place(motion.joints);
     for (std::size_t n = 0; n < actuators.size(); ++n) {
-      Tendon& tendon = tendons_[actuators[n]];
+      if (!tendons_[actuators[n]]) {
+        all[n].col(k).setZero();
+        continue;
+      }
+      Tendon& tendon = *tendons_[actuators[n]];
       tendon.routing.solve(model_.poses(), tendon.shape);
       length_gradient(tendon.shape, tendon.levers, model_, row_);
       all[n].col(k) = row_;

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,7 +46,9 @@ class Skeletal {
   int first_of(int joint) const { return model_.first_of(joint); }
   int coordinates() const { return model_.coordinates(); }
   /// The length at the initial pose.
-  double start_m(std::size_t actuator) const { return tendons_[actuator].start_m; }
+  double start_m(std::size_t actuator) const {
+    return (tendons_[actuator] ? tendons_[actuator]->start_m : 0);
+  }
 
  private:
   struct Tendon {
@@ -59,7 +62,7 @@ class Skeletal {
 
   RobotTree tree_;
   SkeletonModel model_;
-  std::vector<Tendon> tendons_;
+  std::vector<std::optional<Tendon>> tendons_;  ///< none: a drive
   Eigen::VectorXd row_, torque_;
 };
 

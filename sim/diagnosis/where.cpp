@@ -12,7 +12,8 @@ namespace {
 struct Collected {
   const Residual* what;
   double floor_square = 0;  ///< Σ σ² over its windows
-  std::vector<ScoreBlock> blocks;
+  double driver_square = 0, recordings = 0;
+  std::vector<ScoreBlock> blocks = {};
 };
 
 double excess_of(const ScoreBlock& b) {
@@ -51,7 +52,8 @@ std::vector<Collected> collect(const Trials& trials, const Trial& trial,
       auto place = std::ranges::find_if(all, [&](const Collected& c) {
         return same_stage(*c.what, residuals[r].stage, residuals[r].on);
       });
-      if (place == all.end()) place = all.insert(place, {&residuals[r], 0, {}});
+      if (place == all.end()) place = all.insert(place, {&residuals[r]});
+      place->driver_square += residuals[r].driven_by * residuals[r].driven_by, ++place->recordings;
       collect(std::span(z).subspan(first, residuals[r].value.size()), trials.floor(e)[r],
               options.block_s, *place);
     }
@@ -65,6 +67,7 @@ StageGap gap_of(const Collected& collected, const WhereOptions& options) {
   gap.windows = whole.windows;
   if (gap.windows > 0)
     gap.floor = std::sqrt(collected.floor_square / static_cast<double>(gap.windows));
+  gap.driven_by = std::sqrt(collected.driver_square / collected.recordings);
   gap.excess = excess_of(whole);
   gap.rms = gap.floor * std::sqrt(std::max(0.0, gap.excess + 1));
   gap.excess_interval = interval_of(collected.blocks, options);

@@ -21,6 +21,7 @@ struct StageGap {
   std::string on;
   const char* unit;
   double rms = 0, floor = 0;  ///< in that unit
+  double driven_by = 0;       ///< rms of what drives the stage, in that unit
   double excess = 0;
   Interval excess_interval;  ///< 95 %
   double worst_excess = 0;   ///< of a block

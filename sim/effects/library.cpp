@@ -118,6 +118,8 @@ std::vector<std::string> places(const erp::Robot& robot, Seat seat) {
   switch (seat) {
     case Seat::actuator:
       add(robot.actuators);
+      for (const erp::Drive& drive : robot.drives)
+        if (!std::ranges::count(names, drive.name)) names.push_back(drive.name);
       break;
     case Seat::joint:
       add(robot.joints());

@@ -1,0 +1,146 @@
+#include "sim/diagnosis/promise.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/diagnosis/indices.hpp"
+#include "sim/diagnosis/parallel.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+using effects::Placed;
+using Eigen::VectorXd;
+
+std::vector<Placed> candidates(const erp::Robot& robot, const std::vector<std::string>& withhold) {
+  std::vector<Placed> all;
+  for (const effects::AnyEffect& effect : effects::library()) {
+    const effects::About& about = effects::about(effect);
+    if (std::ranges::count(withhold, about.type)) continue;
+    for (const std::string& on : effects::places(robot, about.seat)) all.push_back({on, effect});
+  }
+  return all;
+}
+
+/// z of one recording, 0 where nothing is judged.
+class Look {
+ public:
+  Look(const Trials& trials, const Trial& base, std::size_t episode)
+      : trials_(trials), base_(base), only_{episode}, left_(z_of(base)) {
+    for (std::size_t e = 0; e < base.effects.size(); ++e) add_directions(e);
+  }
+
+  /// The best promise of the candidate's parameters and tries; 0: it changes nothing.
+  double promise(const Placed& neutral) const {
+    double best = 0;
+    Placed nudged = neutral;
+    const std::size_t count = effects::parameters(nudged.effect).size();
+    for (std::size_t k = 0; k < count; ++k)
+      for (const double share : {3e-3, 0.1})
+        if (nudged = neutral; nudge(nudged, k, share))
+          best = std::max(best, along(z_of(trials_.with(base_, nudged, only_)) - left_));
+    for (const Placed& one : tries(trials_, neutral, only_))
+      best =
+          std::max(best, left_.squaredNorm() - z_of(trials_.with(base_, one, only_)).squaredNorm());
+    return best;
+  }
+
+ private:
+  VectorXd z_of(const Trial& trial) const {
+    const auto z = trials_.whitened(trial, only_[0]);
+    VectorXd all(static_cast<Eigen::Index>(z.size()));
+    for (std::size_t k = 0; k < z.size(); ++k) all[Eigen::Index(k)] = std::isnan(z[k]) ? 0 : z[k];
+    return all;
+  }
+
+  /// Parameter k a share of its bound higher; those before it a little, for a shape shows only
+  /// once there is something. False: it is not fitted.
+  static bool nudge(Placed& placed, std::size_t k, double share) {
+    constexpr double little = 3e-3;
+    const auto parameters = effects::parameters(placed.effect);
+    if (!parameters[k].fitted) return false;
+    const auto& [low, high] = parameters[k].bounds;
+    for (std::size_t other = 0; other < k; ++other)
+      *parameters[other].value += little * parameters[other].bounds.high;
+    *parameters[k].value += share * (high > 0 ? high : low);
+    return true;
+  }
+
+  double along(VectorXd change) const {
+    const double whole = change.squaredNorm();
+    for (const VectorXd& d : directions_) change -= d.dot(change) * d;
+    const double square = change.squaredNorm();
+    constexpr double own = 1e-4;  // of its square: less is a copy of what is there
+    if (square < 1e-12 || square < own * whole) return 0;
+    return std::pow(left_.dot(change), 2) / square;
+  }
+
+  /// What the parameters of an effect of the base change, made orthonormal to the others.
+  void add_directions(std::size_t e) {
+    effects::AnyEffect counted = base_.effects[e].effect;
+    const std::size_t count = effects::parameters(counted).size();
+    for (std::size_t k = 0; k < count; ++k) {
+      auto all = base_.effects;
+      const auto parameter = effects::parameters(all[e].effect)[k];
+      if (!parameter.fitted) continue;
+      *parameter.value += 1e-3 * (parameter.bounds.high - parameter.bounds.low);
+      VectorXd d = z_of(trials_.with(all, only_)) - left_;
+      for (const VectorXd& other : directions_) d -= other.dot(d) * other;
+      if (d.norm() > 1e-9) directions_.push_back(d.normalized());
+    }
+  }
+
+  const Trials& trials_;
+  const Trial& base_;
+  std::vector<std::size_t> only_;
+  VectorXd left_;
+  std::vector<VectorXd> directions_;
+};
+
+/// The recording of the training set with the largest residuals.
+std::size_t loudest(const Trials& trials, const Trial& base, const WhichOptions& options) {
+  return *std::ranges::max_element(options.train, {}, [&](std::size_t e) {
+    const std::size_t only[] = {e};
+    return sum(trials.blocks(base, only)).square;
+  });
+}
+
+std::vector<double> promises(const Trials& trials, const Trial& base, const WhichOptions& options,
+                             const std::vector<Placed>& all) {
+  std::vector<double> promised(all.size());
+  const Look look(trials, base, loudest(trials, base, options));
+  in_parallel(all.size(), options.threads,
+              [&](std::size_t k) { promised[k] = look.promise(all[k]); });
+  return promised;
+}
+
+}  // namespace
+
+std::vector<Placed> promising(const Trials& trials, const Trial& base,
+                              const WhichOptions& options) {
+  const auto all = candidates(trials.nominal(), options.withhold);
+  const auto promised = promises(trials, base, options, all);
+  auto sorted = promised;
+  std::ranges::sort(sorted, std::greater());
+  const double enough = std::min(options.look_share * sorted[0],
+                                 sorted[std::min(options.fitted_at_least, sorted.size()) - 1]);
+  std::vector<Placed> chosen;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (promised[k] > 0 && promised[k] >= enough) chosen.push_back(all[k]);
+  return chosen;
+}
+
+std::vector<Placed> most_promising(const Trials& trials, const Trial& base,
+                                   const WhichOptions& options, std::size_t count) {
+  const auto all = candidates(trials.nominal(), options.withhold);
+  const auto promised = promises(trials, base, options, all);
+  auto order = each(all.size());
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return promised[k]; });
+  std::vector<Placed> chosen;
+  for (std::size_t k = 0; k < std::min(count, all.size()) && promised[order[k]] > 0; ++k)
+    chosen.push_back(all[order[k]]);
+  return chosen;
+}
+
+}  // namespace sim::diagnosis

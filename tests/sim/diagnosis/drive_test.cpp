@@ -1,0 +1,121 @@
+#include "sim/diagnosis/drives.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "sim/diagnosis/diagnose.hpp"
+#include "tests/sim/rigs.hpp"
+
+using namespace sim::diagnosis;
+
+namespace {
+
+struct Friction {
+  double viscous, coulomb, more_forwards;
+};
+
+erp::Robot slide(erp::DriveControl control) {
+  erp::Robot robot;
+  robot.name = "bench";
+  erp::Drive drive;
+  drive.name = "z", drive.control = control, drive.gain = 30;
+  drive.load = {erp::Slide{{}, 40, 0.01, 1e-6}};
+  robot.drives = {drive};
+  return robot;
+}
+
+/// A mass pushed by gain · u, held for 1 ms, along a sum of sines by a proportional controller;
+/// friction is a steep tanh, and the integrator's step a twentieth of the row's.
+recording::Table recorded(const Friction& f, double seconds, double pace) {
+  constexpr double mass = 40, gain = 30, row_s = 1e-3;
+  recording::Table table;
+  for (const char* name : {"time_s", "z.control_V", "z.position_m"})
+    table.columns.push_back({name, {}});
+  double x = 0, v = 0;
+  for (int k = 0; k < static_cast<int>(seconds / row_s); ++k) {
+    const double t = k * row_s,
+                 wanted = 0.05 * std::sin(pace * t) + 0.02 * std::sin(2.7 * pace * t);
+    const double said = 1e-6 * std::round(x / 1e-6), u = 400 * (wanted - said) - 30 * v;
+    table.columns[0].values.push_back(t), table.columns[1].values.push_back(u);
+    table.columns[2].values.push_back(said);
+    for (int n = 0; n < 20; ++n) {
+      const double rub =
+          f.viscous * v + (f.coulomb + (v > 0 ? f.more_forwards : 0)) * std::tanh(v / 1e-4);
+      v += (gain * u - rub) / mass * row_s / 20, x += v * row_s / 20;
+    }
+  }
+  return table;
+}
+
+Diagnosis diagnosed(const erp::Robot& drives, const std::vector<recording::Table>& tables) {
+  const erp::Robot robot = as_chains(drives);
+  std::vector<Episode> episodes;
+  std::vector<std::string> remarks;
+  for (const auto& table : tables)
+    episodes.push_back(lay_out(table, robot, std::to_string(episodes.size()), remarks));
+  return diagnose(robot, episodes);
+}
+
+std::set<std::string> types_of(const Diagnosis& d) {
+  std::set<std::string> types;
+  for (const Named& n : d.answer) types.insert(n.type);
+  return types;
+}
+
+}  // namespace
+
+TEST_CASE("a slide without friction has no gap, with friction it is named and sized") {
+  const auto runs = [](const Friction& f) {
+    return std::vector{recorded(f, 8, 3), recorded(f, 8, 4), recorded(f, 8, 5)};
+  };
+  const erp::Robot robot = slide(erp::DriveControl::force);
+  CHECK(diagnosed(robot, runs({0, 0, 0})).verdict == Verdict::no_gap);
+  const Diagnosis d = diagnosed(robot, runs({80, 12, 0}));
+  CHECK(d.verdict == Verdict::supported);
+  CHECK(types_of(d) == std::set<std::string>{"gearbox_coulomb", "gearbox_viscous"});
+  for (const Named& n : d.answer)  // on the shaft: N m_per_rad, N s/m m_per_rad²
+    CHECK(n.values[0] == Approx(n.type == "gearbox_viscous" ? 80e-4 : 12e-2).epsilon(0.03));
+  CHECK(d.channels[0].after < 0.02 * d.channels[0].driven_by);
+}
+
+TEST_CASE("a control by current drives its motor's torque, by voltage its winding") {
+  erp::Robot robot = slide(erp::DriveControl::current);
+  erp::MotorType motor;
+  motor.name = "m", motor.resistance_ohm = 1, motor.inductance_H = 1e-3;
+  motor.torque_Nm_per_A = motor.back_emf_V_s_per_rad = 0.1, motor.gear_ratio = 3;
+  motor.gear_efficiency = 1, motor.rotor_inertia_kg_m2 = 1e-5;
+  robot.motor_types = {motor}, robot.drives[0].motor = "m", robot.drives[0].gain = 2;
+  const erp::Robot chains = as_chains(robot);
+  REQUIRE(chains.actuators.size() == 1);
+  CHECK(chains.motor_of(chains.actuators[0]).gear_inertia_kg_m2 == Approx(40e-4));
+  const Signal u{1, 3, 5}, x{0, 0.01, 0.03};
+  const auto by_current = drive_signals(robot.drives[0], u, x, {});
+  CHECK(by_current.current_A[1] == Approx(4));  // 2 A/V, mean of 1 V and 3 V
+  CHECK(by_current.shaft_rad[2] == Approx(3));
+  CHECK(by_current.current_around);
+  robot.drives[0].control = erp::DriveControl::voltage;
+  const auto by_voltage = drive_signals(robot.drives[0], u, x, {7, 8, 9});
+  CHECK(by_voltage.voltage_V[2] == Approx(6));
+  CHECK(by_voltage.current_A[2] == 9);
+  CHECK_FALSE(by_voltage.current_around);
+}
+
+TEST_CASE("EMPS, real: viscous and dry friction, then that they are not the same both ways") {
+  const char* data = std::getenv("ERP_DATA_DIR");
+  if (!data || !std::filesystem::exists(std::string(data) + "/emps")) {
+    WARN("ERP_DATA_DIR/emps is not there: tests/README.md says where to get it");
+    return;
+  }
+  std::vector<recording::Table> tables;
+  for (const char* file : {"/emps/estimation.csv", "/emps/validation.csv"})
+    tables.push_back(recording::read_table(data + std::string(file)));
+  const Diagnosis d = diagnosed(erp::read_robot(rigs::config("drive/robot.xml")), tables);
+  CHECK(d.verdict == Verdict::supported);
+  CHECK(types_of(d) ==
+        std::set<std::string>{"gearbox_asymmetric", "gearbox_coulomb", "gearbox_viscous"});
+  CHECK(d.channels[0].before > 0.6 * d.channels[0].driven_by);
+  CHECK(d.channels[0].after < 0.036 * d.channels[0].driven_by);
+}
