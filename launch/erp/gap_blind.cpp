@@ -81,7 +81,7 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   Progress progress(remarks);
   sim::diagnosis::in_parallel(count, options.threads, [&](std::size_t k) {
     const std::string name = fmt::format("case_{:04}", k + 1);
-    const auto blind = sim::blind::draw_case(robot, kind, options.seed + k);
+    const auto blind = sim::blind::draw_case(robot, kind, options.seed + k, options.only);
     fs::create_directories(options.out + "/" + name);
     Json files = Json::array();
     for (int r = 0; r < options.recordings; ++r) {

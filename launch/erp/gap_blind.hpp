@@ -17,6 +17,7 @@ struct BlindMakeOptions {
   int cases = 10, recordings = 4, threads = 2;
   double seconds = 10;
   std::uint64_t seed = 1;
+  std::vector<std::string> only;     ///< types to hide; empty: all
   std::vector<std::string> without;  ///< signals that are not recorded: tension, current, joint
 };
 int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream& remarks);

@@ -55,6 +55,7 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->add_option("--truth", o->truth, "file for what is hidden")->required();
   make->add_option("--kind", o->kind, "what cases hide")
       ->check(CLI::IsMember({"single", "null", "pair", "outside", "withheld"}));
+  make->add_option("--only", o->only, "types to hide; default: any");
   make->add_option("--cases", o->cases, "how many")->check(CLI::PositiveNumber);
   make->add_option("--recordings", o->recordings, "a case")->check(CLI::PositiveNumber);
   make->add_option("--seconds", o->seconds, "a recording")->check(CLI::PositiveNumber);

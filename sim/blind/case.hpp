@@ -27,8 +27,10 @@ struct Case {
   std::vector<std::string> withhold;  ///< what the diagnosis is told to do without
 };
 
-/// Throws std::invalid_argument for a robot without actuators or joints.
-Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed);
+/// `only`: types to draw from, empty: all. Throws std::invalid_argument for a robot without
+/// actuators or joints, and for a type that this kind never hides.
+Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
+               const std::vector<std::string>& only = {});
 
 const char* word(Kind kind);
 /// Throws std::invalid_argument for an unknown word.

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double shaft_reach_rad = 3e-4, shaft_settles_s = 2e-3;
 constexpr double line_reach_m = 4e-5;
-constexpr double spindle_kg_m2 = 2e-5, tooth_Nm_per_rad = 120, tooth_Nm_s_per_rad = 0.02;
-constexpr double spindle_dry_Nm = 0.005;
+// A steel spindle of 4.5 mm with the gear's last wheel; the tooth is stiff, not rigid.
+constexpr double spindle_kg_m2 = 1e-6, tooth_Nm_per_rad = 120, tooth_Nm_s_per_rad = 0.02;
+constexpr double spindle_dry_Nm = 0.003;  // of what the gearbox has, beyond the play
 constexpr double copper_per_K = 0.00393;
 constexpr double tau = 2 * 3.14159265358979323846;
 
@@ -113,7 +114,8 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
     dx[c::spindle_speed] = (carried - load - spindle_dry_Nm * still) / spindle_kg_m2;
     load = carried;
   }
-  double dry = m.gear_coulomb_Nm + q.dry_Nm + (rub > 0 ? q.one_way_Nm : -q.one_way_Nm);
+  double dry = m.gear_coulomb_Nm + q.dry_Nm - (k.two_masses ? spindle_dry_Nm : 0) +
+               (rub > 0 ? q.one_way_Nm : -q.one_way_Nm);
   dry += q.load_share * std::abs(load);
   dry += q.stribeck_Nm * std::exp(-std::abs(omega / q.stribeck_rad_per_s));
   const double tooth = q.tooth_Nm * std::pow(0.5 + 0.5 * std::cos(x[c::shaft]), 8);

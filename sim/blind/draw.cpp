@@ -38,6 +38,17 @@ Hidden hide(const HiddenKind& kind, const erp::Robot& robot, Quirks& quirks, Ran
   return {kind.type, kind.stage, on[kind.on], kind.draw(place, random)};
 }
 
+std::vector<const HiddenKind*> among(std::span<const HiddenKind> all,
+                                     const std::vector<std::string>& only) {
+  std::vector<const HiddenKind*> kinds;
+  for (const HiddenKind& kind : all)
+    if (only.empty() || std::ranges::count(only, kind.type)) kinds.push_back(&kind);
+  for (const std::string& type : only)
+    if (std::ranges::none_of(all, [&](const HiddenKind& kind) { return kind.type == type; }))
+      throw std::invalid_argument("\"" + type + "\" is not among what this kind of case hides");
+  return kinds;
+}
+
 }  // namespace
 
 const char* word(Kind kind) {
@@ -51,14 +62,16 @@ Kind kind_of(const std::string& said) {
                               "\" is none of single, null, pair, outside, withheld");
 }
 
-Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed) {
+Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
+               const std::vector<std::string>& only) {
   if (robot.actuators.empty()) throw std::invalid_argument(robot.name + ": no actuator");
   Random random(seed * 0x9e3779b97f4a7c15u + 0x1234567u);
   Case blind{seed, kind, {}, {}, {}};
   blind.quirks.chains.resize(robot.actuators.size());
   blind.quirks.joints.resize(robot.joints().size());
-  const auto hide_one = [&](std::span<const HiddenKind> kinds) -> const HiddenKind& {
-    const HiddenKind& chosen = kinds[any(kinds.size(), random)];
+  const auto hide_one = [&](std::span<const HiddenKind> all) -> const HiddenKind& {
+    const auto kinds = among(all, only);
+    const HiddenKind& chosen = *kinds[any(kinds.size(), random)];
     blind.hidden.push_back(hide(chosen, robot, blind.quirks, random));
     return chosen;
   };

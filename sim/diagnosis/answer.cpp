@@ -23,7 +23,7 @@ Named named(const Ranked& ranked, double least_gain) {
     n.intervals[k] = {n.values[k] - half, n.values[k] + half};
   }
   n.gain = ranked.gain, n.gain_interval = ranked.gain_interval;
-  n.supported = ranked.gain_interval.low > least_gain;
+  n.supported = ranked.gain_interval.low > least_gain && ranked.relieves();
   return n;
 }
 

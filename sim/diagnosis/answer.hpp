@@ -30,8 +30,8 @@ struct Named {
 
 /// Without gain and intervals.
 Named named(const effects::Placed& placed);
-/// Supported: the interval of its gain is above `least_gain`. Intervals of values are those of the
-/// fit's noise, and 2 % of the value for what the windows approximate.
+/// Supported: the interval of its gain is above `least_gain`, and it relieves a stage. Intervals of
+/// values are those of the fit's noise, and 2 % of the value for what the windows approximate.
 Named named(const Ranked& ranked, double least_gain);
 Named named(const BusFit& fit);
 

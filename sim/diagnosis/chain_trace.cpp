@@ -98,10 +98,13 @@ class Tracer {
     effects::ChainSample s = sample(k);
     Sloped wound{s.radius_m * s.shaft_rad, s.radius_m}, path{s.path_m, 1}, pull;
     if (!m_.effects.empty()) {
-      wound = m_.effects.wound(s, wound), path = m_.effects.path(s, path);
-      const double noisy_m = s.path_m;
-      s.stretch_m = path.value - law_.rest_m + wound.value;
-      if (k < calm_path_m_.size()) s.stretch_m += path.slope * (calm_path_m_[k] - noisy_m);
+      path = m_.effects.path(s, path);
+      const double calm_m =
+          k < calm_path_m_.size() ? path.slope * (calm_path_m_[k] - s.path_m) : 0.0;
+      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
+      s.stiffness_N_per_m = law_.spring.slope_N_per_m(s.stretch_m);
+      wound = m_.effects.wound(s, wound);
+      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
       pull = m_.effects.pull(s);
     }
     s.stretch_m = path.value - law_.rest_m + wound.value;

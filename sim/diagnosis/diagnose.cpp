@@ -19,7 +19,10 @@ std::vector<std::string> names_of(const Evidence& evidence, const std::vector<st
 
 Verdict judge(const Selection& selection, const Observed& observed) {
   constexpr double late = 0.02;  // of the ticks: more than a clock's drift; chosen
-  if (selection.gap) return selection.explained() ? Verdict::supported : Verdict::none_of_the_known;
+  if (selection.gap)
+    return selection.explained() ? Verdict::supported
+           : selection.told      ? Verdict::none_of_the_known
+                                 : Verdict::not_identifiable;
   if (observed.any()) return Verdict::supported;
   return observed.late > late ? Verdict::none_of_the_known : Verdict::no_gap;
 }
@@ -90,6 +93,11 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
   d.answer = selection.answer, d.ranked = selection.ranked, d.confusable = selection.confusable;
   d.interaction = selection.interaction;
   add_observed(observed, d);
+  if (d.verdict == Verdict::not_identifiable)
+    d.warnings.emplace_back(
+        "the recordings held out show too little of the gap to judge what causes it; record more "
+        "of "
+        "what shows it, see where and when");
   d.where = d.verdict == Verdict::supported
                 ? where_of_answer(evidence, plain, d.stages, d.answer, d.confusable)
                 : where_of_stages(evidence, plain, d.stages, d.ranked);

@@ -73,10 +73,8 @@ class Together {
   /// It takes away half of what was left at a stage that was open.
   bool helps(const Together& before) const {
     constexpr double worth = 0.5;  // chosen
-    const auto now = where(trials_, trial_, sets().held_out, evidence_.get().where_options());
-    return std::ranges::any_of(before.left(evidence_.get().options.search), [&](const StageGap& b) {
-      return b.open && find_stage(now, b.stage, b.on)->excess < (1 - worth) * b.excess;
-    });
+    return relief(trials_, before.trial_, trial_, sets().held_out,
+                  before.left(evidence_.get().options.search)) > worth;
   }
 
   /// An earlier choice may have been a compromise between two.
@@ -144,13 +142,21 @@ Selection select(const Evidence& evidence, const Trials& trials,
   Selection s{
       .left = where(trials, trials.bare(), evidence.sets.held_out, evidence.where_options()),
       .trial = trials.bare()};
+  auto which = evidence.which_options(0.1, 0.5);
+  which.stages = s.left;
   s.gap = any_open(where(trials, trials.bare(), evidence.sets.all(), evidence.where_options()));
   if (!s.gap) return s;
-  auto first = rank(trials, trials.bare(), evidence.which_options(0.1, 0.5));
+  auto first = rank(trials, trials.bare(), which);
   for (const Ranked& r : first) s.ranked.push_back(named(r, evidence.options.least_gain));
   sign(evidence, trials, stages, first, s.ranked);
   control_discoveries(first, s.ranked);
-  if (first.empty() || !s.ranked[0].supported) return s;
+  s.told = any_open(s.left);
+  if (first.empty() || !s.told) return s;
+  if (!s.ranked[0].supported) {
+    const Trial alone = trials.with(trials.bare(), first[0].fit.placed, evidence.sets.held_out);
+    s.told = any_open(left_open(evidence, trials, alone, evidence.options.alone));
+    return s;
+  }
   s.answer = {s.ranked[0]};
   Together together(evidence, trials, first[0].fit.placed);
   while (any_open(together.left(evidence.options.search)) &&

@@ -9,7 +9,8 @@
 namespace sim::diagnosis {
 
 struct Selection {
-  bool gap = false;                ///< some stage leaves its floor
+  bool gap = false;  ///< some stage leaves its floor
+  bool told = true;  ///< false: the recordings held out show too little of it to judge an effect
   std::vector<Named> ranked = {};  ///< one by one, best first
   std::vector<Named> answer = {};  ///< effects that together close the gap, the most telling first
   std::vector<Named> confusable = {};  ///< what could stand for one of the answer as well

@@ -67,18 +67,24 @@ std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) co
 }
 
 std::vector<ScoreBlock> Trials::blocks(const Trial& trial, std::span<const std::size_t> episodes,
+                                       const std::function<bool(const Residual&)>& counts,
                                        double block_s) const {
   std::vector<ScoreBlock> blocks;
   for (const std::size_t e : episodes) {
     const auto z = whitened(trial, e);
+    const auto& residuals = bare_.of_episode[e].residuals;
     const std::size_t windows = bare_.of_episode[e].rows.size(), first = blocks.size();
     const auto windows_a_block =
         std::max<std::size_t>(1, static_cast<std::size_t>(block_s / Windows{}.stride_s));
     blocks.resize(first + (windows + windows_a_block - 1) / windows_a_block);
-    for (std::size_t k = 0; k < z.size(); ++k) {
-      if (std::isnan(z[k])) continue;
-      ScoreBlock& block = blocks[first + k % windows / windows_a_block];
-      block.square += z[k] * z[k], ++block.windows;
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
+      if (counts && !counts(residuals[r])) continue;
+      for (std::size_t k = 0; k < windows; ++k) {
+        const double here = z[r * windows + k];
+        if (std::isnan(here)) continue;
+        ScoreBlock& block = blocks[first + k / windows_a_block];
+        block.square += here * here, ++block.windows;
+      }
     }
   }
   return blocks;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -44,7 +45,9 @@ class Trials {
 
   /// z of one recording: stages one after the other, NaN where the nominal robot cannot judge.
   std::vector<double> whitened(const Trial& trial, std::size_t episode) const;
+  /// Scores of the stages for which `counts`, or of all.
   std::vector<ScoreBlock> blocks(const Trial& trial, std::span<const std::size_t> episodes,
+                                 const std::function<bool(const Residual&)>& counts = {},
                                  double block_s = 1) const;
   /// σ of each residual of an episode.
   std::span<const double> floor(std::size_t episode) const { return floors_[episode]; }

@@ -82,6 +82,17 @@ StageGap gap_of(const Collected& collected, const WhereOptions& options) {
 
 }  // namespace
 
+double relief(const Trials& trials, const Trial& before, const Trial& after,
+              std::span<const std::size_t> episodes, std::span<const StageGap> stages) {
+  const auto was = collect(trials, before, episodes, {}), is = collect(trials, after, episodes, {});
+  double most = 0;
+  for (std::size_t k = 0; k < was.size(); ++k)
+    for (const StageGap& stage : stages)
+      if (stage.open && same_stage(*was[k].what, stage.stage, stage.on))
+        most = std::max(most, 1 - excess_of(sum(is[k].blocks)) / excess_of(sum(was[k].blocks)));
+  return most;
+}
+
 std::vector<StageGap> where(const Trials& trials, const Trial& trial,
                             std::span<const std::size_t> episodes, const WhereOptions& options) {
   std::vector<StageGap> gaps;

@@ -52,6 +52,11 @@ auto find_stage(Items& items, effects::Stage stage, const std::string& on) {
   return std::ranges::find_if(items, [&](const auto& i) { return same_stage(i, stage, on); });
 }
 
+/// Of the excess of a stage that is open, the most that `after` takes away of what `before` leaves
+/// there: 1: it brings one of them to its floor.
+double relief(const Trials& trials, const Trial& before, const Trial& after,
+              std::span<const std::size_t> episodes, std::span<const StageGap> stages);
+
 /// What a trial leaves of the gap at each stage of some recordings, the largest share first.
 std::vector<StageGap> where(const Trials& trials, const Trial& trial,
                             std::span<const std::size_t> episodes,

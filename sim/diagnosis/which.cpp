@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 #include "sim/diagnosis/bootstrap.hpp"
+#include "sim/diagnosis/indices.hpp"
 #include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
 
@@ -15,25 +17,55 @@ using effects::Placed;
 
 constexpr double least_gap = 0.02;  // of noise: below, a share of the gap means nothing; chosen
 
+/// Of a candidate, at the stages that are open and at those that it makes worse: to fit the noise
+/// of a stage that has no gap gains nothing.
+struct Score {
+  std::vector<ScoreBlock> before, after;  ///< at these stages
+  std::vector<ScoreBlock> gap;            ///< before, at the open ones
+};
+
+Score score(const Trials& trials, const Trial& base, const Trial& with,
+            const WhichOptions& options) {
+  const bool any = std::ranges::any_of(options.stages, &StageGap::open);
+  const auto open = [&](const Residual& r) {
+    const auto stage = find_stage(options.stages, r.stage, r.on);
+    return !any || (stage != options.stages.end() && stage->open);
+  };
+  const auto worse = [&](const Residual& r) {
+    const auto same = [&](const Residual& o) { return same_stage(o, r.stage, r.on); };
+    return sum(trials.blocks(with, options.held_out, same)).square >
+           sum(trials.blocks(base, options.held_out, same)).square;
+  };
+  std::map<std::pair<effects::Stage, std::string>, bool> known;
+  const auto counts = [&](const Residual& r) {
+    const auto [place, is_new] = known.try_emplace({r.stage, r.on});
+    if (is_new) place->second = open(r) || worse(r);
+    return place->second;
+  };
+  return {trials.blocks(base, options.held_out, counts),
+          trials.blocks(with, options.held_out, counts),
+          trials.blocks(base, options.held_out, open)};
+}
+
 void judge(Ranked& r, const Trials& trials, const Trial& base, const WhichOptions& options) {
-  const auto before = trials.blocks(base, options.held_out);
   r.on_held_out = trials.with(base, r.fit.placed, options.held_out);
   r.blocks = trials.blocks(r.on_held_out, options.held_out);
-  const auto gain = [&](auto&& each) {
-    double was = 0, is = 0, windows = 0;
-    each([&](std::size_t k) {
-      was += before[k].square, is += r.blocks[k].square;
-      windows += static_cast<double>(before[k].windows);
-    });
-    return (was - is) / std::max(was - windows, least_gap * windows);
+  const Score s = score(trials, base, r.on_held_out, options);
+  const auto gain = [&](std::span<const std::size_t> blocks) {
+    double was = 0, is = 0, gap = 0, windows = 0;
+    for (const std::size_t k : blocks) {
+      was += s.before[k].square, is += s.after[k].square, gap += s.gap[k].square;
+      windows += static_cast<double>(s.gap[k].windows);
+    }
+    return (was - is) / std::max(gap - windows, least_gap * windows);
   };
-  r.gain = gain([&](auto&& add) {
-    for (std::size_t k = 0; k < before.size(); ++k) add(k);
-  });
-  const auto drawn = bootstrap(before.size(), options.draws, options.seed, [&](const auto& blocks) {
-    return gain([&](auto&& add) { std::ranges::for_each(blocks, add); });
-  });
+  const auto every = each(s.before.size());
+  r.gain = gain(every);
+  const auto drawn = bootstrap(every.size(), options.draws, options.seed,
+                               [&](const auto& blocks) { return gain(blocks); });
   r.gain_interval = middle(drawn);
+  if (std::ranges::any_of(options.stages, &StageGap::open))
+    r.relief = relief(trials, base, r.on_held_out, options.held_out, options.stages);
   r.doubt = static_cast<double>(std::ranges::lower_bound(drawn, 0.0) - drawn.begin() + 1) /
             static_cast<double>(drawn.size() + 1);
 }
@@ -50,8 +82,8 @@ void prefer_plain(std::vector<Ranked>& ranked) {
   constexpr double as_good = 1e-3;  // of the gap; chosen
   if (ranked.empty()) return;
   const double best = ranked[0].gain;
-  const auto end =
-      std::ranges::find_if(ranked, [&](const Ranked& r) { return r.gain < best - as_good; });
+  const auto end = std::ranges::find_if(
+      ranked, [&](const Ranked& r) { return r.gain < best - as_good || !r.relieves(); });
   std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
     const auto plainness = [](const Ranked& r) {
       return std::tuple(r.fit.values.size(), !corrects(r.fit.placed), r.fit.placed.effect.index());
@@ -74,6 +106,7 @@ std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOpt
     if (options.progress) options.progress(++done, chosen.size());
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
+  std::ranges::stable_partition(ranked, &Ranked::relieves);
   prefer_plain(ranked);
   return ranked;
 }
@@ -92,6 +125,7 @@ std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked,
             sum += ranked[n].blocks[k].square - ranked[0].blocks[k].square;
           return sum / gap;
         });
+    if (!ranked[n].relieves()) continue;
     if (middle(worse).low <= 0 || ranked[0].gain - ranked[n].gain < practical) same.push_back(n);
   }
   return same;

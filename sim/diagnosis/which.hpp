@@ -21,8 +21,9 @@ struct WhichOptions {
   int threads = 2;
   int draws = 400;  ///< of the bootstrap
   std::uint64_t seed = 1;
-  std::size_t fitted_at_least = 16;  ///< candidates that the linear look lets through
-  double look_share = 0.3;           ///< and all that promise this share of what the best promises
+  std::size_t fitted_at_least = 16;   ///< candidates that the linear look lets through
+  double look_share = 0.3;            ///< and all that promise this share of what the best promises
+  std::vector<StageGap> stages = {};  ///< of which an effect ought to relieve an open one
   /// Told how many of how many are done.
   std::function<void(std::size_t, std::size_t)> progress = {};
 };
@@ -35,9 +36,14 @@ struct Ranked {
   double gain = 0;
   Interval gain_interval;  ///< 95 %
   double doubt = 1;        ///< share of draws without a gain
+  double relief = 1;       ///< where.hpp; 1 also where no stage is named
+  /// It takes away a good part of a stage's gap; a change at stages that have none explains
+  /// nothing.
+  bool relieves() const { return relief > 0.3; }  // chosen
 };
 
-/// Every effect that can change a residual, best first: by gain, ties to the plainer one.
+/// Every effect that can change a residual, best first: what relieves before what does not, by
+/// gain, ties to the plainer one.
 std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOptions& options);
 
 /// Of `ranked`, which cannot be told from the first: their paired difference to it includes zero,

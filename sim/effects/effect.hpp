@@ -69,7 +69,8 @@ struct ChainSample {
   double radius_m = 0;                        ///< of the spindle
   double tension_N = 0;                       ///< at the distal end
   double load_Nm = 0;                         ///< of the line on the gearbox shaft
-  double stretch_m = 0;                       ///< Δx
+  double stretch_m = 0;                       ///< Δx; for `wound`, of the line as nominally wound
+  double stiffness_N_per_m = 0;               ///< dF/dΔx there, of the spring
   double path_m = 0, path_change_m = 0;       ///< length of the path, and since the start
   double wrap_rad = 0;                        ///< total bend of the path
   double line_speed_m_per_s = 0;              ///< over the path, towards the spindle

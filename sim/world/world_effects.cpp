@@ -28,8 +28,10 @@ World::Line World::line_of(std::size_t k, double dt_s) {
     return {chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad), 1, {}};
   effects::ChainSample s = sample(k, dt_s);
   const double r = chain.tendon.radius_m;
-  chain.wound = chain.effects.wound(s, {r * s.shaft_rad, r});
   const effects::Sloped path = chain.effects.path(s, {s.path_m, 1});
+  s.stretch_m = path.value - chain.tendon.rest_m + r * s.shaft_rad;
+  s.stiffness_N_per_m = chain.tendon.spring.slope_N_per_m(s.stretch_m);
+  chain.wound = chain.effects.wound(s, {r * s.shaft_rad, r});
   s.stretch_m = path.value - chain.tendon.rest_m + chain.wound.value;
   return {s.stretch_m, path.slope, chain.effects.pull(s)};
 }
