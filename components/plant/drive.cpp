@@ -92,7 +92,7 @@ Demand Drive::drive(const Offer& offer, double dt_s) {
     approaching_ = approach_line_m_ != reference;
     reference = approach_line_m_;
   }
-  return {Units::request(offer.mode), units_.setpoint(offer.mode, reference)};
+  return {sim::EcuUnits::request(offer.mode), units_.setpoint(offer.mode, reference)};
 }
 
 Demand Drive::stay_safe() {

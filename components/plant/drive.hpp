@@ -5,7 +5,7 @@
 
 #include "components/plant/arbiter.hpp"
 #include "components/plant/limits.hpp"
-#include "components/plant/units.hpp"
+#include "sim/actuator/ecu_units.hpp"
 
 /// One actuator as the plant sees it: from what controllers offer and what its ECU says, to what
 /// its ECU is asked next.
@@ -32,7 +32,7 @@ class Drive {
   const std::string& name() const { return name_; }
   int ecu() const { return ecu_; }
   int channel() const { return channel_; }
-  const Units& units() const { return units_; }
+  const sim::EcuUnits& units() const { return units_; }
   ecu_state state() const { return state_; }
 
   /// A controller's command. The reason is empty when it was taken as it is.
@@ -62,7 +62,7 @@ class Drive {
   int ecu_, channel_;
   erp::SafeAction safe_action_;
   double relax_tension_N_, approach_m_per_s_;
-  Units units_;
+  sim::EcuUnits units_;
   Limits limits_;
   Arbiter arbiter_;
   ecu_state state_ = ECU_STATE_BOOT;

@@ -65,10 +65,10 @@ void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now
   if (!channel.fresh) return;
   drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts,
                 now_ns);
-  const Units& units = drive.units();
+  const sim::EcuUnits& units = drive.units();
   sample.ecu_state = channel.state;
   sample.ecu_fault = channel.fault;
-  sample.mode = static_cast<std::uint8_t>(Units::mode(channel.request));
+  sample.mode = static_cast<std::uint8_t>(sim::EcuUnits::mode(channel.request));
   sample.reference = units.reference(channel.request, channel.setpoint);
   sample.voltage_V = units.voltage_V(channel.duty_counts);
   sample.current_A = channel.current_counts * units.current_A_per_count;

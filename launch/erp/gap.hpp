@@ -29,6 +29,7 @@ struct GapDiagnoseOptions {
   std::string robot, out;  ///< out: a folder, made if need be; empty: nothing is written
   std::vector<std::string> recordings, train, held_out, withhold;
   int threads = 2;
+  bool free_run = true;  ///< the answer is also let run freely in the simulator
   std::uint64_t seed = 1;
 };
 

@@ -85,7 +85,7 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
     fs::create_directories(options.out + "/" + name);
     Json files = Json::array();
     for (int r = 0; r < options.recordings; ++r) {
-      const auto excitation = sim::blind::excitation(robot, r, options.seconds, options.seed + k);
+      const auto excitation = sim::excitation(robot, r, options.seconds, options.seed + k);
       const auto table =
           as_recorded(sim::blind::record(robot, blind, excitation,
                                          (options.seed + k) * 1000 + static_cast<std::uint64_t>(r)),
@@ -133,7 +133,7 @@ int blind_run(const std::string& folder, int threads, std::ostream& out, std::os
     how.withhold = mine[k]["withhold"].get<std::vector<std::string>>();
     const auto d = sim::diagnosis::diagnose(robot, read_episodes(robot, files, mended), how);
     const std::string place = folder + "/" + mine[k]["case"].get<std::string>();
-    write_file(place + "/diagnosis.part", diagnosis_json(d, robot));
+    write_file(place + "/diagnosis.part", diagnosis_json(d, {}, robot));
     fs::rename(place + "/diagnosis.part", place + "/diagnosis.json");
     const std::lock_guard lock(telling);
     progress.tell("diagnoses", double(++done) / double(mine.size()));

@@ -80,7 +80,19 @@ void print(const diagnosis::Diagnosis& d, std::ostream& out) {
     if (c.before > 1.5 * c.floor && !d.answer.empty())
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
-  out << "verdict     " << diagnosis::word(d.verdict) << "\n";
+}
+
+/// The answer in the simulator, on the recordings held out. Nothing without an answer, and nothing
+/// of drives, which the simulator does not run.
+sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
+                                   const std::vector<diagnosis::Episode>& episodes,
+                                   const erp::Robot& robot, const erp::Robot& found,
+                                   const GapDiagnoseOptions& options) {
+  if (d.answer.empty() || !options.free_run || !robot.drives.empty()) return {};
+  std::vector<diagnosis::Episode> held_out;
+  for (const auto& e : episodes)
+    if (std::ranges::count(d.held_out, e.name)) held_out.push_back(e);
+  return sim::rehearsal::free_run(robot, found, held_out, options.threads, options.seed);
 }
 
 }  // namespace
@@ -104,7 +116,7 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
   check_types(options.withhold);
   const Sorted sorted = sort(options);
   std::vector<std::string> mended;
-  auto episodes = read_episodes(robot, sorted.files, mended);
+  const auto episodes = read_episodes(robot, sorted.files, mended);
   for (const std::string& remark : mended) remarks << remark << "\n";
   diagnosis::Diagnosis d;
   {
@@ -115,19 +127,25 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
                                    .threads = options.threads,
                                    .seed = options.seed};
     how.progress = [&](const std::string& what, double share) { progress.tell(what, share); };
-    d = diagnosis::diagnose(robot, std::move(episodes), how);
+    d = diagnosis::diagnose(robot, episodes, how);
   }
   d.warnings.insert(d.warnings.begin(), mended.begin(), mended.end());
+  erp::Robot found = erp::read_robot(options.robot);
+  for (const auto& n : d.answer) found.effects.push_back(sim::effects::written(n.placed));
+  const auto free_run = run_freely(d, episodes, robot, found, options);
+  d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
   print(d, out);
+  if (!free_run.channels.empty())
+    out << fmt::format(
+        "free run    {:.3g} times what noise alone would do before, {:.3g} after: {:.1f} % "
+        "closed\n",
+        free_run.all.before, free_run.all.after, 100 * free_run.all.closed);
+  out << "verdict     " << diagnosis::word(d.verdict) << "\n";
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);
-    write_file(options.out + "/diagnosis.json", diagnosis_json(d, robot));
-    write_file(options.out + "/report.html", diagnosis_report(d, robot));
-    if (!d.answer.empty()) {
-      erp::Robot with = erp::read_robot(options.robot);
-      for (const auto& n : d.answer) with.effects.push_back(sim::effects::written(n.placed));
-      write_file(options.out + "/robot.xml", erp::write_robot(with));
-    }
+    write_file(options.out + "/diagnosis.json", diagnosis_json(d, free_run, robot));
+    write_file(options.out + "/report.html", diagnosis_report(d, free_run, robot));
+    if (!d.answer.empty()) write_file(options.out + "/robot.xml", erp::write_robot(found));
     out << "report      " << options.out << "/report.html\n";
   }
   return exit_code(d.verdict);

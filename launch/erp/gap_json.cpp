@@ -85,10 +85,17 @@ Json effects_of(const Diagnosis& d) {
 
 }  // namespace
 
-std::string diagnosis_json(const Diagnosis& d, const erp::Robot& robot) {
+std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
+                           const erp::Robot& robot) {
   Json gap = json_of(d.overall);
   gap["channels"] = Json::object();
   for (const Closed& c : d.channels) gap["channels"][c.channel] = json_of(c);
+  gap["interaction"] = rounded(d.interaction);
+  if (!free_run.channels.empty()) {
+    gap["free_running"] = json_of(free_run.all);
+    for (const Closed& c : free_run.channels)
+      gap["free_running"]["channels"][c.channel] = json_of(c);
+  }
   Json confusable = Json::array();
   if (!d.confusable.empty()) {
     confusable.push_back({{"type", d.answer[0].type}, {"on", d.answer[0].on}});

@@ -148,6 +148,25 @@ std::string ranking(const Diagnosis& d) {
   return html;
 }
 
+std::string free_running(const sim::rehearsal::FreeRun& run) {
+  if (run.channels.empty()) return "";
+  std::string html = fmt::format(
+      "<h2>The simulator let run freely</h2>\n<p>On the held-out recordings' references, in closed "
+      "loop with the firmware: {:.3g} times what noise alone would do before, {:.3g} after. "
+      "Closed: "
+      "{:.1f} % ({:.1f} … {:.1f}).</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
+      "alone</th>"
+      "<th>after</th><th>closed</th></tr>\n",
+      run.all.before, run.all.after, 100 * run.all.closed, 100 * run.all.interval.low,
+      100 * run.all.interval.high);
+  for (const Closed& c : run.channels)
+    html += fmt::format(
+        "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
+        escaped(c.channel), c.before, c.unit, c.floor, c.after,
+        c.before > 1.5 * c.floor ? fmt::format("{:.1f} %", 100 * c.closed) : "–");
+  return html + "</table>\n";
+}
+
 std::string rest(const Diagnosis& d) {
   if (d.unexplained.empty()) return "";
   std::string html = "<h2>What no effect explains</h2>\n";
@@ -187,10 +206,11 @@ std::string data(const Diagnosis& d) {
 
 }  // namespace
 
-std::string diagnosis_report(const Diagnosis& d, const erp::Robot& robot) {
+std::string diagnosis_report(const Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
+                             const erp::Robot& robot) {
   return head + fmt::format("<h1>{}: where robot and model part</h1>\n", escaped(robot.name)) +
-         summary(d) + chains(d) + stages(d) + ranking(d) + moments(d) + rest(d) + data(d) +
-         "</body></html>\n";
+         summary(d) + chains(d) + stages(d) + ranking(d) + moments(d) + free_running(free_run) +
+         rest(d) + data(d) + "</body></html>\n";
 }
 
 }  // namespace launch

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "sim/actuator/design.hpp"
+#include "sim/actuator/ecu_units.hpp"
 #include "sim/actuator/sensors.hpp"
 #include "sim/blind/plant.hpp"
 
@@ -44,8 +45,7 @@ class Sense {
 
 struct Unit {
   ecu_channel ecu{};
-  SensorScale scale;
-  double supply_V, radius_m;
+  EcuUnits units;
   Sense shaft, current, tension;
   double shaft_rad = 0, current_A = 0, tension_N = 0, voltage_V = 0;
 };
@@ -56,9 +56,7 @@ Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const Cha
   const SensorScale s(motor, sensors);
   const double far = 1e9, current_end = s.current_A_per_count * s.current_counts_max;
   Unit unit{{},
-            s,
-            motor.supply_V,
-            actuator.spindle.radius_m,
+            EcuUnits(motor, sensors, actuator.spindle),
             {q.shaft, 0, s.shaft_rad_per_count, -far, far, motor.gear_ratio},
             {q.current, sensors.current_noise_A, s.current_A_per_count, -current_end, current_end},
             {q.tension, sensors.tension_noise_N, s.tension_N_per_count, 0,
@@ -69,10 +67,6 @@ Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const Cha
     ecu_parameter(&unit.ecu, static_cast<std::uint8_t>(k), gains[k], k + 1 == gains.size());
   ecu_command(&unit.ecu, ECU_REQUEST_ARM, 0);
   return unit;
-}
-
-double mode_number(ecu_request request) {
-  return static_cast<double>(request == ECU_REQUEST_FORCE ? erp::Mode::force : erp::Mode::length);
 }
 
 /// What sets out and arrives later, in order.
@@ -123,7 +117,7 @@ class Run {
       if (!(even_(random_) < quirks_.loss))
         commands_.send(now_s + delay, excitation.reference[row]);
       if (const auto* wanted = commands_.arrived(now_s)) heard_ = *wanted;
-      obey(excitation.request);
+      obey(excitation.mode);
       step();
       frames_.send(now_s + period_s + quirks_.frame_delay_s, said());
       frames_.arrived(now_s + period_s);
@@ -146,17 +140,12 @@ class Run {
         for (const char* part : {".qw", ".qx", ".qy", ".qz"}) add(joint.name + part);
     }
   }
-  void obey(ecu_request request) {
-    for (std::size_t a = 0; a < units_.size(); ++a) {
-      Unit& u = units_[a];
-      if (heard_.empty()) ecu_command(&u.ecu, ECU_REQUEST_ARM, 0);
-      else if (request == ECU_REQUEST_FORCE)
-        ecu_command(&u.ecu, request, static_cast<std::int32_t>(std::lround(1000 * heard_[a])));
+  void obey(erp::Mode mode) {
+    for (std::size_t a = 0; a < units_.size(); ++a)
+      if (heard_.empty()) ecu_command(&units_[a].ecu, ECU_REQUEST_ARM, 0);
       else
-        ecu_command(&u.ecu, request,
-                    static_cast<std::int32_t>(
-                        std::lround(-heard_[a] / u.radius_m / u.scale.shaft_rad_per_count)));
-    }
+        ecu_command(&units_[a].ecu, EcuUnits::request(mode),
+                    units_[a].units.setpoint(mode, heard_[a]));
   }
   void measure() {
     const double now_s = plant_.time_s();
@@ -171,10 +160,10 @@ class Run {
     std::vector<double> volts;
     for (Unit& u : units_) {
       const ecu_inputs inputs{
-          static_cast<std::int32_t>(std::lround(u.shaft_rad / u.scale.shaft_rad_per_count)),
-          static_cast<std::int16_t>(std::lround(u.current_A / u.scale.current_A_per_count)),
-          static_cast<std::uint16_t>(std::lround(u.tension_N / u.scale.tension_N_per_count))};
-      u.voltage_V = u.supply_V * ecu_tick(&u.ecu, &inputs) / ECU_DUTY_MAX;
+          static_cast<std::int32_t>(std::lround(u.shaft_rad / u.units.shaft_rad_per_count)),
+          static_cast<std::int16_t>(std::lround(u.current_A / u.units.current_A_per_count)),
+          static_cast<std::uint16_t>(std::lround(u.tension_N / u.units.tension_N_per_count))};
+      u.voltage_V = u.units.voltage_V(ecu_tick(&u.ecu, &inputs));
       volts.push_back(u.voltage_V);
     }
     gust_ += period_s / 0.15 * -gust_ + std::sqrt(2 * period_s / 0.15) * normal_(random_);
@@ -202,7 +191,7 @@ class Run {
     const auto add = [&](double value) { table_.columns[column++].values.push_back(value); };
     add(now_s);
     for (std::size_t a = 0; a < units_.size(); ++a) {
-      add(mode_number(excitation.request)), add(excitation.reference[row][a]);
+      add(static_cast<double>(excitation.mode)), add(excitation.reference[row][a]);
       for (int k = 0; k < 4; ++k) add(frame[from++]);
     }
     while (from < frame.size()) add(frame[from++]);

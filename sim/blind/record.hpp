@@ -1,7 +1,7 @@
 #pragma once
 #include "interfaces/recording/table.hpp"
+#include "sim/actuator/excitation.hpp"
 #include "sim/blind/case.hpp"
-#include "sim/blind/excitation.hpp"
 
 namespace sim::blind {
 

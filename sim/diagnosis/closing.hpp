@@ -4,6 +4,9 @@
 #include "sim/diagnosis/selection.hpp"
 
 /// How far the answer closes the gap, on held-out recordings.
+///
+/// `known`: trials of the robot with what was seen without a fit. Where a sensor is coarser than
+/// its data sheet, its noise is no gap: what is left counts as far as it is beyond that noise.
 namespace sim::diagnosis {
 
 /// An error before and after.
@@ -18,9 +21,10 @@ struct Closed {
 
 /// Stage by stage, in its unit.
 std::vector<Closed> closed_by_stage(const Evidence& evidence, const Trials& plain,
-                                    const std::vector<StageGap>& left);
+                                    const Trials& known, const Trial& trial);
 /// Over all stages, in units of noise.
-Closed closed_overall(const Evidence& evidence, const Trials& plain, const Trial& trial);
+Closed closed_overall(const Evidence& evidence, const Trials& plain, const Trials& known,
+                      const Trial& trial);
 
 /// A few seconds of a stage's residual in a held-out recording, where it is worst.
 struct Moment {

@@ -1,6 +1,7 @@
 #include "sim/diagnosis/diagnose.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 namespace sim::diagnosis {
@@ -52,14 +53,6 @@ erp::Robot as_observed(const erp::Robot& robot, const Observed& observed) {
   return known;
 }
 
-Selection select(const Evidence& evidence, const Trials& plain, const Observed& observed,
-                 const std::vector<StageGap>& stages) {
-  if (observed.sensors.empty()) return select(evidence, plain, stages);
-  const Trials coarse(as_observed(evidence.robot, observed), evidence.episodes,
-                      evidence.options.seed);
-  return select(evidence, coarse, stages);
-}
-
 }  // namespace
 
 const char* word(Verdict verdict) {
@@ -88,7 +81,11 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
   d.stages = where(plain, plain.bare(), evidence.sets.all(), evidence.where_options());
 
   const Observed observed = observe(evidence, plain);
-  Selection selection = select(evidence, plain, observed, d.stages);
+  std::optional<Trials> coarse;
+  if (!observed.sensors.empty())
+    coarse.emplace(as_observed(robot, observed), evidence.episodes, options.seed);
+  const Trials& known = coarse ? *coarse : plain;
+  const Selection selection = select(evidence, known, d.stages);
   d.verdict = judge(selection, observed);
   d.answer = selection.answer, d.ranked = selection.ranked, d.confusable = selection.confusable;
   d.interaction = selection.interaction;
@@ -102,8 +99,8 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
                 ? where_of_answer(evidence, plain, d.stages, d.answer, d.confusable)
                 : where_of_stages(evidence, plain, d.stages, d.ranked);
   d.unexplained = unexplained(evidence, plain, selection);
-  d.channels = closed_by_stage(evidence, plain, selection.left);
-  d.overall = closed_overall(evidence, plain, selection.trial);
+  d.channels = closed_by_stage(evidence, plain, known, selection.trial);
+  d.overall = closed_overall(evidence, plain, known, selection.trial);
   d.worst = worst_moments(evidence, plain, selection.trial, d.stages);
   evidence.tell("done", 1);
   return d;

@@ -48,8 +48,14 @@ double lattice_step(std::span<const Signal* const> readings, double finest) {
   // A few strays, of samples that were interpolated, are passed over.
   const double guess = gaps[gaps.size() / 20];
   if (guess < 2) return guess * finest;
+  // Far off, a step that is a little wrong is whole steps wrong: only so many are looked at.
+  constexpr double steps = 500, of_a_step = 0.1;
+  const double last = values[values.size() / 3] + steps * guess;
+  values.erase(std::ranges::upper_bound(values, last), values.end());
+  values.erase(values.begin(), std::ranges::lower_bound(values, last - steps * guess));
+  if (values.size() < fewest) return finest;
   double best = 0, step = finest;
-  for (double s = guess - 1; s < guess + 1.5; s += guess / 2000)
+  for (double s = guess - 1; s < guess + 1.5; s += of_a_step / steps * guess)
     if (const double fits = in_step(values, s); fits > best) best = fits, step = s * finest;
   constexpr double convincing = 0.7;  // of 1; values anywhere give about 1/sqrt(count); chosen
   return best > convincing ? step : finest;

@@ -37,9 +37,10 @@ const std::vector<Rule> rules{
     {"sim/skeleton/", {"interfaces/"}},
     {"sim/formats/", {"interfaces/", "sim/skeleton/", "sim/actuator/"}},
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
+    {"sim/rehearsal/", {"interfaces/", "sim/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
     {"launch/",
-     {"interfaces/", "components/node/", "sim/formats/", "sim/blind/", "sim/diagnosis/", "sim/effects/",
+     {"interfaces/", "components/node/", "sim/formats/", "sim/blind/", "sim/diagnosis/", "sim/rehearsal/", "sim/effects/",
       "sim/actuator/", "sim/skeleton/"}},
 };
 

@@ -19,7 +19,7 @@ inline std::vector<sim::diagnosis::Episode> episodes(const sim::blind::Case& bli
   const erp::Robot robot = hinge_rig();
   for (int k = 0; k < count; ++k)
     all.push_back(sim::diagnosis::lay_out(
-        sim::blind::record(robot, blind, sim::blind::excitation(robot, k, seconds, 5),
+        sim::blind::record(robot, blind, sim::excitation(robot, k, seconds, 5),
                            static_cast<std::uint64_t>(k)),
         robot, "recording " + std::to_string(k + 1), remarks));
   return all;

@@ -1,4 +1,4 @@
-#include "sim/blind/excitation.hpp"
+#include "sim/actuator/excitation.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "sim/actuator/pose_plan.hpp"
 
-namespace sim::blind {
+namespace sim {
 namespace {
 
 using Random = std::mt19937_64;
@@ -88,7 +88,7 @@ struct Swing {
 /// Antagonists in turn.
 Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration_s,
                     Random& random) {
-  Excitation all{ECU_REQUEST_FORCE, 0.002, {}};
+  Excitation all{erp::Mode::force, 0.002, {}};
   const double turn = 2 * std::numbers::pi, phase = between(random, 0, turn);
   const double slow_Hz = swing.swing_Hz * between(random, 0.8, 1.25);
   const double fast_Hz = swing.ripple_Hz * between(random, 0.8, 1.25);
@@ -122,4 +122,4 @@ Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
   return through_postures(robot, walks[recording % 4], duration_s, random);
 }
 
-}  // namespace sim::blind
+}  // namespace sim

@@ -10,12 +10,13 @@
 ///   shaft = encoder · 2π / (counts per rev · N)        line = −r · shaft
 ///   current = counts · range / 2^(bits−1)              tension = counts · range / (2^bits − 1)
 ///   voltage = duty / 1023 · supply
-namespace plant {
+namespace sim {
 
-struct Units {
+struct EcuUnits {
   double radius_m, shaft_rad_per_count, current_A_per_count, tension_N_per_count, supply_V;
 
-  Units(const erp::MotorType& motor, const erp::SensorType& sensors, const erp::Spindle& spindle);
+  EcuUnits(const erp::MotorType& motor, const erp::SensorType& sensors,
+           const erp::Spindle& spindle);
 
   double shaft_rad(std::int32_t encoder_counts) const {
     return encoder_counts * shaft_rad_per_count;
@@ -31,4 +32,4 @@ struct Units {
   double reference(std::uint8_t request, std::int32_t setpoint) const;
 };
 
-}  // namespace plant
+}  // namespace sim

@@ -2,16 +2,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware/core/ecu.h"
 #include "interfaces/robot/robot.hpp"
+#include "interfaces/values.hpp"
 
-/// What the robot of a blind case is asked to do: as a person would who wants to know it.
-namespace sim::blind {
+/// What a robot may be asked to do by a person who wants to know it.
+namespace sim {
 
 struct Excitation {
-  ecu_request request = ECU_REQUEST_LENGTH;
+  erp::Mode mode = erp::Mode::length;
   double period_s = 0.002;
-  /// By row and actuator: N, or the line's change of length in m.
+  /// By row and actuator, in the mode's unit: N, or the line's change of length in m.
   std::vector<std::vector<double>> reference;
 };
 
@@ -20,4 +20,4 @@ struct Excitation {
 Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
                       std::uint64_t seed);
 
-}  // namespace sim::blind
+}  // namespace sim

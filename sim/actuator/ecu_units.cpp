@@ -1,12 +1,12 @@
-#include "components/plant/units.hpp"
+#include "sim/actuator/ecu_units.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace plant {
+namespace sim {
 
-Units::Units(const erp::MotorType& motor, const erp::SensorType& sensors,
-             const erp::Spindle& spindle)
+EcuUnits::EcuUnits(const erp::MotorType& motor, const erp::SensorType& sensors,
+                   const erp::Spindle& spindle)
     : radius_m(spindle.radius_m),
       shaft_rad_per_count(2 * std::numbers::pi /
                           (sensors.encoder_counts_per_rev * motor.gear_ratio)),
@@ -14,7 +14,7 @@ Units::Units(const erp::MotorType& motor, const erp::SensorType& sensors,
       tension_N_per_count(sensors.tension_range_N / ((1 << sensors.tension_bits) - 1)),
       supply_V(motor.supply_V) {}
 
-ecu_request Units::request(erp::Mode mode) {
+ecu_request EcuUnits::request(erp::Mode mode) {
   switch (mode) {
     case erp::Mode::voltage:
       return ECU_REQUEST_VOLTAGE;
@@ -30,13 +30,13 @@ ecu_request Units::request(erp::Mode mode) {
   return ECU_REQUEST_OFF;
 }
 
-std::int32_t Units::setpoint(erp::Mode mode, double reference) const {
+std::int32_t EcuUnits::setpoint(erp::Mode mode, double reference) const {
   const double counts = mode == erp::Mode::length ? -reference / radius_m / shaft_rad_per_count
                                                   : 1000.0 * reference;  // mV, mA, mN
   return static_cast<std::int32_t>(std::lround(counts));
 }
 
-erp::Mode Units::mode(std::uint8_t request) {
+erp::Mode EcuUnits::mode(std::uint8_t request) {
   switch (request) {
     case ECU_REQUEST_VOLTAGE:
       return erp::Mode::voltage;
@@ -51,9 +51,9 @@ erp::Mode Units::mode(std::uint8_t request) {
   }
 }
 
-double Units::reference(std::uint8_t request, std::int32_t setpoint) const {
+double EcuUnits::reference(std::uint8_t request, std::int32_t setpoint) const {
   if (request == ECU_REQUEST_LENGTH) return line_m(shaft_rad(setpoint));
   return mode(request) == erp::Mode::off ? 0.0 : 0.001 * setpoint;
 }
 
-}  // namespace plant
+}  // namespace sim

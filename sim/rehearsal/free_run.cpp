@@ -1,0 +1,175 @@
+#include "sim/rehearsal/free_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim/diagnosis/indices.hpp"
+#include "sim/diagnosis/parallel.hpp"
+
+namespace sim::rehearsal {
+namespace {
+
+using diagnosis::Closed;
+using diagnosis::Episode;
+using diagnosis::Signal;
+
+constexpr double tick_s = 0.002;
+constexpr double apart_rad = 0.05;  // from the initial pose, to count as starting there; chosen
+
+/// Why a recording cannot be run again; empty: it can.
+std::string obstacle(const Episode& e, const erp::Robot& robot) {
+  if (std::abs(e.period_s / tick_s - 1) > 0.01) return "its rows are not the ECUs' ticks of 2 ms";
+  for (std::size_t a = 0; a < e.actuators.size(); ++a)
+    if (e.actuators[a].mode.empty() || e.actuators[a].reference.empty())
+      return "it lacks mode and reference of " + robot.actuators[a].name;
+  const auto joints = robot.joints();
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (const Signal& angle = e.joints[j].angle_rad;
+        !angle.empty() && std::abs(angle[0] - joints[j].initial_rad) > apart_rad)
+      return joints[j].name + " does not start where the model does";
+  return "";
+}
+
+Score score_of(const Episode& e) {
+  Score score(e.rows, std::vector<Asked>(e.actuators.size()));
+  for (std::size_t k = 0; k < e.rows; ++k)
+    for (std::size_t a = 0; a < e.actuators.size(); ++a) {
+      const double mode = e.actuators[a].mode[k];
+      score[k][a] = {static_cast<erp::Mode>(std::isnan(mode) ? 0 : std::lround(mode)),
+                     std::isnan(mode) ? mode : e.actuators[a].reference[k]};
+    }
+  return score;
+}
+
+struct Channel {
+  std::string name, unit;
+  const Signal* signal;
+};
+
+std::vector<Channel> channels_of(const Episode& e, const erp::Robot& robot) {
+  std::vector<Channel> all;
+  const auto add = [&](const std::string& name, const char* unit, const Signal& signal) {
+    if (!signal.empty()) all.push_back({name, unit, &signal});
+  };
+  for (std::size_t a = 0; a < e.actuators.size(); ++a) {
+    const auto& s = e.actuators[a];
+    const std::string& name = robot.actuators[a].name;
+    add(name + ".voltage_V", "V", s.voltage_V), add(name + ".current_A", "A", s.current_A);
+    add(name + ".shaft_rad", "rad", s.shaft_rad), add(name + ".tension_N", "N", s.tension_N);
+  }
+  const auto joints = robot.joints();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    add(joints[j].name + ".angle_rad", "rad", e.joints[j].angle_rad);
+    for (std::size_t k = 0; k < 4; ++k)
+      add(joints[j].name + "." + "wxyz"[k], "", e.joints[j].quaternion[k]);
+  }
+  return all;
+}
+
+/// Squares of a channel's three errors over a second.
+struct Second {
+  double before = 0, floor = 0, after = 0, rows = 0;
+};
+using Errors = std::map<std::string, std::pair<std::string, std::vector<Second>>>;
+
+/// Three rehearsals of one recording, compared with it.
+Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& found,
+                 std::uint64_t seed) {
+  const Score score = score_of(e);
+  std::vector<std::string> remarks;
+  const auto run = [&](const erp::Robot& robot, std::uint64_t noise) {
+    return diagnosis::lay_out(rehearse(robot, score, noise), nominal, e.name, remarks);
+  };
+  const Episode before = run(nominal, seed), after = run(found, seed), again = run(found, seed + 1);
+  const auto real = channels_of(e, nominal);
+  Errors errors;
+  for (const Channel& channel : real) {
+    const auto signal_in = [&](const Episode& of) -> const Signal& {
+      const auto all = channels_of(of, nominal);
+      return *std::ranges::find(all, channel.name, &Channel::name)->signal;
+    };
+    const Signal &b = signal_in(before), &a = signal_in(after), &n = signal_in(again);
+    auto& [unit, seconds] = errors[channel.name];
+    unit = channel.unit;
+    seconds.resize(std::size_t(double(e.rows) * tick_s) + 1);
+    for (std::size_t k = 0; k < std::min(e.rows, b.size()); ++k) {
+      const double truth = (*channel.signal)[k];
+      if (std::isnan(truth)) continue;
+      Second& second = seconds[std::size_t(double(k) * tick_s)];
+      second.before += std::pow(b[k] - truth, 2), second.after += std::pow(a[k] - truth, 2);
+      second.floor += std::pow(n[k] - a[k], 2), ++second.rows;
+    }
+  }
+  return errors;
+}
+
+Closed closed_of(const std::string& name, const std::string& unit, const std::vector<Second>& all,
+                 std::span<const std::size_t> drawn) {
+  Second sum;
+  for (const std::size_t k : drawn)
+    sum.before += all[k].before, sum.floor += all[k].floor, sum.after += all[k].after,
+        sum.rows += all[k].rows;
+  const auto rms = [&](double square) { return std::sqrt(square / std::max(1.0, sum.rows)); };
+  Closed c{name, unit, rms(sum.before), rms(sum.floor), rms(sum.after)};
+  c.closed = c.before > c.floor ? (c.before - c.after) / (c.before - c.floor) : 0;
+  return c;
+}
+
+Closed all_of(const Errors& errors, std::span<const std::size_t> drawn) {
+  double before = 0, after = 0, count = 0;
+  for (const auto& [name, channel] : errors) {
+    const Closed c = closed_of(name, channel.first, channel.second, drawn);
+    if (!(c.floor > 0)) continue;
+    before += std::pow(c.before / c.floor, 2), after += std::pow(c.after / c.floor, 2), ++count;
+  }
+  count = std::max(1.0, count);
+  Closed c{"all", "noise", std::sqrt(before / count), 1, std::sqrt(after / count)};
+  c.closed = c.before > c.floor ? (c.before - c.after) / (c.before - c.floor) : 0;
+  return c;
+}
+
+}  // namespace
+
+FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
+                 std::span<const Episode> recordings, int threads, std::uint64_t seed) {
+  FreeRun result;
+  std::vector<Errors> of_recording(recordings.size());
+  std::vector<std::string> why(recordings.size());
+  diagnosis::in_parallel(recordings.size(), threads, [&](std::size_t r) {
+    why[r] = obstacle(recordings[r], nominal);
+    try {
+      if (why[r].empty()) of_recording[r] = errors_of(recordings[r], nominal, found, seed + 2 * r);
+    } catch (const std::exception& failed) {
+      why[r] = failed.what();
+    }
+  });
+  Errors errors;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    if (!why[r].empty())
+      result.remarks.push_back(recordings[r].name + ": not run freely: " + why[r]);
+    for (const auto& [name, channel] : of_recording[r]) {
+      errors[name].first = channel.first;
+      auto& seconds = errors[name].second;
+      seconds.insert(seconds.end(), channel.second.begin(), channel.second.end());
+    }
+  }
+  if (errors.empty()) return result;
+  const auto every = diagnosis::each(errors.begin()->second.second.size());
+  const auto interval = [&](auto of) {
+    return diagnosis::middle(diagnosis::bootstrap(
+        every.size(), 400, seed, [&](const auto& drawn) { return of(drawn).closed; }));
+  };
+  for (const auto& [name, channel] : errors) {
+    const auto of = [&](std::span<const std::size_t> drawn) {
+      return closed_of(name, channel.first, channel.second, drawn);
+    };
+    result.channels.push_back(of(every));
+    result.channels.back().interval = interval(of);
+  }
+  result.all = all_of(errors, every);
+  result.all.interval = interval([&](const auto& drawn) { return all_of(errors, drawn); });
+  return result;
+}
+
+}  // namespace sim::rehearsal

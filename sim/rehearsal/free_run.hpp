@@ -1,0 +1,27 @@
+#pragma once
+#include "sim/diagnosis/closing.hpp"
+#include "sim/diagnosis/episode.hpp"
+#include "sim/rehearsal/rehearse.hpp"
+
+/// The gap as the simulator sees it: robot.xml is let run freely, in closed loop with the firmware,
+/// on what a recording was asked, and compared with what was recorded. A loop hides gaps in what it
+/// controls, so effort is compared as well: voltages, currents and tensions.
+///
+///   error = rms(simulated − recorded)        floor: of two rehearsals that differ in their noise
+///   all   = sqrt(mean (error/floor)²) over channels
+namespace sim::rehearsal {
+
+struct FreeRun {
+  std::vector<diagnosis::Closed> channels;  ///< "flexor.tension_N" …
+  diagnosis::Closed all;                    ///< unit "noise"
+  std::vector<std::string> remarks;         ///< recordings that were left out, and why
+};
+
+/// Of a robot as given and with what was found, over some recordings; intervals by blocks of them,
+/// a second each. Recordings that do not start where the model starts, that lack modes or
+/// references, or in which a rehearsal fails, are left out with a remark.
+FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
+                 std::span<const diagnosis::Episode> recordings, int threads,
+                 std::uint64_t seed = 1);
+
+}  // namespace sim::rehearsal
