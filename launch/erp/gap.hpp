@@ -37,4 +37,17 @@ struct GapDiagnoseOptions {
 /// gap_where. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
 int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
 
+struct GapPlanOptions {
+  std::string robot, diagnosis, out;  ///< diagnosis.json; out: a folder, made if need be
+  double seconds = 20;
+  int candidates = 24, threads = 2;
+  std::uint64_t seed = 1;
+};
+
+/// Searches the excitation that best splits what a diagnosis could not tell apart, and writes it as
+/// a graph to launch: graph.xml, reference.xml, trajectory.csv. Throws xml::Errors,
+/// std::invalid_argument. Returns 0; 1: nothing to split, or none is safe; 5: none would split
+/// them.
+int gap_plan(const GapPlanOptions& options, std::ostream& out, std::ostream& remarks);
+
 }  // namespace launch

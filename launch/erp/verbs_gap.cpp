@@ -44,6 +44,24 @@ void add_diagnose(CLI::App& gap, Chosen& chosen) {
       [=, &chosen] { chosen = [=] { return gap_diagnose(*o, std::cout, std::cerr); }; });
 }
 
+void add_plan(CLI::App& gap, Chosen& chosen) {
+  auto o = std::make_shared<GapPlanOptions>();
+  o->threads = all_cores();
+  auto* plan = gap.add_subcommand(
+      "plan", "What to record next: the excitation that best splits what cannot be told apart");
+  plan->footer(
+      "Exit codes: 0 written, 1 nothing to split or nothing safe, 5 no excitation would split "
+      "them.");
+  plan->add_option("--robot", o->robot, "robot.xml, the model")->required();
+  plan->add_option("--diagnosis", o->diagnosis, "diagnosis.json of erp gap diagnose")->required();
+  plan->add_option("--out", o->out, "folder for the graph to launch")->required();
+  plan->add_option("--seconds", o->seconds, "of the recording")->check(CLI::Range(2.0, 600.0));
+  plan->add_option("--candidates", o->candidates, "that are rehearsed")->check(CLI::PositiveNumber);
+  plan->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  plan->add_option("--seed", o->seed, "of the candidates");
+  plan->callback([=, &chosen] { chosen = [=] { return gap_plan(*o, std::cout, std::cerr); }; });
+}
+
 void add_blind(CLI::App& gap, Chosen& chosen) {
   auto* blind = gap.add_subcommand("blind", "Cases with something hidden, to try the diagnosis on");
   blind->require_subcommand(1);
@@ -90,6 +108,7 @@ void add_gap(CLI::App& app, Chosen& chosen) {
   gap->require_subcommand(1);
   add_where(*gap, chosen);
   add_diagnose(*gap, chosen);
+  add_plan(*gap, chosen);
   add_blind(*gap, chosen);
 }
 

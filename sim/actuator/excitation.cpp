@@ -108,6 +108,13 @@ Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration
 
 }  // namespace
 
+const char* excitation_word(const erp::Robot& robot, int recording) {
+  constexpr const char* postures[] = {"slow, end to end", "slack postures", "fast postures",
+                                      "stiff postures"};
+  if (robot.joints().size() != 1 || recording % 2 == 0) return postures[recording % 4];
+  return recording % 4 == 1 ? "gentle tensions" : "strong tensions";
+}
+
 Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
                       std::uint64_t seed) {
   Random random(seed * 977 + static_cast<std::uint64_t>(recording));

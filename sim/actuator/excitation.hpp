@@ -15,6 +15,9 @@ struct Excitation {
   std::vector<std::vector<double>> reference;
 };
 
+/// What the excitation of a recording is like, in words.
+const char* excitation_word(const erp::Robot& robot, int recording);
+
 /// One a recording, all different: slow between postures with dwells, tensions that swing and
 /// come near slack, low and high co-contraction, fast. Robots of one joint get tensions too.
 Excitation excitation(const erp::Robot& robot, int recording, double duration_s,

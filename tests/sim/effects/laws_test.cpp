@@ -20,11 +20,16 @@ Sloped plain_line(const ChainSample& s) { return {s.radius_m * s.shaft_rad, s.ra
 
 TEST_CASE("backlash is crossed in slack and closed by a load") {
   GearboxBacklash play;
-  play.width_rad = 0.1;
+  play.width_rad = 0.1, play.spindle_friction_Nm = 0.003;
   Memory memory{};
-  const auto wound = [&](double shaft_rad, double tension_N) {
-    const ChainSample s = at(shaft_rad, tension_N);
+  constexpr double slack_m = -1, stiffness = 6000;
+  const auto stretched = [&](double shaft_rad, double nominal_m) {
+    ChainSample s = at(shaft_rad, 0);
+    s.stretch_m = nominal_m, s.stiffness_N_per_m = stiffness;
     return play.wound(s, plain_line(s), memory).value;
+  };
+  const auto wound = [&](double shaft_rad, double tension_N) {
+    return stretched(shaft_rad, tension_N > 0 ? tension_N / stiffness : slack_m);
   };
   CHECK(wound(1.0, 20) == Approx(0.005 * 1.0));    // on the flank
   CHECK(wound(0.96, 0) == Approx(0.005 * 1.0));    // the spindle stays
@@ -32,6 +37,9 @@ TEST_CASE("backlash is crossed in slack and closed by a load") {
   CHECK(wound(0.85, 0) == Approx(0.005 * 0.9));    // back across the play
   CHECK(wound(0.95, 0) == Approx(0.005 * 0.95));   // and wound up again
   CHECK(wound(0.93, 20) == Approx(0.005 * 0.93));  // a load keeps it there
+  // across the play the line would pull 1.8 N: the spindle gives until its friction holds 0.6 N
+  CHECK(wound(0.83, 0) == Approx(0.005 * 0.93));
+  CHECK(stretched(0.83, -2e-4) == Approx(0.005 * 0.83 + 3e-4));
 }
 
 TEST_CASE("layers: the line wound is the integral of the radius") {

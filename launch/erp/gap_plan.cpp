@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "launch/erp/gap.hpp"
+#include "launch/erp/model.hpp"
+#include "launch/erp/progress.hpp"
+#include "sim/rehearsal/experiment.hpp"
+
+namespace launch {
+namespace {
+
+namespace fs = std::filesystem;
+namespace rehearsal = sim::rehearsal;
+using Json = nlohmann::json;
+using sim::effects::Placed;
+
+constexpr std::size_t most_suspects = 4;
+constexpr double telling = 3;  // standard deviations: below, an excitation splits nothing; chosen
+
+Json read_diagnosis(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::invalid_argument(file + ": cannot be read");
+  try {
+    Json d = Json::parse(in);
+    d.at("effects"), d.at("confusable"), d.at("verdict");
+    return d;
+  } catch (const Json::exception& wrong) {
+    throw std::invalid_argument(file +
+                                ": is no diagnosis.json of erp gap diagnose: " + wrong.what());
+  }
+}
+
+Placed placed_of(const Json& effect, const std::string& file) {
+  const auto type = effect.at("type").get<std::string>();
+  auto neutral = sim::effects::neutral(type);
+  if (!neutral) throw std::invalid_argument(file + ": effect " + type + " is not in the library");
+  Placed placed{effect.at("on").get<std::string>(), *neutral};
+  for (const auto& parameter : sim::effects::parameters(placed.effect))
+    if (effect.at("parameters").contains(parameter.name))
+      *parameter.value = effect["parameters"][parameter.name].get<double>();
+  return placed;
+}
+
+/// What could not be told apart; else the answer; else what comes nearest. The bus is not among
+/// them: the stages' residuals do not show it.
+std::vector<Placed> suspects_of(const Json& d, const std::string& file) {
+  const auto same = [](const Json& a, const Json& b) {
+    return a.at("type") == b.at("type") && a.at("on") == b.at("on");
+  };
+  std::vector<Placed> suspects;
+  const bool answered = d["verdict"] == "supported";
+  for (const Json& effect : d["effects"]) {
+    const bool among =
+        std::ranges::any_of(d["confusable"], [&](const Json& c) { return same(c, effect); });
+    const bool wanted = !d["confusable"].empty() ? among
+                        : answered               ? effect.at("supported").get<bool>()
+                                                 : true;
+    if (!wanted || suspects.size() == most_suspects ||
+        effect["type"].get<std::string>().starts_with("bus_"))
+      continue;
+    suspects.push_back(placed_of(effect, file));
+    if (answered && d["confusable"].empty()) break;
+  }
+  return suspects;
+}
+
+std::string name_of(const Placed& p) {
+  return fmt::format("{} on {}", sim::effects::about(p.effect).type, p.on);
+}
+
+recording::Table trajectory_of(const sim::Excitation& excitation, const erp::Robot& robot) {
+  constexpr std::size_t each = 5;  // rows: `reference` draws lines between them
+  recording::Table table;
+  table.columns.push_back({"time_s", {}});
+  for (const erp::Actuator& a : robot.actuators)
+    table.columns.push_back({a.name + ".mode", {}}),
+        table.columns.push_back({a.name + ".reference", {}});
+  for (std::size_t k = 0; k < excitation.reference.size(); k += each) {
+    table.columns[0].values.push_back(excitation.period_s * double(k));
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+      table.columns[1 + 2 * a].values.push_back(static_cast<double>(excitation.mode));
+      table.columns[2 + 2 * a].values.push_back(excitation.reference[k][a]);
+    }
+  }
+  return table;
+}
+
+void write_graph(const std::string& out, const std::string& robot_file, const erp::Robot& robot,
+                 const sim::Excitation& excitation) {
+  fs::create_directories(out);
+  std::ostringstream csv;
+  recording::write_csv(trajectory_of(excitation, robot), csv);
+  write_file(out + "/trajectory.csv", csv.str());
+  write_file(out + "/reference.xml", "<reference file=\"trajectory.csv\"/>\n");
+  const auto robot_path = fs::relative(fs::absolute(robot_file), fs::absolute(out));
+  write_file(out + "/graph.xml",
+             fmt::format("<graph name=\"{}_next\" robot=\"{}\" device=\"sim\">\n"
+                         "  <component name=\"reference\" config=\"reference.xml\"/>\n"
+                         "  <component name=\"logger\"/>\n</graph>\n",
+                         robot.name.substr(0, 20), robot_path.string()));
+}
+
+void print(const rehearsal::Experiment& experiment, const erp::Robot& robot,
+           const std::vector<Placed>& suspects, std::ostream& out) {
+  out << "to split    " << name_of(suspects[0]);
+  for (std::size_t k = 1; k < suspects.size(); ++k) out << ", " << name_of(suspects[k]);
+  if (suspects.size() == 1) out << ", from the nominal robot";
+  out << fmt::format("\n{:<12}{:<18} {:>6} {:>12} {:>10}  {}\n", "", "excitation", "seed",
+                     "split, sigma", "tension", "");
+  constexpr std::size_t shown = 5;
+  for (std::size_t k = 0; k < std::min(shown, experiment.candidates.size()); ++k) {
+    const auto& c = experiment.candidates[k];
+    out << fmt::format("{:<12}{:<18} {:>6} {:>12.1f} {:>8.0f} %  {}\n", k ? "" : "candidates",
+                       sim::excitation_word(robot, c.kind), c.seed, c.least,
+                       100 * c.extremes.of_max_tension, c.unsafe);
+  }
+}
+
+}  // namespace
+
+int gap_plan(const GapPlanOptions& options, std::ostream& out, std::ostream& remarks) {
+  const erp::Robot robot = erp::read_robot(options.robot);
+  if (robot.actuators.empty())
+    throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
+  const auto suspects = suspects_of(read_diagnosis(options.diagnosis), options.diagnosis);
+  if (suspects.empty()) {
+    out << "nothing to split: the diagnosis names no effect whose residuals could\n";
+    return 1;
+  }
+  rehearsal::Experiment experiment;
+  {
+    Progress progress(remarks);
+    std::mutex telling_mutex;
+    rehearsal::ExperimentOptions how{.seconds = options.seconds,
+                                     .candidates = options.candidates,
+                                     .threads = options.threads,
+                                     .seed = options.seed};
+    how.progress = [&](double share) {
+      const std::lock_guard lock(telling_mutex);
+      progress.tell("rehearsals", share);
+    };
+    experiment = rehearsal::next_experiment(robot, suspects, how);
+  }
+  print(experiment, robot, suspects, out);
+  if (experiment.chosen.reference.empty()) {
+    out << "no candidate is safe; try other seeds with --seed\n";
+    return 1;
+  }
+  const auto& best = experiment.candidates.front();
+  if (best.least < telling) {
+    out << "none of these excitations would split them: that needs another sensor\n";
+    return 5;
+  }
+  write_graph(options.out, options.robot, robot, experiment.chosen);
+  out << fmt::format(
+      "chosen      largest tension {:.0f} % of the limit ({}), {:.3f} rad to a stop ({})\n"
+      "run it      erp launch {}/graph.xml --for {:g}s        on the robot: --device can\n",
+      100 * best.extremes.of_max_tension, best.extremes.tightest, best.extremes.to_stop_rad,
+      best.extremes.nearest, options.out, options.seconds);
+  return 0;
+}
+
+}  // namespace launch

@@ -1,0 +1,121 @@
+#include "sim/rehearsal/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sim/diagnosis/parallel.hpp"
+#include "sim/rehearsal/rehearse.hpp"
+
+namespace sim::rehearsal {
+namespace {
+
+using diagnosis::Trials;
+using effects::Placed;
+
+constexpr int kinds = 4;  // of excitation()
+
+Score score_of(const Excitation& excitation) {
+  Score score;
+  for (const auto& row : excitation.reference) {
+    auto& asked = score.emplace_back();
+    for (const double reference : row) asked.push_back({excitation.mode, reference});
+  }
+  return score;
+}
+
+erp::Robot with(const erp::Robot& robot, const Placed& placed) {
+  erp::Robot changed = robot;
+  changed.effects.push_back(effects::written(placed));
+  return changed;
+}
+
+Extremes extremes_of(const recording::Table& table, const erp::Robot& robot) {
+  Extremes e;
+  e.to_stop_rad = std::numeric_limits<double>::infinity();
+  for (const erp::Actuator& actuator : robot.actuators)
+    for (const double tension : table.find(actuator.name + ".tension_N")->values)
+      if (const double share = tension / actuator.max_tension_N; share > e.of_max_tension)
+        e.of_max_tension = share, e.tightest = actuator.name;
+  for (const erp::Joint& joint : robot.joints())
+    if (const auto* angle = table.find(joint.name + ".angle_rad"))
+      for (const double q : angle->values)
+        if (const double left = std::min(q - joint.min_rad, joint.max_rad - q);
+            left < e.to_stop_rad)
+          e.to_stop_rad = left, e.nearest = joint.name;
+  return e;
+}
+
+void worse_of(const Extremes& a, Extremes& into) {
+  if (a.of_max_tension > into.of_max_tension)
+    into.of_max_tension = a.of_max_tension, into.tightest = a.tightest;
+  if (a.to_stop_rad < into.to_stop_rad) into.to_stop_rad = a.to_stop_rad, into.nearest = a.nearest;
+}
+
+std::string danger(const Extremes& e, const ExperimentOptions& options) {
+  if (e.of_max_tension > options.of_max_tension)
+    return fmt::format("{} comes to {:.0f} % of its limit", e.tightest, 100 * e.of_max_tension);
+  if (e.to_stop_rad <= 0) return e.nearest + " meets its stop";
+  return "";
+}
+
+/// Σ z² of a suspect at its best on what was rehearsed.
+double square_of(const Trials& trials, const Placed& suspect) {
+  const std::size_t only[] = {0};
+  return diagnosis::fit(trials, trials.bare(), suspect, only).square;
+}
+
+double split(double other, double first) { return std::sqrt(std::max(0.0, other - first)); }
+
+Candidate try_out(const erp::Robot& robot, const std::vector<Placed>& suspects, int kind,
+                  std::uint64_t seed, const ExperimentOptions& options) {
+  Candidate candidate{kind, seed};
+  const Score score = score_of(excitation(robot, kind, options.seconds, seed));
+  candidate.extremes = extremes_of(rehearse(robot, score, seed), robot);
+  recording::Table truth;
+  for (const Placed& suspect : suspects) {
+    const auto table = rehearse(with(robot, suspect), score, seed);
+    worse_of(extremes_of(table, robot), candidate.extremes);
+    if (&suspect == &suspects.front()) truth = table;
+  }
+  candidate.unsafe = danger(candidate.extremes, options);
+  if (!candidate.unsafe.empty()) return candidate;
+  std::vector<std::string> remarks;
+  const Trials trials(robot, {diagnosis::lay_out(truth, robot, "rehearsed", remarks)});
+  const std::size_t only[] = {0};
+  const double first = square_of(trials, suspects[0]);
+  for (std::size_t k = 1; k < suspects.size(); ++k)
+    candidate.split.push_back(split(square_of(trials, suspects[k]), first));
+  if (suspects.size() == 1)
+    candidate.split = {split(sum(trials.blocks(trials.bare(), only)).square, first)};
+  candidate.least = *std::ranges::min_element(candidate.split);
+  return candidate;
+}
+
+}  // namespace
+
+Experiment next_experiment(const erp::Robot& robot, const std::vector<Placed>& suspects,
+                           const ExperimentOptions& options) {
+  if (suspects.empty()) throw std::invalid_argument("no suspect to split");
+  Experiment experiment;
+  experiment.candidates.resize(static_cast<std::size_t>(options.candidates));
+  std::atomic<int> done = 0;
+  diagnosis::in_parallel(experiment.candidates.size(), options.threads, [&](std::size_t k) {
+    const std::uint64_t seed = options.seed + k / kinds;
+    experiment.candidates[k] = try_out(robot, suspects, static_cast<int>(k % kinds), seed, options);
+    if (options.progress) options.progress(double(++done) / options.candidates);
+  });
+  std::ranges::stable_sort(experiment.candidates, [](const Candidate& a, const Candidate& b) {
+    return std::pair(!a.unsafe.empty(), -a.least) < std::pair(!b.unsafe.empty(), -b.least);
+  });
+  const Candidate& best = experiment.candidates.front();
+  if (best.unsafe.empty())
+    experiment.chosen = excitation(robot, best.kind, options.seconds, best.seed);
+  return experiment;
+}
+
+}  // namespace sim::rehearsal

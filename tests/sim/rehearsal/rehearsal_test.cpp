@@ -1,0 +1,97 @@
+#include <catch2/catch.hpp>
+
+#include "sim/rehearsal/experiment.hpp"
+#include "sim/rehearsal/free_run.hpp"
+#include "tests/sim/diagnosis/blind_recording.hpp"
+
+using namespace sim::rehearsal;
+namespace effects = sim::effects;
+
+namespace {
+
+effects::Placed placed(const char* type, const char* on, double value) {
+  effects::Placed p{on, *effects::neutral(type)};
+  *effects::parameters(p.effect)[0].value = value;
+  return p;
+}
+
+erp::Robot rig_with(const effects::Placed& effect) {
+  erp::Robot robot = blind_recording::hinge_rig();
+  robot.effects.push_back(effects::written(effect));
+  return robot;
+}
+
+Score slow(const erp::Robot& robot, double seconds) {
+  const auto excitation = sim::excitation(robot, 0, seconds, 7);
+  Score score;
+  for (const auto& row : excitation.reference)
+    score.push_back({{excitation.mode, row[0]}, {excitation.mode, row[1]}});
+  return score;
+}
+
+}  // namespace
+
+TEST_CASE("a rehearsal follows its score and is the same again bit by bit") {
+  const erp::Robot robot = blind_recording::hinge_rig();
+  const Score score = slow(robot, 3);
+  const auto table = rehearse(robot, score);
+  REQUIRE(table.rows() == score.size());
+  const double wound_m =
+      -table.find("flexor.shaft_rad")->values.back() * robot.actuators[0].spindle.radius_m;
+  CHECK(wound_m == Approx(score.back()[0].reference).margin(5e-3));
+  const auto again = rehearse(robot, score);
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    CHECK(again.columns[c].values == table.columns[c].values);
+}
+
+TEST_CASE("let run freely, the right effect closes the gap to a robot of another physics") {
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[1].damping = 150;  // extensor
+  const auto recordings = blind_recording::episodes(blind, 6, 2);
+  const erp::Robot nominal = blind_recording::hinge_rig();
+  const erp::Robot found = rig_with(placed("tendon_damping", "extensor", 150));
+  const FreeRun run = free_run(nominal, found, recordings, 2);
+  CHECK(run.remarks.empty());
+  CHECK(run.all.before > 10);
+  CHECK(run.all.closed > 0.8);
+  CHECK(run.all.interval.low > 0.7);
+  const FreeRun wrong =
+      free_run(nominal, rig_with(placed("joint_viscous", "elbow", 0.1)), recordings, 2);
+  CHECK(wrong.all.closed < 0.5);
+}
+
+TEST_CASE("a recording that begins elsewhere is left out, and it is said why") {
+  auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 3, 1);
+  const erp::Robot robot = blind_recording::hinge_rig();
+  recordings[0].joints[0].angle_rad[0] += 0.3;
+  const FreeRun run = free_run(robot, robot, recordings, 1);
+  CHECK(run.channels.empty());
+  REQUIRE(run.remarks.size() == 1);
+  CHECK_THAT(run.remarks[0], Catch::Contains("elbow does not start"));
+}
+
+TEST_CASE(
+    "the next experiment splits what can be split, safely, and says of twins that none does") {
+  const erp::Robot robot = blind_recording::hinge_rig();
+  const ExperimentOptions quick{.seconds = 5, .candidates = 4};
+  const auto coulomb = placed("gearbox_coulomb", "flexor", 0.03);
+  const auto viscous = placed("gearbox_viscous", "flexor", 0.012);
+  const Experiment apart = next_experiment(robot, {coulomb, viscous}, quick);
+  CHECK(apart.candidates.front().least > 20);
+  CHECK(apart.candidates.front().least >= apart.candidates[1].least);
+  CHECK_FALSE(apart.chosen.reference.empty());
+  CHECK(apart.candidates.front().extremes.of_max_tension < 0.85);
+
+  const auto offset = placed("tendon_length_offset", "flexor", 4e-4);
+  const auto shaft = placed("sensor_shaft_offset", "flexor", 4e-4 / 0.0045);
+  CHECK(next_experiment(robot, {offset, shaft}, quick).candidates.front().least < 3);
+}
+
+TEST_CASE("what would overload an actuator is not chosen") {
+  erp::Robot robot = blind_recording::hinge_rig();
+  for (erp::Actuator& actuator : robot.actuators) actuator.max_tension_N = 6;
+  const Experiment none = next_experiment(robot, {placed("gearbox_coulomb", "flexor", 0.03)},
+                                          {.seconds = 5, .candidates = 4});
+  CHECK(none.chosen.reference.empty());
+  CHECK_THAT(none.candidates[0].unsafe, Catch::Contains("of its limit"));
+}
