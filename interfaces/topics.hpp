@@ -17,6 +17,7 @@
 #include "interfaces/idl/joint_state.h"
 #include "interfaces/idl/lifecycle_command.h"
 #include "interfaces/idl/sensor_frame.h"
+#include "interfaces/idl/stage_residual.h"
 #include "interfaces/message.hpp"
 
 namespace erp {
@@ -33,6 +34,7 @@ using JointStateSample = erp_JointStateSample;
 using BodyPoseSample = erp_BodyPoseSample;
 using ActuatorOwnerSample = erp_ActuatorOwnerSample;
 using ImuSample = erp_ImuSample;
+using StageSample = erp_StageSample;
 
 template <>
 inline constexpr std::size_t capacity_of<JointSample> = 128;
@@ -44,6 +46,8 @@ template <>
 inline constexpr std::size_t capacity_of<BodyPoseSample> = 128;
 template <>
 inline constexpr std::size_t capacity_of<ImuSample> = 32;
+template <>
+inline constexpr std::size_t capacity_of<StageSample> = 320;
 template <>
 inline constexpr std::size_t capacity_of<EcuParameterValue> = 2048;
 template <>
@@ -59,6 +63,7 @@ using GainCommand = Message<erp_GainCommand, &erp_GainCommand::gains>;
 using JointState = Message<erp_JointState, &erp_JointState::joints>;
 using BodyPose = Message<erp_BodyPose, &erp_BodyPose::bodies>;
 using ImuFrame = Message<erp_ImuFrame, &erp_ImuFrame::imus>;
+using StageResidual = Message<erp_StageResidual, &erp_StageResidual::stages>;
 using ActuatorOwner = Message<erp_ActuatorOwner, &erp_ActuatorOwner::actuators>;
 using ComponentState = Message<erp_ComponentState>;
 using LifecycleCommand = Message<erp_LifecycleCommand>;
@@ -84,6 +89,7 @@ ERP_TOPIC(GainCommand, "gain_command")            // controllers -> plant
 ERP_TOPIC(JointState, "joint_state")              // sim (truth), pose_estimator, motion_capture
 ERP_TOPIC(BodyPose, "body_pose")                  // sim, motion_capture
 ERP_TOPIC(ImuFrame, "imu_frame")                  // sim, or a driver
+ERP_TOPIC(StageResidual, "stage_residual")        // gap_monitor -> all
 ERP_TOPIC(ActuatorOwner, "actuator_owner")        // plant -> all
 ERP_TOPIC(ComponentState, "component_state")      // every component
 ERP_TOPIC(LifecycleCommand, "lifecycle_command")  // launcher -> one component
@@ -92,8 +98,9 @@ ERP_TOPIC(Event, "event")                         // all
 #undef ERP_TOPIC
 
 /// Every message, for those who look at the bus as a whole.
-using Messages = std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame,
-                            EcuParameter, GainCommand, JointState, BodyPose, ImuFrame,
-                            ActuatorOwner, ComponentState, LifecycleCommand, Clock, Event>;
+using Messages =
+    std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame, EcuParameter,
+               GainCommand, JointState, BodyPose, ImuFrame, StageResidual, ActuatorOwner,
+               ComponentState, LifecycleCommand, Clock, Event>;
 
 }  // namespace erp

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t longest_name = 32;  // `component` is a string<32> on the bus
 constexpr auto reserved = std::to_array<std::string_view>(
     {"sim", "plant", "gateway", "replay", "logger", "reference", "target", "length_control",
-     "force_control", "controller", "erp", "node", "main", "test"});
+     "force_control", "gap_monitor", "controller", "erp", "node", "main", "test"});
 constexpr auto keywords = std::to_array<std::string_view>(
     {"auto",      "bool",    "break",    "case",    "catch",     "char",   "class",    "const",
      "continue",  "default", "delete",   "do",      "double",    "else",   "enum",     "explicit",

@@ -4,6 +4,9 @@
 #include <cmath>
 
 namespace sim::diagnosis {
+namespace {
+constexpr double of_method = 0.02;  // what the method's own approximations may shift a value by
+}
 
 Named named(const effects::Placed& placed) {
   const effects::About& about = effects::about(placed.effect);
@@ -16,7 +19,6 @@ Named named(const effects::Placed& placed) {
 }
 
 Named named(const Ranked& ranked, double least_gain) {
-  constexpr double of_method = 0.02;  // what the windows' own approximations may shift a value by
   Named n = named(ranked.fit.placed);
   for (std::size_t k = 0; k < n.values.size(); ++k) {
     const double half = 1.96 * ranked.fit.sigmas[k] + of_method * std::abs(n.values[k]);
@@ -29,7 +31,8 @@ Named named(const Ranked& ranked, double least_gain) {
 
 Named named(const BusFit& fit) {
   Named n = named(fit.placed);
-  n.intervals[0] = {fit.low, fit.high};
+  const double of_ticks = of_method * std::abs(fit.value);  // ages are whole ticks
+  n.intervals[0] = {fit.low - of_ticks, fit.high + of_ticks};
   n.gain = fit.gain, n.gain_interval = {fit.gain, fit.gain}, n.supported = fit.supported;
   return n;
 }

@@ -82,6 +82,7 @@ class Tracer {
     s.dt_s = period_s_;
     s.supply_V = m_.motor.supply_V, s.gear_ratio = m_.motor.gear_ratio;
     s.voltage_V = at(in_.voltage_V), s.current_A = at(out_.current_A);
+    s.current_square_A2 = square_A2(k);
     s.shaft_rad = at(out_.shaft_rad), s.speed_rad_per_s = at(out_.speed_rad_per_s);
     s.radius_m = law_.radius_m;
     s.tension_N = out_.tension_measured || k == 0 ? at(out_.tension_N) : at_spring(k - 1);
@@ -89,6 +90,17 @@ class Tracer {
     s.path_m = at(path_.length_m), s.path_change_m = s.path_m - m_.start_m;
     s.wrap_rad = at(path_.wrap_rad);
     return s;
+  }
+  /// ⟨i²⟩ over the period that ends at a row: within it the current falls evenly as the motor
+  /// speeds up, i = i_k + (K_E N/R)(ω_k − ω).
+  double square_A2(std::size_t k) const {
+    if (k == 0 || out_.current_A.empty() || out_.speed_rad_per_s.empty()) return 0;
+    const double fall_A = m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio /
+                          m_.motor.resistance_ohm *
+                          (out_.speed_rad_per_s[k] - out_.speed_rad_per_s[k - 1]);
+    const double mean_A = out_.current_A[k] + fall_A / 2;
+    const double square = mean_A * mean_A + fall_A * fall_A / 12;
+    return std::isnan(square) ? 0 : square;
   }
   double at_spring(std::size_t k) const {
     return out_.spring_N.empty() || std::isnan(out_.spring_N[k]) ? 0.0 : out_.spring_N[k];

@@ -64,6 +64,7 @@ struct ChainSample {
   double dt_s = 0;  ///< since the sample before
   double supply_V = 0, voltage_V = 0;
   double current_A = 0;
+  double current_square_A2 = 0;  ///< mean since the sample before
   double gear_ratio = 1;
   double shaft_rad = 0, speed_rad_per_s = 0;  ///< gearbox shaft; positive: winding up
   double radius_m = 0;                        ///< of the spindle

@@ -11,7 +11,7 @@ effects::ChainSample World::sample(std::size_t k, double dt_s) const {
   effects::ChainSample s;
   s.dt_s = dt_s;
   s.supply_V = chain.motor.type().supply_V, s.gear_ratio = chain.motor.type().gear_ratio;
-  s.current_A = chain.state.current_A;
+  s.current_A = chain.state.current_A, s.current_square_A2 = s.current_A * s.current_A;
   s.shaft_rad = chain.state.shaft_rad, s.speed_rad_per_s = chain.state.speed_rad_per_s;
   s.radius_m = chain.motor.spindle_radius_m();
   s.tension_N = readings_[k].tension_N;

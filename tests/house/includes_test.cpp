@@ -26,6 +26,8 @@ const std::vector<Rule> rules{
      {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
     {"components/force_control/",
      {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
+    {"components/gap_monitor/",
+     {"interfaces/", "components/node/", "sim/diagnosis/", "sim/effects/"}},
     {"components/",
      {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},

@@ -7,7 +7,7 @@ namespace sim::effects {
 
 /// The winding warms up, and its resistance rises.
 ///
-///   R' = R (1 + α ΔT),   d ΔT/dt = (R' i² R_th − ΔT) / T_th,   α = 0.00393 1/K (copper)
+///   R' = R (1 + α ΔT),   d ΔT/dt = (R' ⟨i²⟩ R_th − ΔT) / T_th,   α = 0.00393 1/K (copper)
 ///
 /// The magnet's own loss with temperature is left out.
 /// Source: maxon motor data sheets, thermal data; IEC 60034-1 for α.
@@ -26,7 +26,7 @@ struct MotorThermalResistance {
     constexpr double copper_per_K = 0.00393;
     double& rise_K = memory[0];
     const double now_ohm = cold_ohm * (1 + copper_per_K * rise_K);
-    const double heat_W = now_ohm * s.current_A * s.current_A;
+    const double heat_W = now_ohm * s.current_square_A2;
     rise_K += (heat_W * kelvin_per_W - rise_K) * -std::expm1(-s.dt_s / time_constant_s);
     return now_ohm;
   }

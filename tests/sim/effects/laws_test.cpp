@@ -115,7 +115,7 @@ TEST_CASE("the winding's warmth: steady rise of resistance, and its time") {
   MotorThermalResistance warm{10, 5};
   Memory memory{};
   ChainSample s = at(0);
-  s.current_A = 2;
+  s.current_A = 2, s.current_square_A2 = 4;
   double ohm = 0;
   for (int k = 0; k < 100000; ++k) ohm = warm.resistance_ohm(0.5, s, memory);
   const double rise_K = 10 * ohm * 4;  // R_th i² R

@@ -1,0 +1,39 @@
+#pragma once
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "interfaces/topics.hpp"
+#include "sim/diagnosis/where.hpp"
+
+/// The last seconds of a running robot, held against its model.
+namespace gap_monitor {
+
+class Window {
+ public:
+  /// Throws as sim::diagnosis::Stages.
+  Window(const erp::Robot& model, double window_s);
+
+  void hear(const erp::SensorFrame& frame);
+  void hear(const erp::JointState& state);  ///< for joints that sensor_frame does not carry
+
+  bool full() const { return rows_.size() >= most_; }
+  std::int64_t stamp_ns() const { return stamp_ns_; }  ///< of the last frame
+
+  /// The window as a table, as a recording would give it.
+  recording::Table table() const;
+  /// Stages and their residuals over the window; nothing while it is not full, or where frames
+  /// were lost in such numbers that it cannot be laid out, which `why` tells.
+  std::vector<sim::diagnosis::StageGap> judge(std::string& why) const;
+
+ private:
+  void name_columns();
+  erp::Robot model_;
+  std::size_t most_;
+  std::vector<std::string> columns_;
+  std::vector<double> joint_state_;  ///< of spherical joints, the newest, in the order of columns
+  std::deque<std::vector<double>> rows_;
+  std::int64_t stamp_ns_ = 0;
+};
+
+}  // namespace gap_monitor

@@ -1,0 +1,62 @@
+#include "components/gap_monitor/window.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+
+/// A row of a recording as the plant would say it.
+erp::SensorFrame frame_of(const recording::Table& table, const erp::Robot& robot, std::size_t row) {
+  const auto at = [&](const std::string& name) { return table.find(name)->values[row]; };
+  erp::SensorFrame frame;
+  frame.stamp_ns = std::llround(1e9 * at("time_s")), frame.sequence = row;
+  for (const erp::Actuator& a : robot.actuators) {
+    erp::ActuatorSample s{};
+    erp::assign(s.name, a.name);
+    s.valid = erp::valid::all, s.mode = std::uint8_t(at(a.name + ".mode"));
+    s.reference = at(a.name + ".reference"), s.voltage_V = at(a.name + ".voltage_V");
+    s.current_A = at(a.name + ".current_A"), s.shaft_rad = at(a.name + ".shaft_rad");
+    s.tension_N = at(a.name + ".tension_N");
+    erp::append(frame.actuators, s);
+  }
+  erp::JointSample joint{};
+  erp::assign(joint.name, "elbow");
+  joint.valid = erp::valid::joint_angle, joint.angle_rad = at("elbow.angle_rad");
+  erp::append(frame.joints, joint);
+  return frame;
+}
+
+/// The stages that are open after a run of the rig with such effects.
+std::vector<std::string> open_after(const std::vector<erp::Effect>& effects) {
+  erp::Robot real = hinge_rig();
+  real.effects = effects;
+  const auto table = rig_recording::table_of_run(real, {.seconds = 5});
+  gap_monitor::Window window(hinge_rig(), 4);
+  std::string why;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    CHECK((row > 1999 || window.judge(why).empty()));
+    window.hear(frame_of(table, real, row));
+  }
+  std::vector<std::string> open;
+  const auto gaps = window.judge(why);
+  CHECK(why.empty());
+  CHECK_FALSE(gaps.empty());
+  for (const auto& gap : gaps)
+    if (gap.open) open.push_back(std::string(sim::effects::word(gap.stage)) + " " + gap.on);
+  std::ranges::sort(open);
+  return open;
+}
+
+}  // namespace
+
+TEST_CASE("a window of a robot as modelled is at its floor, one with an effect shows its stage") {
+  CHECK(open_after({}).empty());
+  CHECK(open_after({{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}}) ==
+        std::vector<std::string>{"gearbox extensor"});
+}
