@@ -15,7 +15,9 @@ class Window {
   Window(const erp::Robot& model, double window_s);
 
   void hear(const erp::SensorFrame& frame);
-  void hear(const erp::JointState& state);  ///< for joints that sensor_frame does not carry
+  /// For joints that sensor_frame does not carry: motion capture's, else the simulator's, never an
+  /// estimate.
+  void hear(const erp::JointState& state);
 
   bool full() const { return rows_.size() >= most_; }
   std::int64_t stamp_ns() const { return stamp_ns_; }  ///< of the last frame
@@ -27,11 +29,11 @@ class Window {
   std::vector<sim::diagnosis::StageGap> judge(std::string& why) const;
 
  private:
-  void name_columns();
   erp::Robot model_;
   std::size_t most_;
-  std::vector<std::string> columns_;
+  std::vector<std::string> columns_{"time_s", "sequence"};
   std::vector<double> joint_state_;  ///< of spherical joints, the newest, in the order of columns
+  bool tracked_ = false;             ///< by motion capture
   std::deque<std::vector<double>> rows_;
   std::int64_t stamp_ns_ = 0;
 };

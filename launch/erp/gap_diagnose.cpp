@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 
 #include "launch/erp/gap.hpp"
@@ -87,12 +88,14 @@ void print(const diagnosis::Diagnosis& d, std::ostream& out) {
 sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
                                    const std::vector<diagnosis::Episode>& episodes,
                                    const erp::Robot& robot, const erp::Robot& found,
-                                   const GapDiagnoseOptions& options) {
+                                   const GapDiagnoseOptions& options, Progress& progress) {
   if (d.answer.empty() || !options.free_run || !robot.drives.empty()) return {};
   std::vector<diagnosis::Episode> held_out;
   for (const auto& e : episodes)
     if (std::ranges::count(d.held_out, e.name)) held_out.push_back(e);
-  return sim::rehearsal::free_run(robot, found, held_out, options.threads, options.seed);
+  return sim::rehearsal::free_run(
+      robot, found, held_out,
+      {options.threads, options.seed, [&](double share) { progress.tell("free run", share); }});
 }
 
 }  // namespace
@@ -117,22 +120,19 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
   const Sorted sorted = sort(options);
   std::vector<std::string> mended;
   const auto episodes = read_episodes(robot, sorted.files, mended);
-  for (const std::string& remark : mended) remarks << remark << "\n";
-  diagnosis::Diagnosis d;
-  {
-    Progress progress(remarks);
-    diagnosis::DiagnoseOptions how{.train = sorted.train,
-                                   .held_out = sorted.held_out,
-                                   .withhold = options.withhold,
-                                   .threads = options.threads,
-                                   .seed = options.seed};
-    how.progress = [&](const std::string& what, double share) { progress.tell(what, share); };
-    d = diagnosis::diagnose(robot, episodes, how);
-  }
+  std::optional<Progress> progress(std::in_place, remarks);
+  diagnosis::DiagnoseOptions how{.train = sorted.train,
+                                 .held_out = sorted.held_out,
+                                 .withhold = options.withhold,
+                                 .threads = options.threads,
+                                 .seed = options.seed};
+  how.progress = [&](const std::string& what, double share) { progress->tell(what, share); };
+  diagnosis::Diagnosis d = diagnosis::diagnose(robot, episodes, how);
   d.warnings.insert(d.warnings.begin(), mended.begin(), mended.end());
   erp::Robot found = erp::read_robot(options.robot);
   for (const auto& n : d.answer) found.effects.push_back(sim::effects::written(n.placed));
-  const auto free_run = run_freely(d, episodes, robot, found, options);
+  const auto free_run = run_freely(d, episodes, robot, found, options, *progress);
+  progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
   print(d, out);
   if (!free_run.channels.empty())
@@ -140,6 +140,7 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
         "free run    {:.3g} times what noise alone would do before, {:.3g} after: {:.1f} % "
         "closed\n",
         free_run.all.before, free_run.all.after, 100 * free_run.all.closed);
+  for (const std::string& warning : d.warnings) out << "warning     " << warning << "\n";
   out << "verdict     " << diagnosis::word(d.verdict) << "\n";
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);

@@ -39,6 +39,9 @@ void add_diagnose(CLI::App& gap, Chosen& chosen) {
   diagnose->add_option("--withhold", o->withhold, "types of effects to do without");
   diagnose->add_option("--out", o->out, "folder for report.html, diagnosis.json and robot.xml");
   diagnose->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  diagnose->add_flag_callback(
+      "--no-free-run", [o] { o->free_run = false; },
+      "do not let the answer run freely in the simulator");
   diagnose->add_option("--seed", o->seed, "of the bootstrap");
   diagnose->callback(
       [=, &chosen] { chosen = [=] { return gap_diagnose(*o, std::cout, std::cerr); }; });

@@ -5,6 +5,9 @@
 
 namespace sim {
 
+/// Of each part of a quaternion as motion capture tells it; chosen.
+inline constexpr double tracking_noise = 2e-4;
+
 /// Normal noise, the same on every machine from the same seed.
 /// Uniform bits: splitmix64 (Steele, Lea, Flood 2014); normal: Box and Muller 1958.
 class Noise {

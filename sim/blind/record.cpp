@@ -7,8 +7,10 @@
 #include <random>
 #include <stdexcept>
 
+#include "interfaces/recording/columns.hpp"
 #include "sim/actuator/design.hpp"
 #include "sim/actuator/ecu_units.hpp"
+#include "sim/actuator/noise.hpp"
 #include "sim/actuator/sensors.hpp"
 #include "sim/blind/plant.hpp"
 
@@ -16,7 +18,6 @@ namespace sim::blind {
 namespace {
 
 constexpr double period_s = 0.002;
-constexpr double tracking_noise = 2e-4;  // of a motion capture's quaternions; chosen
 
 /// One sensor: value to what it says.
 class Sense {
@@ -106,7 +107,7 @@ class Run {
       angles_.emplace_back(quirks_.joints[j].angle, noise, step, -10, 10);
       types_.push_back(joints[j].type);
     }
-    name_columns(joints);
+    name_columns();
   }
 
   recording::Table go(const Excitation& excitation) {
@@ -127,18 +128,10 @@ class Run {
   }
 
  private:
-  void name_columns(const std::vector<erp::Joint>& joints) {
-    const auto add = [this](const std::string& name) { table_.columns.push_back({name, {}}); };
-    add("time_s");
-    for (const erp::Actuator& a : nominal_.actuators)
-      for (const char* signal :
-           {"mode", "reference", "voltage_V", "current_A", "shaft_rad", "tension_N"})
-        add(a.name + "." + signal);
-    for (const erp::Joint& joint : joints) {
-      if (joint.type == erp::JointType::revolute) add(joint.name + ".angle_rad");
-      if (joint.type == erp::JointType::spherical)
-        for (const char* part : {".qw", ".qx", ".qy", ".qz"}) add(joint.name + part);
-    }
+  void name_columns() {
+    table_.columns.push_back({"time_s", {}});
+    for (std::string& name : recording::columns_of(nominal_))
+      table_.columns.push_back({std::move(name), {}});
   }
   void obey(erp::Mode mode) {
     for (std::size_t a = 0; a < units_.size(); ++a)

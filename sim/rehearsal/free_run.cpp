@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 #include "sim/diagnosis/indices.hpp"
 #include "sim/diagnosis/parallel.hpp"
@@ -132,17 +133,22 @@ Closed all_of(const Errors& errors, std::span<const std::size_t> drawn) {
 }  // namespace
 
 FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
-                 std::span<const Episode> recordings, int threads, std::uint64_t seed) {
+                 std::span<const Episode> recordings, const FreeRunOptions& options) {
   FreeRun result;
   std::vector<Errors> of_recording(recordings.size());
   std::vector<std::string> why(recordings.size());
-  diagnosis::in_parallel(recordings.size(), threads, [&](std::size_t r) {
+  std::size_t done = 0;
+  std::mutex telling;
+  diagnosis::in_parallel(recordings.size(), options.threads, [&](std::size_t r) {
     why[r] = obstacle(recordings[r], nominal);
     try {
-      if (why[r].empty()) of_recording[r] = errors_of(recordings[r], nominal, found, seed + 2 * r);
+      if (why[r].empty())
+        of_recording[r] = errors_of(recordings[r], nominal, found, options.seed + 2 * r);
     } catch (const std::exception& failed) {
       why[r] = failed.what();
     }
+    const std::lock_guard lock(telling);
+    if (options.progress) options.progress(double(++done) / double(recordings.size()));
   });
   Errors errors;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
@@ -158,7 +164,7 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
   const auto every = diagnosis::each(errors.begin()->second.second.size());
   const auto interval = [&](auto of) {
     return diagnosis::middle(diagnosis::bootstrap(
-        every.size(), 400, seed, [&](const auto& drawn) { return of(drawn).closed; }));
+        every.size(), 400, options.seed, [&](const auto& drawn) { return of(drawn).closed; }));
   };
   for (const auto& [name, channel] : errors) {
     const auto of = [&](std::span<const std::size_t> drawn) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "sim/diagnosis/closing.hpp"
 #include "sim/diagnosis/episode.hpp"
 #include "sim/rehearsal/rehearse.hpp"
@@ -17,11 +19,18 @@ struct FreeRun {
   std::vector<std::string> remarks;         ///< recordings that were left out, and why
 };
 
+struct FreeRunOptions {
+  int threads = 2;
+  std::uint64_t seed = 1;
+  std::function<void(double)> progress = {};  ///< 0 … 1
+};
+
 /// Of a robot as given and with what was found, over some recordings; intervals by blocks of them,
-/// a second each. Recordings that do not start where the model starts, that lack modes or
-/// references, or in which a rehearsal fails, are left out with a remark.
+/// a second each. Recordings in which a hinge does not start where the model starts, that lack
+/// modes or references, or in which a rehearsal fails, are left out with a remark. Where a
+/// spherical joint starts is not checked.
 FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
-                 std::span<const diagnosis::Episode> recordings, int threads,
-                 std::uint64_t seed = 1);
+                 std::span<const diagnosis::Episode> recordings,
+                 const FreeRunOptions& options = {});
 
 }  // namespace sim::rehearsal

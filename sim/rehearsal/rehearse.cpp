@@ -4,15 +4,16 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "interfaces/recording/columns.hpp"
 #include "sim/actuator/design.hpp"
 #include "sim/actuator/ecu_units.hpp"
+#include "sim/actuator/noise.hpp"
 #include "sim/world/virtual_ecus.hpp"
 
 namespace sim::rehearsal {
 namespace {
 
 constexpr double tick_s = 0.002;
-constexpr double tracking_noise = 2e-4;  // of a motion capture's quaternions; chosen
 
 class Stage {
  public:
@@ -42,17 +43,9 @@ class Stage {
 
  private:
   void name_columns() {
-    const auto add = [this](const std::string& name) { table_.columns.push_back({name, {}}); };
-    add("time_s");
-    for (const erp::Actuator& a : robot_.actuators)
-      for (const char* signal :
-           {"mode", "reference", "voltage_V", "current_A", "shaft_rad", "tension_N"})
-        add(a.name + "." + signal);
-    for (const erp::Joint& joint : robot_.joints()) {
-      if (joint.type == erp::JointType::revolute) add(joint.name + ".angle_rad");
-      if (joint.type == erp::JointType::spherical)
-        for (const char* part : {".qw", ".qx", ".qy", ".qz"}) add(joint.name + part);
-    }
+    table_.columns.push_back({"time_s", {}});
+    for (std::string& name : recording::columns_of(robot_))
+      table_.columns.push_back({std::move(name), {}});
   }
 
   void give_gains() {

@@ -60,3 +60,25 @@ TEST_CASE("a window of a robot as modelled is at its floor, one with an effect s
   CHECK(open_after({{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}}) ==
         std::vector<std::string>{"gearbox extensor"});
 }
+
+TEST_CASE("a ball joint is where motion capture says, else the simulator, never an estimate") {
+  const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
+  const auto joints = robot.joints();
+  const auto ball =
+      std::ranges::find(joints, erp::JointType::spherical, [](const auto& j) { return j.type; });
+  gap_monitor::Window window(robot, 4);
+  const auto hear = [&](const char* source, double w) {
+    erp::JointState state;
+    erp::assign(state.source, source);
+    erp::JointStateSample sample{};
+    erp::assign(sample.name, ball->name);
+    sample.position[0] = w;
+    erp::append(state.joints, sample);
+    window.hear(state), window.hear(erp::SensorFrame{});
+    return window.table().find(ball->name + ".qw")->values.back();
+  };
+  CHECK(std::isnan(hear("pose_estimator", 0.1)));
+  CHECK(hear("sim", 0.2) == 0.2);
+  CHECK(hear("motion_capture", 0.3) == 0.3);
+  CHECK(hear("sim", 0.4) == 0.3);
+}

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interfaces/recording/columns.hpp"
 #include "sim/diagnosis/episode.hpp"
 #include "tests/sim/world/limb.hpp"
 
@@ -18,11 +19,8 @@ inline recording::Table table_of_run(const erp::Robot& robot, const Plan& plan) 
   Limb limb(robot, {}, {.seed = plan.seed});
   recording::Table table;
   table.columns.push_back({"time_s", {}});
-  for (const auto& a : robot.actuators)
-    for (const char* signal :
-         {"mode", "reference", "voltage_V", "current_A", "shaft_rad", "tension_N"})
-      table.columns.push_back({a.name + "." + signal, {}});
-  table.columns.push_back({"elbow.angle_rad", {}});
+  for (std::string& name : recording::columns_of(robot))
+    table.columns.push_back({std::move(name), {}});
   erp::EcuFrame frame;
   const double turn = 2 * std::numbers::pi;
   for (int k = 0; k < static_cast<int>(plan.seconds * 500); ++k) {

@@ -50,13 +50,13 @@ TEST_CASE("let run freely, the right effect closes the gap to a robot of another
   const auto recordings = blind_recording::episodes(blind, 6, 2);
   const erp::Robot nominal = blind_recording::hinge_rig();
   const erp::Robot found = rig_with(placed("tendon_damping", "extensor", 150));
-  const FreeRun run = free_run(nominal, found, recordings, 2);
+  const FreeRun run = free_run(nominal, found, recordings, {.threads = 2});
   CHECK(run.remarks.empty());
   CHECK(run.all.before > 10);
   CHECK(run.all.closed > 0.8);
   CHECK(run.all.interval.low > 0.7);
-  const FreeRun wrong =
-      free_run(nominal, rig_with(placed("joint_viscous", "elbow", 0.1)), recordings, 2);
+  const FreeRun wrong = free_run(nominal, rig_with(placed("joint_viscous", "elbow", 0.1)),
+                                 recordings, {.threads = 2});
   CHECK(wrong.all.closed < 0.5);
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("a recording that begins elsewhere is left out, and it is said why") {
   auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 3, 1);
   const erp::Robot robot = blind_recording::hinge_rig();
   recordings[0].joints[0].angle_rad[0] += 0.3;
-  const FreeRun run = free_run(robot, robot, recordings, 1);
+  const FreeRun run = free_run(robot, robot, recordings, {.threads = 1});
   CHECK(run.channels.empty());
   REQUIRE(run.remarks.size() == 1);
   CHECK_THAT(run.remarks[0], Catch::Contains("elbow does not start"));

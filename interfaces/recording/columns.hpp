@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "interfaces/robot/robot.hpp"
+
+/// The columns that a robot's frames fill (table.hpp), in the order in which they are written:
+/// six signals of each actuator, then each joint that has an angle or a quaternion.
+namespace recording {
+
+inline constexpr const char* actuator_signals[] = {"mode",      "reference", "voltage_V",
+                                                   "current_A", "shaft_rad", "tension_N"};
+inline constexpr const char* quaternion_parts[] = {"qw", "qx", "qy", "qz"};
+
+/// One for a revolute joint, four for a spherical one.
+inline std::vector<std::string> columns_of(const erp::Joint& joint) {
+  std::vector<std::string> names;
+  if (joint.type == erp::JointType::revolute) names.push_back(joint.name + ".angle_rad");
+  if (joint.type == erp::JointType::spherical)
+    for (const char* part : quaternion_parts) names.push_back(joint.name + "." + part);
+  return names;
+}
+
+/// time_s comes before them.
+inline std::vector<std::string> columns_of(const erp::Robot& robot) {
+  std::vector<std::string> names;
+  for (const erp::Actuator& a : robot.actuators)
+    for (const char* signal : actuator_signals) names.push_back(a.name + "." + signal);
+  for (const erp::Joint& joint : robot.joints())
+    for (std::string& name : columns_of(joint)) names.push_back(std::move(name));
+  return names;
+}
+
+}  // namespace recording

@@ -1,0 +1,80 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "interfaces/graph/graph.hpp"
+#include "interfaces/recording/table.hpp"
+#include "launch/erp/gap.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Planned {
+  int code;
+  std::string said;
+};
+
+/// What is planned after a diagnosis that could not tell two effects apart.
+Planned plan(const fs::path& folder, const std::string& one, const std::string& other) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "diagnosis.json")
+      << R"({"verdict": "supported", "effects": [)" << one << ", " << other
+      << R"(], "confusable": [)" << one << ", " << other << "]}";
+  std::ostringstream out, remarks;
+  const int code = launch::gap_plan({.robot = rigs::config("hinge_rig/robot.xml"),
+                                     .diagnosis = (folder / "diagnosis.json").string(),
+                                     .out = (folder / "next").string(),
+                                     .seconds = 4,
+                                     .candidates = 3},
+                                    out, remarks);
+  return {code, out.str()};
+}
+
+std::string effect(const std::string& type, const std::string& parameter, double value) {
+  return R"({"type": ")" + type + R"(", "on": "flexor", "supported": true, "parameters": {")" +
+         parameter + R"(": )" + std::to_string(value) + "}}";
+}
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / "erp_gap_plan_test";
+  Folder() { fs::remove_all(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+}  // namespace
+
+TEST_CASE("two frictions are split by a motion, which is written as a graph to launch") {
+  const Folder folder;
+  const Planned planned = plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
+                               effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02));
+  INFO(planned.said);
+  REQUIRE(planned.code == 0);
+  const auto graph = erp::read_graph((folder.path / "next/graph.xml").string());
+  CHECK(graph.components.size() == 2);
+  const auto table = recording::read_table((folder.path / "next/trajectory.csv").string());
+  CHECK(table.find("time_s")->values.back() == Approx(4).margin(0.1));
+  CHECK(table.find("extensor.reference") != nullptr);
+  CHECK_THAT(planned.said, Catch::Contains("erp launch"));
+}
+
+TEST_CASE("twins are split by no motion, and no graph is written") {
+  const Folder folder;
+  const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
+                               effect("sensor_shaft_offset", "offset_rad", -0.0889));
+  INFO(planned.said);
+  CHECK(planned.code == 5);
+  CHECK_FALSE(fs::exists(folder.path / "next/graph.xml"));
+}
+
+TEST_CASE("a plan without a diagnosis says which file it misses") {
+  const Folder folder;
+  std::ostringstream out, remarks;
+  CHECK_THROWS_WITH(launch::gap_plan({.robot = rigs::config("hinge_rig/robot.xml"),
+                                      .diagnosis = (folder.path / "diagnosis.json").string(),
+                                      .out = folder.path.string()},
+                                     out, remarks),
+                    Catch::Contains("diagnosis.json"));
+}
