@@ -31,8 +31,8 @@ struct Rate {
 struct Score {
   std::map<std::string, Rate> rates;
   std::vector<std::string> failures;
-  double set_size = 0, closed = 0, precision = 0, recall = 0;
-  int sets = 0, closings = 0, answers = 0;
+  double set_size = 0, group_size = 0, closed = 0, precision = 0, recall = 0;
+  int sets = 0, groups = 0, closings = 0, answers = 0;
 };
 
 std::vector<Json> answer_of(const Json& diagnosis) {
@@ -67,6 +67,14 @@ bool located(const Json& hidden, const Json& diagnosis) {
          diagnosis["where"][0]["on"] == hidden["on"];
 }
 
+/// How many places are named first, alike.
+std::size_t group_size(const Json& diagnosis) {
+  std::size_t size = 0;
+  for (const Json& place : diagnosis["where"])
+    size += place["share"] == diagnosis["where"][0]["share"];
+  return size;
+}
+
 /// The place that is named first, with other stages that could not be told from it.
 bool in_group(const Json& hidden, const Json& diagnosis) {
   for (const Json& place : diagnosis["where"])
@@ -97,6 +105,9 @@ void score_single(const Json& truth, const Json& d, Score& score) {
   ++score.sets;
   for (const Json& effect : d["effects"])
     if (same(effect, hidden)) count_intervals(hidden, effect, score.rates["4 interval holds"]);
+  score.rates["6 confident and the stage wrong"].count(d["verdict"] == "supported" && !in_set &&
+                                                       !in_group(hidden, d));
+  score.group_size += double(group_size(d)), ++score.groups;
   if (d["verdict"] != "supported" || !in_set || !located(hidden, d))
     score.failures.push_back(
         fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
@@ -109,6 +120,7 @@ void score_none(const Json& truth, const Json& d, Score& score) {
   score.rates["1 none of the known"].count(none);
   score.rates["2 stage"].count(stage);
   score.rates["4 stage in the reported group"].count(in_group(hidden, d));
+  score.group_size += double(group_size(d)), ++score.groups;
   score.rates["3 place"].count(!d["where"].empty() && d["where"][0]["on"] == hidden["on"]);
   if (!none || !stage)
     score.failures.push_back(
@@ -140,15 +152,17 @@ void score_null(const Json& truth, const Json& d, Score& score) {
 void print(const std::string& kind, const Score& score, std::ostream& out) {
   out << kind << "\n";
   for (const auto& [name, rate] : score.rates)
-    out << fmt::format("  {:<28} {}\n", name.substr(2), rate.told());
+    out << fmt::format("  {:<29} {}\n", name.substr(2), rate.told());
   if (score.sets > 0)
-    out << fmt::format("  {:<28} {:5.2f}\n", "mean set size", score.set_size / score.sets);
+    out << fmt::format("  {:<29} {:5.2f}\n", "mean set size", score.set_size / score.sets);
+  if (score.groups > 0)
+    out << fmt::format("  {:<29} {:5.2f}\n", "mean group size", score.group_size / score.groups);
   if (score.closings > 0)
-    out << fmt::format("  {:<28} {:5.1f} %\n", "closed, of what truth closes",
+    out << fmt::format("  {:<29} {:5.1f} %\n", "closed, of what truth closes",
                        100 * score.closed / score.closings);
   if (score.answers > 0) {
     const double p = score.precision / score.answers, r = score.recall / score.answers;
-    out << fmt::format("  {:<28} {:5.3f}\n", "F1", p + r > 0 ? 2 * p * r / (p + r) : 0);
+    out << fmt::format("  {:<29} {:5.3f}\n", "F1", p + r > 0 ? 2 * p * r / (p + r) : 0);
   }
   if (!score.failures.empty()) out << "  failures: hidden | said\n";
   for (const std::string& failure : score.failures) out << "    " << failure << "\n";

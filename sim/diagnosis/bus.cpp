@@ -26,14 +26,17 @@ struct Law {
 /// What the voltage would be without a command, from the row before; by mode.
 Law law_of(const ActuatorSignals& s, const erp::Robot& robot, const erp::Actuator& actuator,
            double period_s) {
+  Law law;
+  if (s.mode.empty() || s.reference.empty() || s.voltage_V.empty() || s.shaft_rad.empty())
+    return law;
+  const auto mode = static_cast<erp::Mode>(std::lround(std::isnan(s.mode[0]) ? 0 : s.mode[0]));
+  const bool length = mode == erp::Mode::length;
+  const bool force = mode == erp::Mode::force && !s.current_A.empty() && !s.tension_N.empty();
+  if (!length && !force) return law;
   const auto gains = design_parameters(robot, actuator, {});
   const auto gain = [&](ecu_parameter_index k) {
     return static_cast<double>(gains[static_cast<std::size_t>(k)]);
   };
-  const auto mode = static_cast<erp::Mode>(std::lround(std::isnan(s.mode[0]) ? 0 : s.mode[0]));
-  Law law;
-  if (mode != erp::Mode::length && mode != erp::Mode::force) return law;
-  const bool length = mode == erp::Mode::length;
   law.gain = length ? -gain(ECU_PARAMETER_LENGTH_KP) / actuator.spindle.radius_m
                     : gain(ECU_PARAMETER_FORCE_PREFILTER);
   law.rest_V.assign(s.voltage_V.size(), recording::not_taken);
@@ -51,11 +54,6 @@ Law law_of(const ActuatorSignals& s, const erp::Robot& robot, const erp::Actuato
                                gain(ECU_PARAMETER_FORCE_K_TENSION) * s.tension_N[k - 1]);
   }
   return law;
-}
-
-bool complete(const ActuatorSignals& s) {
-  return !s.mode.empty() && !s.reference.empty() && !s.voltage_V.empty() && !s.current_A.empty() &&
-         !s.shaft_rad.empty() && !s.tension_N.empty();
 }
 
 void add_ages(const ActuatorSignals& s, const Law& law, double tolerance_V, Ages& ages) {
@@ -118,12 +116,6 @@ std::vector<double> own_shares(std::span<const Ages> ages) {
   return share;
 }
 
-bool told(std::span<const Ages> ages) {
-  std::size_t told = 0, tried = 0;
-  for (const Ages& one : ages) told += one.told, tried += one.tried;
-  return tried > 100 && static_cast<double>(told) > least_told * static_cast<double>(tried);
-}
-
 /// The most likely value of the effect's one parameter, and those that are as likely but for a
 /// factor of e².
 BusFit fit_one(effects::Placed placed, std::span<const Ages> train) {
@@ -156,12 +148,17 @@ Ages command_ages(const Episode& episode, const erp::Robot& robot) {
   Ages ages{episode.period_s, std::vector<std::size_t>(oldest, 0), 0, 0};
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const ActuatorSignals& s = episode.actuators[a];
-    if (!complete(s)) continue;
     const Law law = law_of(s, robot, robot.actuators[a], episode.period_s);
     const double count_V = robot.motor_of(robot.actuators[a]).supply_V / ECU_DUTY_MAX;
     add_ages(s, law, count_V, ages);
   }
   return ages;
+}
+
+bool told(std::span<const Ages> ages) {
+  std::size_t told = 0, tried = 0;
+  for (const Ages& one : ages) told += one.told, tried += one.tried;
+  return tried > 100 && static_cast<double>(told) > least_told * static_cast<double>(tried);
 }
 
 double late_share(std::span<const Ages> ages) {

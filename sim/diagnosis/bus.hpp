@@ -39,6 +39,9 @@ struct BusFit {
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
                             const erp::Robot& robot, const std::vector<std::string>& withhold);
 
+/// Enough ages were found, of enough ticks; else nothing is said of the bus.
+bool told(std::span<const Ages> ages);
+
 /// The share of ticks in which a command was not the newest.
 double late_share(std::span<const Ages> ages);
 

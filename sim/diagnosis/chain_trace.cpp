@@ -11,6 +11,22 @@ constexpr double resting_rad_per_s = 0.02;  // chosen: an encoder step in a few 
 
 using effects::Sloped;
 
+/// While the voltage is held the speed settles, as e^(−t damping/inertia).
+struct Settling {
+  double inertia, damping;
+  double share;  ///< ω_k − mean ω as a share of ω_k − ω_k−1
+  double end;    ///< ω̇ at the period's end as a share of the mean ω̇
+};
+
+Settling settling(const erp::MotorType& m, double period_s) {
+  const double n2 = m.gear_ratio * m.gear_ratio;
+  const double inertia = m.rotor_inertia_kg_m2 * n2 + m.gear_inertia_kg_m2 / m.gear_efficiency;
+  const double damping = n2 * m.torque_Nm_per_A * m.back_emf_V_s_per_rad / m.resistance_ohm;
+  const double x = damping / inertia * period_s, left = std::exp(-x);
+  if (x < 1e-6) return {inertia, damping, 0.5, 1};
+  return {inertia, damping, ((1 - left) / x - left) / (1 - left), x * left / (1 - left)};
+}
+
 /// The rows of one chain, one after the other.
 class Tracer {
  public:
@@ -29,6 +45,7 @@ class Tracer {
   ChainTrace run() {
     undo_sensors();
     out_.tension_measured = !in_.tension_N.empty(), out_.current_measured = !in_.current_A.empty();
+    if (!out_.current_measured) out_.current_averaged = 1;
     rows_ = std::max({out_.shaft_rad.size(), in_.voltage_V.size(), in_.tension_N.size()});
     out_.speed_rad_per_s = bump_.rates(out_.shaft_rad);
     if (!path_.length_m.empty()) path_rate_ = bump_.rates(path_.length_m);
@@ -38,6 +55,7 @@ class Tracer {
       out_.spring_N.assign(rows_, nan), out_.path_slope.assign(rows_, 1);
     if (turning && !in_.voltage_V.empty())
       out_.terminal_V.assign(rows_, nan), out_.resistance_ohm.assign(rows_, nan);
+    samples_.reserve(rows_), wound_slope_.reserve(rows_);
     for (std::size_t k = 0; k < rows_; ++k) take(k);
     if (!out_.tension_measured) out_.tension_N = out_.spring_N;
     find_drive();
@@ -139,11 +157,16 @@ class Tracer {
     out_.path_slope[k] = path.slope;
   }
 
-  /// i: as measured, or as the motor's law has it.
+  /// i as measured; or, as the motor's law has it, its mean around the row, late by L/R.
   double current_A(std::size_t k) const {
     if (out_.current_measured) return out_.current_A[k];
-    return (out_.terminal_V[k] -
-            m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * out_.speed_rad_per_s[k]) /
+    if (k + 1 >= rows_) return nan;
+    const double late_s = m_.motor.inductance_H / out_.resistance_ohm[k];
+    const double next_V = out_.terminal_V[k + 1], now_V = out_.terminal_V[k];
+    const double mean_V = (now_V + next_V) / 2 - late_s * (next_V - now_V) / period_s_;
+    const double answered =
+        out_.speed_rad_per_s[k] - late_s * rate_of(out_.speed_rad_per_s, k, period_s_);
+    return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * answered) /
            out_.resistance_ohm[k];
   }
   /// ī over the period that ends at row k, but for what the speed changes.
@@ -204,26 +227,6 @@ ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTr
                  double period_s, double speed_half_width_s) {
   return Tracer(std::move(model), measured, path, period_s, speed_half_width_s).run();
 }
-
-namespace {
-
-/// While the voltage is held the speed settles, as e^(−t damping/inertia).
-struct Settling {
-  double inertia, damping;
-  double share;  ///< ω_k − mean ω as a share of ω_k − ω_k−1
-  double end;    ///< ω̇ at the period's end as a share of the mean ω̇
-};
-
-Settling settling(const erp::MotorType& m, double period_s) {
-  const double n2 = m.gear_ratio * m.gear_ratio;
-  const double inertia = m.rotor_inertia_kg_m2 * n2 + m.gear_inertia_kg_m2 / m.gear_efficiency;
-  const double damping = n2 * m.torque_Nm_per_A * m.back_emf_V_s_per_rad / m.resistance_ohm;
-  const double x = damping / inertia * period_s, left = std::exp(-x);
-  if (x < 1e-6) return {inertia, damping, 0.5, 1};
-  return {inertia, damping, ((1 - left) / x - left) / (1 - left), x * left / (1 - left)};
-}
-
-}  // namespace
 
 double current_lag_s(const erp::MotorType& m, double period_s) {
   const Settling s = settling(m, period_s);

@@ -46,6 +46,27 @@ void add_observed(const Observed& observed, Diagnosis& d) {
   d.answer.push_back(observed.bus[0]);
 }
 
+/// What the recordings leave unjudged for want of signals; empty: nothing.
+std::string not_judged(const erp::Robot& robot, const std::vector<StageGap>& stages,
+                       const Observed& observed) {
+  using effects::Stage;
+  std::string names;
+  const auto look = [&](Stage stage, const std::string& on) {
+    const auto found = find_stage(stages, stage, on);
+    if (found != stages.end() && found->judged) return;
+    names += (names.empty() ? "" : ", ") + std::string(effects::word(stage)) + " of " + on;
+  };
+  for (const erp::Actuator& a : robot.actuators) {
+    if (a.tendon.path.empty()) continue;  // a drive
+    for (const Stage stage : {Stage::motor, Stage::gearbox, Stage::tendon}) look(stage, a.name);
+  }
+  for (const erp::Joint& joint : robot.joints())
+    if (joint.type != erp::JointType::fixed) look(Stage::joint, joint.name);
+  if (robot.drives.empty() && !observed.bus_told)
+    names += std::string(names.empty() ? "" : ", ") + "the bus";
+  return names;
+}
+
 /// The robot with what was seen without a fit.
 erp::Robot as_observed(const erp::Robot& robot, const Observed& observed) {
   erp::Robot known = robot;
@@ -85,6 +106,8 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
   if (!observed.sensors.empty())
     coarse.emplace(as_observed(robot, observed), evidence.episodes, options.seed);
   const Trials& known = coarse ? *coarse : plain;
+  if (const auto names = not_judged(robot, d.stages, observed); !names.empty())
+    d.warnings.push_back("not judged, the recordings say too little of it: " + names);
   const Selection selection = select(evidence, known, d.stages);
   d.verdict = judge(selection, observed);
   d.answer = selection.answer, d.ranked = selection.ranked, d.confusable = selection.confusable;
@@ -98,7 +121,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
   d.where = d.verdict == Verdict::supported
                 ? where_of_answer(evidence, plain, d.stages, d.answer, d.confusable)
                 : where_of_stages(evidence, plain, d.stages, d.ranked);
-  d.unexplained = unexplained(evidence, plain, selection);
+  if (selection.gap) d.unexplained = unexplained(evidence, plain, selection);
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);
   d.overall = closed_overall(evidence, plain, known, selection.trial);
   d.worst = worst_moments(evidence, plain, selection.trial, d.stages);

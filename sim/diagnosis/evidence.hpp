@@ -23,7 +23,7 @@ struct DiagnoseOptions {
   std::size_t most_effects = 3;
   /// What a stage may keep and count as explained, all chosen on development cases: by one effect,
   /// whose law may be of another shape; by several; before another effect is looked for.
-  Tolerance alone{2, 0.05, 0.005}, together{2, 0.02, 0}, search{1.5, 0.005, 0};
+  Tolerance alone{5, 0.005, 0.001}, together{2, 0.005, 0}, search{1.5, 0.005, 0};
   double least_gain = 0.02;  ///< of an effect, lower end of its interval, to be supported
   /// What is being done, and how much of it in 0 … 1.
   std::function<void(const std::string&, double)> progress = {};

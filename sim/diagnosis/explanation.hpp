@@ -22,11 +22,21 @@ struct Residual {
       0;  ///< rms of what drives the stage: V, motor torque, tension, pull of tendons
 };
 
+/// Paths of tendons near a pose, as if their lengths were linear in it.
+struct PathsNearby {
+  std::vector<JointSignals> pose;
+  std::vector<PathTrace> paths;              ///< there, one an actuator
+  std::vector<std::vector<Signal>> slope_m;  ///< of each, per rad of each hinge that was found
+  std::vector<std::size_t> hinges;
+};
+
 /// The joints over an episode, their sensors' effects undone.
 struct JointTrace {
   std::vector<JointSignals> signals;
   std::vector<Signal> speed_rad_per_s;  ///< of revolute joints
   std::vector<Motion> motions;          ///< one a window; empty: a joint was not measured
+  bool estimated = false;               ///< some were told by the tendons (pose_from_tendons.hpp)
+  std::shared_ptr<const PathsNearby> nearby;  ///< of those; none where a ball joint is among them
 };
 
 struct Explanation {
@@ -45,6 +55,7 @@ struct Explanation {
 struct Reach {
   bool joints = false;                    ///< angles: and so everything
   bool bones = false;                     ///< bodies and joint friction
+  bool line = false;                      ///< what a line's length and pull say of the pose
   std::optional<std::size_t> chain = {};  ///< this actuator's
   std::optional<std::size_t> path = {};   ///< and its way over the bones
 };

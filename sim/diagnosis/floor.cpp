@@ -11,6 +11,7 @@ namespace sim::diagnosis {
 namespace {
 
 constexpr double calibration = 0.003;  // of a current sensor at its best; chosen
+constexpr double of_voltage = 3e-4;    // of an amplifier's where it stands for a current; chosen
 
 void disturb(Signal& signal, double noise_rms, double step, Noise& noise) {
   for (double& x : signal) x += noise_rms * noise.normal() + step * (noise.uniform() - 0.5);
@@ -79,6 +80,8 @@ Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_
     if (told) disturb(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
     else disturb(s.shaft_rad, noise_of(s.shaft_rad), 0, noise);
     for (double& i : s.current_A) i *= 1 + calibration;
+    if (s.current_A.empty())
+      for (double& v : s.voltage_V) v *= 1 + of_voltage;
     disturb(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
     disturb(s.tension_N, sensors.tension_noise_N, scale.tension_N_per_count, noise);
     const auto coarsen = [&](const char* type, Signal& signal) {

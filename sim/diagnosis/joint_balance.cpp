@@ -89,7 +89,8 @@ void Stages::bend(const Episode& episode, JointTrace& trace) {
   }
 }
 
-JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size_t> rows) {
+JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size_t> rows,
+                               const JointTrace* guess) {
   const auto& joints = bones_.joint_list();
   JointTrace trace;
   trace.signals.resize(joints.size());  // an effect may have added some
@@ -109,8 +110,10 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
                                 rate_of(said, k, episode.period_s)});
       take_up(angle, acting.looseness_rad(), episode.period_s);
     }
-    trace.speed_rad_per_s.push_back(bump.rates(angle));
   }
+  find_pose(episode, trace, guess);
+  for (const JointSignals& joint : trace.signals)
+    trace.speed_rad_per_s.push_back(bump.rates(joint.angle_rad));
   bend(episode, trace);
   if (bones_.measured(trace.signals))
     for (const std::size_t row : rows)

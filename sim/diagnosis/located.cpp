@@ -1,6 +1,9 @@
 #include "sim/diagnosis/located.hpp"
 
 #include <algorithm>
+#include <functional>
+
+#include "sim/diagnosis/isolation.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -24,6 +27,22 @@ void share_first(std::vector<Located>& places, const std::vector<Located>& other
   places[0].share = share;
   places.insert(places.begin() + 1, others.begin(), others.end());
   for (std::size_t k = 1; k <= others.size(); ++k) places[k].share = share;
+}
+
+/// The parts of the chain that could leave the gap, the likeliest first: the one whose effects come
+/// nearest to closing it, then the one where it shows.
+std::vector<Part> suspects(const Evidence& evidence, const Trials& plain, const Located& widest,
+                           const std::vector<Named>& ranked) {
+  constexpr double near = 0.3;  // of the gap; chosen
+  const auto likelihood = [&](const Part& part) {
+    double gain = 0;
+    for (const Named& n : ranked)
+      if (same_stage(part, n.stage, n.on)) gain = std::max(gain, n.gain);
+    return std::pair(gain > near ? gain : 0, same_stage(widest, part.stage, part.on));
+  };
+  auto parts = isolate(evidence, plain);
+  std::ranges::stable_sort(parts, std::greater(), likelihood);
+  return parts;
 }
 
 }  // namespace
@@ -55,27 +74,19 @@ std::vector<Located> where_of_answer(const Evidence& evidence, const Trials& pla
 std::vector<Located> where_of_stages(const Evidence& evidence, const Trials& plain,
                                      const std::vector<StageGap>& stages,
                                      const std::vector<Named>& ranked) {
-  constexpr double near = 0.3, about_as_near = 0.6;  // of the gap; of the nearest's gain; chosen
-  const Named* nearest = !ranked.empty() && ranked[0].gain > near ? &ranked[0] : nullptr;
   std::vector<Located> places;
-  for (const StageGap& gap : stages) {
-    if (!gap.open) continue;
-    Located place{gap.stage, gap.on, gap.share, gap.excess_interval,
-                  when(evidence, plain, stages, gap.on)};
-    if (places.empty() && nearest) {
-      place.stage = nearest->stage, place.on = nearest->on;
-      places.push_back(place);
-      std::vector<Located> others;
-      for (const Named& n : ranked)
-        if (n.on == nearest->on && n.gain > about_as_near * nearest->gain &&
-            n.stage != nearest->stage && !has(others, n.stage, n.on))
-          others.push_back({n.stage, n.on, 0, {}, place.when});
-      share_first(places, others);
-    } else if (!has(places, place.stage, place.on)) {
-      places.push_back(place);
-    }
-  }
-  return places;
+  for (const StageGap& gap : stages)
+    if (gap.open)
+      places.push_back({gap.stage, gap.on, gap.share, gap.excess_interval,
+                        when(evidence, plain, stages, gap.on)});
+  if (places.empty()) return places;
+  const auto parts = suspects(evidence, plain, places[0], ranked);
+  if (parts.empty()) return places;
+  std::vector<Located> group;
+  for (const Part& part : parts)
+    group.push_back({part.stage, part.on, 1 / static_cast<double>(parts.size()), places[0].interval,
+                     places[0].when});
+  return group;
 }
 
 std::vector<Unexplained> unexplained(const Evidence& evidence, const Trials& plain,

@@ -32,8 +32,9 @@ std::vector<Located> where_of_answer(const Evidence& evidence, const Trials& pla
                                      const std::vector<Named>& answer,
                                      const std::vector<Named>& confusable);
 
-/// Without an answer: the open stages. Of several causes of one residual, the stage of the effect
-/// that comes nearest says of which it looks, and all that come about as near share it.
+/// Without an answer: the parts of the chain that could leave such a gap (isolation.hpp), in equal
+/// shares, the one whose effects come nearest to closing it first; the open stages where no single
+/// part could.
 std::vector<Located> where_of_stages(const Evidence& evidence, const Trials& plain,
                                      const std::vector<StageGap>& stages,
                                      const std::vector<Named>& ranked);

@@ -16,9 +16,10 @@ void look_at_bus(const Evidence& evidence, Observed& observed) {
     return all;
   };
   const auto held_out = ages(evidence.sets.held_out);
+  const auto train = ages(evidence.sets.train);
+  observed.bus_told = told(train) && told(held_out);
   observed.late = late_share(held_out);
-  for (const BusFit& fit :
-       fit_bus(ages(evidence.sets.train), held_out, evidence.robot, evidence.options.withhold))
+  for (const BusFit& fit : fit_bus(train, held_out, evidence.robot, evidence.options.withhold))
     observed.bus.push_back(named(fit));
 }
 

@@ -11,6 +11,7 @@ struct Observed {
   std::vector<Named> bus;      ///< best first; the first may be supported
   std::vector<Named> sensors;  ///< coarser than their data sheets; the readings show it
   double late = 0;             ///< share of ticks whose command was not the newest
+  bool bus_told = false;       ///< the recordings allow to tell which commands were followed
 
   bool bus_differs() const { return !bus.empty() && bus[0].supported; }
   bool any() const { return bus_differs() || !sensors.empty(); }

@@ -13,16 +13,6 @@ namespace {
 using effects::Placed;
 using Eigen::VectorXd;
 
-std::vector<Placed> candidates(const erp::Robot& robot, const std::vector<std::string>& withhold) {
-  std::vector<Placed> all;
-  for (const effects::AnyEffect& effect : effects::library()) {
-    const effects::About& about = effects::about(effect);
-    if (std::ranges::count(withhold, about.type)) continue;
-    for (const std::string& on : effects::places(robot, about.seat)) all.push_back({on, effect});
-  }
-  return all;
-}
-
 /// z of one recording, 0 where nothing is judged.
 class Look {
  public:
@@ -34,12 +24,8 @@ class Look {
   /// The best promise of the candidate's parameters and tries; 0: it changes nothing.
   double promise(const Placed& neutral) const {
     double best = 0;
-    Placed nudged = neutral;
-    const std::size_t count = effects::parameters(nudged.effect).size();
-    for (std::size_t k = 0; k < count; ++k)
-      for (const double share : {3e-3, 0.1})
-        if (nudged = neutral; nudge(nudged, k, share))
-          best = std::max(best, along(z_of(trials_.with(base_, nudged, only_)) - left_));
+    for (const Placed& nudged : nudges(neutral))
+      best = std::max(best, along(z_of(trials_.with(base_, nudged, only_)) - left_));
     for (const Placed& one : tries(trials_, neutral, only_))
       best =
           std::max(best, left_.squaredNorm() - z_of(trials_.with(base_, one, only_)).squaredNorm());
@@ -52,19 +38,6 @@ class Look {
     VectorXd all(static_cast<Eigen::Index>(z.size()));
     for (std::size_t k = 0; k < z.size(); ++k) all[Eigen::Index(k)] = std::isnan(z[k]) ? 0 : z[k];
     return all;
-  }
-
-  /// Parameter k a share of its bound higher; those before it a little, for a shape shows only
-  /// once there is something. False: it is not fitted.
-  static bool nudge(Placed& placed, std::size_t k, double share) {
-    constexpr double little = 3e-3;
-    const auto parameters = effects::parameters(placed.effect);
-    if (!parameters[k].fitted) return false;
-    const auto& [low, high] = parameters[k].bounds;
-    for (std::size_t other = 0; other < k; ++other)
-      *parameters[other].value += little * parameters[other].bounds.high;
-    *parameters[k].value += share * (high > 0 ? high : low);
-    return true;
   }
 
   double along(VectorXd change) const {
@@ -84,7 +57,8 @@ class Look {
       auto all = base_.effects;
       const auto parameter = effects::parameters(all[e].effect)[k];
       if (!parameter.fitted) continue;
-      *parameter.value += 1e-3 * (parameter.bounds.high - parameter.bounds.low);
+      const double step = 1e-3 * (parameter.bounds.high - parameter.bounds.low);
+      *parameter.value += *parameter.value + step > parameter.bounds.high ? -step : step;
       VectorXd d = z_of(trials_.with(all, only_)) - left_;
       for (const VectorXd& other : directions_) d -= other.dot(d) * other;
       if (d.norm() > 1e-9) directions_.push_back(d.normalized());
@@ -98,18 +72,10 @@ class Look {
   std::vector<VectorXd> directions_;
 };
 
-/// The recording of the training set with the largest residuals.
-std::size_t loudest(const Trials& trials, const Trial& base, const WhichOptions& options) {
-  return *std::ranges::max_element(options.train, {}, [&](std::size_t e) {
-    const std::size_t only[] = {e};
-    return sum(trials.blocks(base, only)).square;
-  });
-}
-
 std::vector<double> promises(const Trials& trials, const Trial& base, const WhichOptions& options,
                              const std::vector<Placed>& all) {
   std::vector<double> promised(all.size());
-  const Look look(trials, base, loudest(trials, base, options));
+  const Look look(trials, base, loudest(trials, base, options.train));
   in_parallel(all.size(), options.threads,
               [&](std::size_t k) { promised[k] = look.promise(all[k]); });
   return promised;
@@ -117,9 +83,51 @@ std::vector<double> promises(const Trials& trials, const Trial& base, const Whic
 
 }  // namespace
 
+std::vector<Placed> candidates(const Trials& trials, const std::vector<std::string>& withhold) {
+  const bool estimated = std::ranges::any_of(
+      trials.bare().of_episode, [](const Explanation& e) { return e.joints->estimated; });
+  const Stages nominal(trials.nominal());
+  std::vector<Placed> all;
+  for (const effects::AnyEffect& effect : effects::library()) {
+    const effects::About& about = effects::about(effect);
+    if (std::ranges::count(withhold, about.type)) continue;
+    for (const std::string& on : effects::places(trials.nominal(), about.seat))
+      if (Placed placed{on, effect}; !estimated || !nominal.reach(placed).joints)
+        all.push_back(std::move(placed));
+  }
+  return all;
+}
+
+std::vector<Placed> nudges(const Placed& neutral) {
+  constexpr double little = 3e-3;
+  std::vector<Placed> all;
+  effects::AnyEffect counted = neutral.effect;
+  const std::size_t count = effects::parameters(counted).size();
+  for (std::size_t k = 0; k < count; ++k)
+    for (const double share : {little, 0.1}) {
+      Placed nudged = neutral;
+      const auto parameters = effects::parameters(nudged.effect);
+      if (!parameters[k].fitted) continue;
+      for (std::size_t other = 0; other < k; ++other)
+        *parameters[other].value += little * parameters[other].bounds.high;
+      const auto& [low, high] = parameters[k].bounds;
+      *parameters[k].value += share * (high > 0 ? high : low);
+      all.push_back(std::move(nudged));
+    }
+  return all;
+}
+
+std::size_t loudest(const Trials& trials, const Trial& base,
+                    std::span<const std::size_t> episodes) {
+  return *std::ranges::max_element(episodes, {}, [&](std::size_t e) {
+    const std::size_t only[] = {e};
+    return sum(trials.blocks(base, only)).square;
+  });
+}
+
 std::vector<Placed> promising(const Trials& trials, const Trial& base,
                               const WhichOptions& options) {
-  const auto all = candidates(trials.nominal(), options.withhold);
+  const auto all = candidates(trials, options.withhold);
   const auto promised = promises(trials, base, options, all);
   auto sorted = promised;
   std::ranges::sort(sorted, std::greater());
@@ -133,7 +141,7 @@ std::vector<Placed> promising(const Trials& trials, const Trial& base,
 
 std::vector<Placed> most_promising(const Trials& trials, const Trial& base,
                                    const WhichOptions& options, std::size_t count) {
-  const auto all = candidates(trials.nominal(), options.withhold);
+  const auto all = candidates(trials, options.withhold);
   const auto promised = promises(trials, base, options, all);
   auto order = each(all.size());
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return promised[k]; });

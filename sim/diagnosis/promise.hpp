@@ -9,6 +9,18 @@
 /// these will be fitted again beside it (orthogonal least squares: Chen, Billings, Luo 1989).
 namespace sim::diagnosis {
 
+/// Every effect of the library at every place, neutral. Where joints were found by the tendons, not
+/// those that change what measured joints say.
+std::vector<effects::Placed> candidates(const Trials& trials,
+                                        const std::vector<std::string>& withhold);
+
+/// An effect with each of its fitted parameters in turn higher by 0.3 % and by 10 % of its bound;
+/// those before it a little, for a shape shows only once there is something.
+std::vector<effects::Placed> nudges(const effects::Placed& neutral);
+
+/// The recording with the largest residuals.
+std::size_t loudest(const Trials& trials, const Trial& base, std::span<const std::size_t> episodes);
+
 /// The effects that promise most on the loudest training recording, in the order of the library:
 /// `look_share` of the best and at least `fitted_at_least`.
 std::vector<effects::Placed> promising(const Trials& trials, const Trial& base,

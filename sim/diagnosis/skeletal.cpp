@@ -12,13 +12,13 @@ Vec3 gravity_of(const erp::Robot& robot) {
   return {g[0], g[1], g[2]};
 }
 
+}  // namespace
+
 bool was_measured(const JointSignals& joint, erp::JointType type) {
   if (type == erp::JointType::revolute) return !joint.angle_rad.empty();
   if (type == erp::JointType::spherical) return !joint.quaternion[3].empty();
   return type == erp::JointType::fixed;
 }
-
-}  // namespace
 
 Skeletal::Skeletal(const erp::Robot& robot) : tree_(robot), model_(tree_, gravity_of(robot)) {
   std::vector<JointReading> start;

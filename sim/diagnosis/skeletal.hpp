@@ -26,6 +26,9 @@ struct Motion {
   bool taken = true;  ///< false: a sample was not taken
 };
 
+/// A joint that cannot move counts as measured.
+bool was_measured(const JointSignals& joint, erp::JointType type);
+
 class Skeletal {
  public:
   explicit Skeletal(const erp::Robot& robot);

@@ -39,6 +39,9 @@ class Stages {
   /// The same, with what `reach` leaves untouched taken from `base`: an explanation of the same
   /// episode by a robot that differs in one effect.
   Explanation explain(const Episode& episode, const Explanation& base, const Reach& reach);
+  /// The same from the start, but that joints which were not measured are looked for near `guess`,
+  /// with the tendons' paths taken as linear there where it has them so.
+  Explanation explain(const Episode& episode, std::shared_ptr<const JointTrace> guess);
   std::vector<Residual> residuals(const Episode& episode) { return explain(episode).residuals; }
 
   /// What such an effect reaches.
@@ -50,9 +53,16 @@ class Stages {
     bool joints, bones;
     std::vector<std::size_t> paths, chains;
   };
+  std::vector<PathTrace> paths(const Episode& episode, const JointTrace& joints,
+                               std::span<const std::size_t> actuators);
   Explanation renew(const Episode& episode, Explanation explanation, const Touched& touched);
   std::vector<std::size_t> rows(const Episode& episode) const;
-  JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows);
+  JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows,
+                         const JointTrace* guess);
+  void find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess);
+  std::shared_ptr<const PathsNearby> nearby(const Episode& episode, const JointTrace& trace,
+                                            std::span<const std::size_t> missing);
+  ChainTrace chain(const Episode& episode, std::size_t actuator, const PathTrace& path) const;
   void bend(const Episode& episode, JointTrace& trace);
   Eigen::MatrixXd bones(const Episode& episode, const JointTrace& joints,
                         std::span<const std::size_t> rows);

@@ -45,7 +45,13 @@ Trial Trials::with(std::span<const effects::Placed> all,
                    std::span<const std::size_t> episodes) const {
   Trial trial{{all.begin(), all.end()}, std::vector<Explanation>(episodes_.size())};
   Stages stages(robot_with(all));
-  for (const std::size_t k : episodes) trial.of_episode[k] = stages.explain(episodes_[k]);
+  const auto reaches = [&](auto what) {
+    return std::ranges::any_of(all, [&](const auto& placed) { return what(stages.reach(placed)); });
+  };
+  const bool moves = reaches([](const Reach& r) { return r.joints || r.path.has_value(); });
+  for (const std::size_t k : episodes)
+    trial.of_episode[k] =
+        stages.explain(episodes_[k], moves ? nullptr : bare_.of_episode[k].joints);
   return trial;
 }
 

@@ -82,14 +82,22 @@ StageGap gap_of(const Collected& collected, const WhereOptions& options) {
 
 }  // namespace
 
+std::vector<StageScore> by_stage(const Trials& trials, const Trial& trial,
+                                 std::span<const std::size_t> episodes) {
+  std::vector<StageScore> all;
+  for (const Collected& c : collect(trials, trial, episodes, {}))
+    all.push_back({c.what->stage, c.what->on, sum(c.blocks)});
+  return all;
+}
+
 double relief(const Trials& trials, const Trial& before, const Trial& after,
               std::span<const std::size_t> episodes, std::span<const StageGap> stages) {
-  const auto was = collect(trials, before, episodes, {}), is = collect(trials, after, episodes, {});
+  const auto was = by_stage(trials, before, episodes), is = by_stage(trials, after, episodes);
   double most = 0;
   for (std::size_t k = 0; k < was.size(); ++k)
-    for (const StageGap& stage : stages)
-      if (stage.open && same_stage(*was[k].what, stage.stage, stage.on))
-        most = std::max(most, 1 - excess_of(sum(is[k].blocks)) / excess_of(sum(was[k].blocks)));
+    if (const auto stage = find_stage(stages, was[k].stage, was[k].on);
+        stage != stages.end() && stage->open)
+      most = std::max(most, 1 - excess_of(is[k].whole) / excess_of(was[k].whole));
   return most;
 }
 

@@ -52,6 +52,15 @@ auto find_stage(Items& items, effects::Stage stage, const std::string& on) {
   return std::ranges::find_if(items, [&](const auto& i) { return same_stage(i, stage, on); });
 }
 
+/// What a trial leaves at one stage of some recordings: Σ z² and how many windows.
+struct StageScore {
+  effects::Stage stage;
+  std::string on;
+  ScoreBlock whole;
+};
+std::vector<StageScore> by_stage(const Trials& trials, const Trial& trial,
+                                 std::span<const std::size_t> episodes);
+
 /// Of the excess of a stage that is open, the most that `after` takes away of what `before` leaves
 /// there: 1: it brings one of them to its floor.
 double relief(const Trials& trials, const Trial& before, const Trial& after,

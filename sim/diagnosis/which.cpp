@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <mutex>
 
 #include "sim/diagnosis/bootstrap.hpp"
@@ -27,20 +26,15 @@ struct Score {
 Score score(const Trials& trials, const Trial& base, const Trial& with,
             const WhichOptions& options) {
   const bool any = std::ranges::any_of(options.stages, &StageGap::open);
+  const auto was = by_stage(trials, base, options.held_out);
+  const auto is = by_stage(trials, with, options.held_out);
   const auto open = [&](const Residual& r) {
     const auto stage = find_stage(options.stages, r.stage, r.on);
     return !any || (stage != options.stages.end() && stage->open);
   };
-  const auto worse = [&](const Residual& r) {
-    const auto same = [&](const Residual& o) { return same_stage(o, r.stage, r.on); };
-    return sum(trials.blocks(with, options.held_out, same)).square >
-           sum(trials.blocks(base, options.held_out, same)).square;
-  };
-  std::map<std::pair<effects::Stage, std::string>, bool> known;
   const auto counts = [&](const Residual& r) {
-    const auto [place, is_new] = known.try_emplace({r.stage, r.on});
-    if (is_new) place->second = open(r) || worse(r);
-    return place->second;
+    return open(r) || find_stage(is, r.stage, r.on)->whole.square >
+                          find_stage(was, r.stage, r.on)->whole.square;
   };
   return {trials.blocks(base, options.held_out, counts),
           trials.blocks(with, options.held_out, counts),

@@ -119,3 +119,24 @@ TEST_CASE("held out is a whole recording, the one farthest off") {
   CHECK(sets.held_out == std::vector<std::size_t>{1});
   CHECK(sets.train == std::vector<std::size_t>{0, 2});
 }
+
+TEST_CASE("a gap that only the training recordings show is not identifiable") {
+  auto blind = nothing_hidden();
+  auto all = episodes(blind, 6, 2);
+  blind.quirks.chains[1].viscous = 0.02;
+  all[0] = episodes(blind, 6, 1)[0];
+  const Diagnosis d = diagnose(hinge_rig(), all, {.train = {0}, .held_out = {1}});
+  CHECK(d.verdict == Verdict::not_identifiable);
+  CHECK(d.answer.empty());
+  REQUIRE_FALSE(d.warnings.empty());
+}
+
+TEST_CASE("what the recordings leave unjudged is said") {
+  auto all = episodes(nothing_hidden());
+  for (Episode& e : all)
+    for (ActuatorSignals& s : e.actuators) s.current_A.clear();
+  const Diagnosis d = diagnose(hinge_rig(), all);
+  CHECK(d.verdict == Verdict::no_gap);
+  REQUIRE(d.warnings.size() == 1);
+  CHECK_THAT(d.warnings[0], Catch::Contains("motor of flexor, motor of extensor"));
+}
