@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "sim/diagnosis/drives.hpp"
+#include "sim/diagnosis/units.hpp"
 #include "sim/diagnosis/where.hpp"
 
 namespace launch {
@@ -50,10 +51,13 @@ std::vector<diagnosis::Episode> read_episodes(const erp::Robot& robot,
                                               const std::vector<std::string>& recordings,
                                               std::vector<std::string>& mended) {
   std::vector<diagnosis::Episode> episodes;
-  for (const std::string& file : recordings)
+  for (const std::string& file : recordings) {
     episodes.push_back(
         diagnosis::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
                            robot, file, mended));
+    for (std::string& odd : diagnosis::odd_units(episodes.back(), robot))
+      mended.push_back(std::move(odd));
+  }
   return episodes;
 }
 

@@ -13,7 +13,8 @@ namespace launch {
 /// The robot, its drives as chains. Throws xml::Errors.
 erp::Robot read_chains(const std::string& robot_file);
 
-/// Reads and lays out recordings for a robot; what was mended is told. Throws RecordingError,
+/// Reads and lays out recordings for a robot; what was mended, and
+/// what is odd about signs and units, is told. Throws RecordingError,
 /// std::invalid_argument.
 std::vector<sim::diagnosis::Episode> read_episodes(const erp::Robot& robot,
                                                    const std::vector<std::string>& recordings,

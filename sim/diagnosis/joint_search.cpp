@@ -6,30 +6,51 @@
 #include "sim/diagnosis/stages.hpp"
 
 namespace sim::diagnosis {
+namespace {
 
-void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
+/// Tendons that say shaft and tension.
+std::vector<std::size_t> telling(const Episode& episode, const erp::Robot& robot) {
+  std::vector<std::size_t> lines;
+  for (std::size_t a = 0; a < episode.actuators.size(); ++a)
+    if (const ActuatorSignals& s = episode.actuators[a];
+        !robot.actuators[a].tendon.path.empty() && !s.shaft_rad.empty() && !s.tension_N.empty())
+      lines.push_back(a);
+  return lines;
+}
+
+/// Without what the motors do: it is of no matter here.
+Episode lines_alone(const Episode& episode) {
+  Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
+  for (const ActuatorSignals& s : episode.actuators)
+    lines.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
   const auto& joints = bones_.joint_list();
-  std::vector<std::size_t> missing, lines;
+  std::vector<std::size_t> missing;
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (std::ranges::count(recorded_joints_, joints[j].name) &&
         !was_measured(trace.signals[j], joints[j].type))
       missing.push_back(j);
-  for (std::size_t a = 0; a < episode.actuators.size(); ++a)
-    if (!episode.actuators[a].shaft_rad.empty() && !episode.actuators[a].tension_N.empty())
-      lines.push_back(a);
+  return missing;
+}
+
+void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
+  const auto missing = missing_joints(trace), lines = telling(episode, equipped_.robot);
   if (missing.empty() || lines.empty()) return;
-  Episode pulls{episode.name, episode.period_s, episode.rows, {}, {}};  // what the motors do is of
-  for (const ActuatorSignals& s : episode.actuators)                    // no matter here
-    pulls.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
   const bool near = guess && guess->estimated;
   if (near) trace.nearby = guess->nearby;
+  const Episode pulled = lines_alone(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
     const auto paths = this->paths(episode, {.signals = signals, .nearby = trace.nearby}, lines);
     std::vector<ChainTrace> all;
-    for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(pulls, lines[n], paths[n]));
+    for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(pulled, lines[n], paths[n]));
     return all;
   };
-  const PoseSearch search(joints, missing, chains, episode.period_s);
+  const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s);
   if (lines.size() < search.unknowns()) return;
   constexpr int from_afar = 6, from_near = 2;  // steps, chosen
   if (near)

@@ -59,6 +59,9 @@ class Stages {
   std::vector<std::size_t> rows(const Episode& episode) const;
   JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows,
                          const JointTrace* guess);
+  /// Joints that the recording leaves out.
+  std::vector<std::size_t> missing_joints(const JointTrace& trace) const;
+  /// Sets them, if enough tendons say where they are.
   void find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess);
   std::shared_ptr<const PathsNearby> nearby(const Episode& episode, const JointTrace& trace,
                                             std::span<const std::size_t> missing);
