@@ -8,6 +8,7 @@
 #include "sim/world/internal_model.hpp"
 #include "sim/world/virtual_ecus.hpp"
 #include "sim/world/world.hpp"
+#include "tests/bench/side_by_side.hpp"
 #include "tests/sim/formats/mujoco.hpp"
 
 namespace {
@@ -49,26 +50,10 @@ BENCHMARK_CAPTURE(mujoco_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(mujoco_step, arm, "arm");
 BENCHMARK_CAPTURE(mujoco_step, ecce4, "ecce4");
 
-/// The same, side by side on one base, until there are so many tendons: what size costs.
+/// So many tendons of arms on one torso.
 erp::Robot arms(long tendons) {
-  const erp::Robot arm = read("arm");
-  erp::Robot robot = arm;
-  robot.skeletons.clear(), robot.actuators.clear(), robot.joint_sensors.clear();
-  for (int copy = 0; std::ssize(robot.actuators) < tendons; ++copy) {
-    const auto own = [&](std::string& name) {
-      if (name != "torso") name += "_" + std::to_string(copy);
-    };
-    erp::Skeleton skeleton = arm.skeletons[0];
-    if (copy > 0) std::erase_if(skeleton.bodies, [](auto& b) { return b.name == "torso"; });
-    for (auto& body : skeleton.bodies) own(body.name);
-    for (auto& joint : skeleton.joints) own(joint.name), own(joint.parent), own(joint.child);
-    robot.skeletons.push_back(skeleton);
-    for (erp::Actuator actuator : arm.actuators) {
-      own(actuator.name);
-      for (auto& point : actuator.tendon.path) std::visit([&](auto& p) { own(p.body); }, point);
-      robot.actuators.push_back(actuator);
-    }
-  }
+  erp::Robot robot = side_by_side(read("arm"), "torso", static_cast<int>((tendons + 10) / 11));
+  robot.joint_sensors.clear();
   robot.actuators.resize(static_cast<std::size_t>(tendons));
   return robot;
 }
