@@ -58,10 +58,21 @@ std::string told(const diagnosis::Named& n) {
   return text;
 }
 
+/// Places that share a part of the gap alike could not be told apart.
+void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
+  for (std::size_t k = 0; k < d.where.size();) {
+    const double share = d.where[k].share;
+    std::string names;
+    double whole = 0;
+    for (; k < d.where.size() && d.where[k].share == share; ++k, whole += share)
+      names += fmt::format("{}{} of {}", names.empty() ? "" : ", or ",
+                           sim::effects::word(d.where[k].stage), d.where[k].on);
+    out << fmt::format("where       {}: {:.0f} % of the gap\n", names, 100 * whole);
+  }
+}
+
 void print(const diagnosis::Diagnosis& d, std::ostream& out) {
-  for (const auto& place : d.where)
-    out << fmt::format("where       {} of {}: {:.0f} % of the gap\n",
-                       sim::effects::word(place.stage), place.on, 100 * place.share);
+  print_where(d, out);
   for (const auto& n : d.answer) out << "which       " << told(n) << "\n";
   for (const auto& n : d.confusable) out << "or as well  " << told(n) << "\n";
   for (const auto& u : d.unexplained) {

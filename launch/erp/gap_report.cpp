@@ -73,6 +73,34 @@ std::string summary(const Diagnosis& d) {
   return html;
 }
 
+/// The places that share the largest part, for the sensors cannot tell them apart.
+std::string alike(const Diagnosis& d) {
+  std::string names;
+  std::size_t count = 0;
+  for (const Located& place : d.where)
+    if (place.share == d.where[0].share)
+      names += fmt::format("{}{} of {}", count++ ? ", " : "", sim::effects::word(place.stage),
+                           escaped(place.on));
+  if (count < 2) return "";
+  return "<p>It is in one of these, which recordings of these sensors do not tell apart: " + names +
+         ".</p>\n";
+}
+
+/// When the residual lives; once for places that are told apart by nothing.
+std::string when(const Diagnosis& d) {
+  std::string html;
+  for (const Located& place : d.where) {
+    if (place.when.empty()) continue;
+    const auto told = fmt::format("{:.0f} % of the residual lives in the {} fifth of the {}.</p>\n",
+                                  100 * place.when[0].share, place.when[0].fifth,
+                                  escaped(place.when[0].variable));
+    if (html.find(told) == std::string::npos)
+      html +=
+          fmt::format("<p>{} of {}: {}", sim::effects::word(place.stage), escaped(place.on), told);
+  }
+  return html;
+}
+
 /// The chain of each actuator or joint that has a part of the gap.
 std::string chains(const Diagnosis& d) {
   const std::vector<std::string> names{"bus",     "motor", "gearbox",  "spindle", "tendon",
@@ -89,13 +117,7 @@ std::string chains(const Diagnosis& d) {
       if (place.on == on) shares[static_cast<std::size_t>(place.stage)] += place.share;
     html += svg::chain(on, names, shares);
   }
-  for (const Located& place : d.where)
-    if (!place.when.empty())
-      html += fmt::format(
-          "<p>{} of {}: {:.0f} % of the residual lives in the {} fifth of the {}.</p>\n",
-          sim::effects::word(place.stage), escaped(place.on), 100 * place.when[0].share,
-          place.when[0].fifth, escaped(place.when[0].variable));
-  return html;
+  return html + alike(d) + when(d);
 }
 
 std::string stages(const Diagnosis& d) {
