@@ -131,6 +131,7 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
   const Sorted sorted = sort(options);
   std::vector<std::string> mended;
   const auto episodes = read_episodes(robot, sorted.files, mended);
+  for (const std::string& remark : mended) remarks << remark << "\n";
   std::optional<Progress> progress(std::in_place, remarks);
   diagnosis::DiagnoseOptions how{.train = sorted.train,
                                  .held_out = sorted.held_out,
@@ -151,7 +152,8 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
         "free run    {:.3g} times what noise alone would do before, {:.3g} after: {:.1f} % "
         "closed\n",
         free_run.all.before, free_run.all.after, 100 * free_run.all.closed);
-  for (const std::string& warning : d.warnings) out << "warning     " << warning << "\n";
+  for (std::size_t k = mended.size(); k < d.warnings.size(); ++k)  // those were told at the start
+    out << "warning     " << d.warnings[k] << "\n";
   out << "verdict     " << diagnosis::word(d.verdict) << "\n";
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);

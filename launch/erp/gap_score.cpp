@@ -107,7 +107,7 @@ void score_single(const Json& truth, const Json& d, Score& score) {
     if (same(effect, hidden)) count_intervals(hidden, effect, score.rates["4 interval holds"]);
   score.rates["6 confident and the stage wrong"].count(d["verdict"] == "supported" && !in_set &&
                                                        !in_group(hidden, d));
-  score.group_size += double(group_size(d)), ++score.groups;
+  score.group_size += double(group_size(d)), score.groups += !d["where"].empty();
   if (d["verdict"] != "supported" || !in_set || !located(hidden, d))
     score.failures.push_back(
         fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
@@ -120,7 +120,7 @@ void score_none(const Json& truth, const Json& d, Score& score) {
   score.rates["1 none of the known"].count(none);
   score.rates["2 stage"].count(stage);
   score.rates["4 stage in the reported group"].count(in_group(hidden, d));
-  score.group_size += double(group_size(d)), ++score.groups;
+  score.group_size += double(group_size(d)), score.groups += !d["where"].empty();
   score.rates["3 place"].count(!d["where"].empty() && d["where"][0]["on"] == hidden["on"]);
   if (!none || !stage)
     score.failures.push_back(

@@ -41,7 +41,7 @@ std::string looks_like(double times, double gear_ratio) {
                         {1e-3, "it looks like thousands of its unit"},
                         {1 / 9.81, "it looks like kilograms"},
                         {gear_ratio, "it looks like the motor's shaft before the gearbox"},
-                        {1 / gear_ratio, "it looks as if divided by the gear ratio twice"}};
+                        {1 / gear_ratio, "it looks as if divided by the gear ratio once more"}};
   for (const Unit& unit : units)
     if (std::abs(std::log(times / unit.times)) < 0.25) return unit.what;
   return "check its unit";
@@ -53,8 +53,9 @@ class Check {
       : e_(episode), robot_(robot), bones_(robot) {}
 
   std::vector<std::string> run() {
+    const auto paths = bones_.paths(e_.joints, e_.rows, each(robot_.actuators.size()));
     for (std::size_t a = 0; a < robot_.actuators.size(); ++a)
-      if (!robot_.actuators[a].tendon.path.empty()) motor(a), tendon(a);
+      if (!robot_.actuators[a].tendon.path.empty()) motor(a), tendon(a, paths[a]);
     const auto joints = robot_.joints();
     for (std::size_t j = 0; j < joints.size(); ++j) limits(joints[j], e_.joints[j].angle_rad);
     return std::move(odd_);
@@ -97,13 +98,10 @@ class Check {
     compare(name + ".current_A", drop, s.current_A, "the motor's law", m.gear_ratio);
   }
 
-  void tendon(std::size_t a) {
+  void tendon(std::size_t a, const PathTrace& path) {
     const erp::Actuator& actuator = robot_.actuators[a];
     const ActuatorSignals& s = e_.actuators[a];
-    const std::size_t only[] = {a};
-    if (s.shaft_rad.empty()) return;
-    const PathTrace path = bones_.paths(e_.joints, e_.rows, only)[0];
-    if (path.length_m.empty()) return;
+    if (s.shaft_rad.empty() || path.length_m.empty()) return;
     Signal paid_out(e_.rows), stretch(e_.rows);
     for (std::size_t k = 0; k < e_.rows; ++k) {
       paid_out[k] = -actuator.spindle.radius_m * s.shaft_rad[k];
