@@ -58,10 +58,10 @@ Plant::Chain Plant::chain_of(const erp::Robot& nominal, std::size_t a, const Cha
   k.cubic = tendon.cubic_N_per_m3 * (1 + q.spring) + q.cubic;
   k.damping = std::max(0.0, tendon.damping_N_s_per_m + q.damping);
   const auto& line = tendon.line_stiffness_N_per_m;
-  k.line = (line ? 1 / *line : 0) + q.line_m_per_N;
+  k.line = line ? 1 / *line : 0;
   k.two_masses = q.play_rad > 0 || q.twist_rad_per_Nm > 0;
   k.start_m = k.shape.length_m;
-  k.rest_m = k.start_m - stretch_at(k, tendon.pretension_N);
+  k.rest_m = k.start_m - stretch_at(k, tendon.pretension_N) - q.line_m_per_N * tendon.pretension_N;
   if (q.twist_rad_per_Nm > 0)  // the shaft is where it booted, its far end is turned back
     k.rest_m -= k.radius_m * k.radius_m * q.twist_rad_per_Nm * tendon.pretension_N;
   return k;

@@ -11,9 +11,9 @@ namespace c = chain_state;
 namespace {
 
 constexpr double shaft_reach_rad = 3e-4, shaft_settles_s = 2e-3;
-constexpr double line_reach_m = 4e-5;
+constexpr double line_reach_m = 4e-5, line_damps_N_s_per_m = 5;
 // A steel spindle of 4.5 mm with the gear's last wheel; the tooth is stiff, not rigid.
-constexpr double spindle_kg_m2 = 1e-6, tooth_Nm_per_rad = 120, tooth_Nm_s_per_rad = 0.02;
+constexpr double spindle_kg_m2 = 1e-6, tooth_Nm_per_rad = 120, steel_damps_s = 1.7e-4;
 constexpr double spindle_dry_Nm = 0.003;  // of what the gearbox has, beyond the play
 constexpr double copper_per_K = 0.00393;
 constexpr double tau = 2 * 3.14159265358979323846;
@@ -61,6 +61,10 @@ Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx)
   const double rate = path_slope * path_rate + wound_slope * speed;  // slip is slow
 
   double force = spring_N(k, stretch) + k.damping * rate;
+  if (q.line_m_per_N > 0) {  // Δx = x + c F, F = spring(x) + d ẋ
+    force = std::max(0.0, stretch - x[c::inner]) / q.line_m_per_N;
+    dx[c::inner] = (force - spring_N(k, x[c::inner])) / std::max(k.damping, line_damps_N_s_per_m);
+  }
   force += q.creep_N_per_m * (stretch - x[c::flowed]);
   if (q.fibres_N > 0) force += x[c::slide1] + x[c::slide2] + x[c::slide3];
   if (q.slack_N > 0) force -= q.slack_N * (1 - std::exp(-stretch / q.slack_m));
@@ -107,7 +111,7 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
     const double low = q.play_rad > 0 ? -q.play_rad : 0.0;
     const double stiff = q.twist_rad_per_Nm > 0 ? 1 / q.twist_rad_per_Nm : tooth_Nm_per_rad;
     const double twist = dead_zone(x[c::shaft] - x[c::spindle], low, 0);
-    const double touch = twist != 0 ? tooth_Nm_s_per_rad * (omega - x[c::spindle_speed]) : 0;
+    const double touch = twist != 0 ? steel_damps_s * stiff * (omega - x[c::spindle_speed]) : 0;
     const double carried = stiff * twist + touch;
     const double still = std::tanh(x[c::spindle_speed] / 0.02);
     dx[c::spindle] = x[c::spindle_speed];

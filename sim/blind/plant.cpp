@@ -47,6 +47,7 @@ void Plant::start(const erp::Robot& nominal) {
     double* x = &x_[a * c::count];
     const double pretension_N = nominal.actuators[a].tendon.pretension_N;
     x[c::spindle] = -chains_[a].q.twist_rad_per_Nm * chains_[a].radius_m * pretension_N;
+    x[c::inner] = stretch_at(chains_[a], pretension_N);
     x[c::flowed] = chains_[a].start_m - chains_[a].rest_m + chains_[a].radius_m * x[c::spindle];
     x[c::said_tension] = pretension_N;
     tension_N_.push_back(x[c::said_tension]);

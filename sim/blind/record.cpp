@@ -27,10 +27,7 @@ class Sense {
       : q_(quirks), noise_(noise), step_(step), low_(low), high_(high), turns_(turns) {}
 
   double read(double value, double time_s, std::mt19937_64& random) {
-    const double disc = std::atan2(q_.sine_rad * std::sin(turns_ * value) +
-                                       q_.cosine_rad * (std::cos(turns_ * value) - 1),
-                                   1.0) /
-                        turns_;
+    const double disc = (ray_rad(turns_ * value) - ray_rad(0)) / turns_;
     double said = (1 + q_.gain) * (value + disc) + q_.offset + q_.rate * time_s +
                   q_.bend * value * std::abs(value);
     said += noise_ * normal_(random);
@@ -39,6 +36,12 @@ class Sense {
   }
 
  private:
+  /// From the centre of the disc, which goes round the axis, to the head at (1, 0).
+  double ray_rad(double angle) const {
+    const double s = std::sin(angle), c = std::cos(angle);
+    return std::atan2(q_.sine_rad * s + q_.cosine_rad * c, 1 - q_.sine_rad * c + q_.cosine_rad * s);
+  }
+
   SenseQuirks q_;
   double noise_, step_, low_, high_, turns_;
   std::normal_distribution<double> normal_;

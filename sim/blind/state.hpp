@@ -14,6 +14,7 @@ enum : std::size_t {
   spindle_speed,  // behind play or a soft shaft
   lost,
   flowed,
+  inner,  // of the spring behind a line that stretches
   slide1,
   slide2,
   slide3,

@@ -27,6 +27,14 @@ Settling settling(const erp::MotorType& m, double period_s) {
   return {inertia, damping, ((1 - left) / x - left) / (1 - left), x * left / (1 - left)};
 }
 
+/// L/R within a period: of the current that a period began with, a part is still there at its end.
+/// As a share of the period: how far the current trails a voltage that is held and a speed that
+/// changes evenly. Small L/R: L/R itself; large: half a period.
+double trailing(double lag) { return lag - 1 / std::expm1(1 / lag); }
+double trail_s(const erp::MotorType& m, double period_s) {
+  return period_s * trailing(m.inductance_H / m.resistance_ohm / period_s);
+}
+
 /// The rows of one chain, one after the other.
 class Tracer {
  public:
@@ -173,7 +181,7 @@ class Tracer {
   double mean_A(std::size_t k) const {
     const double tau = m_.motor.inductance_H / m_.motor.resistance_ohm / period_s_;
     const double now = current_A(k);
-    return now + tau * -std::expm1(-1 / tau) * (current_A(k - 1) - now);
+    return now + trailing(tau) * (current_A(k - 1) - now);
   }
 
   /// ī over the two periods around row k.
@@ -230,12 +238,12 @@ ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTr
 
 double current_lag_s(const erp::MotorType& m, double period_s) {
   const Settling s = settling(m, period_s);
-  return s.end * m.inductance_H / m.resistance_ohm + (0.5 - s.share) * period_s;
+  return s.end * trail_s(m, period_s) + (0.5 - s.share) * period_s;
 }
 
 double balance_inertia(const erp::MotorType& m, double period_s, double sampled) {
   const Settling s = settling(m, period_s);
-  const double start_s = s.end * m.inductance_H / m.resistance_ohm;
+  const double start_s = s.end * trail_s(m, period_s);
   return s.inertia - sampled * s.damping * (s.share * period_s - start_s);
 }
 

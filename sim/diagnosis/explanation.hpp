@@ -18,9 +18,16 @@ struct Residual {
   std::string on;  ///< actuator or joint
   const char* unit;
   std::vector<double> value;
-  double driven_by =
-      0;  ///< rms of what drives the stage: V, motor torque, tension, pull of tendons
+  /// rms of what drives the stage: V, motor torque, tension, pull of tendons
+  double driven_by = 0;
+  /// Windows where something may take what it likes, friction at rest or a stop: the value is what
+  /// lies beyond that, and noise cannot be seen. Empty: none.
+  std::vector<bool> banded = {};
 };
+
+inline bool banded(const Residual& residual, std::size_t window) {
+  return !residual.banded.empty() && residual.banded[window];
+}
 
 /// Paths of tendons near a pose, as if their lengths were linear in it.
 struct PathsNearby {

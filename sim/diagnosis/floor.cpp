@@ -120,7 +120,8 @@ std::vector<double> floors(Stages& stages, const Episode& episode, const erp::Ro
     double square = 0;
     std::size_t windows = 0;
     for (std::size_t k = 0; k < said[r].value.size(); ++k)
-      if (const double change = again[r].value[k] - said[r].value[k]; !std::isnan(change))
+      if (const double change = again[r].value[k] - said[r].value[k];
+          !std::isnan(change) && !banded(said[r], k) && !banded(again[r], k))
         square += change * change, ++windows;
     floors.push_back(windows ? std::sqrt(square / static_cast<double>(windows)) : 0);
   }

@@ -165,26 +165,29 @@ Stages::Gait Stages::gait(const JointTrace& joints, std::size_t j, const Bump& b
 }
 
 /// What is left of a revolute joint's balance once a resting joint's friction and the push of a
-/// stop have taken their share.
-double Stages::leave(const JointTrace& joints, std::size_t j, const Bump& bump, std::size_t row,
-                     double torque_Nm) const {
+/// stop have taken their share, and whether they may.
+std::pair<double, bool> Stages::leave(const JointTrace& joints, std::size_t j, const Bump& bump,
+                                      std::size_t row, double torque_Nm) const {
   const erp::Joint& joint = bones_.joint_list()[j];
-  if (joints.signals[j].angle_rad.empty()) return torque_Nm;
+  if (joints.signals[j].angle_rad.empty()) return {torque_Nm, false};
   const Gait gait = this->gait(joints, j, bump, row);
-  if (gait == Gait::mixed) return nan;
-  if (gait == Gait::rests) {
+  if (gait != Gait::glides) {
     effects::Acting acting(equipped_.acting, joint.name, effects::Seat::joint);
-    const double band = joint.coulomb_Nm + acting.joint_friction_Nm(0);
+    const double friction = joint.coulomb_Nm + acting.joint_friction_Nm(0);
+    const double band =
+        gait == Gait::rests ? friction : 2 * friction;  // one was taken, may be wrong
     torque_Nm = std::copysign(std::max(0.0, std::abs(torque_Nm) - band), torque_Nm);
   }
   const auto [lowest, highest] = range(joints.signals[j].angle_rad, bump, row);
-  if (highest > joint.max_rad - near_stop_rad)
+  const bool above = highest > joint.max_rad - near_stop_rad;
+  const bool below = lowest < joint.min_rad + near_stop_rad;
+  if (above)
     torque_Nm = std::max(0.0, torque_Nm) +
                 stop_Nm_per_rad * std::max(0.0, highest - joint.max_rad - stop_gives_rad);
-  if (lowest < joint.min_rad + near_stop_rad)
+  if (below)
     torque_Nm = std::min(0.0, torque_Nm) -
                 stop_Nm_per_rad * std::max(0.0, joint.min_rad - stop_gives_rad - lowest);
-  return torque_Nm;
+  return {torque_Nm, gait != Gait::glides || above || below};
 }
 
 void Stages::add_joints(const Episode& episode, Explanation& e) const {
@@ -208,10 +211,12 @@ void Stages::add_joints(const Episode& episode, Explanation& e) const {
     if (first < 0 || !std::ranges::count(recorded_joints_, joints[j].name)) continue;
     for (int d = first; d < first + count; ++d) {
       Residual residual{effects::Stage::joint, joints[j].name, "Nm", {}, rms(pulls.row(d))};
-      for (Eigen::Index k = 0; k < torques.cols(); ++k)
-        residual.value.push_back(
+      for (Eigen::Index k = 0; k < torques.cols(); ++k) {
+        const auto [left, banded] =
             count == 1 ? leave(*e.joints, j, bump, e.rows[std::size_t(k)], torques(d, k))
-                       : torques(d, k));
+                       : std::pair(torques(d, k), false);
+        residual.value.push_back(left), residual.banded.push_back(banded);
+      }
       e.residuals.push_back(std::move(residual));
     }
   }

@@ -28,7 +28,7 @@ Sample sample(const Trials& trials, const Trial& trial, effects::Stage stage, co
     for (const Residual& r : trials.bare().of_episode[e].residuals) {
       if (r.stage == stage && r.on == on)
         for (std::size_t k = 0; k < r.value.size(); ++k) {
-          if (std::isnan(z[first + k])) continue;
+          if (std::isnan(z[first + k]) || (banded(r, k) && r.value[k] == 0)) continue;
           all.residual.push_back(z[first + k]);
           for (std::size_t v = 0; v < own.size(); ++v)
             all.variables[v].value.push_back(own[v].value[k]);

@@ -75,8 +75,8 @@ class Stages {
   /// How a revolute joint moves over a window.
   enum class Gait { glides, rests, mixed };
   Gait gait(const JointTrace& joints, std::size_t joint, const Bump& bump, std::size_t row) const;
-  double leave(const JointTrace& joints, std::size_t joint, const Bump& bump, std::size_t row,
-               double torque_Nm) const;
+  std::pair<double, bool> leave(const JointTrace& joints, std::size_t joint, const Bump& bump,
+                                std::size_t row, double torque_Nm) const;
 
   effects::Equipped equipped_;
   Windows windows_;

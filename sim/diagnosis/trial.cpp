@@ -55,6 +55,17 @@ Trial Trials::with(std::span<const effects::Placed> all,
   return trial;
 }
 
+namespace {
+
+/// Where something may take what it likes, noise counts as it does elsewhere in the mean: to let
+/// something do so gains nothing.
+double z_of(const Residual& residual, std::size_t window, double floor) {
+  const double z = residual.value[window] / floor;
+  return banded(residual, window) ? std::copysign(std::hypot(1, z), z) : z;
+}
+
+}  // namespace
+
 std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) const {
   const auto& bare = bare_.of_episode[episode].residuals;
   const auto& tried = trial.of_episode[episode].residuals;
@@ -62,10 +73,9 @@ std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) co
   for (std::size_t r = 0; r < bare.size(); ++r) {
     const double floor = floors_[episode][r];
     for (std::size_t k = 0; k < bare[r].value.size(); ++k) {
-      const double plain = bare[r].value[k];
-      const double with = r < tried.size() ? tried[r].value[k] : plain;
-      const bool judged = floor > 0 && !std::isnan(plain);
-      all.push_back(judged ? (std::isnan(with) ? plain : with) / floor
+      const bool judged = floor > 0 && !std::isnan(bare[r].value[k]);
+      const bool tells = r < tried.size() && !std::isnan(tried[r].value[k]);
+      all.push_back(judged ? z_of(tells ? tried[r] : bare[r], k, floor)
                            : std::numeric_limits<double>::quiet_NaN());
     }
   }

@@ -8,7 +8,7 @@ namespace sim::effects {
 ///
 ///   θ_s = θ − c r F,   which is a line softer by  r² c
 ///
-/// The same as an elastic line or, of a plain spring, as a softer spring.
+/// The same as an elastic line and, of a plain spring, nearly as a softer spring.
 /// Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 struct GearboxShaftCompliance {
   static constexpr About about{"gearbox_shaft_compliance", Stage::gearbox, Seat::actuator,

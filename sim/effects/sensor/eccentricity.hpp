@@ -1,15 +1,18 @@
 #pragma once
 #include <cmath>
+#include <complex>
 
 #include "sim/effects/sensor/sense.hpp"
 
 namespace sim::effects {
 
-/// The disc of an angle sensor does not turn about its centre.
+/// The disc of an angle sensor does not turn about its centre. Seen from the disc, the head runs on
+/// a circle about c, the axis, as a share of the head's distance from it:
 ///
-///   said = θ + (a sin n θ + b cos n θ − b)/n      n: turns of the disc a turn of what is measured
+///   said = −arg(e^{−i n θ} − c)/n + const, 0 at θ = 0      c = a + i b
+///        ≈ θ + (a sin n θ + b cos n θ − b)/n               n: turns of the disc a turn of θ
 ///
-/// Source: data sheets of magnetic and optical encoders, eccentricity error.
+/// Source: plane geometry of one reading head; data sheets of encoders give the approximation.
 template <Sense kind>
 struct SensorEccentricity {
   static constexpr Sense sense = kind;
@@ -24,18 +27,25 @@ struct SensorEccentricity {
     v("cosine_rad", cosine_rad, Bounds{-0.3, 0.3});
   }
   double read(double value, const SensorSample& s, Memory&) const {
-    return value + error_rad(value, s.turns_per_turn);
+    const double n = s.turns_per_turn;
+    return value + (ahead_rad(n * value) - ahead_rad(0)) / n;
   }
-  /// Solved by iteration: the error changes by less than 0.6 of a change of the angle.
   double undo(double said, const SensorSample& s, Memory&) const {
-    double value = said;
-    for (int k = 0; k < 30; ++k) value = said - error_rad(value, s.turns_per_turn);
-    return value;
+    const double n = s.turns_per_turn;
+    return said - (behind_rad(n * said + ahead_rad(0)) - ahead_rad(0)) / n;
   }
 
  private:
-  double error_rad(double angle, double n) const {
-    return (sine_rad * std::sin(n * angle) + cosine_rad * (std::cos(n * angle) - 1)) / n;
+  std::complex<double> centre() const { return {sine_rad, cosine_rad}; }
+  /// How far the disc is ahead of its axis at this angle of the axis.
+  double ahead_rad(double angle) const {
+    return -std::arg(1.0 - centre() * std::polar(1.0, angle));
+  }
+  /// The same at this angle of the disc: where its ray from c meets the head's circle.
+  double behind_rad(double disc) const {
+    const auto off = centre() * std::polar(1.0, disc);
+    const double along = std::sqrt(1 - off.imag() * off.imag()) - off.real();
+    return std::arg(off + along);
   }
 };
 

@@ -8,8 +8,8 @@ namespace sim::effects {
 ///
 ///   Δx = x_spring + c F
 ///
-/// Its stiffness is that of its whole length, wound or not. Of a plain spring the same as a softer
-/// one.
+/// Its stiffness is that of its whole length, wound or not. Of a plain spring nearly the same as a
+/// softer one: only the damping tells.
 /// Source: paper, 4.1 (kite lines taken as inextensible).
 struct TendonKiteLine {
   static constexpr About about{"tendon_kite_line", Stage::tendon, Seat::actuator,
