@@ -110,8 +110,7 @@ void add_alternatives(const Evidence& evidence, const Trials& trials, const Toge
   const Trial without = trials.with(all_but(together.chosen(), k), evidence.sets.all());
   const auto ranked = rank(trials, without, evidence.which_options(0.85, 0.95));
   if (ranked.empty() || ranked[0].fit.placed.on != chosen.on) return;
-  auto same =
-      confusable(ranked, trials.blocks(without, evidence.sets.held_out), evidence.which_options());
+  auto same = confusable(ranked, evidence.which_options());
   same.push_back(0);
   for (const std::size_t n : same)
     if (const Named other = named(ranked[n], evidence.options.least_gain); !other.is(chosen))
@@ -165,8 +164,7 @@ Selection select(const Evidence& evidence, const Trials& trials,
   const bool alone = together.size() == 1;
   if (!alone) settle(evidence, trials, together, s);
   else
-    for (const std::size_t k : confusable(
-             first, trials.blocks(trials.bare(), evidence.sets.held_out), evidence.which_options()))
+    for (const std::size_t k : confusable(first, evidence.which_options()))
       s.confusable.push_back(s.ranked[k]);
   s.left = together.left(alone ? evidence.options.alone : evidence.options.together);
   s.trial = std::move(together.trial());

@@ -70,14 +70,24 @@ bool corrects(const Placed& placed) {
   return std::string_view(effects::parameters(effect)[0].name) == "relative";
 }
 
+/// How much more the other leaves, Σ z² of the same blocks.
+Interval worse_by(const Ranked& other, const Ranked& best, const WhichOptions& options) {
+  return middle(bootstrap(best.blocks.size(), options.draws, options.seed, [&](const auto& drawn) {
+    double more = 0;
+    for (const std::size_t k : drawn) more += other.blocks[k].square - best.blocks[k].square;
+    return more;
+  }));
+}
+
 /// Of those as good as the first, the ones with fewer parameters come first, then those that
 /// correct a number of the model, then in the order of the chain.
-void prefer_plain(std::vector<Ranked>& ranked) {
+void prefer_plain(std::vector<Ranked>& ranked, const WhichOptions& options) {
   constexpr double as_good = 1e-3;  // of the gap; chosen
   if (ranked.empty()) return;
-  const double best = ranked[0].gain;
-  const auto end = std::ranges::find_if(
-      ranked, [&](const Ranked& r) { return r.gain < best - as_good || !r.relieves(); });
+  const Ranked best = ranked[0];
+  const auto end = std::stable_partition(ranked.begin(), ranked.end(), [&](const Ranked& r) {
+    return r.relieves() && r.gain >= best.gain - as_good && worse_by(r, best, options).low <= 0;
+  });
   std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
     const auto plainness = [](const Ranked& r) {
       return std::tuple(r.fit.values.size(), !corrects(r.fit.placed), r.fit.placed.effect.index());
@@ -101,26 +111,18 @@ std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOpt
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
   std::ranges::stable_partition(ranked, &Ranked::relieves);
-  prefer_plain(ranked);
+  prefer_plain(ranked, options);
   return ranked;
 }
 
-std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked,
-                                    const std::vector<ScoreBlock>& before,
-                                    const WhichOptions& options, double practical) {
+std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked, const WhichOptions& options,
+                                    double practical) {
   std::vector<std::size_t> same;
-  const auto whole = sum(before);
-  const double gap = whole.square - static_cast<double>(whole.windows);
   for (std::size_t n = 1; n < ranked.size(); ++n) {
-    const auto worse =
-        bootstrap(before.size(), options.draws, options.seed, [&](const auto& drawn) {
-          double sum = 0;
-          for (const std::size_t k : drawn)
-            sum += ranked[n].blocks[k].square - ranked[0].blocks[k].square;
-          return sum / gap;
-        });
     if (!ranked[n].relieves()) continue;
-    if (middle(worse).low <= 0 || ranked[0].gain - ranked[n].gain < practical) same.push_back(n);
+    if (ranked[0].gain - ranked[n].gain < practical ||
+        worse_by(ranked[n], ranked[0], options).low <= 0)
+      same.push_back(n);
   }
   return same;
 }

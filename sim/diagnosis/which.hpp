@@ -48,8 +48,7 @@ std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOpt
 
 /// Of `ranked`, which cannot be told from the first: their paired difference to it includes zero,
 /// or is below `practical` of the gap. The first is not among them.
-std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked,
-                                    const std::vector<ScoreBlock>& before,
-                                    const WhichOptions& options, double practical = 0.01);
+std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked, const WhichOptions& options,
+                                    double practical = 0.01);
 
 }  // namespace sim::diagnosis
