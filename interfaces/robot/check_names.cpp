@@ -100,6 +100,8 @@ void check_references(const Robot& robot, Findings& findings) {
   const auto drives = names_of(robot.drives);
   for (const auto* more : {&bodies, &actuators, &drives})
     places.insert(places.end(), more->begin(), more->end());
+  for (const Drive& drive : robot.drives)
+    if (has_two_ends(drive)) places.push_back(drive.name + ".load");
   places.push_back(robot.name);
   for (const Effect& effect : robot.effects)
     check_reference(effect, "on", effect.on, places,

@@ -37,6 +37,21 @@ struct Shaft {
   }
 };
 
+/// Measures where the load is, behind the transmission.
+struct LoadEncoder {
+  static constexpr auto element = "load_encoder";
+  xml::Place place;
+  void visit(auto&) {}
+};
+
+/// Measures what the transmission hands to the load.
+struct TorqueSensor {
+  static constexpr auto element = "torque_sensor";
+  xml::Place place;
+  double noise_Nm = 0;  ///< rms, on the gearbox shaft; 0: not known
+  void visit(auto& v) { v("noise_Nm", noise_Nm, xml::at_least_zero); }
+};
+
 /// What a drive's control, in volts, sets: the motor's voltage, its current, or, where only the
 /// whole is known, the force.
 enum class DriveControl { voltage, current, force };
@@ -49,16 +64,32 @@ struct Drive {
   double gain = 1;    ///< V, A or N (on a shaft Nm) for a volt of control
   std::string motor;  ///< a motor_type; not for control by force
   std::string source;
+  /// Of the transmission, seen at the gearbox shaft; absent: rigid.
+  std::optional<double> stiffness_Nm_per_rad;
+  double damping_Nm_s_per_rad = 0;
   std::vector<std::variant<Slide, Shaft>> load;  ///< one
+  std::vector<std::variant<LoadEncoder, TorqueSensor>> sensors;
   void visit(auto& v) {
     v.required("name", name);
     v.required("control", control);
     v.required("gain", gain, xml::positive);
     v("motor", motor);
     v("source", source);
+    v("stiffness_Nm_per_rad", stiffness_Nm_per_rad, xml::positive);
+    v("damping_Nm_s_per_rad", damping_Nm_s_per_rad, xml::at_least_zero);
     v.list(load);
+    v.list(sensors);
+  }
+  template <class Sensor>
+  const Sensor* find() const {
+    for (const auto& sensor : sensors)
+      if (const auto* found = std::get_if<Sensor>(&sensor)) return found;
+    return nullptr;
   }
 };
+
+/// Motor and load are measured apart: there is a chain between them, not one mass.
+inline bool has_two_ends(const Drive& drive) { return !drive.sensors.empty(); }
 
 }  // namespace erp
 

@@ -48,6 +48,13 @@ void go_to_end(const erp::Robot& robot, std::size_t turn, Pose& pose) {
   }
 }
 
+/// What its muscles may pull, of the 150 N that the walks below are meant for.
+double strength(const erp::Robot& robot) {
+  double sum_N = 0;
+  for (const erp::Actuator& actuator : robot.actuators) sum_N += actuator.max_tension_N;
+  return sum_N / static_cast<double>(robot.actuators.size()) / 150;
+}
+
 struct Walk {
   double share, pace_s, dwell_s, rest_N, least_N;
   bool to_the_ends = false;
@@ -63,7 +70,9 @@ Excitation through_postures(const erp::Robot& robot, const Walk& walk, double du
     if (walk.to_the_ends) go_to_end(robot, poses.size() / 2, poses.back().pose);
     t += walk.dwell_s * between(random, 0.5, 1.5);
   }
-  const auto plan = lengths_through(robot, poses, {{walk.rest_N, walk.least_N}, 0.02});
+  const double strong = strength(robot);
+  const auto plan =
+      lengths_through(robot, poses, {{strong * walk.rest_N, strong * walk.least_N}, 0.02});
   const auto& columns = plan.table.columns;
   const auto& time = columns.at(0).values;
   Excitation all;
@@ -79,6 +88,23 @@ Excitation through_postures(const erp::Robot& robot, const Walk& walk, double du
           row.push_back(in * ((1 - s) * column.values[at] + s * column.values[at + 1]));
   }
   return all;
+}
+
+/// On top of it each muscle pulls alone, slowly and then faster, against those that hold the
+/// posture: there it shows what is its own.
+void pull_in_turn(const erp::Robot& robot, Excitation& all) {
+  constexpr double share = 0.15;   // of what it may pull
+  constexpr int pulls[] = {1, 3};  // half waves, in each half of its turn
+  const std::size_t turn = all.reference.size() / robot.actuators.size();
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const erp::Actuator& actuator = robot.actuators[a];
+    const double most_m = share * actuator.max_tension_N / actuator.tendon.stiffness_N_per_m;
+    for (std::size_t k = 0; k < turn; ++k) {
+      const double half = 2 * double(k) / double(turn), within = half < 1 ? half : half - 1;
+      const double wave = std::sin(std::numbers::pi * pulls[half >= 1] * within);
+      all.reference[a * turn + k][a] -= most_m * wave * wave;
+    }
+  }
 }
 
 struct Swing {
@@ -109,8 +135,8 @@ Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration
 }  // namespace
 
 const char* excitation_word(const erp::Robot& robot, int recording) {
-  constexpr const char* postures[] = {"slow, end to end", "slack postures", "fast postures",
-                                      "stiff postures"};
+  constexpr const char* postures[] = {"slow, end to end", "each muscle in turn", "fast postures",
+                                      "each muscle in turn, stiff"};
   if (robot.joints().size() != 1 || recording % 2 == 0) return postures[recording % 4];
   return recording % 4 == 1 ? "gentle tensions" : "strong tensions";
 }
@@ -126,7 +152,9 @@ Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
     return tensions(robot, swing, duration_s, random);
   }
   const Walk walks[] = {slow, low, fast, high};
-  return through_postures(robot, walks[recording % 4], duration_s, random);
+  Excitation all = through_postures(robot, walks[recording % 4], duration_s, random);
+  if (recording % 2 == 1) pull_in_turn(robot, all);
+  return all;
 }
 
 }  // namespace sim

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,12 +26,15 @@ struct Case {
   std::vector<Hidden> hidden;
   Quirks quirks;
   std::vector<std::string> withhold;  ///< what the diagnosis is told to do without
+  int drawn_anew = 0;                 ///< what would not have shown in any reading
 };
 
-/// `only`: types to draw from, empty: all. Throws std::invalid_argument for a robot without
-/// actuators or joints, and for a type that this kind never hides.
+/// `only`: types to draw from, empty: all. `shows`: of something alone (shows.hpp); what does not
+/// is drawn anew, fifty times at most. Throws std::invalid_argument for a robot without actuators
+/// or joints, and for a type that this kind never hides.
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
-               const std::vector<std::string>& only = {});
+               const std::vector<std::string>& only = {},
+               const std::function<bool(const Quirks&)>& shows = {});
 
 const char* word(Kind kind);
 /// Throws std::invalid_argument for an unknown word.

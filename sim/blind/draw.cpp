@@ -3,6 +3,7 @@
 
 #include "interfaces/robot/mass.hpp"
 #include "sim/blind/kinds.hpp"
+#include "sim/blind/strength.hpp"
 
 namespace sim::blind {
 namespace {
@@ -28,13 +29,16 @@ std::size_t any_joint(const erp::Robot& robot, Random& random) {
 }
 
 Hidden hide(const HiddenKind& kind, const erp::Robot& robot, Quirks& quirks, Random& random) {
+  constexpr double hinge_rig_Nm = 3.75;
   Place place{quirks, robot, any(robot.actuators.size(), random), any_joint(robot, random), {}};
+  place.stronger = strength_Nm(robot, place.joint) / hinge_rig_Nm;
   std::vector<std::string> moved;
   for (const erp::Body& body : robot.bodies())
     if (erp::mass_of(body).mass_kg > 0) moved.push_back(body.name);
   place.body = moved.at(any(moved.size(), random));
+  if (kind.on == HiddenKind::link) place.body = robot.joints()[place.joint].child;
   const std::string on[] = {robot.actuators[place.chain].name, robot.joints()[place.joint].name,
-                            place.body, robot.name};
+                            place.body, place.body, robot.name};
   return {kind.type, kind.stage, on[kind.on], kind.draw(place, random)};
 }
 
@@ -63,17 +67,31 @@ Kind kind_of(const std::string& said) {
 }
 
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
-               const std::vector<std::string>& only) {
+               const std::vector<std::string>& only,
+               const std::function<bool(const Quirks&)>& shows) {
   if (robot.actuators.empty()) throw std::invalid_argument(robot.name + ": no actuator");
   Random random(seed * 0x9e3779b97f4a7c15u + 0x1234567u);
   Case blind{seed, kind, {}, {}, {}};
   blind.quirks.chains.resize(robot.actuators.size());
   blind.quirks.joints.resize(robot.joints().size());
+  const Quirks none = blind.quirks;
+  constexpr int enough = 50;
   const auto hide_one = [&](std::span<const HiddenKind> all) -> const HiddenKind& {
     const auto kinds = among(all, only);
-    const HiddenKind& chosen = *kinds[any(kinds.size(), random)];
-    blind.hidden.push_back(hide(chosen, robot, blind.quirks, random));
-    return chosen;
+    while (true) {
+      const HiddenKind& chosen = *kinds[any(kinds.size(), random)];
+      const Random before = random;
+      Quirks alone = none;
+      const Hidden hidden = hide(chosen, robot, alone, random);
+      if (shows && blind.drawn_anew < enough && !shows(alone)) {
+        ++blind.drawn_anew;
+        continue;
+      }
+      Random again = before;
+      hide(chosen, robot, blind.quirks, again);
+      blind.hidden.push_back(hidden);
+      return chosen;
+    }
   };
   if (kind == Kind::single) hide_one(in_library());
   if (kind == Kind::outside) hide_one(outside_library());

@@ -36,6 +36,7 @@ using R = Random;
 constexpr auto on_chain = HiddenKind::chain;
 constexpr auto on_joint = HiddenKind::joint;
 constexpr auto on_body = HiddenKind::body;
+constexpr auto on_link = HiddenKind::link;
 constexpr auto on_robot = HiddenKind::robot;
 
 // clang-format off
@@ -62,7 +63,7 @@ const std::vector<HiddenKind> library{
   {"gearbox_stribeck", "gearbox", on_chain, [](P& p, R& r) {
      chain(p).stribeck_Nm = between(r, 0.04, 0.2), chain(p).stribeck_rad_per_s = between(r, 0.2, 1.0);
      return Drawn{{"tustin_Nm", chain(p).stribeck_Nm}, {"tustin_rad_per_s", chain(p).stribeck_rad_per_s}}; }},
-  {"gearbox_load_dependent", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).load_share, "share", between(r, 0.15, 0.7)); }},
+  {"gearbox_load_dependent", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).load_share, "share", between(r, 0.15, 0.7)); }, {"routing_capstan"}},
   {"gearbox_backlash", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).play_rad, "width_rad", between(r, 0.05, 0.3)); }},
   {"gearbox_inertia", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).rotor, "relative", between(r, 0.1, 1.0)); }},
   {"gearbox_shaft_compliance", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).twist_rad_per_Nm, "rad_per_Nm", between(r, 0.3, 2)); }, {"tendon_kite_line", "tendon_stiffness"}},
@@ -80,18 +81,18 @@ const std::vector<HiddenKind> library{
      return Drawn{{"fibres_N", chain(p).fibres_N}}; }},
   {"tendon_length_offset", "tendon", on_chain, [](P& p, R& r) { return set(chain(p).knot_m, "length_m", sign(r) * between(r, 1.5e-4, 1e-3)); }, {"sensor_shaft_offset"}},
   {"tendon_kite_line", "tendon", on_chain, [](P& p, R& r) { return set(chain(p).line_m_per_N, "compliance_m_per_N", between(r, 1e-5, 8e-5)); }, {"tendon_stiffness", "gearbox_shaft_compliance"}},
-  {"routing_capstan", "routing", on_chain, [](P& p, R& r) { return set(chain(p).rub, "friction", between(r, 0.08, 0.3)); }},
+  {"routing_capstan", "routing", on_chain, [](P& p, R& r) { return set(chain(p).rub, "friction", between(r, 0.08, 0.3)); }, {"gearbox_load_dependent"}},
   {"routing_pulley_radius", "routing", on_chain, [](P& p, R& r) { return set(chain(p).pulley, "relative", sign(r) * between(r, 0.04, 0.2)); }, {"routing_moment_arm"}},
   {"routing_moment_arm", "routing", on_chain, [](P& p, R& r) {
      chain(p).arm = sign(r) * between(r, 0.03, 0.15), chain(p).arm_per_m = sign(r) * between(r, 1, 5);
      return Drawn{{"relative", chain(p).arm}, {"relative_per_m", chain(p).arm_per_m}}; }},
-  {"joint_coulomb", "joint", on_joint, [](P& p, R& r) { return set(joint(p).dry_Nm, "extra_Nm", between(r, 0.06, 0.25)); }, {"joint_stribeck"}},
-  {"joint_viscous", "joint", on_joint, [](P& p, R& r) { return set(joint(p).viscous, "extra_Nm_s_per_rad", between(r, 0.05, 0.3)); }},
+  {"joint_coulomb", "joint", on_joint, [](P& p, R& r) { return set(joint(p).dry_Nm, "extra_Nm", p.stronger * between(r, 0.06, 0.25)); }, {"joint_stribeck"}},
+  {"joint_viscous", "joint", on_joint, [](P& p, R& r) { return set(joint(p).viscous, "extra_Nm_s_per_rad", p.stronger * between(r, 0.05, 0.3)); }},
   {"joint_stribeck", "joint", on_joint, [](P& p, R& r) {
-     joint(p).stribeck_Nm = between(r, 0.12, 0.4), joint(p).stribeck_rad_per_s = between(r, 0.15, 0.6);
+     joint(p).stribeck_Nm = p.stronger * between(r, 0.12, 0.4), joint(p).stribeck_rad_per_s = between(r, 0.15, 0.6);
      return Drawn{{"tustin_Nm", joint(p).stribeck_Nm}, {"tustin_rad_per_s", joint(p).stribeck_rad_per_s}}; }},
   {"joint_passive_stiffness", "joint", on_joint, [](P& p, R& r) {
-     joint(p).spring = between(r, 0.2, 1.5), joint(p).rest_rad = between(r, -0.5, 0.8);
+     joint(p).spring = p.stronger * between(r, 0.2, 1.5), joint(p).rest_rad = between(r, -0.5, 0.8);
      return Drawn{{"stiffness_Nm_per_rad", joint(p).spring}, {"rest_rad", joint(p).rest_rad}}; }},
   {"joint_early_stop", "joint", on_joint, [](P& p, R& r) {
      const double a = between(r, 0.3, 0.8);
@@ -101,9 +102,9 @@ const std::vector<HiddenKind> library{
   {"skeleton_mass", "skeleton", on_body, [](P& p, R& r) { return set(body(p).mass, "relative", sign(r) * between(r, 0.15, 0.5)); }, {"skeleton_payload", "skeleton_com"}},
   {"skeleton_com", "skeleton", on_body, [](P& p, R& r) { return set(body(p).com_m, "outwards_m", sign(r) * between(r, 0.02, 0.05)); }, {"skeleton_payload", "skeleton_mass"}},
   {"skeleton_inertia", "skeleton", on_body, [](P& p, R& r) { return set(body(p).inertia, "relative", between(r, 0.8, 3)); }},
-  {"skeleton_payload", "skeleton", on_body, [](P& p, R& r) { return set(body(p).payload_kg, "mass_kg", between(r, 0.12, 0.5)); }, {"skeleton_com", "skeleton_mass"}},
+  {"skeleton_payload", "skeleton", on_body, [](P& p, R& r) { return set(body(p).payload_kg, "mass_kg", p.stronger * between(r, 0.12, 0.5)); }, {"skeleton_com", "skeleton_mass"}},
   {"skeleton_base_tilt", "skeleton", on_robot, [](P& p, R& r) { return set(p.quirks.tilt_y_rad, "about_y_rad", sign(r) * between(r, 0.06, 0.3)); }},
-  {"skeleton_link_flexibility", "skeleton", on_body, [](P& p, R& r) { return set(body(p).bend_rad_per_Nm, "compliance_rad_per_Nm", between(r, 0.05, 0.3)); }},
+  {"skeleton_link_flexibility", "skeleton", on_link, [](P& p, R& r) { return set(body(p).bend_rad_per_Nm, "compliance_rad_per_Nm", between(r, 0.05, 0.3) / p.stronger); }},
   {"sensor_shaft_offset", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::shaft>(p).offset, "offset_rad", sign(r) * between(r, 0.03, 0.2)); }, {"tendon_length_offset"}},
   {"sensor_current_offset", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::current>(p).offset, "offset_A", sign(r) * between(r, 0.04, 0.3)); }},
   {"sensor_tension_offset", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::tension>(p).offset, "offset_N", between(r, 0.5, 4)); }},
@@ -144,8 +145,8 @@ const std::vector<HiddenKind> outside{
   {"outside_snag", "routing", on_chain, [](P& p, R& r) {
      chain(p).snag_m = between(r, -0.015, 0.015);
      return set(chain(p).snag_N, "N", between(r, 8, 25)); }},
-  {"outside_drag", "joint", on_joint, [](P& p, R& r) { return set(joint(p).drag, "Nm_s2", between(r, 0.03, 0.12)); }},
-  {"outside_gusts", "joint", on_joint, [](P& p, R& r) { return set(joint(p).gusts_Nm, "Nm", between(r, 0.15, 0.5)); }},
+  {"outside_drag", "joint", on_joint, [](P& p, R& r) { return set(joint(p).drag, "Nm_s2", p.stronger * between(r, 0.03, 0.12)); }},
+  {"outside_gusts", "joint", on_joint, [](P& p, R& r) { return set(joint(p).gusts_Nm, "Nm", p.stronger * between(r, 0.15, 0.5)); }},
   {"outside_bent_current", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::current>(p).bend, "per_A", between(r, 0.06, 0.2)); }},
   {"outside_bent_tension", "sensor", on_chain, [](P& p, R& r) { return set(sense_of<&ChainQuirks::tension>(p).bend, "per_N", between(r, 0.004, 0.012)); }},
 };

@@ -16,12 +16,13 @@ struct Place {
   const erp::Robot& robot;
   std::size_t chain = 0, joint = 0;
   std::string body;
+  double stronger = 1;  ///< the joint, than hinge_rig's: what brakes or loads it is in proportion
 };
 
 struct HiddenKind {
   const char* type;
   const char* stage;
-  enum On { chain, joint, body, robot } on;
+  enum On { chain, joint, body, link, robot } on;  ///< link: a body on a hinge
   /// Draws, sets the quirk and tells what was drawn.
   std::vector<std::pair<std::string, double>> (*draw)(Place&, Random&);
   /// Types that foretell nearly the same readings with some parameters of theirs, by their

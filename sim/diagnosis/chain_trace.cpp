@@ -114,7 +114,7 @@ class Tracer {
     s.tension_N = out_.tension_measured || k == 0 ? at(out_.tension_N) : at_spring(k - 1);
     s.load_Nm = s.radius_m * s.tension_N;
     s.path_m = at(path_.length_m), s.path_change_m = s.path_m - m_.start_m;
-    s.wrap_rad = at(path_.wrap_rad);
+    s.wrap_rad = at(path_.wrap_rad), s.pushes = pushes_;
     return s;
   }
   /// ⟨i²⟩ over the period that ends at a row: within it the current falls evenly as the motor
@@ -140,7 +140,8 @@ class Tracer {
       const double calm_m =
           k < calm_path_m_.size() ? path.slope * (calm_path_m_[k] - s.path_m) : 0.0;
       s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
-      s.stiffness_N_per_m = law_.spring.slope_N_per_m(s.stretch_m);
+      s.stiffness_N_per_m =
+          law_.spring.slope_N_per_m(pushes_ ? std::abs(s.stretch_m) : s.stretch_m);
       wound = m_.effects.wound(s, wound);
       s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
       pull = m_.effects.pull(s);
@@ -158,10 +159,15 @@ class Tracer {
 
   void stretch(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
                Sloped pull) {
-    const double rate = path.slope * path_rate_[k] + wound.slope * out_.speed_rad_per_s[k];
-    const double force =
-        law_.spring.force_N(s.stretch_m) + law_.damping_N_s_per_m * rate + pull.value;
-    out_.spring_N[k] = std::isnan(rate) ? nan : s.stretch_m > 0 ? std::max(0.0, force) : 0.0;
+    const bool in_play = pushes_ && wound.slope == 0;  // neither end draws the other
+    const double rate =
+        in_play ? 0 : path.slope * path_rate_[k] + wound.slope * out_.speed_rad_per_s[k];
+    const double spring = std::copysign(law_.spring.force_N(std::abs(s.stretch_m)), s.stretch_m);
+    const double force = spring + law_.damping_N_s_per_m * rate + pull.value;
+    out_.spring_N[k] = std::isnan(rate)  ? nan
+                       : pushes_         ? force
+                       : s.stretch_m > 0 ? std::max(0.0, force)
+                                         : 0.0;
     out_.path_slope[k] = path.slope;
   }
 
@@ -223,6 +229,7 @@ class Tracer {
   double period_s_;
   Bump bump_;
   TendonLaw law_;
+  bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission
   std::size_t rows_ = 0;
   Signal path_rate_, calm_path_m_, wound_slope_;
   std::vector<effects::ChainSample> samples_;

@@ -162,6 +162,12 @@ class Layout {
   Grid grid_;
 };
 
+DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
+  const auto name = drive_columns(drive);
+  return {layout.held(name.control_V), layout.smooth(name.position), layout.held(name.current_A),
+          layout.smooth(name.load), layout.smooth(name.torque)};
+}
+
 }  // namespace
 
 Episode lay_out(const recording::Table& table, const erp::Robot& robot, const std::string& name,
@@ -171,9 +177,7 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
   bool any = false;
   for (const erp::Actuator& actuator : robot.actuators) {
     if (const erp::Drive* drive = drive_of(robot, actuator.name)) {
-      const auto [control, position, current] = drive_columns(*drive);
-      episode.actuators.push_back(drive_signals(*drive, layout.held(control),
-                                                layout.smooth(position), layout.held(current)));
+      episode.actuators.push_back(drive_signals(*drive, drive_record(layout, *drive)));
       any |= !episode.actuators.back().shaft_rad.empty();
       continue;
     }
@@ -187,6 +191,10 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
   }
   for (const erp::Joint& joint : robot.joints()) {
     JointSignals& signals = episode.joints.emplace_back();
+    if (const erp::Drive* drive = drive_of(robot, joint.name)) {
+      signals.angle_rad = load_rad(*drive, drive_record(layout, *drive));
+      continue;
+    }
     signals.angle_rad = layout.smooth(joint.name + ".angle_rad");
     const char* const parts[] = {".qw", ".qx", ".qy", ".qz"};
     for (std::size_t k = 0; k < 4; ++k) signals.quaternion[k] = layout.held(joint.name + parts[k]);

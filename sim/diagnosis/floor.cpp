@@ -83,7 +83,10 @@ Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_
     if (s.current_A.empty())
       for (double& v : s.voltage_V) v *= 1 + of_voltage;
     disturb(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
-    disturb(s.tension_N, sensors.tension_noise_N, scale.tension_N_per_count, noise);
+    const bool drive = robot.actuators[a].tendon.path.empty();
+    const double of_tension =
+        drive && sensors.tension_noise_N == 0 ? noise_of(s.tension_N) : sensors.tension_noise_N;
+    disturb(s.tension_N, of_tension, scale.tension_N_per_count, noise);
     const auto coarsen = [&](const char* type, Signal& signal) {
       if (const double step = coarse_step(coarse, type, robot.actuators[a].name); step > 0)
         requantise(signal, step, noise);

@@ -21,12 +21,14 @@ bool has(const std::vector<Located>& places, effects::Stage stage, const std::st
   return find_stage(places, stage, on) != places.end();
 }
 
-/// What cannot be told apart shares its part of the gap.
+/// What cannot be told apart shares its part of the gap: each may have all of it, or none.
 void share_first(std::vector<Located>& places, const std::vector<Located>& others) {
   const double share = places[0].share / static_cast<double>(1 + others.size());
   places[0].share = share;
+  if (!others.empty()) places[0].interval.low = 0;
   places.insert(places.begin() + 1, others.begin(), others.end());
-  for (std::size_t k = 1; k <= others.size(); ++k) places[k].share = share;
+  for (std::size_t k = 1; k <= others.size(); ++k)
+    places[k].share = share, places[k].interval = places[0].interval;
 }
 
 /// The parts of the chain that could leave the gap, the likeliest first: the one whose effects come
@@ -75,17 +77,24 @@ std::vector<Located> where_of_stages(const Evidence& evidence, const Trials& pla
                                      const std::vector<StageGap>& stages,
                                      const std::vector<Named>& ranked) {
   std::vector<Located> places;
+  double whole = 0;
+  for (const StageGap& gap : stages) whole += gap.open ? gap.excess : 0;
+  const auto share = [&](double excess) { return std::clamp(excess / whole, 0.0, 1.0); };
   for (const StageGap& gap : stages)
     if (gap.open)
-      places.push_back({gap.stage, gap.on, gap.share, gap.excess_interval,
+      places.push_back({gap.stage,
+                        gap.on,
+                        gap.share,
+                        {share(gap.excess_interval.low), share(gap.excess_interval.high)},
                         when(evidence, plain, stages, gap.on)});
   if (places.empty()) return places;
   const auto parts = suspects(evidence, plain, places[0], ranked);
   if (parts.empty()) return places;
+  const Interval any = parts.size() > 1 ? Interval{0, 1} : Interval{1, 1};
   std::vector<Located> group;
   for (const Part& part : parts)
-    group.push_back({part.stage, part.on, 1 / static_cast<double>(parts.size()), places[0].interval,
-                     places[0].when});
+    group.push_back(
+        {part.stage, part.on, 1 / static_cast<double>(parts.size()), any, places[0].when});
   return group;
 }
 

@@ -25,8 +25,11 @@ Skeletal::Skeletal(const erp::Robot& robot) : tree_(robot), model_(tree_, gravit
   for (const erp::Joint& joint : tree_.joints) start.push_back(start_of(joint));
   model_.place(start);
   for (const erp::Actuator& actuator : robot.actuators) {
+    loads_.push_back(-1);
     if (actuator.tendon.path.empty()) {  // a drive
       tendons_.emplace_back(std::nullopt);
+      for (std::size_t j = 0; j < tree_.joints.size(); ++j)
+        if (tree_.joints[j].name == actuator.name) loads_.back() = static_cast<int>(j);
       continue;
     }
     const Routing routing(actuator.tendon, tree_.names);
@@ -64,6 +67,11 @@ std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std
           return was_measured(joints[std::size_t(j)], tree_.joints[std::size_t(j)].type);
         }))
       traces[n] = {Signal(rows, recording::not_taken), Signal(rows, recording::not_taken)};
+  for (std::size_t n = 0; n < actuators.size(); ++n)
+    if (const int load = loads_[actuators[n]]; load >= 0) {
+      traces[n] = {joints[std::size_t(load)].angle_rad, Signal(rows, 0.0)};
+      for (double& length : traces[n].length_m) length = -length;
+    }
   std::vector<JointReading> posture(tree_.joints.size());
   for (std::size_t k = 0; k < rows; ++k) {
     bool taken = true;
@@ -74,7 +82,7 @@ std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std
     if (!taken) continue;
     model_.place(posture);
     for (std::size_t n = 0; n < actuators.size(); ++n) {
-      if (traces[n].length_m.empty()) continue;
+      if (traces[n].length_m.empty() || !tendons_[actuators[n]]) continue;
       Tendon& tendon = *tendons_[actuators[n]];
       tendon.routing.solve(model_.poses(), tendon.shape);
       traces[n].length_m[k] = tendon.shape.length_m, traces[n].wrap_rad[k] = bend_rad(tendon.shape);
@@ -136,6 +144,7 @@ std::vector<Eigen::MatrixXd> Skeletal::gradients(std::span<const Motion> motions
     for (std::size_t n = 0; n < actuators.size(); ++n) {
       if (!tendons_[actuators[n]]) {
         all[n].col(k).setZero();
+        if (const int load = loads_[actuators[n]]; load >= 0) all[n](model_.first_of(load), k) = -1;
         continue;
       }
       Tendon& tendon = *tendons_[actuators[n]];

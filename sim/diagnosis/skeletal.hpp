@@ -13,7 +13,8 @@
 /// balance of torques around one.
 namespace sim::diagnosis {
 
-/// A tendon's path over the rows; empty where a joint that it crosses was not measured.
+/// A tendon's path over the rows, of a drive's transmission −q of its load; empty where a joint
+/// that it crosses was not measured.
 struct PathTrace {
   Signal length_m, wrap_rad;
 };
@@ -66,6 +67,7 @@ class Skeletal {
   RobotTree tree_;
   SkeletonModel model_;
   std::vector<std::optional<Tendon>> tendons_;  ///< none: a drive
+  std::vector<int> loads_;  ///< of drives, the joint that they turn, L = −q; −1: none of its own
   Eigen::VectorXd row_, torque_;
 };
 

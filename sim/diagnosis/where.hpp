@@ -36,7 +36,7 @@ struct StageGap {
 struct WhereOptions {
   double block_s = 1;              ///< of the bootstrap
   int draws = 400;                 ///< of the bootstrap
-  double practical_excess = 1;     ///< chosen: 1.4 times the floor may be the method's own
+  double practical_excess = 0.4;   ///< chosen: 1.2 times the floor may be the method's own
   double block_excess = 20;        ///< chosen: of one block alone; a gap may come and go
   std::size_t least_windows = 50;  ///< to judge a stage, chosen
   std::uint64_t seed = 1;

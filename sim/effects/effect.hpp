@@ -74,6 +74,7 @@ struct ChainSample {
   double stiffness_N_per_m = 0;               ///< dF/dΔx there, of the spring
   double path_m = 0, path_change_m = 0;       ///< length of the path, and since the start
   double wrap_rad = 0;                        ///< total bend of the path
+  bool pushes = false;                        ///< it is a shaft, not a line
   double line_speed_m_per_s = 0;              ///< over the path, towards the spindle
 };
 

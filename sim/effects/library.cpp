@@ -115,17 +115,23 @@ std::vector<std::string> places(const erp::Robot& robot, Seat seat) {
   const auto add = [&](const auto& items) {
     for (const auto& item : items) names.push_back(item.name);
   };
+  const auto add_once = [&](const std::string& name) {
+    if (!std::ranges::count(names, name)) names.push_back(name);
+  };
   switch (seat) {
     case Seat::actuator:
       add(robot.actuators);
-      for (const erp::Drive& drive : robot.drives)
-        if (!std::ranges::count(names, drive.name)) names.push_back(drive.name);
+      for (const erp::Drive& drive : robot.drives) add_once(drive.name);
       break;
     case Seat::joint:
       add(robot.joints());
+      for (const erp::Drive& drive : robot.drives)
+        if (erp::has_two_ends(drive)) add_once(drive.name);
       break;
     case Seat::body:
       add(robot.bodies());
+      for (const erp::Drive& drive : robot.drives)
+        if (erp::has_two_ends(drive)) add_once(drive.name + ".load");
       break;
     case Seat::robot:
       names.push_back(robot.name);

@@ -15,6 +15,8 @@ namespace sim::effects {
 ///
 ///   g ← g − Δθ  within 0 … b,   then as much less as brings r κ Δx(θ + g) down to τ₀
 ///
+/// A shaft in place of a line pushes too: below −τ₀ it draws the spindle to the gear's other flank;
+/// its angles are 0 in the middle of the play, θ_s = θ + g − b/2.
 /// The spindle has no mass. Source: Nordin, Gutman, Automatica 38, 2002 (play with a light load
 /// side).
 struct GearboxBacklash {
@@ -33,9 +35,13 @@ struct GearboxBacklash {
     gap_rad = std::clamp(gap_rad - (s.shaft_rad - last_rad), 0.0, width_rad);
     last_rad = s.shaft_rad;
     const double held_m = spindle_friction_Nm / (s.radius_m * s.stiffness_N_per_m);
-    gap_rad = std::min(gap_rad, std::max(0.0, (held_m - s.stretch_m) / s.radius_m));
+    const double middle_rad = s.pushes ? width_rad / 2 : 0;
+    const double stretch_m = s.stretch_m - s.radius_m * middle_rad;
+    gap_rad = std::min(gap_rad, std::max(0.0, (held_m - stretch_m) / s.radius_m));
+    if (s.pushes)
+      gap_rad = std::max(gap_rad, std::min(width_rad, (-held_m - stretch_m) / s.radius_m));
     const bool crossing = gap_rad > 0 && gap_rad < width_rad;
-    return {line.value + line.slope * gap_rad, crossing ? 0 : line.slope};
+    return {line.value + line.slope * (gap_rad - middle_rad), crossing ? 0 : line.slope};
   }
 };
 

@@ -14,8 +14,9 @@ namespace sim::effects {
 ///   τ = −k δ − D ω_δ
 ///
 /// I: the mean of the body's principal inertias across its length, taken as I_xx. Tendons and
-/// pulleys stay with the inner half; a spring stiffer than 1000 Nm/rad is taken as rigid; a robot
-/// whose bones hang on this one keeps them there. Source: De Luca, Siciliano, 1991 (one assumed
+/// pulleys stay with the inner half; a spring stiffer than 1000 Nm/rad is taken as rigid; bones
+/// that hang on this one stay with its inner half; a bone bends in one place, once, and one
+/// on a ball joint not at all. Source: De Luca, Siciliano, 1991 (one assumed
 /// mode).
 struct LinkFlexibility {
   static constexpr About about{"skeleton_link_flexibility", Stage::skeleton, Seat::body,
@@ -31,8 +32,13 @@ struct LinkFlexibility {
   void change_robot(auto& robot, const auto& on) const {
     if (compliance_rad_per_Nm < 1e-3) return;
     for (auto& part : robot.skeletons)
+      for (auto& body : part.bodies)
+        if (body.name == on + "_outer") return;
+    for (auto& part : robot.skeletons)
       for (std::size_t j = 0; j < part.joints.size(); ++j)
-        if (part.joints[j].child == on) return split(robot, part, part.joints[j], on);
+        if (const auto& joint = part.joints[j];
+            joint.child == on && joint.type == decltype(joint.type)::revolute)
+          return split(robot, part, joint, on);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <set>
 
 #include "sim/diagnosis/diagnose.hpp"
@@ -45,6 +46,56 @@ recording::Table recorded(const Friction& f, double seconds, double pace) {
       const double rub =
           f.viscous * v + (f.coulomb + (v > 0 ? f.more_forwards : 0)) * std::tanh(v / 1e-4);
       v += (gain * u - rub) / mass * row_s / 20, x += v * row_s / 20;
+    }
+  }
+  return table;
+}
+
+/// A motor under current, a gearbox, a shaft that twists, a load; both ends measured.
+struct Bench {
+  double gear_dry_Nm = 0, load_dry_Nm = 0, softer = 0, play_rad = 0;
+};
+
+erp::Robot two_ends() {
+  erp::Robot robot;
+  robot.name = "bench";
+  erp::MotorType motor;
+  motor.name = "m", motor.resistance_ohm = 1, motor.inductance_H = 1e-4;
+  motor.torque_Nm_per_A = motor.back_emf_V_s_per_rad = 0.05, motor.gear_ratio = 50;
+  motor.gear_efficiency = 1, motor.rotor_inertia_kg_m2 = 4e-6, motor.supply_V = 24;
+  robot.motor_types = {motor};
+  erp::Drive drive;
+  drive.name = "arm", drive.control = erp::DriveControl::current, drive.gain = 1, drive.motor = "m";
+  drive.stiffness_Nm_per_rad = 60, drive.damping_Nm_s_per_rad = 0.1;
+  drive.load = {erp::Shaft{{}, 0.05, 0}};
+  drive.sensors = {erp::LoadEncoder{}, erp::TorqueSensor{{}, 0.01}};
+  robot.drives = {drive};
+  return robot;
+}
+
+recording::Table recorded(const Bench& b, double seconds, double pace) {
+  constexpr double n = 50, torque = 0.05, rotor = 4e-6 * n * n, inertia = 0.05, row_s = 1e-3;
+  constexpr int steps = 50;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise;
+  recording::Table table;
+  for (const char* name :
+       {"time_s", "arm.control_V", "arm.position_rad", "arm.load_rad", "arm.torque_Nm"})
+    table.columns.push_back({name, {}});
+  double x = 0, v = 0, q = 0, w = 0, carried = 0;
+  for (int k = 0; k < static_cast<int>(seconds / row_s); ++k) {
+    const double t = k * row_s, wanted = std::sin(pace * t) + 0.4 * std::sin(2.7 * pace * t);
+    const double u = 3 * (wanted - x) - 0.3 * v;
+    const double row[] = {t, u, x + 2e-5 * noise(random), q + 2e-5 * noise(random),
+                          carried + 0.01 * noise(random)};
+    for (std::size_t c = 0; c < 5; ++c) table.columns[c].values.push_back(row[c]);
+    for (int s = 0; s < steps; ++s) {
+      const double twist = x - q, half = b.play_rad / 2, h = row_s / steps;
+      const double drawn = std::max(0.0, twist - half) + std::min(0.0, twist + half);
+      carried = drawn == 0 ? 0 : 60 * (1 - b.softer) * drawn + 0.1 * (v - w);
+      v += (n * torque * u - carried - b.gear_dry_Nm * std::tanh(v / 1e-3)) / rotor * h;
+      w += (carried - b.load_dry_Nm * std::tanh(w / 1e-3)) / inertia * h;
+      x += v * h, q += w * h;
     }
   }
   return table;
@@ -92,15 +143,33 @@ TEST_CASE("a control by current drives its motor's torque, by voltage its windin
   REQUIRE(chains.actuators.size() == 1);
   CHECK(chains.motor_of(chains.actuators[0]).gear_inertia_kg_m2 == Approx(40e-4));
   const Signal u{1, 3, 5}, x{0, 0.01, 0.03};
-  const auto by_current = drive_signals(robot.drives[0], u, x, {});
+  const auto by_current = drive_signals(robot.drives[0], {u, x});
   CHECK(by_current.current_A[1] == Approx(4));  // 2 A/V, mean of 1 V and 3 V
   CHECK(by_current.shaft_rad[2] == Approx(3));
   CHECK(by_current.current_around);
   robot.drives[0].control = erp::DriveControl::voltage;
-  const auto by_voltage = drive_signals(robot.drives[0], u, x, {7, 8, 9});
+  const auto by_voltage = drive_signals(robot.drives[0], {u, x, {7, 8, 9}});
   CHECK(by_voltage.voltage_V[2] == Approx(6));
   CHECK(by_voltage.current_A[2] == 9);
   CHECK_FALSE(by_voltage.current_around);
+}
+
+TEST_CASE("with both ends measured, friction of the gearbox, of the load and the shaft between") {
+  const auto found = [](const Bench& bench) {
+    return diagnosed(two_ends(),
+                     {recorded(bench, 8, 3), recorded(bench, 8, 4), recorded(bench, 8, 5)});
+  };
+  CHECK(found({}).verdict == Verdict::no_gap);
+  const auto sole = [&](const Bench& bench, const std::string& type, double size) {
+    const Diagnosis d = found(bench);
+    INFO(type);
+    CHECK(types_of(d) == std::set{type});
+    if (!d.answer.empty()) CHECK(d.answer[0].values[0] == Approx(size).epsilon(0.05));
+  };
+  sole({.gear_dry_Nm = 0.3}, "gearbox_coulomb", 0.3);
+  sole({.load_dry_Nm = 0.3}, "joint_coulomb", 0.3);
+  sole({.softer = 0.3}, "tendon_stiffness", -0.3);
+  sole({.play_rad = 0.02}, "gearbox_backlash", 0.02);
 }
 
 TEST_CASE("EMPS, real: viscous and dry friction, then that they are not the same both ways") {

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# How well the diagnosis finds what it is not told, row by row, on seeds that nothing was tuned to.
+#   tests/bench/gap_rows.sh                 every row: hours
+#   tests/bench/gap_rows.sh null pair       these
+# Cases and scores go to erp_runs/gap_rows; a row that was stopped goes on where it was.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+erp=build/release/bin/erp
+out=erp_runs/gap_rows
+
+# name        robot      kind      cases  first seed  signals left out
+rows="
+single        hinge_rig  single    300    10001
+null          hinge_rig  null      100    20001
+withheld      hinge_rig  withheld   60    30001
+outside       hinge_rig  outside    60    40001
+pair          hinge_rig  pair       60    50001
+arm           arm        single     60    60001
+no_tension    hinge_rig  single     60    70001       tension
+no_joint      hinge_rig  single     60    71001       joint
+no_current    hinge_rig  single     60    72001       current
+"
+
+run_row() {  # name robot kind cases seed without
+  local cases=$out/$1 truth=$out/$1.truth.json
+  if [ ! -f "$truth" ]; then
+    $erp gap blind make --robot "configs/$2/robot.xml" --kind "$3" --cases "$4" --seed "$5" \
+      --recordings 4 --seconds 25 --out "$cases" --truth "$truth" ${6:+--without "$6"}
+  fi
+  $erp gap blind run "$cases"
+  $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
+}
+
+mkdir -p "$out"
+known=$(awk 'NF {print $1}' <<<"$rows")
+for name in ${*:-$known}; do
+  row=$(awk -v name="$name" '$1 == name' <<<"$rows")
+  if [ -z "$row" ]; then
+    echo "gap_rows: no row \"$name\"; there are:" $known >&2
+    exit 2
+  fi
+  # shellcheck disable=SC2086
+  run_row $row
+done
