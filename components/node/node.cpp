@@ -75,7 +75,7 @@ void Node::set_lifecycle(erp::Lifecycle lifecycle) {
   if (lifecycle == lifecycle_) return;
   lifecycle_ = lifecycle;
   active_ = lifecycle == erp::Lifecycle::active;
-  heartbeat();
+  if (!active()) heartbeat();
 }
 
 void Node::obey(const erp::LifecycleCommand& command) {
@@ -94,6 +94,7 @@ void Node::activate() {
   for (const auto& port : ports_) port->poll(false);  // what came while inactive is old
   set_lifecycle(erp::Lifecycle::active);
   for (auto& act : activate_) act();
+  if (active()) heartbeat();  // who waits for it finds it at work
 }
 
 void Node::deactivate() {

@@ -63,6 +63,10 @@ class Skeletal {
     std::vector<int> crossed;  ///< joints
   };
   JointReading reading(const JointSignals& joint, std::size_t j, std::size_t row) const;
+  /// Of a tendon over one hinge alone, whose length is then read from a table of its angle: that
+  /// angle; null: it crosses more, or the angle goes too far for a table to pay.
+  const Signal* only_angle(std::size_t actuator, std::span<const JointSignals> joints) const;
+  PathTrace path_by_table(std::size_t actuator, const Signal& angle_rad);
 
   RobotTree tree_;
   SkeletonModel model_;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "sim/blind/case.hpp"
+#include "sim/blind/shows.hpp"
+#include "sim/blind/strength.hpp"
 #include "sim/world/world.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -65,4 +67,42 @@ TEST_CASE("a seed draws the same case again, another seed another") {
     others += draw_case(robot, Kind::pair, seed).hidden[0].type != one.hidden[0].type;
   CHECK(others > 5);
   CHECK_THROWS_AS(kind_of("singles"), std::invalid_argument);
+}
+
+TEST_CASE("what no reading shows is drawn anew: friction of a guide on a line that runs straight") {
+  const erp::Robot robot = hinge_rig();
+  const Shows shows(robot);
+  Quirks nothing = no_quirks(robot), sag = nothing, heavy = nothing;
+  sag.chains[0].source_ohm = 1e-4;
+  heavy.bodies["forearm"].mass = 0.3;
+  CHECK_FALSE(shows(nothing));
+  CHECK_FALSE(shows(sag));
+  CHECK(shows(heavy));
+  int asked = 0;
+  const auto third = [&](const Quirks&) { return ++asked == 3; };
+  const Case drawn = draw_case(robot, Kind::single, 7, {}, third);
+  CHECK(drawn.drawn_anew == 2);
+  CHECK(drawn.hidden.size() == 1);
+}
+
+TEST_CASE("a joint is as strong as its tendons pull on their levers") {
+  CHECK(strength_Nm(hinge_rig(), 0) == Approx(2 * 150 * 0.025 / 2).epsilon(0.01));
+}
+
+TEST_CASE("a disc off its centre reads the angle of the ray from it to the head") {
+  erp::Robot robot = hinge_rig();
+  const auto angles = [&](double sine) {
+    Case blind = draw_case(robot, Kind::null, 1);
+    blind.quirks.joints[0].angle.sine_rad = sine;
+    const auto table = record(robot, blind, sim::excitation(robot, 0, 4, 1), 1);
+    return table.find("elbow.angle_rad")->values;
+  };
+  const auto plain = angles(0), off = angles(0.2);
+  double worst_rad = 0;
+  for (std::size_t k = 0; k < plain.size(); ++k) {
+    const double q = plain[k];
+    const double ray = q + std::atan2(0.2 * std::sin(q), 1 - 0.2 * std::cos(q));
+    worst_rad = std::fmax(worst_rad, std::abs(off[k] - ray));
+  }
+  CHECK(worst_rad < 0.004);  // noise, and steps of both
 }
