@@ -72,10 +72,13 @@ void Node::watch(int descriptor, std::function<void()> act) {
 }
 
 void Node::set_lifecycle(erp::Lifecycle lifecycle) {
-  if (lifecycle == lifecycle_) return;
   lifecycle_ = lifecycle;
   active_ = lifecycle == erp::Lifecycle::active;
-  if (!active()) heartbeat();
+}
+
+void Node::enter(erp::Lifecycle lifecycle) {
+  set_lifecycle(lifecycle);
+  heartbeat();
 }
 
 void Node::obey(const erp::LifecycleCommand& command) {
@@ -94,12 +97,12 @@ void Node::activate() {
   for (const auto& port : ports_) port->poll(false);  // what came while inactive is old
   set_lifecycle(erp::Lifecycle::active);
   for (auto& act : activate_) act();
-  if (active()) heartbeat();  // who waits for it finds it at work
+  heartbeat();  // who waits for it finds it at work
 }
 
 void Node::deactivate() {
   for (auto& act : deactivate_) act();
-  set_lifecycle(erp::Lifecycle::inactive);
+  enter(erp::Lifecycle::inactive);
 }
 
 void Node::count_step(std::int64_t stamp_ns) {
@@ -209,7 +212,7 @@ void Node::serve() {
 }
 
 int Node::spin() try {
-  set_lifecycle(erp::Lifecycle::inactive);
+  enter(erp::Lifecycle::inactive);
   gate_.open();
   while (!finished_) {
     wait();
@@ -218,12 +221,12 @@ int Node::spin() try {
   gate_.close();
   if (active())
     for (auto& act : deactivate_) act();
-  set_lifecycle(erp::Lifecycle::finalized);
+  enter(erp::Lifecycle::finalized);
   return exit_code_;
 } catch (const std::exception& error) {
   gate_.close();
   report(erp::Severity::fault, identity_.component, "exception", error.what());
-  set_lifecycle(erp::Lifecycle::error);
+  enter(erp::Lifecycle::error);
   return 1;
 }
 

@@ -87,6 +87,8 @@ class Node {
     return lent;
   }
   void set_lifecycle(erp::Lifecycle lifecycle);
+  /// Sets it and tells everyone.
+  void enter(erp::Lifecycle lifecycle);
   void obey(const erp::LifecycleCommand& command);
   void activate();
   void deactivate();

@@ -49,7 +49,7 @@ void go_to_end(const erp::Robot& robot, std::size_t turn, Pose& pose) {
 }
 
 /// What its muscles may pull, of the 150 N that the walks below are meant for.
-double strength(const erp::Robot& robot) {
+double relative_strength(const erp::Robot& robot) {
   double sum_N = 0;
   for (const erp::Actuator& actuator : robot.actuators) sum_N += actuator.max_tension_N;
   return sum_N / static_cast<double>(robot.actuators.size()) / 150;
@@ -70,7 +70,7 @@ Excitation through_postures(const erp::Robot& robot, const Walk& walk, double du
     if (walk.to_the_ends) go_to_end(robot, poses.size() / 2, poses.back().pose);
     t += walk.dwell_s * between(random, 0.5, 1.5);
   }
-  const double strong = strength(robot);
+  const double strong = relative_strength(robot);
   const auto plan =
       lengths_through(robot, poses, {{strong * walk.rest_N, strong * walk.least_N}, 0.02});
   const auto& columns = plan.table.columns;

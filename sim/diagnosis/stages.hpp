@@ -16,11 +16,12 @@
 ///   joint     H q̈ + C + τ_G + friction + Σ F ∂L/∂q                          (Nm), one a coordinate
 ///
 /// each as a mean under a window (bump.hpp). The current at a row is that at the end of a period
-/// over which the voltage was held. Where a joint rests, friction is anything within a
-/// band, and a stop within reach may push: what remains beyond counts. Windows in which a shaft
-/// rests are left out. Spindle and routing act within the tendon's stage, bodies
-/// within the joint's. Without a tension sensor the spring's law takes its place and the tendon's
-/// stage is part of those that use it; without a current the motor's law does.
+/// over which the voltage was held. Where a joint rests or turns back, friction is anything within
+/// a band, and a stop within reach may push: what remains beyond counts, and such a window never
+/// as less than noise. Windows in which a shaft rests are left out. Spindle and routing act within
+/// the tendon's stage, bodies within the joint's. Without a tension sensor the spring's law takes
+/// its place and the tendon's stage is part of those that use it; without a current the motor's
+/// law does.
 namespace sim::diagnosis {
 
 struct Windows {

@@ -14,10 +14,9 @@ namespace sim::effects {
 ///   τ = −k δ − D ω_δ
 ///
 /// I: the mean of the body's principal inertias across its length, taken as I_xx. Tendons and
-/// pulleys stay with the inner half; a spring stiffer than 1000 Nm/rad is taken as rigid; bones
-/// that hang on this one stay with its inner half; a bone bends in one place, once, and one
-/// on a ball joint not at all. Source: De Luca, Siciliano, 1991 (one assumed
-/// mode).
+/// pulleys stay with the inner half, and so do bones that hang on this one; a spring stiffer than
+/// 1000 Nm/rad is taken as rigid; a bone bends in one place, once, and one on a ball joint not at
+/// all. Source: De Luca, Siciliano, 1991 (one assumed mode).
 struct LinkFlexibility {
   static constexpr About about{"skeleton_link_flexibility", Stage::skeleton, Seat::body,
                                "steps and fast reversals"};
