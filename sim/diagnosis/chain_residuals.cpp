@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/diagnosis/held_voltage.hpp"
+
 namespace sim::diagnosis {
 namespace {
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/diagnosis/held_voltage.hpp"
+
 namespace sim::diagnosis {
 namespace {
 
@@ -10,30 +12,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double resting_rad_per_s = 0.02;  // chosen: an encoder step in a few rows
 
 using effects::Sloped;
-
-/// While the voltage is held the speed settles, as e^(−t damping/inertia).
-struct Settling {
-  double inertia, damping;
-  double share;  ///< ω_k − mean ω as a share of ω_k − ω_k−1
-  double end;    ///< ω̇ at the period's end as a share of the mean ω̇
-};
-
-Settling settling(const erp::MotorType& m, double period_s) {
-  const double n2 = m.gear_ratio * m.gear_ratio;
-  const double inertia = m.rotor_inertia_kg_m2 * n2 + m.gear_inertia_kg_m2 / m.gear_efficiency;
-  const double damping = n2 * m.torque_Nm_per_A * m.back_emf_V_s_per_rad / m.resistance_ohm;
-  const double x = damping / inertia * period_s, left = std::exp(-x);
-  if (x < 1e-6) return {inertia, damping, 0.5, 1};
-  return {inertia, damping, ((1 - left) / x - left) / (1 - left), x * left / (1 - left)};
-}
-
-/// L/R within a period: of the current that a period began with, a part is still there at its end.
-/// As a share of the period: how far the current trails a voltage that is held and a speed that
-/// changes evenly. Small L/R: L/R itself; large: half a period.
-double trailing(double lag) { return lag - 1 / std::expm1(1 / lag); }
-double trail_s(const erp::MotorType& m, double period_s) {
-  return period_s * trailing(m.inductance_H / m.resistance_ohm / period_s);
-}
 
 /// The rows of one chain, one after the other.
 class Tracer {
@@ -185,9 +163,8 @@ class Tracer {
   }
   /// ī over the period that ends at row k, but for what the speed changes.
   double mean_A(std::size_t k) const {
-    const double tau = m_.motor.inductance_H / m_.motor.resistance_ohm / period_s_;
     const double now = current_A(k);
-    return now + trailing(tau) * (current_A(k - 1) - now);
+    return now + trail_s(m_.motor, period_s_) / period_s_ * (current_A(k - 1) - now);
   }
 
   /// ī over the two periods around row k.
@@ -241,17 +218,6 @@ class Tracer {
 ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
                  double period_s, double speed_half_width_s) {
   return Tracer(std::move(model), measured, path, period_s, speed_half_width_s).run();
-}
-
-double current_lag_s(const erp::MotorType& m, double period_s) {
-  const Settling s = settling(m, period_s);
-  return s.end * trail_s(m, period_s) + (0.5 - s.share) * period_s;
-}
-
-double balance_inertia(const erp::MotorType& m, double period_s, double sampled) {
-  const Settling s = settling(m, period_s);
-  const double start_s = s.end * trail_s(m, period_s);
-  return s.inertia - sampled * s.damping * (s.share * period_s - start_s);
 }
 
 }  // namespace sim::diagnosis
