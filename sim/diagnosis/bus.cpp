@@ -169,9 +169,8 @@ double late_share(std::span<const Ages> ages) {
 
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
                             const erp::Robot& robot, const std::vector<std::string>& withhold) {
-  constexpr double practical = 0.02;  // of the ticks; chosen
   std::vector<BusFit> fits;
-  if (!told(train) || !told(held_out) || late_share(held_out) < practical) return fits;
+  if (!told(train) || !told(held_out) || late_share(held_out) < practical_late) return fits;
   effects::Placed none{robot.name, *effects::neutral("bus_command_delay")};
   const double before = likelihood(held_out, foretold(none, train[0].period_s));
   const double most = likelihood(held_out, own_shares(held_out));

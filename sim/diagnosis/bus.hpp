@@ -39,6 +39,9 @@ struct BusFit {
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
                             const erp::Robot& robot, const std::vector<std::string>& withhold);
 
+/// More late ticks than a clock's drift leaves, as a share; chosen.
+inline constexpr double practical_late = 0.02;
+
 /// Enough ages were found, of enough ticks; else nothing is said of the bus.
 bool told(std::span<const Ages> ages);
 

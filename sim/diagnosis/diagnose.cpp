@@ -1,5 +1,7 @@
 #include "sim/diagnosis/diagnose.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -19,13 +21,12 @@ std::vector<std::string> names_of(const Evidence& evidence, const std::vector<st
 }
 
 Verdict judge(const Selection& selection, const Observed& observed) {
-  constexpr double late = 0.02;  // of the ticks: more than a clock's drift; chosen
   if (selection.gap)
     return selection.explained() ? Verdict::supported
            : selection.told      ? Verdict::none_of_the_known
                                  : Verdict::not_identifiable;
   if (observed.any()) return Verdict::supported;
-  return observed.late > late ? Verdict::none_of_the_known : Verdict::no_gap;
+  return observed.bus_unexplained() ? Verdict::none_of_the_known : Verdict::no_gap;
 }
 
 /// What was seen without a fit comes first where it is all there is to say, the bus last where
@@ -44,6 +45,15 @@ void add_observed(const Observed& observed, Diagnosis& d) {
       if (observed.bus[0].gain - observed.bus[k].gain < alike)
         d.confusable.push_back(observed.bus[k]);
   d.answer.push_back(observed.bus[0]);
+}
+
+/// It changes no residual, so it is the whole gap where they are closed.
+void add_unexplained_bus(const std::string& robot, const Observed& observed, Diagnosis& d) {
+  d.warnings.push_back(fmt::format(
+      "in {:.0f} % of the ticks an ECU did not follow the newest command, and no effect of the bus "
+      "explains how old those were that it followed",
+      100 * observed.late));
+  if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
 
 /// What the recordings leave unjudged for want of signals; empty: nothing.
@@ -116,11 +126,11 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
   if (d.verdict == Verdict::not_identifiable)
     d.warnings.emplace_back(
         "the recordings held out show too little of the gap to judge what causes it; record more "
-        "of "
-        "what shows it, see where and when");
+        "of what shows it, see where and when");
   d.where = d.verdict == Verdict::supported
                 ? where_of_answer(evidence, plain, d.stages, d.answer, d.confusable)
                 : where_of_stages(evidence, plain, d.stages, d.ranked);
+  if (observed.bus_unexplained()) add_unexplained_bus(robot.name, observed, d);
   if (selection.gap) d.unexplained = unexplained(evidence, plain, selection);
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);
   d.overall = closed_overall(evidence, plain, known, selection.trial);

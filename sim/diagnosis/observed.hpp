@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "sim/diagnosis/answer.hpp"
+#include "sim/diagnosis/bus.hpp"
 #include "sim/diagnosis/evidence.hpp"
 
 /// What recordings show without a fit to residuals: how old commands are, how coarse readings are.
@@ -14,6 +15,8 @@ struct Observed {
   bool bus_told = false;       ///< the recordings allow to tell which commands were followed
 
   bool bus_differs() const { return !bus.empty() && bus[0].supported; }
+  /// Commands are late as no effect of the bus has it.
+  bool bus_unexplained() const { return late > practical_late && !bus_differs(); }
   bool any() const { return bus_differs() || !sensors.empty(); }
 };
 

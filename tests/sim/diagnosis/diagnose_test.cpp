@@ -99,6 +99,16 @@ TEST_CASE("late, jittering and lost commands are told apart by their ages") {
     CHECK(n.type == "bus_frame_loss");
     CHECK(value_of(n, "probability") == Approx(0.4).margin(0.03));
   }
+  SECTION("late as no effect has it: the bus all the same") {
+    blind.quirks.loss = 0.4;
+    DiagnoseOptions options;
+    options.withhold = {"bus_frame_loss"};
+    const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 4), options);
+    CHECK(d.verdict == Verdict::none_of_the_known);
+    REQUIRE(d.where.size() == 1);
+    CHECK(d.where[0].stage == sim::effects::Stage::bus);
+    CHECK(d.warnings.size() == 1);
+  }
 }
 
 TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
