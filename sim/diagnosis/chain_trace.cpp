@@ -164,7 +164,7 @@ class Tracer {
   /// ī over the period that ends at row k, but for what the speed changes.
   double mean_A(std::size_t k) const {
     const double now = current_A(k);
-    return now + trail_s(m_.motor, period_s_) / period_s_ * (current_A(k - 1) - now);
+    return now + trailing_ * (current_A(k - 1) - now);
   }
 
   /// ī over the two periods around row k.
@@ -204,6 +204,7 @@ class Tracer {
   const ActuatorSignals& in_;
   const PathTrace& path_;
   double period_s_;
+  double trailing_ = trail_s(m_.motor, period_s_) / period_s_;
   Bump bump_;
   TendonLaw law_;
   bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission
