@@ -78,21 +78,27 @@ class Tracer {
     return calm;
   }
 
+  /// What was not taken is as it was before: effects that remember know of no gap.
   effects::ChainSample sample(std::size_t k) const {
-    const auto at = [k](const Signal& signal) {
-      return signal.empty() || std::isnan(signal[k]) ? 0.0 : signal[k];
-    };
     effects::ChainSample s;
+    s.path_m = m_.start_m;
+    if (!samples_.empty()) s = samples_.back();
+    const auto renew = [&](double& held, const Signal& signal, std::size_t row) {
+      if (!signal.empty() && !std::isnan(signal[row])) held = signal[row];
+    };
     s.dt_s = period_s_;
     s.supply_V = m_.motor.supply_V, s.gear_ratio = m_.motor.gear_ratio;
-    s.voltage_V = at(in_.voltage_V), s.current_A = at(out_.current_A);
-    s.current_square_A2 = square_A2(k);
-    s.shaft_rad = at(out_.shaft_rad), s.speed_rad_per_s = at(out_.speed_rad_per_s);
+    renew(s.voltage_V, in_.voltage_V, k), renew(s.current_A, out_.current_A, k);
+    renew(s.shaft_rad, out_.shaft_rad, k), renew(s.speed_rad_per_s, out_.speed_rad_per_s, k);
+    if (out_.tension_measured) renew(s.tension_N, out_.tension_N, k);
+    else if (k > 0) renew(s.tension_N, out_.spring_N, k - 1);
+    renew(s.path_m, path_.length_m, k), renew(s.wrap_rad, path_.wrap_rad, k);
+    if (const double square = square_A2(k); !std::isnan(square)) s.current_square_A2 = square;
     s.radius_m = law_.radius_m;
-    s.tension_N = out_.tension_measured || k == 0 ? at(out_.tension_N) : at_spring(k - 1);
     s.load_Nm = s.radius_m * s.tension_N;
-    s.path_m = at(path_.length_m), s.path_change_m = s.path_m - m_.start_m;
-    s.wrap_rad = at(path_.wrap_rad), s.pushes = pushes_;
+    s.path_change_m = s.path_m - m_.start_m;
+    s.stretch_m = s.stiffness_N_per_m = s.line_speed_m_per_s = 0;  // not yet known
+    s.pushes = pushes_;
     return s;
   }
   /// ⟨i²⟩ over the period that ends at a row: within it the current falls evenly as the motor
@@ -103,11 +109,7 @@ class Tracer {
                           m_.motor.resistance_ohm *
                           (out_.speed_rad_per_s[k] - out_.speed_rad_per_s[k - 1]);
     const double mean_A = out_.current_A[k] + fall_A / 2;
-    const double square = mean_A * mean_A + fall_A * fall_A / 12;
-    return std::isnan(square) ? 0 : square;
-  }
-  double at_spring(std::size_t k) const {
-    return out_.spring_N.empty() || std::isnan(out_.spring_N[k]) ? 0.0 : out_.spring_N[k];
+    return mean_A * mean_A + fall_A * fall_A / 12;
   }
 
   void take(std::size_t k) {
@@ -115,8 +117,8 @@ class Tracer {
     Sloped wound{s.radius_m * s.shaft_rad, s.radius_m}, path{s.path_m, 1}, pull;
     if (!m_.effects.empty()) {
       path = m_.effects.path(s, path);
-      const double calm_m =
-          k < calm_path_m_.size() ? path.slope * (calm_path_m_[k] - s.path_m) : 0.0;
+      const bool calmed = k < calm_path_m_.size() && !std::isnan(calm_path_m_[k]);
+      const double calm_m = calmed ? path.slope * (calm_path_m_[k] - s.path_m) : 0.0;
       s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
       s.stiffness_N_per_m =
           law_.spring.slope_N_per_m(pushes_ ? std::abs(s.stretch_m) : s.stretch_m);

@@ -19,7 +19,8 @@ struct SpindleSlip {
 
   void visit(auto& v) { v("per_N", per_N, Bounds{0, 0.001}); }
   Sloped wound(const ChainSample& s, Sloped line, Memory& memory) const {
-    double &lost_m = memory[0], &last_m = memory[1];
+    double &lost_m = memory[0], &last_m = memory[1], &began = memory[2];
+    if (began == 0) last_m = line.value, began = 1;
     lost_m += per_N * s.tension_N * std::abs(line.value - last_m);
     last_m = line.value;
     return {line.value - lost_m, line.slope};
