@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "sim/diagnosis/common_signals.hpp"
 #include "sim/diagnosis/drives.hpp"
 #include "sim/diagnosis/units.hpp"
 #include "sim/diagnosis/where.hpp"
@@ -58,6 +59,7 @@ std::vector<diagnosis::Episode> read_episodes(const erp::Robot& robot,
     for (std::string& odd : diagnosis::odd_units(episodes.back(), robot))
       mended.push_back(std::move(odd));
   }
+  diagnosis::keep_common(episodes, robot, mended);
   return episodes;
 }
 

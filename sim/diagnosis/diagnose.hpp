@@ -27,6 +27,7 @@ struct Diagnosis {
   std::vector<std::string> recordings, train, held_out, warnings;
 };
 
+/// The recordings tell the same signals (common_signals.hpp).
 /// Throws std::invalid_argument: no recording, recordings in which no stage can be judged.
 Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
                    const DiagnoseOptions& options = {});

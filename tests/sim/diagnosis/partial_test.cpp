@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "sim/diagnosis/common_signals.hpp"
 #include "sim/diagnosis/isolation.hpp"
 #include "tests/sim/diagnosis/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
@@ -35,6 +36,21 @@ std::vector<std::string> suspected(const std::vector<effects::Placed>& hidden) {
 }
 
 }  // namespace
+
+TEST_CASE("what one recording lacks is left out of all, and told") {
+  std::vector<Episode> episodes{recorded({}), recorded({}, 8)};
+  episodes[0].name = "monday.csv", episodes[1].name = "tuesday.csv";
+  episodes[1].actuators[0].tension_N.clear();
+  std::ranges::fill(episodes[0].actuators[1].current_A, recording::not_taken);
+  std::vector<std::string> remarks;
+  keep_common(episodes, hinge_rig(), remarks);
+  REQUIRE(remarks.size() == 2);
+  CHECK_THAT(remarks[0], Catch::StartsWith("tuesday.csv: lacks flexor.tension_N"));
+  CHECK_THAT(remarks[1], Catch::StartsWith("monday.csv: lacks extensor.current_A"));
+  CHECK(episodes[0].actuators[0].tension_N.empty());
+  CHECK(episodes[1].actuators[1].current_A.empty());
+  check_closed(episodes);
+}
 
 TEST_CASE("a joint that was not measured is where its tendons say") {
   Episode episode = recorded({});
