@@ -10,10 +10,11 @@ constexpr double of_method = 0.02;  // what the method's own approximations may 
 
 Named named(const effects::Placed& placed) {
   const effects::About& about = effects::about(placed.effect);
-  Named n{std::string(about.type), placed.on, about.stage, {}, {}, {}, 0, {}, false, placed};
+  Named n{std::string(about.type), placed.on, about.stage, {}, {}, {}, {}, 0, {}, false, placed};
   effects::AnyEffect copy = placed.effect;
   for (const effects::Parameter& p : effects::parameters(copy))
-    if (p.fitted) n.names.emplace_back(p.name), n.values.push_back(*p.value);
+    if (p.fitted)
+      n.names.emplace_back(p.name), n.values.push_back(*p.value), n.bounds.push_back(p.bounds);
   n.intervals.resize(n.values.size());
   return n;
 }
@@ -22,7 +23,8 @@ Named named(const Ranked& ranked, double least_gain) {
   Named n = named(ranked.fit.placed);
   for (std::size_t k = 0; k < n.values.size(); ++k) {
     const double half = 1.96 * ranked.fit.sigmas[k] + of_method * std::abs(n.values[k]);
-    n.intervals[k] = {n.values[k] - half, n.values[k] + half};
+    n.intervals[k] = {std::max(n.values[k] - half, n.bounds[k].low),
+                      std::min(n.values[k] + half, n.bounds[k].high)};
   }
   n.gain = ranked.gain, n.gain_interval = ranked.gain_interval;
   n.supported = ranked.gain_interval.low > least_gain && ranked.relieves();

@@ -14,13 +14,13 @@ struct Named {
   effects::Stage stage;
   std::vector<std::string> names;  ///< of its parameters
   std::vector<double> values;
-  std::vector<Interval> intervals;  ///< 95 %
+  std::vector<effects::Bounds> bounds;
+  std::vector<Interval> intervals;  ///< 95 %, within the bounds
   double gain = 0;
   Interval gain_interval;
   bool supported = false;
   effects::Placed placed;
-  std::vector<double> signature =
-      {};               ///< of what it changes, the share at each of `Diagnosis::stages`
+  std::vector<double> signature = {};  ///< of what it changes, share at each `Diagnosis::stages`
   double likeness = 0;  ///< cosine of what it changes to what the first of the answer changes
 
   bool is(const effects::Placed& other) const {

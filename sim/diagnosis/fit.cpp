@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace sim::diagnosis {
 namespace {
@@ -54,7 +55,35 @@ struct Least {
   std::vector<double> u, sigma;
 };
 
-/// From u; sigma in the parameters' units.
+Eigen::MatrixXd dense(const ceres::CRSMatrix& sparse) {
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row)
+    for (int n = sparse.rows[std::size_t(row)]; n < sparse.rows[std::size_t(row) + 1]; ++n)
+      j(row, sparse.cols[std::size_t(n)]) = sparse.values[std::size_t(n)];
+  return j;
+}
+
+/// σ of each parameter, √(JᵀJ)⁻¹ₖₖ; infinite where nothing changes with it, or nothing that another
+/// would not change alike.
+std::vector<double> deviations(const Eigen::MatrixXd& j) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), nothing = 1e-9;
+  const Eigen::VectorXd length = j.colwise().norm().transpose();
+  const Eigen::VectorXd scale = (length.array() > 0).select(length.cwiseInverse(), 0.0);
+  const Eigen::MatrixXd cosines = scale.asDiagonal() * (j.transpose() * j) * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(cosines);
+  std::vector<double> sigma;
+  for (Eigen::Index k = 0; k < j.cols(); ++k) {
+    double variance = 0;
+    for (Eigen::Index n = 0; n < j.cols(); ++n) {
+      const double part = std::pow(axes.eigenvectors()(k, n), 2), along = axes.eigenvalues()[n];
+      if (part > nothing) variance += along > nothing ? part / along : infinite;
+    }
+    sigma.push_back(length[k] > 0 ? std::sqrt(variance) / length[k] : infinite);
+  }
+  return sigma;
+}
+
+/// From u; sigma in the parameters' units, wider by what noise does not explain.
 Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   constexpr double step = 2e-4;  // chosen: of the scale
   ceres::NumericDiffOptions differences;
@@ -80,18 +109,13 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
 
-  Least least{2 * summary.final_cost, u, std::vector<double>(u.size(), 0)};
-  ceres::CRSMatrix jacobian;
-  problem.Evaluate({}, nullptr, nullptr, nullptr, &jacobian);
-  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(jacobian.num_rows, jacobian.num_cols);
-  for (int row = 0; row < jacobian.num_rows; ++row)
-    for (int n = jacobian.rows[std::size_t(row)]; n < jacobian.rows[std::size_t(row) + 1]; ++n)
-      j(row, jacobian.cols[std::size_t(n)]) = jacobian.values[std::size_t(n)];
-  const Eigen::MatrixXd covariance =
-      (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse();
-  for (int k = 0; k < count; ++k)
-    least.sigma[std::size_t(k)] =
-        std::sqrt(std::max(0.0, covariance(k, k))) * given.knobs[std::size_t(k)].scale;
+  ceres::CRSMatrix sparse;
+  std::vector<double> z;
+  problem.Evaluate({}, nullptr, &z, nullptr, &sparse);
+  const auto judged = static_cast<double>(z.size()) - double(std::ranges::count(z, 0.0));
+  const double left = std::sqrt(std::max(1.0, 2 * summary.final_cost / std::max(1.0, judged)));
+  Least least{2 * summary.final_cost, u, deviations(dense(sparse))};
+  for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= left * given.knobs[k].scale;
   return least;
 }
 

@@ -22,7 +22,7 @@ std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& 
 struct Fit {
   effects::Placed placed;
   double square = 0;                   ///< Σ z² on the recordings of the fit
-  std::vector<double> values, sigmas;  ///< of its fitted parameters; σ of noise that is white
+  std::vector<double> values, sigmas;  ///< of its fitted parameters
 };
 
 /// Fits the effect `more` to the recordings `episodes`, on top of `base`; starts at its parameters
