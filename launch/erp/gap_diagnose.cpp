@@ -40,6 +40,11 @@ Sorted sort(const GapDiagnoseOptions& options) {
   else if (sorted.held_out.empty() && !sorted.train.empty()) rest(sorted.held_out, sorted.train);
   if (!options.held_out.empty() && sorted.train.empty())
     throw std::invalid_argument("--held-out names every recording; leave some to train on");
+  for (const std::size_t k : sorted.train)
+    if (std::ranges::count(sorted.held_out, k))
+      throw std::invalid_argument(sorted.files[k] +
+                                  ": both in --train and --held-out; to judge by what one was "
+                                  "fitted to says nothing");
   return sorted;
 }
 
@@ -67,14 +72,18 @@ void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
     for (; k < d.where.size() && d.where[k].share == share; ++k, whole += share)
       names += fmt::format("{}{} of {}", names.empty() ? "" : ", or ",
                            sim::effects::word(d.where[k].stage), d.where[k].on);
-    out << fmt::format("where       {}: {:.0f} % of the gap\n", names, 100 * whole);
+    if (share > 0) out << fmt::format("where       {}: {:.0f} % of the gap\n", names, 100 * whole);
+    else out << fmt::format("where       {}, which changes no residual\n", names);
   }
 }
 
 void print(const diagnosis::Diagnosis& d, std::ostream& out) {
   print_where(d, out);
-  for (const auto& n : d.answer) out << "which       " << told(n) << "\n";
-  for (const auto& n : d.confusable) out << "or as well  " << told(n) << "\n";
+  const bool explained = d.verdict == diagnosis::Verdict::supported;
+  for (const auto& n : d.answer) {
+    out << (explained ? "which       " : "a part      ") << told(n) << "\n";
+    for (const auto& other : n.alike) out << "or as well  " << told(other) << "\n";
+  }
   for (const auto& u : d.unexplained) {
     out << fmt::format("left over   {} of {}, {:.3g} times its noise", sim::effects::word(u.stage),
                        u.on, std::sqrt(1 + u.excess));
@@ -159,7 +168,10 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
     std::filesystem::create_directories(options.out);
     write_file(options.out + "/diagnosis.json", diagnosis_json(d, free_run, robot));
     write_file(options.out + "/report.html", diagnosis_report(d, free_run, robot));
-    if (!d.answer.empty()) write_file(options.out + "/robot.xml", erp::write_robot(found));
+    const std::string mended_robot = options.out + "/robot.xml";
+    if (d.verdict == diagnosis::Verdict::supported)
+      write_file(mended_robot, erp::write_robot(found));
+    else std::filesystem::remove(mended_robot);  // of an earlier diagnosis
     out << "report      " << options.out << "/report.html\n";
   }
   return exit_code(d.verdict);

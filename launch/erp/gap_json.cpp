@@ -83,6 +83,23 @@ Json effects_of(const Diagnosis& d) {
   return list;
 }
 
+/// Effects of the same `set` could stand for each other.
+Json confusable_of(const Diagnosis& d) {
+  Json list = Json::array();
+  int set = 0;
+  for (const Named& answer : d.answer) {
+    if (answer.alike.empty()) continue;
+    const auto add = [&](const Named& n) {
+      list.push_back(
+          {{"type", n.type}, {"on", n.on}, {"set", set}, {"parameters", json_of(n)["parameters"]}});
+    };
+    add(answer);
+    for (const Named& other : answer.alike) add(other);
+    ++set;
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
@@ -95,11 +112,6 @@ std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& fr
     gap["free_running"] = json_of(free_run.all);
     for (const Closed& c : free_run.channels)
       gap["free_running"]["channels"][c.channel] = json_of(c);
-  }
-  Json confusable = Json::array();
-  if (!d.confusable.empty()) {
-    confusable.push_back({{"type", d.answer[0].type}, {"on", d.answer[0].on}});
-    for (const Named& n : d.confusable) confusable.push_back({{"type", n.type}, {"on", n.on}});
   }
   Json unexplained = Json::array();
   for (const Unexplained& u : d.unexplained) {
@@ -117,7 +129,7 @@ std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& fr
                  {"verdict", word(d.verdict)},
                  {"where", list_of(d.where)},
                  {"effects", effects_of(d)},
-                 {"confusable", confusable},
+                 {"confusable", confusable_of(d)},
                  {"gap", gap},
                  {"unexplained", unexplained},
                  {"residuals", list_of(d.stages)},

@@ -49,27 +49,37 @@ Placed placed_of(const Json& effect, const std::string& file) {
   return placed;
 }
 
-/// What could not be told apart; else the answer; else what comes nearest. The bus is not among
-/// them: the stages' residuals do not show it.
-std::vector<Placed> suspects_of(const Json& d, const std::string& file) {
-  const auto same = [](const Json& a, const Json& b) {
-    return a.at("type") == b.at("type") && a.at("on") == b.at("on");
+bool same(const Json& a, const Json& b) {
+  return a.at("type") == b.at("type") && a.at("on") == b.at("on");
+}
+
+/// What is to be split, and what is taken for true beside it. The bus is in neither: the stages'
+/// residuals do not show it.
+struct Question {
+  std::vector<Placed> suspects, known;
+};
+
+/// Of sets that could not be told apart, the first; else the answer; else what comes nearest.
+Question question_of(const Json& d, const std::string& file) {
+  const auto on_bus = [](const Json& effect) {
+    return effect.at("type").get<std::string>().starts_with("bus_");
   };
-  std::vector<Placed> suspects;
-  const bool answered = d["verdict"] == "supported";
+  std::vector<Json> set;
+  for (const Json& one : d["confusable"])
+    if (!on_bus(one) && (set.empty() || one.value("set", 0) == set[0].value("set", 0)))
+      set.push_back(one);
+  const bool split = !set.empty(), answered = d["verdict"] == "supported";
+  Question question;
   for (const Json& effect : d["effects"]) {
-    const bool among =
-        std::ranges::any_of(d["confusable"], [&](const Json& c) { return same(c, effect); });
-    const bool wanted = !d["confusable"].empty() ? among
-                        : answered               ? effect.at("supported").get<bool>()
-                                                 : true;
-    if (!wanted || suspects.size() == most_suspects ||
-        effect["type"].get<std::string>().starts_with("bus_"))
-      continue;
-    suspects.push_back(placed_of(effect, file));
-    if (answered && d["confusable"].empty()) break;
+    if (on_bus(effect)) continue;
+    const bool supported = effect.at("supported").get<bool>();
+    if (!split && (!answered || (supported && set.empty()))) set.push_back(effect);
+    else if (supported && std::ranges::none_of(set, [&](const Json& s) { return same(s, effect); }))
+      question.known.push_back(placed_of(effect, file));
   }
-  return suspects;
+  for (const Json& one : set)
+    if (question.suspects.size() < most_suspects) question.suspects.push_back(placed_of(one, file));
+  return question;
 }
 
 std::string name_of(const Placed& p) {
@@ -127,10 +137,11 @@ void print(const rehearsal::Experiment& experiment, const erp::Robot& robot,
 }  // namespace
 
 int gap_plan(const GapPlanOptions& options, std::ostream& out, std::ostream& remarks) {
-  const erp::Robot robot = erp::read_robot(options.robot);
+  erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  const auto suspects = suspects_of(read_diagnosis(options.diagnosis), options.diagnosis);
+  const auto [suspects, known] = question_of(read_diagnosis(options.diagnosis), options.diagnosis);
+  for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
     out << "nothing to split: the diagnosis names no effect whose residuals could\n";
     return 1;

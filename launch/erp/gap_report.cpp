@@ -58,10 +58,12 @@ std::string summary(const Diagnosis& d) {
   for (const Named& n : d.answer)
     html += fmt::format("<li><b>{}</b>: {}</li>\n", escaped(name_of(n)), escaped(parameters_of(n)));
   if (!d.answer.empty()) html += "</ul>\n";
-  if (!d.confusable.empty()) {
-    html += "<p>As good, and not to be told apart by these recordings: ";
-    for (std::size_t k = 0; k < d.confusable.size(); ++k)
-      html += fmt::format("{}{}", k ? ", " : "", escaped(name_of(d.confusable[k])));
+  for (const Named& n : d.answer) {
+    if (n.alike.empty()) continue;
+    html += fmt::format("<p>As good as {}, and not to be told apart by these recordings: ",
+                        escaped(name_of(n)));
+    for (std::size_t k = 0; k < n.alike.size(); ++k)
+      html += fmt::format("{}{}", k ? ", " : "", escaped(name_of(n.alike[k])));
     html += ".</p>\n";
   }
   if (d.overall.before > 0)

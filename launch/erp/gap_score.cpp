@@ -127,14 +127,26 @@ void score_none(const Json& truth, const Json& d, Score& score) {
         fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
 }
 
+/// They are in one set of what could not be told apart.
+bool stand_for_each_other(const Json& diagnosis, const Json& one, const Json& other) {
+  for (const Json& a : diagnosis["confusable"])
+    for (const Json& b : diagnosis["confusable"])
+      if (a["set"] == b["set"] && same(a, one) && same(b, other)) return true;
+  return false;
+}
+
 void score_pair(const Json& truth, const Json& d, Score& score) {
   const auto answer = answer_of(d);
-  int found = 0;
+  const auto tells = [&](const Json& effect, const Json& hidden) {
+    return same(effect, hidden) || stand_for_each_other(d, effect, hidden);
+  };
+  int found = 0, right = 0;
   for (const Json& hidden : truth["hidden"])
-    found += std::ranges::any_of(answer, [&](const Json& a) { return same(a, hidden); }) ||
-             std::ranges::any_of(d["confusable"], [&](const Json& a) { return same(a, hidden); });
+    found += std::ranges::any_of(answer, [&](const Json& a) { return tells(a, hidden); });
+  for (const Json& a : answer)
+    right += std::ranges::any_of(truth["hidden"], [&](const Json& h) { return tells(a, h); });
   score.rates["1 both in the answer or its set"].count(found == 2);
-  score.precision += answer.empty() ? 0 : double(found) / double(answer.size());
+  score.precision += answer.empty() ? 0 : double(right) / double(answer.size());
   score.recall += found / 2.0, ++score.answers;
   if (found < 2)
     score.failures.push_back(

@@ -21,6 +21,7 @@ struct Named {
   bool supported = false;
   effects::Placed placed;
   std::vector<double> signature = {};  ///< of what it changes, share at each `Diagnosis::stages`
+  std::vector<Named> alike = {};       ///< of one of the answer: what could stand for it as well
   double likeness = 0;  ///< cosine of what it changes to what the first of the answer changes
 
   bool is(const effects::Placed& other) const {

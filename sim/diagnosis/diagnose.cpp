@@ -40,11 +40,10 @@ void add_observed(const Observed& observed, Diagnosis& d) {
   put_first(d.ranked, observed.sensors);
   if (!observed.bus_differs()) return;
   constexpr double alike = 0.01;  // of the likelihood's gain; chosen
-  if (d.answer.empty())
-    for (std::size_t k = 1; k < observed.bus.size(); ++k)
-      if (observed.bus[0].gain - observed.bus[k].gain < alike)
-        d.confusable.push_back(observed.bus[k]);
   d.answer.push_back(observed.bus[0]);
+  for (std::size_t k = 1; k < observed.bus.size(); ++k)
+    if (observed.bus[0].gain - observed.bus[k].gain < alike)
+      d.answer.back().alike.push_back(observed.bus[k]);
 }
 
 /// It changes no residual, so it is the whole gap where they are closed.
@@ -120,16 +119,15 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
     d.warnings.push_back("not judged, the recordings say too little of it: " + names);
   const Selection selection = select(evidence, known, d.stages);
   d.verdict = judge(selection, observed);
-  d.answer = selection.answer, d.ranked = selection.ranked, d.confusable = selection.confusable;
+  d.answer = selection.answer, d.ranked = selection.ranked;
   d.interaction = selection.interaction;
   add_observed(observed, d);
   if (d.verdict == Verdict::not_identifiable)
     d.warnings.emplace_back(
         "the recordings held out show too little of the gap to judge what causes it; record more "
         "of what shows it, see where and when");
-  d.where = d.verdict == Verdict::supported
-                ? where_of_answer(evidence, plain, d.stages, d.answer, d.confusable)
-                : where_of_stages(evidence, plain, d.stages, d.ranked);
+  d.where = d.verdict == Verdict::supported ? where_of_answer(evidence, plain, d.stages, d.answer)
+                                            : where_of_stages(evidence, plain, d.stages, d.ranked);
   if (observed.bus_unexplained()) add_unexplained_bus(robot.name, observed, d);
   if (selection.gap) d.unexplained = unexplained(evidence, plain, selection);
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);

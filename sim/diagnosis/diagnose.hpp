@@ -14,13 +14,12 @@ const char* word(Verdict verdict);
 
 struct Diagnosis {
   Verdict verdict = Verdict::no_gap;
-  std::vector<Located> where;  ///< the largest share first
+  std::vector<Located> where;
   std::vector<Unexplained> unexplained;
-  std::vector<StageGap> stages;   ///< of the nominal robot, all recordings
-  std::vector<Named> answer;      ///< effects that together close the gap
-  std::vector<Named> ranked;      ///< one by one, best first
-  std::vector<Named> confusable;  ///< with one of the answer
-  double interaction = 0;         ///< of the gap: what the answer's effects close only together
+  std::vector<StageGap> stages;  ///< of the nominal robot, all recordings
+  std::vector<Named> answer;     ///< effects that together close the gap
+  std::vector<Named> ranked;     ///< one by one, best first
+  double interaction = 0;        ///< of the gap: what the answer's effects close only together
   std::vector<Moment> worst;
   Closed overall;
   std::vector<Closed> channels;

@@ -17,18 +17,27 @@ std::vector<Region> when(const Evidence& evidence, const Trials& plain,
   return regions(plain, plain.bare(), most->stage, on, evidence.sets.all());
 }
 
-bool has(const std::vector<Located>& places, effects::Stage stage, const std::string& on) {
-  return find_stage(places, stage, on) != places.end();
+/// The place of an effect, and those of what could stand for it.
+std::vector<Part> group_of(const Named& n) {
+  std::vector<Part> group{{n.stage, n.on}};
+  for (const Named& other : n.alike)
+    if (find_stage(group, other.stage, other.on) == group.end())
+      group.push_back({other.stage, other.on});
+  return group;
 }
 
-/// What cannot be told apart shares its part of the gap: each may have all of it, or none.
-void share_first(std::vector<Located>& places, const std::vector<Located>& others) {
-  const double share = places[0].share / static_cast<double>(1 + others.size());
-  places[0].share = share;
-  if (!others.empty()) places[0].interval.low = 0;
-  places.insert(places.begin() + 1, others.begin(), others.end());
-  for (std::size_t k = 1; k <= others.size(); ++k)
-    places[k].share = share, places[k].interval = places[0].interval;
+/// What it closes, but for the bus, which closes nothing beside what does.
+Interval closed_by(const Named& n, bool alone) {
+  if (n.stage == effects::Stage::bus && !alone) return {0, 0};
+  return {std::max(0.0, n.gain_interval.low), std::max(0.0, n.gain_interval.high)};
+}
+
+void add(std::vector<Located>& places, Located place) {
+  const auto same = find_stage(places, place.stage, place.on);
+  if (same == places.end()) return places.push_back(std::move(place));
+  same->share += place.share;
+  same->interval.low = std::min(1.0, same->interval.low + place.interval.low);
+  same->interval.high = std::min(1.0, same->interval.high + place.interval.high);
 }
 
 /// The parts of the chain that could leave the gap, the likeliest first: the one whose effects come
@@ -51,25 +60,24 @@ std::vector<Part> suspects(const Evidence& evidence, const Trials& plain, const 
 
 std::vector<Located> where_of_answer(const Evidence& evidence, const Trials& plain,
                                      const std::vector<StageGap>& stages,
-                                     const std::vector<Named>& answer,
-                                     const std::vector<Named>& confusable) {
+                                     const std::vector<Named>& answer) {
+  const bool alone = answer.size() == 1;
+  const auto gain = [&](const Named& n) {
+    return closed_by(n, alone).high > 0 ? std::max(0.0, n.gain) : 0;
+  };
   double whole = 0;
-  for (const Named& n : answer) whole += std::max(0.0, n.gain);
-  std::vector<Located> places, others;
+  for (const Named& n : answer) whole += gain(n);
+  const auto share = [&](double of, double rest) { return of + rest > 0 ? of / (of + rest) : 1; };
+  std::vector<Located> places;
   for (const Named& n : answer) {
-    const double share = whole > 0 ? std::max(0.0, n.gain) / whole : 1;
-    if (const auto same = find_stage(places, n.stage, n.on); same != places.end())
-      same->share += share, same->interval.low += n.gain_interval.low,
-          same->interval.high += n.gain_interval.high;
-    else
-      places.push_back(
-          {n.stage, n.on, share, n.gain_interval, when(evidence, plain, stages, n.on)});
+    const Interval closed = closed_by(n, alone);
+    const double rest = whole - gain(n);
+    const auto group = group_of(n);
+    const Interval any{group.size() > 1 ? 0 : share(closed.low, rest), share(closed.high, rest)};
+    for (const Part& part : group)
+      add(places, {part.stage, part.on, share(gain(n), rest) / double(group.size()), any,
+                   when(evidence, plain, stages, n.on)});
   }
-  const Located& first = places.at(0);
-  for (const Named& n : confusable)
-    if (!same_stage(first, n.stage, n.on) && !has(others, n.stage, n.on))
-      others.push_back({n.stage, n.on, 0, first.interval, first.when});
-  share_first(places, others);
   return places;
 }
 

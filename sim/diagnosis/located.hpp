@@ -26,11 +26,12 @@ struct Unexplained {
   std::optional<Shape> shape;
 };
 
-/// Of effects that explain the gap, each its share; what cannot be told apart shares its part.
+/// Of effects that explain the gap, each its share of what they close, in the order of the answer;
+/// places that cannot be told apart share one, and any of them may have all of it. The bus beside
+/// others has a share of 0: it changes no residual.
 std::vector<Located> where_of_answer(const Evidence& evidence, const Trials& plain,
                                      const std::vector<StageGap>& stages,
-                                     const std::vector<Named>& answer,
-                                     const std::vector<Named>& confusable);
+                                     const std::vector<Named>& answer);
 
 /// Without an answer: the parts of the chain that could leave such a gap (isolation.hpp), in equal
 /// shares, the one whose effects come nearest to closing it first; the open stages where no single

@@ -62,6 +62,17 @@ class Together {
     return true;
   }
 
+  /// One goes that the others have made superfluous: without it no stage opens.
+  void drop_superfluous() {
+    for (std::size_t k = 0; size() > 1 && k < size();) {
+      Together others = *this;
+      others.chosen_ = all_but(chosen_, k);
+      others.refit();
+      if (any_open(others.left(evidence_.get().options.together))) ++k;
+      else *this = std::move(others), k = 0;
+    }
+  }
+
  private:
   static constexpr std::size_t tried_together = 6;  // chosen
   const Sets& sets() const { return evidence_.get().sets; }
@@ -104,17 +115,19 @@ class Together {
 };
 
 /// What could stand for one of several effects as well.
-void add_alternatives(const Evidence& evidence, const Trials& trials, const Together& together,
-                      std::size_t k, Selection& selection) {
+std::vector<Named> alternatives(const Evidence& evidence, const Trials& trials,
+                                const Together& together, std::size_t k) {
   const Placed& chosen = together.chosen()[k];
   const Trial without = trials.with(all_but(together.chosen(), k), evidence.sets.all());
   const auto ranked = rank(trials, without, evidence.which_options(0.85, 0.95));
-  if (ranked.empty() || ranked[0].fit.placed.on != chosen.on) return;
+  if (ranked.empty() || ranked[0].fit.placed.on != chosen.on) return {};
   auto same = confusable(ranked, evidence.which_options());
   same.push_back(0);
+  std::vector<Named> all;
   for (const std::size_t n : same)
     if (const Named other = named(ranked[n], evidence.options.least_gain); !other.is(chosen))
-      selection.confusable.push_back(other);
+      all.push_back(other);
+  return all;
 }
 
 /// Several effects: each with its share of what they close together.
@@ -124,10 +137,10 @@ void settle(const Evidence& evidence, const Trials& trials, const Together& toge
   selection.interaction = part.interaction;
   selection.answer.clear();
   for (std::size_t k = 0; k < together.size(); ++k) {
-    add_alternatives(evidence, trials, together, k, selection);
     Ranked r{together.fits()[k], {}, {}, part.share[k], part.interval[k], 0};
     selection.answer.push_back(named(r, 0));
     selection.answer.back().supported = part.lost[k].low > 0;
+    selection.answer.back().alike = alternatives(evidence, trials, together, k);
   }
   std::ranges::stable_sort(selection.answer, std::greater(), &Named::gain);
 }
@@ -161,11 +174,12 @@ Selection select(const Evidence& evidence, const Trials& trials,
   while (any_open(together.left(evidence.options.search)) &&
          together.size() < evidence.options.most_effects)
     if (!together.add_another()) break;
+  together.drop_superfluous();
   const bool alone = together.size() == 1;
-  if (!alone) settle(evidence, trials, together, s);
+  if (!alone || !s.answer[0].is(together.chosen()[0])) settle(evidence, trials, together, s);
   else
     for (const std::size_t k : confusable(first, evidence.which_options()))
-      s.confusable.push_back(s.ranked[k]);
+      s.answer[0].alike.push_back(s.ranked[k]);
   s.left = together.left(alone ? evidence.options.alone : evidence.options.together);
   s.trial = std::move(together.trial());
   return s;

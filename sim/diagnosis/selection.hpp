@@ -11,11 +11,10 @@ namespace sim::diagnosis {
 struct Selection {
   bool gap = false;  ///< some stage leaves its floor
   bool told = true;  ///< false: the recordings held out show too little of it to judge an effect
-  std::vector<Named> ranked = {};  ///< one by one, best first
-  std::vector<Named> answer = {};  ///< effects that together close the gap, the most telling first
-  std::vector<Named> confusable = {};  ///< what could stand for one of the answer as well
-  std::vector<StageGap> left = {};     ///< after the answer, held-out recordings
-  Trial trial = {};                    ///< with the answer
+  std::vector<Named> ranked = {};   ///< one by one, best first
+  std::vector<Named> answer = {};   ///< effects that together close the gap, the most telling first
+  std::vector<StageGap> left = {};  ///< after the answer, held-out recordings
+  Trial trial = {};                 ///< with the answer
   double interaction = 0;  ///< of the gap: what the answer closes less what each does alone
 
   bool explained() const;  ///< there is an answer, and no stage stays open

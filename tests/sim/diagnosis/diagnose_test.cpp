@@ -73,8 +73,9 @@ TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
   auto blind = nothing_hidden();
   blind.quirks.chains[0].knot_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
-  REQUIRE(d.confusable.size() == 1);
-  CHECK(d.confusable[0].type == "sensor_shaft_offset");
+  REQUIRE(d.answer.size() == 1);
+  REQUIRE(d.answer[0].alike.size() == 1);
+  CHECK(d.answer[0].alike[0].type == "sensor_shaft_offset");
   CHECK(d.answer[0].type == "tendon_length_offset");
 }
 
