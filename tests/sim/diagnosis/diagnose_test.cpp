@@ -79,6 +79,29 @@ TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
   CHECK(d.answer[0].type == "tendon_length_offset");
 }
 
+TEST_CASE("of two effects, what stands for one is not given to the other") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[0].ohm = 0.3;
+  blind.quirks.chains[1].knot_m = 4e-4;
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  REQUIRE(d.answer.size() == 2);
+  const auto offset = std::ranges::find(d.answer, "tendon_length_offset", &Named::type);
+  const auto resistance = std::ranges::find(d.answer, "motor_resistance", &Named::type);
+  REQUIRE(offset != d.answer.end());
+  REQUIRE(resistance != d.answer.end());
+  REQUIRE(offset->alike.size() == 1);
+  CHECK(offset->alike[0].type == "sensor_shaft_offset");
+  CHECK(resistance->alike.empty());
+  REQUIRE(d.where.size() == 3);
+  double whole = 0;
+  for (const Located& place : d.where) {
+    whole += place.share;
+    CHECK(place.on == (place.stage == sim::effects::Stage::motor ? "flexor" : "extensor"));
+    CHECK((place.stage == sim::effects::Stage::motor) == (place.interval.low > 0));
+  }
+  CHECK(whole == Approx(1));
+}
+
 TEST_CASE("late, jittering and lost commands are told apart by their ages") {
   auto blind = nothing_hidden();
   const auto told = [&] { return diagnose(hinge_rig(), episodes(blind, 4)).answer.at(0); };
