@@ -66,6 +66,7 @@ void Window::hear(const erp::SensorFrame& frame) {
     if (joint.type == erp::JointType::revolute) row.push_back(angle_in(frame, joint.name));
     if (joint.type == erp::JointType::spherical) row.insert(row.end(), pose, pose + 4), pose += 4;
   }
+  std::ranges::fill(joint_state_, recording::not_taken);
   rows_.push_back(std::move(row));
   if (rows_.size() > most_) rows_.pop_front();
   stamp_ns_ = frame.stamp_ns;

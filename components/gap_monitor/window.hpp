@@ -32,7 +32,8 @@ class Window {
   erp::Robot model_;
   std::size_t most_;
   std::vector<std::string> columns_{"time_s", "sequence"};
-  std::vector<double> joint_state_;  ///< of spherical joints, the newest, in the order of columns
+  std::vector<double> joint_state_;  ///< of spherical joints, in the order of columns; NaN: told of
+                                     ///< none since the last frame
   bool tracked_ = false;             ///< by motion capture
   std::deque<std::vector<double>> rows_;
   std::int64_t stamp_ns_ = 0;

@@ -113,14 +113,18 @@ std::size_t fill_short_gaps(Signal& signal) {
   return filled;
 }
 
-/// q and −q are one turning: each row takes the one nearer to the row before.
+/// q and −q are one turning: each sample takes the one nearer to the sample before.
 void make_continuous(std::array<Signal, 4>& q) {
+  std::size_t last = 0;
   for (std::size_t k = 1; k < q[0].size(); ++k) {
+    if (std::isnan(q[0][k])) continue;
     double product = 0;
-    for (const Signal& part : q) product += part[k] * part[k - 1];
+    for (const Signal& part : q) product += part[k] * part[last];
     if (product < 0)
       for (Signal& part : q) part[k] = -part[k];
+    last = k;
   }
+  for (Signal& part : q) fill_short_gaps(part);
 }
 
 /// Lays out one table, and counts what it repairs.

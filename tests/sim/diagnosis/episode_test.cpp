@@ -46,6 +46,31 @@ TEST_CASE("rows that repeat are dropped, rows that are missing are left open or 
   CHECK(remarks[1] == "run.csv: 22 rows are missing");
 }
 
+TEST_CASE("a quaternion changes its sign nowhere, and short gaps in it are bridged") {
+  const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
+  const auto joints = robot.joints();
+  const auto ball =
+      std::ranges::find(joints, erp::JointType::spherical, [](const auto& j) { return j.type; });
+  recording::Table table{{{"time_s", {}}}};
+  for (const char* part : {".qw", ".qx", ".qy", ".qz"})
+    table.columns.push_back({ball->name + part, Signal(100, 0.0)});
+  for (std::size_t k = 0; k < 100; ++k) {
+    const double way = k < 50 ? 1 : -1, half_rad = 0.002 * double(k);
+    table.columns[0].values.push_back(0.002 * double(k));
+    table.columns[1].values[k] = way * std::cos(half_rad);
+    table.columns[2].values[k] = way * std::sin(half_rad);
+  }
+  for (std::size_t c = 1; c < 5; ++c)
+    for (const std::size_t k : {49, 50, 51}) table.columns[c].values[k] = recording::not_taken;
+  std::vector<std::string> remarks;
+  const Episode episode = lay_out(table, robot, "x", remarks);
+  const auto& q = episode.joints[std::size_t(ball - joints.begin())].quaternion;
+  for (std::size_t k = 0; k < 100; ++k) {
+    CHECK(q[0][k] == Approx(std::cos(0.002 * double(k))).margin(1e-4));
+    CHECK(q[1][k] == Approx(std::sin(0.002 * double(k))).margin(1e-4));
+  }
+}
+
 TEST_CASE(
     "ticks of the device count where stamps come early and late; without them it is refused") {
   recording::Table table = sine(1000);
