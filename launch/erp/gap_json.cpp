@@ -10,9 +10,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace sim::diagnosis;
 
-/// Four digits tell all that such figures hold.
+/// Five digits tell all that such figures hold; what is no number becomes null.
 double rounded(double x) {
-  if (x == 0 || !std::isfinite(x)) return 0;
+  if (x == 0 || !std::isfinite(x)) return x;
   const double scale = std::pow(10, 5 - std::ceil(std::log10(std::abs(x))));
   return std::round(x * scale) / scale;
 }

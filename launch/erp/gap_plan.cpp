@@ -122,7 +122,7 @@ void print(const rehearsal::Experiment& experiment, const erp::Robot& robot,
            const std::vector<Placed>& suspects, std::ostream& out) {
   out << "to split    " << name_of(suspects[0]);
   for (std::size_t k = 1; k < suspects.size(); ++k) out << ", " << name_of(suspects[k]);
-  if (suspects.size() == 1) out << ", from the nominal robot";
+  if (suspects.size() == 1) out << ", from the robot without it";
   out << fmt::format("\n{:<12}{:<18} {:>6} {:>12} {:>10}  {}\n", "", "excitation", "seed",
                      "split, sigma", "tension", "");
   constexpr std::size_t shown = 5;
@@ -171,11 +171,14 @@ int gap_plan(const GapPlanOptions& options, std::ostream& out, std::ostream& rem
     return 5;
   }
   write_graph(options.out, options.robot, robot, experiment.chosen);
+  out << fmt::format("chosen      largest tension {:.0f} % of the limit ({})",
+                     100 * best.extremes.of_max_tension, best.extremes.tightest);
+  if (!best.extremes.nearest.empty())
+    out << fmt::format(", {:.3f} rad to a stop ({})", best.extremes.to_stop_rad,
+                       best.extremes.nearest);
   out << fmt::format(
-      "chosen      largest tension {:.0f} % of the limit ({}), {:.3f} rad to a stop ({})\n"
-      "run it      erp launch {}/graph.xml --for {:g}s        on the robot: --device can\n",
-      100 * best.extremes.of_max_tension, best.extremes.tightest, best.extremes.to_stop_rad,
-      best.extremes.nearest, options.out, options.seconds);
+      "\nrun it      erp launch {}/graph.xml --for {:g}s        on the robot: --device can\n",
+      options.out, options.seconds);
   return 0;
 }
 

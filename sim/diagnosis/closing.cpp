@@ -39,6 +39,20 @@ std::vector<ScoreBlock> beyond(const Trials& plain, const Trials& known, const T
   return all;
 }
 
+/// Of a stage, from seconds of the recordings held out. `coarser`: its floor with what is known.
+Interval closed_interval(const Evidence& evidence, const std::vector<ScoreBlock>& before,
+                         const std::vector<ScoreBlock>& after, double coarser) {
+  const auto closed = [&](const std::vector<std::size_t>& drawn) {
+    double was = 0, is = 0, windows = 0;
+    for (const std::size_t b : drawn)
+      was += before[b].square, is += after[b].square, windows += double(before[b].windows);
+    const double excess = is / std::max(1.0, windows) - 1;
+    return closed_of({"", "", std::sqrt(was / std::max(1.0, windows)), 1,
+                      std::sqrt(std::max(0.0, 1 + coarser * coarser * excess))});
+  };
+  return middle(bootstrap(before.size(), 400, evidence.options.seed, closed));
+}
+
 }  // namespace
 
 std::vector<Closed> closed_by_stage(const Evidence& evidence, const Trials& plain,
@@ -55,6 +69,10 @@ std::vector<Closed> closed_by_stage(const Evidence& evidence, const Trials& plai
     c.after = std::sqrt(
         std::max(0.0, gap.floor * gap.floor + after->excess * after->floor * after->floor));
     c.closed = closed_of(c);
+    const auto here = [&](const Residual& r) { return same_stage(r, gap.stage, gap.on); };
+    c.interval = closed_interval(evidence, plain.blocks(plain.bare(), evidence.sets.held_out, here),
+                                 known.blocks(trial, evidence.sets.held_out, here),
+                                 after->floor / gap.floor);
     all.push_back(c);
   }
   return all;

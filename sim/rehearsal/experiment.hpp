@@ -14,8 +14,10 @@
 ///   split = sqrt(S_other − S_first)       S = Σ z² over stages and windows, each at its best fit
 ///
 /// is how many standard deviations of noise stand between them (a likelihood ratio). The excitation
-/// with the largest split of the worst pair is chosen, among those that are safe in every
-/// rehearsal. A single suspect is split from the nominal robot.
+/// is chosen that splits best the one that it splits least from the first, among those that are
+/// safe in every rehearsal. A single suspect is split from the robot without it. Ignores: that
+/// another suspect may be the true one, and how well those after the first are split from each
+/// other.
 namespace sim::rehearsal {
 
 struct ExperimentOptions {

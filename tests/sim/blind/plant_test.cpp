@@ -19,7 +19,8 @@ Quirks no_quirks(const erp::Robot& robot) { return draw_case(robot, Kind::null, 
 }  // namespace
 
 TEST_CASE(
-    "without quirks the blind plant moves as the simulator does, though it shares no equation") {
+    "without quirks the blind plant moves as the simulator does, by another integrator and "
+    "friction") {
   const erp::Robot robot = hinge_rig();
   Plant plant(robot, no_quirks(robot));
   sim::World world(robot);
