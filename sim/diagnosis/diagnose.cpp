@@ -21,7 +21,9 @@ std::vector<std::string> names_of(const Evidence& evidence, const std::vector<st
 }
 
 Verdict judge(const Selection& selection, const Observed& observed) {
-  if (selection.gap)
+  const bool left = std::ranges::any_of(selection.left, &StageGap::open);
+  const bool coarse_alone = !observed.sensors.empty() && !left;  // and that is all held out shows
+  if (selection.gap && !coarse_alone)
     return selection.explained() ? Verdict::supported
            : selection.told      ? Verdict::none_of_the_known
                                  : Verdict::not_identifiable;
