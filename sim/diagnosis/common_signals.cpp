@@ -8,14 +8,14 @@
 namespace sim::diagnosis {
 namespace {
 
-struct Named {
+struct NamedSignal {
   std::string name;
   Signal* signal;
 };
 
 /// In the same order for every recording of a robot.
-std::vector<Named> signals_of(Episode& e, const erp::Robot& robot) {
-  std::vector<Named> all;
+std::vector<NamedSignal> signals_of(Episode& e, const erp::Robot& robot) {
+  std::vector<NamedSignal> all;
   for (std::size_t a = 0; a < e.actuators.size(); ++a) {
     ActuatorSignals& s = e.actuators[a];
     const std::string& name = robot.actuators[a].name;
@@ -41,7 +41,7 @@ bool says_nothing(const Signal& signal) {
 
 void keep_common(std::vector<Episode>& episodes, const erp::Robot& robot,
                  std::vector<std::string>& remarks) {
-  std::vector<std::vector<Named>> of;
+  std::vector<std::vector<NamedSignal>> of;
   for (Episode& episode : episodes) of.push_back(signals_of(episode, robot));
   for (std::size_t n = 0; !of.empty() && n < of[0].size(); ++n) {
     const auto silent = [&](const auto& signals) { return says_nothing(*signals[n].signal); };
