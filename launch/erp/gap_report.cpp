@@ -131,7 +131,9 @@ std::string stages(const Diagnosis& d) {
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
         "<td>{:.2f} %</td><td>{:.2f} %</td></tr>\n",
         escaped(c.channel), c.before, c.unit, c.floor, c.after,
-        c.before > 1.5 * c.floor ? fmt::format("{:.1f} %", 100 * c.closed) : "–",
+        c.before > 1.5 * c.floor ? fmt::format("{:.1f} % ({:.1f} … {:.1f})", 100 * c.closed,
+                                               100 * c.interval.low, 100 * c.interval.high)
+                                 : "–",
         100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
   return html + "</table>\n";
 }

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "launch/erp/gap.hpp"
+#include "launch/erp/gap_truth.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace fs = std::filesystem;
@@ -54,20 +54,42 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   CHECK_THAT(out.str(), Catch::Contains("hash"));
 }
 
-TEST_CASE("a diagnosis leaves a report, figures and a robot that the library reads again") {
+TEST_CASE("pairs: both found, and F1 of all that was named") {
   const Folder folder;
-  const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
-  std::ostringstream out, remarks;
-  launch::BlindMakeOptions make{.robot = robot_file, .out = cases, .truth = truth};
-  make.cases = 1, make.recordings = 3, make.seconds = 5, make.seed = 14;
-  REQUIRE(launch::blind_make(make, out, remarks) == 0);
-  launch::GapDiagnoseOptions how{.robot = robot_file, .out = folder.path / "found"};
-  for (int k = 1; k <= 3; ++k)
-    how.recordings.push_back(cases + "/case_0001/" + std::to_string(k) + ".csv");
-  CHECK(launch::gap_diagnose(how, out, remarks) == 0);
-  CHECK(fs::file_size(folder.path / "found/report.html") > 5000);
-  const erp::Robot with = erp::read_robot(folder.path / "found/robot.xml");
-  CHECK(with.effects.size() == 1);
-  how.withhold = {"no_such_effect"};
-  CHECK_THROWS_WITH(launch::gap_diagnose(how, out, remarks), Catch::Contains("erp model effects"));
+  const auto effect = [](const char* type) {
+    return nlohmann::json{{"type", type}, {"on", "flexor"}, {"supported", true}};
+  };
+  const auto hidden = [](const char* type) {
+    return nlohmann::json{{"type", type},
+                          {"on", "flexor"},
+                          {"stage", "motor"},
+                          {"parameters", nlohmann::json::object()}};
+  };
+  nlohmann::json truths;
+  const auto diagnosed = [&](const char* name, const nlohmann::json& effects,
+                             const nlohmann::json& confusable) {
+    truths.push_back({{"case", name}, {"kind", "pair"}, {"hidden", {hidden("a"), hidden("b")}}});
+    fs::create_directories(folder.path / name);
+    std::ofstream(folder.path / name / "diagnosis.json")
+        << nlohmann::json{{"verdict", "supported"},
+                          {"where", nlohmann::json::array()},
+                          {"effects", effects},
+                          {"confusable", confusable}};
+  };
+  const auto none = nlohmann::json::array();
+  diagnosed("both", {effect("a"), effect("b")}, none);
+  diagnosed("one_of_three", {effect("a"), effect("c"), effect("d")}, none);
+  auto one = effect("a"), other = effect("twin_of_b"), same = effect("b");
+  other["set"] = same["set"] = 1;
+  diagnosed("by_its_twin", {one, other}, {other, same});
+  const std::string truth = folder.path / "truth.json";
+  std::ofstream(truth) << truths.dump();
+  std::ofstream(folder.path / "cases.json")
+      << nlohmann::json{{"truth_sha256", launch::sha256(truths.dump())}};
+  std::ostringstream out;
+  REQUIRE(launch::blind_score(folder.path, truth, out) == 0);
+  INFO(out.str());
+  CHECK_THAT(out.str(), Catch::Contains("(2 of 3)"));
+  CHECK_THAT(out.str(), Catch::Contains("0.805"));  // of means 7/9 and 5/6
+  CHECK_THAT(out.str(), Catch::Contains("one_of_three: a on flexor + b on flexor | supported"));
 }

@@ -17,12 +17,15 @@ struct Planned {
   std::string said;
 };
 
-/// What is planned after a diagnosis that could not tell two effects apart.
-Planned plan(const fs::path& folder, const std::string& one, const std::string& other) {
+/// What is planned after a diagnosis that could not tell two effects apart, of which it is sure
+/// beside `sure`.
+Planned plan(const fs::path& folder, const std::string& one, const std::string& other,
+             const std::string& sure = "") {
   fs::create_directories(folder);
   std::ofstream(folder / "diagnosis.json")
       << R"({"verdict": "supported", "effects": [)" << one << ", " << other
-      << R"(], "confusable": [)" << one << ", " << other << "]}";
+      << (sure.empty() ? "" : ", ") << sure << R"(], "confusable": [)" << one << ", " << other
+      << "]}";
   std::ostringstream out, remarks;
   const int code = launch::gap_plan({.robot = rigs::config("hinge_rig/robot.xml"),
                                      .diagnosis = (folder / "diagnosis.json").string(),
@@ -58,6 +61,18 @@ TEST_CASE("two frictions are split by a motion, which is written as a graph to l
   CHECK(table.find("time_s")->values.back() == Approx(4).margin(0.1));
   CHECK(table.find("extensor.reference") != nullptr);
   CHECK_THAT(planned.said, Catch::Contains("erp launch"));
+}
+
+TEST_CASE("what else is known of the robot is in it when the next motion is rehearsed") {
+  const Folder folder;
+  const auto coulomb = effect("gearbox_coulomb", "extra_Nm", 0.05),
+             viscous = effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02);
+  const Planned alone = plan(folder.path, coulomb, viscous);
+  const Planned beside =
+      plan(folder.path, coulomb, viscous, effect("motor_resistance", "relative", 0.3));
+  REQUIRE(beside.code == 0);
+  CHECK_THAT(beside.said, !Catch::Contains("motor_resistance"));  // not to be split
+  CHECK(beside.said != alone.said);                               // but felt
 }
 
 TEST_CASE("twins are split by no motion, and no graph is written") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "sim/diagnosis/lattice.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
@@ -43,6 +44,12 @@ TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings hel
   CHECK(d.where[0].stage == sim::effects::Stage::gearbox);
   CHECK(d.where[0].on == "extensor");
   CHECK(d.overall.closed > 0.9);
+  const auto stage = std::ranges::find(d.channels, "gearbox extensor", &Closed::channel);
+  REQUIRE(stage != d.channels.end());
+  CHECK(stage->closed > 0.9);
+  CHECK(stage->interval.low <= stage->closed);
+  CHECK(stage->interval.high >= stage->closed);
+  CHECK(stage->interval.high - stage->interval.low < 0.1);
   for (const std::string& name : d.held_out) CHECK(std::ranges::count(d.train, name) == 0);
 }
 
@@ -67,6 +74,32 @@ TEST_CASE("two effects at once are both named") {
   for (const Named& n : d.answer) types.push_back(n.type + " " + n.on);
   CHECK(std::ranges::count(types, "motor_resistance flexor") == 1);
   CHECK(std::ranges::count(types, "joint_viscous elbow") == 1);
+  double shares = 0;
+  for (const Named& n : d.answer) {
+    CHECK(n.supported);
+    CHECK(n.gain > 0.05);
+    shares += n.gain;
+  }
+  CHECK(shares == Approx(1).margin(0.03));  // together they close all
+  CHECK(std::abs(d.interaction) < 0.1);     // and each its own stage
+}
+
+TEST_CASE("the shares of two effects on one stage add up, and what they share is interaction") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[1].dry_Nm = 0.06;
+  blind.quirks.chains[1].viscous = 0.006;
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  REQUIRE(d.answer.size() == 2);
+  CHECK(d.answer[0].gain + d.answer[1].gain == Approx(1).margin(0.03));
+  CHECK(d.interaction < -0.1);  // both drag alike: alone, each takes a part of the other's
+}
+
+TEST_CASE("of what was not told, the interval is all that is allowed") {
+  Ranked ranked{.fit = {{"flexor", *sim::effects::neutral("gearbox_viscous")}, 0, {}, {}}};
+  ranked.fit.sigmas = {std::numeric_limits<double>::infinity()};
+  const Named n = named(ranked, 0);
+  CHECK(n.intervals.at(0).low == n.bounds.at(0).low);
+  CHECK(n.intervals.at(0).high == n.bounds.at(0).high);
 }
 
 TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
@@ -143,7 +176,10 @@ TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
   REQUIRE(coarse.size() == 1);
   CHECK(sim::effects::about(coarse[0].effect).type == "sensor_current_quantisation");
   CHECK(coarse[0].on == "extensor");
-  CHECK(diagnose(hinge_rig(), episodes(blind)).answer.at(0).type == "sensor_current_quantisation");
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  CHECK(d.verdict == Verdict::supported);
+  CHECK(d.answer.at(0).type == "sensor_current_quantisation");
+  CHECK(d.answer.size() == 1);
 }
 
 TEST_CASE("held out is a whole recording, the one farthest off") {

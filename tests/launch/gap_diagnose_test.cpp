@@ -1,0 +1,116 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "launch/erp/gap.hpp"
+#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string robot_file = rigs::config("hinge_rig/robot.xml");
+
+/// A folder of recordings of the rig, as it is modelled and with a gearbox that rubs.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("erp_diagnose_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+
+  std::string found(const char* file) const { return path / "found" / file; }
+  std::string read(const char* file) const {
+    std::ifstream in(found(file));
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::string recorded(const std::string& name, bool rubs, std::uint64_t seed) const {
+    erp::Robot robot = erp::read_robot(robot_file);
+    if (rubs) robot.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
+    rig_recording::Plan plan{.seconds = 5, .seed = seed};
+    plan.swing_Hz += 0.1 * double(seed);
+    std::ofstream out(path / name);
+    recording::write_csv(rig_recording::table_of_run(robot, plan), out);
+    return path / name;
+  }
+};
+
+struct Told {
+  int code;
+  std::string text;
+};
+
+Told diagnosed(const Folder& folder, launch::GapDiagnoseOptions how) {
+  how.robot = robot_file, how.out = folder.path / "found";
+  std::ostringstream out, remarks;
+  const int code = launch::gap_diagnose(how, out, remarks);
+  return {code, out.str()};
+}
+
+}  // namespace
+
+TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is explained") {
+  const Folder folder;
+  const auto plain = folder.recorded("plain.csv", false, 1);
+  const auto rubs = folder.recorded("rubs.csv", true, 1),
+             again = folder.recorded("again.csv", true, 2);
+
+  const Told explained = diagnosed(folder, {.recordings = {rubs, again}});
+  INFO(explained.text);
+  CHECK(explained.code == 0);
+  CHECK_THAT(explained.text, Catch::Contains("free run"));
+  const erp::Robot with = erp::read_robot(folder.found("robot.xml"));
+  REQUIRE(with.effects.size() == 1);
+  CHECK(with.effects[0].type == "gearbox_coulomb");
+
+  CHECK(diagnosed(folder, {.recordings = {plain}}).code == 3);
+  CHECK_FALSE(fs::exists(folder.found("robot.xml")));
+
+  const Told withheld =
+      diagnosed(folder, {.recordings = {rubs, again},
+                         .withhold = {"gearbox_coulomb", "gearbox_asymmetric", "gearbox_stribeck",
+                                      "gearbox_load_dependent", "motor_cogging", "motor_dead_band"},
+                         .free_run = false});
+  INFO(withheld.text);
+  CHECK(withheld.code == 4);
+  CHECK_THAT(withheld.text, Catch::Contains("left over   gearbox of extensor"));
+
+  CHECK(diagnosed(folder, {.train = {rubs}, .held_out = {plain}}).code == 5);
+}
+
+TEST_CASE("the report shows where, which and how far, and needs no other file") {
+  const Folder folder;
+  diagnosed(folder,
+            {.recordings = {folder.recorded("1.csv", true, 1), folder.recorded("2.csv", true, 2)}});
+  const std::string report = folder.read("report.html");
+  for (const char* part : {"<h2>Where</h2>", "<h2>Which</h2>", "Closed: ", "Signatures",
+                           "<h2>The simulator let run freely</h2>", "<h2>The worst moments</h2>",
+                           "gearbox_coulomb on extensor", "1.csv", "2.csv"})
+    CHECK_THAT(report, Catch::Contains(part));
+  CHECK_THAT(report, !Catch::Contains("href=") && !Catch::Contains("src=") &&
+                         !Catch::Contains("nan") && !Catch::Contains("inf"));
+
+  const auto d = nlohmann::json::parse(folder.read("diagnosis.json"));
+  const auto& first = d["effects"][0];
+  CHECK(first["type"] == "gearbox_coulomb");
+  const auto& interval = first["intervals"]["extra_Nm"];
+  CHECK(interval[0] < 0.03);
+  CHECK(interval[1] > 0.03);
+  CHECK(d["gap"]["closed"] > 0.9);
+  CHECK(d["gap"]["closed_interval"][0] <= d["gap"]["closed"]);
+}
+
+TEST_CASE("what cannot be asked of recordings is refused, with the name that is wrong") {
+  const Folder folder;
+  const auto one = folder.recorded("one.csv", false, 1), two = folder.recorded("two.csv", false, 2);
+  CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one}, .withhold = {"no_such_effect"}}),
+                    Catch::Contains("no_such_effect") && Catch::Contains("erp model effects"));
+  CHECK_THROWS_WITH(diagnosed(folder, {.train = {one, two}, .held_out = {two}}),
+                    Catch::Contains("two.csv") && Catch::Contains("both in"));
+  CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one}, .held_out = {one}}),
+                    Catch::Contains("leave some to train on"));
+}
