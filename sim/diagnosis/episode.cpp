@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "interfaces/recording/columns.hpp"
 #include "interfaces/xml/values.hpp"
 #include "sim/diagnosis/drives.hpp"
 
@@ -200,8 +201,8 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
       continue;
     }
     signals.angle_rad = layout.smooth(joint.name + ".angle_rad");
-    const char* const parts[] = {".qw", ".qx", ".qy", ".qz"};
-    for (std::size_t k = 0; k < 4; ++k) signals.quaternion[k] = layout.held(joint.name + parts[k]);
+    for (std::size_t k = 0; k < 4; ++k)
+      signals.quaternion[k] = layout.held(joint.name + "." + recording::quaternion_parts[k]);
     if (std::ranges::none_of(signals.quaternion, &Signal::empty))
       make_continuous(signals.quaternion);
     else signals.quaternion = {};

@@ -2,10 +2,14 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Sparse>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+
+#include "sim/diagnosis/tries.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -55,12 +59,10 @@ struct Least {
   std::vector<double> u, sigma;
 };
 
-Eigen::MatrixXd dense(const ceres::CRSMatrix& sparse) {
-  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-  for (int row = 0; row < sparse.num_rows; ++row)
-    for (int n = sparse.rows[std::size_t(row)]; n < sparse.rows[std::size_t(row) + 1]; ++n)
-      j(row, sparse.cols[std::size_t(n)]) = sparse.values[std::size_t(n)];
-  return j;
+Eigen::MatrixXd dense(const ceres::CRSMatrix& j) {
+  using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  return Eigen::Map<const Sparse>(j.num_rows, j.num_cols, Eigen::Index(j.values.size()),
+                                  j.rows.data(), j.cols.data(), j.values.data());
 }
 
 /// σ of each parameter, √(JᵀJ)⁻¹ₖₖ; infinite where nothing changes with it, or nothing that another
@@ -138,61 +140,10 @@ std::vector<std::vector<double>> starts(const std::vector<Knob>& knobs, bool giv
   return all;
 }
 
-/// A joint's stops, at or a little before where it turned back.
-std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& neutral,
-                                   std::span<const std::size_t> episodes) {
-  const auto joints = trials.nominal().joints();
-  const auto j = static_cast<std::size_t>(std::ranges::find(joints, neutral.on, &erp::Joint::name) -
-                                          joints.begin());
-  if (joints[j].type != erp::JointType::revolute) return {};
-  double low = joints[j].max_rad, high = joints[j].min_rad;
-  for (const std::size_t e : episodes)
-    for (const double angle : trials.episodes()[e].joints[j].angle_rad)
-      if (!std::isnan(angle)) low = std::min(low, angle), high = std::max(high, angle);
-  std::vector<effects::Placed> all;
-  for (const double before_rad : {0.0, 0.01, 0.02, 0.035, 0.05})
-    for (const int side : {1, 2, 3}) {
-      all.push_back(neutral);
-      const auto parameters = effects::parameters(all.back().effect);
-      if (side & 1)
-        *parameters[0].value =
-            std::clamp(low - joints[j].min_rad + before_rad, 0.0, parameters[0].bounds.high);
-      if (side & 2)
-        *parameters[1].value =
-            std::clamp(joints[j].max_rad - high + before_rad, 0.0, parameters[1].bounds.high);
-    }
-  return all;
-}
-
 std::size_t count_residuals(const Trials& trials, std::span<const std::size_t> episodes) {
   std::size_t count = 0;
   for (const std::size_t e : episodes) count += trials.whitened(trials.bare(), e).size();
   return count;
-}
-
-bool is_neutral(const effects::Placed& placed) {
-  return effects::written(placed).parameters.empty();
-}
-
-/// The one of the tries that leaves least, or the effect as given.
-effects::Placed best_try(const Trials& trials, const Trial& base, const effects::Placed& more,
-                         std::span<const std::size_t> episodes) {
-  effects::Placed best = more;
-  if (!is_neutral(more)) return best;
-  double least = sum(trials.blocks(base, episodes)).square;
-  auto all = tries(trials, more, episodes);
-  for (const double share :
-       {0.1, 0.02, -0.1}) {  // of the bounds: laws that are bent from the start
-    all.push_back(more);
-    const effects::Parameter first = effects::parameters(all.back().effect)[0];
-    *first.value = share * (share > 0 ? first.bounds.high : -first.bounds.low);
-    if (*first.value == 0) all.pop_back();
-  }
-  for (const effects::Placed& one : all)
-    if (const double square = sum(trials.blocks(trials.with(base, one, episodes), episodes)).square;
-        square < least)
-      least = square, best = one;
-  return best;
 }
 
 Fit result_of(const effects::Placed& placed, double square, std::span<const double> sigmas) {
@@ -202,20 +153,6 @@ Fit result_of(const effects::Placed& placed, double square, std::span<const doub
 }
 
 }  // namespace
-
-std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& neutral,
-                                   std::span<const std::size_t> episodes) {
-  const auto type = effects::about(neutral.effect).type;
-  if (type == "joint_early_stop") return stops(trials, neutral, episodes);
-  std::vector<effects::Placed> all;
-  constexpr double soft = 0.7, stiff = 0.01, ratio = 0.8;  // rad/Nm
-  if (type == "skeleton_link_flexibility")
-    for (double c = soft; c > stiff; c *= ratio) {
-      all.push_back(neutral);
-      *effects::parameters(all.back().effect)[0].value = c;
-    }
-  return all;
-}
 
 Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
         std::span<const std::size_t> episodes, const FitOptions& options) {

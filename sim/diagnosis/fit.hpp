@@ -14,11 +14,6 @@ struct FitOptions {
   std::vector<double> shape_starts = {0.15, 0.6};
 };
 
-/// Parameters worth a try for laws that a small step from neutral does not lead to: stops where
-/// the joint turned back, bones of several stiffnesses. Empty for most.
-std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& neutral,
-                                   std::span<const std::size_t> episodes);
-
 struct Fit {
   effects::Placed placed;
   double square = 0;                   ///< Σ z² on the recordings of the fit

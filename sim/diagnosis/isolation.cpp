@@ -5,6 +5,7 @@
 
 #include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
+#include "sim/diagnosis/tries.hpp"
 
 namespace sim::diagnosis {
 namespace {

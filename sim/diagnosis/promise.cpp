@@ -6,6 +6,7 @@
 
 #include "sim/diagnosis/indices.hpp"
 #include "sim/diagnosis/parallel.hpp"
+#include "sim/diagnosis/tries.hpp"
 
 namespace sim::diagnosis {
 namespace {

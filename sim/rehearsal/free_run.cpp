@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "sim/diagnosis/indices.hpp"
+#include "sim/diagnosis/measured.hpp"
 #include "sim/diagnosis/parallel.hpp"
 
 namespace sim::rehearsal {
@@ -43,31 +44,6 @@ Score score_of(const Episode& e) {
   return score;
 }
 
-struct Channel {
-  std::string name, unit;
-  const Signal* signal;
-};
-
-std::vector<Channel> channels_of(const Episode& e, const erp::Robot& robot) {
-  std::vector<Channel> all;
-  const auto add = [&](const std::string& name, const char* unit, const Signal& signal) {
-    if (!signal.empty()) all.push_back({name, unit, &signal});
-  };
-  for (std::size_t a = 0; a < e.actuators.size(); ++a) {
-    const auto& s = e.actuators[a];
-    const std::string& name = robot.actuators[a].name;
-    add(name + ".voltage_V", "V", s.voltage_V), add(name + ".current_A", "A", s.current_A);
-    add(name + ".shaft_rad", "rad", s.shaft_rad), add(name + ".tension_N", "N", s.tension_N);
-  }
-  const auto joints = robot.joints();
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    add(joints[j].name + ".angle_rad", "rad", e.joints[j].angle_rad);
-    for (std::size_t k = 0; k < 4; ++k)
-      add(joints[j].name + "." + "wxyz"[k], "", e.joints[j].quaternion[k]);
-  }
-  return all;
-}
-
 /// Squares of a channel's three errors over a second.
 struct Second {
   double before = 0, floor = 0, after = 0, rows = 0;
@@ -83,22 +59,20 @@ Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& 
     return diagnosis::lay_out(rehearse(robot, score, noise), nominal, e.name, remarks);
   };
   const Episode before = run(nominal, seed), after = run(found, seed), again = run(found, seed + 1);
-  const auto real = channels_of(e, nominal);
+  const auto real = diagnosis::measured(e, nominal), was = diagnosis::measured(before, nominal),
+             is = diagnosis::measured(after, nominal), noisy = diagnosis::measured(again, nominal);
   Errors errors;
-  for (const Channel& channel : real) {
-    const auto signal_in = [&](const Episode& of) -> const Signal& {
-      const auto all = channels_of(of, nominal);
-      return *std::ranges::find(all, channel.name, &Channel::name)->signal;
-    };
-    const Signal &b = signal_in(before), &a = signal_in(after), &n = signal_in(again);
-    auto& [unit, seconds] = errors[channel.name];
-    unit = channel.unit;
+  for (std::size_t c = 0; c < real.size(); ++c) {
+    const Signal &truth = *real[c].signal, &b = *was[c].signal, &a = *is[c].signal,
+                 &n = *noisy[c].signal;
+    if (truth.empty()) continue;
+    auto& [unit, seconds] = errors[real[c].column];
+    unit = real[c].unit;
     seconds.resize(std::size_t(double(e.rows) * tick_s) + 1);
     for (std::size_t k = 0; k < std::min(e.rows, b.size()); ++k) {
-      const double truth = (*channel.signal)[k];
-      if (std::isnan(truth)) continue;
+      if (std::isnan(truth[k])) continue;
       Second& second = seconds[std::size_t(double(k) * tick_s)];
-      second.before += std::pow(b[k] - truth, 2), second.after += std::pow(a[k] - truth, 2);
+      second.before += std::pow(b[k] - truth[k], 2), second.after += std::pow(a[k] - truth[k], 2);
       second.floor += std::pow(n[k] - a[k], 2), ++second.rows;
     }
   }
