@@ -218,12 +218,17 @@ std::string rest(const Diagnosis& d) {
   return html;
 }
 
+std::string use_of(const Diagnosis& d, const std::string& recording) {
+  const bool teaches = std::ranges::count(d.train, recording) > 0,
+             judges = std::ranges::count(d.held_out, recording) > 0;
+  return std::string(teaches ? "choose and fit" : "") + (teaches && judges ? ", " : "") +
+         (judges ? "judge" : "");
+}
+
 std::string data(const Diagnosis& d) {
   std::string html = "<h2>Recordings</h2>\n<table><tr><th>file</th><th>used to</th></tr>\n";
   for (const std::string& name : d.recordings)
-    html += fmt::format("<tr><td>{}</td><td>{}{}</td></tr>\n", escaped(name),
-                        std::ranges::count(d.train, name) ? "choose and fit " : "",
-                        std::ranges::count(d.held_out, name) ? "judge" : "");
+    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), use_of(d, name));
   html += "</table>\n";
   for (const std::string& warning : d.warnings)
     html += fmt::format("<p class=\"note\">{}</p>\n", escaped(warning));

@@ -62,6 +62,10 @@ std::string said(const Json& diagnosis) {
   return text;
 }
 
+std::string failure(const Json& truth, const Json& diagnosis) {
+  return fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(diagnosis));
+}
+
 bool located(const Json& hidden, const Json& diagnosis) {
   return !diagnosis["where"].empty() && diagnosis["where"][0]["stage"] == hidden["stage"] &&
          diagnosis["where"][0]["on"] == hidden["on"];
@@ -91,7 +95,8 @@ void count_intervals(const Json& hidden, const Json& effect, Rate& rate) {
       rate.count(effect["intervals"][name][0] <= value && value <= effect["intervals"][name][1]);
 }
 
-void score_single(const Json& truth, const Json& d, Score& score) {
+/// `most`: what the truth closes, if the library has it.
+void score_single(const Json& truth, const Json& d, std::optional<double> most, Score& score) {
   const Json& hidden = truth["hidden"][0];
   const auto answer = answer_of(d);
   const bool first = !answer.empty() && same(answer[0], hidden);
@@ -108,9 +113,12 @@ void score_single(const Json& truth, const Json& d, Score& score) {
   score.rates["6 confident and the stage wrong"].count(d["verdict"] == "supported" && !in_set &&
                                                        !in_group(hidden, d));
   score.group_size += double(group_size(d)), score.groups += !d["where"].empty();
+  constexpr double worth_closing = 0.02;
+  if (most && *most > worth_closing)
+    score.closed += d["gap"]["closed"].get<double>() / *most, ++score.closings;
   if (d["verdict"] != "supported" || !in_set || !located(hidden, d))
-    score.failures.push_back(
-        fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
+    score.failures.push_back(failure(truth, d) +
+                             (most ? fmt::format(" | truth closes {:.0f} %", 100 * *most) : ""));
 }
 
 void score_none(const Json& truth, const Json& d, Score& score) {
@@ -122,9 +130,7 @@ void score_none(const Json& truth, const Json& d, Score& score) {
   score.rates["4 stage in the reported group"].count(in_group(hidden, d));
   score.group_size += double(group_size(d)), score.groups += !d["where"].empty();
   score.rates["3 place"].count(!d["where"].empty() && d["where"][0]["on"] == hidden["on"]);
-  if (!none || !stage)
-    score.failures.push_back(
-        fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
+  if (!none || !stage) score.failures.push_back(failure(truth, d));
 }
 
 /// They are in one set of what could not be told apart.
@@ -148,9 +154,7 @@ void score_pair(const Json& truth, const Json& d, Score& score) {
   score.rates["1 both in the answer or its set"].count(found == 2);
   score.precision += answer.empty() ? 0 : double(right) / double(answer.size());
   score.recall += found / 2.0, ++score.answers;
-  if (found < 2)
-    score.failures.push_back(
-        fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(d)));
+  if (found < 2) score.failures.push_back(failure(truth, d));
 }
 
 void score_null(const Json& truth, const Json& d, Score& score) {
@@ -200,11 +204,7 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
     const Json d = Json::parse(read_text(file));
     const std::string kind = truth["kind"];
     Score& score = scores[kind];
-    if (kind == "single") {
-      score_single(truth, d, score);
-      if (const auto most = closed_by_truth(folder, truth); most && *most > 0.02)
-        score.closed += d["gap"]["closed"].get<double>() / *most, ++score.closings;
-    }
+    if (kind == "single") score_single(truth, d, closed_by_truth(folder, truth), score);
     if (kind == "null") score_null(truth, d, score);
     if (kind == "pair") score_pair(truth, d, score);
     if (kind == "outside" || kind == "withheld") score_none(truth, d, score);

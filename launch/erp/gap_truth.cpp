@@ -4,6 +4,7 @@
 #include <openssl/evp.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "launch/erp/gap.hpp"
@@ -43,7 +44,10 @@ std::optional<double> closed_by_truth(const std::string& folder,
   const std::string place = folder + "/" + truth["case"].get<std::string>();
   const auto d = nlohmann::ordered_json::parse(read_text(place + "/diagnosis.json"));
   std::vector<std::string> mended;
-  const auto files = d["held_out"].get<std::vector<std::string>>();
+  std::vector<std::string> files;  // wherever it was diagnosed from
+  for (const auto& name : d["held_out"])
+    files.push_back(place + "/" +
+                    std::filesystem::path(name.get<std::string>()).filename().string());
   const diagnosis::Trials trials(robot, read_episodes(robot, files, mended));
   std::vector<std::size_t> all(files.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;

@@ -56,9 +56,10 @@ Law law_of(const ActuatorSignals& s, const erp::Robot& robot, const erp::Actuato
   return law;
 }
 
-void add_ages(const ActuatorSignals& s, const Law& law, double tolerance_V, Ages& ages) {
+void add_ages(const Episode& episode, const ActuatorSignals& s, const Law& law, double tolerance_V,
+              Ages& ages) {
   for (std::size_t k = oldest; k < law.rest_V.size(); ++k) {
-    if (std::isnan(law.rest_V[k])) continue;
+    if (std::isnan(law.rest_V[k]) || !episode.judged(k)) continue;
     const auto said_V = [&](std::size_t age) {
       return law.gain * s.reference[k - age] + law.rest_V[k];
     };
@@ -150,7 +151,7 @@ Ages command_ages(const Episode& episode, const erp::Robot& robot) {
     const ActuatorSignals& s = episode.actuators[a];
     const Law law = law_of(s, robot, robot.actuators[a], episode.period_s);
     const double count_V = robot.motor_of(robot.actuators[a]).supply_V / ECU_DUTY_MAX;
-    add_ages(s, law, count_V, ages);
+    add_ages(episode, s, law, count_V, ages);
   }
   return ages;
 }

@@ -20,6 +20,25 @@ std::vector<std::string> names_of(const Evidence& evidence, const std::vector<st
   return names;
 }
 
+/// The recordings tried on the robot as it is, sorted so that both sides show what there is.
+Trials sorted(Evidence& evidence, std::vector<std::string>& warnings) {
+  const DiagnoseOptions& options = evidence.options;
+  Trials trials(evidence.robot, evidence.episodes, options.seed);
+  if (!options.train.empty() || !options.held_out.empty()) return trials;
+  evidence.sets = hold_out_what_shows(evidence.sets, trials, evidence.where_options());
+  const auto all = cuts(evidence.sets, trials, evidence.where_options());
+  if (all.empty()) return trials;
+  for (const Cut& cut : all) {
+    const Episode& episode = evidence.episodes[cut.episode];
+    warnings.push_back(fmt::format(
+        "too few recordings show the gap in the {} of {}: effects are chosen on the first {:.1f} s "
+        "of {} and judged on the rest; record another that shows it",
+        effects::word(cut.stage), cut.on, double(cut.row) * episode.period_s, episode.name));
+    cut_in_two(cut, evidence.episodes, evidence.sets);
+  }
+  return {evidence.robot, evidence.episodes, options.seed};
+}
+
 Verdict judge(const Selection& selection, const Observed& observed) {
   const bool left = std::ranges::any_of(selection.left, &StageGap::open);
   const bool coarse_alone = !observed.sensors.empty() && !left;  // and that is all held out shows
@@ -99,15 +118,13 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
   evidence.sets = sets_of(options, evidence.episodes);
   Diagnosis d;
   evidence.tell("residuals", 0.05);
-  const Trials plain(robot, evidence.episodes, options.seed);
-  if (options.train.empty() && options.held_out.empty())
-    evidence.sets = hold_out_what_shows(evidence.sets, plain, evidence.where_options());
+  d.recordings = names_of(evidence, evidence.sets.all());
+  const Trials plain = sorted(evidence, d.warnings);
   if (evidence.sets.held_out.empty()) {
     evidence.sets.held_out = evidence.sets.train;
     d.warnings.emplace_back(
         "one recording only: effects are chosen and judged on the same data; record another");
   }
-  d.recordings = names_of(evidence, evidence.sets.all());
   d.train = names_of(evidence, evidence.sets.train);
   d.held_out = names_of(evidence, evidence.sets.held_out);
   d.stages = where(plain, plain.bare(), evidence.sets.all(), evidence.where_options());

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,11 @@ struct Episode {
   std::size_t rows = 0;
   std::vector<ActuatorSignals> actuators;  ///< in the order of the robot
   std::vector<JointSignals> joints;
+  /// Rows that are judged, before `judged_until`. What remembers begins with the first row all the
+  /// same.
+  std::size_t judged_from = 0, judged_until = std::numeric_limits<std::size_t>::max();
+
+  bool judged(std::size_t row) const { return judged_from <= row && row < judged_until; }
 };
 
 /// Checks a table and lays it out for a robot whose drives are chains (drives.hpp). Times are put

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sim::diagnosis {
 namespace {
@@ -63,24 +64,99 @@ Sets split(std::span<const Episode> episodes) {
   return sets;
 }
 
-Sets hold_out_what_shows(Sets sets, const Trials& plain, const WhereOptions& options) {
-  std::vector<std::pair<double, std::size_t>> shows;
-  const auto all = sets.all();
-  for (const std::size_t e : all) {
-    const std::size_t only[] = {e};
-    double most = 0;
-    for (const StageGap& gap : where(plain, plain.bare(), only, options))
-      if (gap.open) most = std::max(most, gap.excess);
-    if (most > 0) shows.emplace_back(most, e);
+namespace {
+
+/// Which recordings show that a stage is open.
+class Showing {
+ public:
+  Showing(const Sets& sets, const Trials& plain, const WhereOptions& options) {
+    for (const std::size_t e : sets.all()) {
+      const std::size_t only[] = {e};
+      gaps_[e] = where(plain, plain.bare(), only, options);
+    }
   }
-  const bool shown = std::ranges::any_of(
-      shows, [&](const auto& s) { return std::ranges::count(sets.held_out, s.second) > 0; });
-  if (shown || shows.size() < 2) return sets;
-  std::ranges::sort(shows);
-  sets.held_out = {shows[shows.size() - 2].second};  // the very best is to learn from
+
+  /// The best last.
+  std::vector<std::size_t> of(const StageGap& stage) const {
+    std::vector<std::pair<double, std::size_t>> shows;
+    for (const auto& [e, gaps] : gaps_)
+      if (const auto gap = find_stage(gaps, stage.stage, stage.on); gap != gaps.end() && gap->open)
+        shows.emplace_back(gap->excess, e);
+    std::ranges::sort(shows);
+    std::vector<std::size_t> episodes;
+    for (const auto& [excess, e] : shows) episodes.push_back(e);
+    return episodes;
+  }
+
+  bool on_both_sides(const StageGap& stage, const Sets& sets) const {
+    const auto shows = of(stage);
+    const auto among = [&](const std::vector<std::size_t>& side) {
+      return std::ranges::any_of(shows, [&](auto e) { return std::ranges::count(side, e) > 0; });
+    };
+    return among(sets.train) && among(sets.held_out);
+  }
+
+ private:
+  std::map<std::size_t, std::vector<StageGap>> gaps_;
+};
+
+/// The open stages, the loudest first.
+std::vector<StageGap> open_stages(const Sets& sets, const Trials& plain,
+                                  const WhereOptions& options) {
+  auto gaps = where(plain, plain.bare(), sets.all(), options);
+  std::erase_if(gaps, [](const StageGap& gap) { return !gap.open; });
+  return gaps;
+}
+
+/// The row by which half of what a stage shows has passed; not too near to either end.
+std::size_t middle_row(const Trials& plain, std::size_t episode, const StageGap& stage) {
+  constexpr std::size_t part = 5;  // the shorter one is at least a fifth; chosen
+  const Explanation& e = plain.bare().of_episode[episode];
+  const auto z = plain.whitened(plain.bare(), episode);
+  const std::size_t windows = e.rows.size();
+  std::vector<double> passed(windows + 1, 0.0);
+  for (std::size_t k = 0; k < windows; ++k) {
+    passed[k + 1] = passed[k];
+    for (std::size_t r = 0; r < e.residuals.size(); ++r)
+      if (same_stage(e.residuals[r], stage.stage, stage.on) && !std::isnan(z[r * windows + k]))
+        passed[k + 1] += z[r * windows + k] * z[r * windows + k];
+  }
+  const auto half = std::ranges::lower_bound(passed, passed.back() / 2) - passed.begin();
+  return e.rows[std::clamp(std::size_t(half), windows / part, windows - windows / part - 1)];
+}
+
+}  // namespace
+
+Sets hold_out_what_shows(Sets sets, const Trials& plain, const WhereOptions& options) {
+  const auto open = open_stages(sets, plain, options);
+  const Showing showing(sets, plain, options);
+  if (open.empty() || showing.on_both_sides(open[0], sets)) return sets;
+  const auto shows = showing.of(open[0]);
+  if (shows.size() < 2) return sets;
+  const auto all = sets.all();
+  sets.held_out = {shows[shows.size() - 2]};  // the very best is to learn from
   sets.train = all;
   std::erase(sets.train, sets.held_out[0]);
   return sets;
+}
+
+std::vector<Cut> cuts(const Sets& sets, const Trials& plain, const WhereOptions& options) {
+  const Showing showing(sets, plain, options);
+  std::vector<Cut> cuts;
+  for (const StageGap& stage : open_stages(sets, plain, options)) {
+    const auto shows = showing.of(stage);
+    if (shows.empty() || showing.on_both_sides(stage, sets)) continue;
+    if (std::ranges::find(cuts, shows.back(), &Cut::episode) == cuts.end())
+      cuts.push_back({shows.back(), middle_row(plain, shows.back(), stage), stage.stage, stage.on});
+  }
+  return cuts;
+}
+
+void cut_in_two(const Cut& cut, std::vector<Episode>& episodes, Sets& sets) {
+  episodes.push_back(episodes[cut.episode]);
+  episodes[cut.episode].judged_until = episodes.back().judged_from = cut.row;
+  std::erase(sets.train, cut.episode), std::erase(sets.held_out, cut.episode);
+  sets.train.push_back(cut.episode), sets.held_out.push_back(episodes.size() - 1);
 }
 
 }  // namespace sim::diagnosis

@@ -51,7 +51,8 @@ std::vector<std::size_t> Stages::rows(const Episode& episode) const {
   const auto stride = static_cast<std::size_t>(
       std::max<long>(1, std::lround(windows_.stride_s / episode.period_s)));
   std::vector<std::size_t> rows;
-  for (std::size_t k = reach; k + reach < episode.rows; k += stride) rows.push_back(k);
+  for (std::size_t k = reach; k + reach < episode.rows; k += stride)
+    if (episode.judged(k)) rows.push_back(k);
   return rows;
 }
 

@@ -10,7 +10,7 @@
 namespace sim::diagnosis {
 
 Trials::Trials(const erp::Robot& nominal, std::vector<Episode> episodes, std::uint64_t seed)
-    : nominal_(nominal), episodes_(std::move(episodes)) {
+    : nominal_(nominal), episodes_(std::move(episodes)), seed_(seed) {
   Stages stages(nominal);
   bool any = false;
   for (const Episode& episode : episodes_) {
@@ -28,6 +28,11 @@ erp::Robot Trials::robot_with(std::span<const effects::Placed> all) const {
   erp::Robot robot = nominal_;
   for (const effects::Placed& placed : all) robot.effects.push_back(effects::written(placed));
   return robot;
+}
+
+std::vector<double> Trials::floor_under(const Trial& trial, std::size_t episode) const {
+  Stages stages(robot_with(trial.effects));
+  return floors(stages, episodes_[episode], nominal_, seed_);
 }
 
 Trial Trials::with(const Trial& base, const effects::Placed& more,

@@ -51,6 +51,8 @@ class Trials {
                                  double block_s = 1) const;
   /// σ of each residual of an episode.
   std::span<const double> floor(std::size_t episode) const { return floors_[episode]; }
+  /// The same under a trial: where an effect is undone, some noise comes back that it had smoothed.
+  std::vector<double> floor_under(const Trial& trial, std::size_t episode) const;
 
   /// nominal() with these effects beside its own.
   erp::Robot robot_with(std::span<const effects::Placed> all) const;
@@ -58,6 +60,7 @@ class Trials {
  private:
   erp::Robot nominal_;
   std::vector<Episode> episodes_;
+  std::uint64_t seed_;
   Trial bare_;
   std::vector<std::vector<double>> floors_;
 };

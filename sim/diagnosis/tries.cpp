@@ -32,11 +32,14 @@ std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& 
   return all;
 }
 
+/// How many parameters are not neutral.
+std::size_t told(const effects::Placed& placed) {
+  return effects::written(placed).parameters.size();
+}
+
 }  // namespace
 
-bool is_neutral(const effects::Placed& placed) {
-  return effects::written(placed).parameters.empty();
-}
+bool is_neutral(const effects::Placed& placed) { return told(placed) == 0; }
 
 std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& neutral,
                                    std::span<const std::size_t> episodes) {
@@ -54,9 +57,10 @@ std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& 
 
 effects::Placed best_try(const Trials& trials, const Trial& base, const effects::Placed& more,
                          std::span<const std::size_t> episodes) {
+  constexpr double worth = 0.01;  // of what is there, a parameter beyond the first; chosen
   effects::Placed best = more;
   if (!is_neutral(more)) return best;
-  double least = sum(trials.blocks(base, episodes)).square;
+  const double before = sum(trials.blocks(base, episodes)).square;
   auto all = tries(trials, more, episodes);
   for (const double share :
        {0.1, 0.02, -0.1}) {  // of the bounds: laws that are bent from the start
@@ -65,10 +69,14 @@ effects::Placed best_try(const Trials& trials, const Trial& base, const effects:
     *first.value = share * (share > 0 ? first.bounds.high : -first.bounds.low);
     if (*first.value == 0) all.pop_back();
   }
+  const auto cost = [&](const effects::Placed& one) {
+    const std::size_t further = std::max<std::size_t>(1, told(one)) - 1;
+    return sum(trials.blocks(trials.with(base, one, episodes), episodes)).square +
+           worth * before * static_cast<double>(further);
+  };
+  double least = before;
   for (const effects::Placed& one : all)
-    if (const double square = sum(trials.blocks(trials.with(base, one, episodes), episodes)).square;
-        square < least)
-      least = square, best = one;
+    if (const double of_one = cost(one); of_one < least) least = of_one, best = one;
   return best;
 }
 

@@ -182,14 +182,6 @@ TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
   CHECK(d.answer.size() == 1);
 }
 
-TEST_CASE("held out is a whole recording, the one farthest off") {
-  auto all = episodes(nothing_hidden(), 3, 3);
-  for (double& n : all[1].actuators[0].tension_N) n += 800;
-  const Sets sets = split(all);
-  CHECK(sets.held_out == std::vector<std::size_t>{1});
-  CHECK(sets.train == std::vector<std::size_t>{0, 2});
-}
-
 TEST_CASE("a gap that only the training recordings show is not identifiable") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 6, 2);
