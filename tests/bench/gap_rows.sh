@@ -10,7 +10,7 @@ out=erp_runs/gap_rows
 
 # name        robot      kind      cases  first seed  signals left out
 rows="
-single        hinge_rig  single    300    10001
+single        hinge_rig  single    300    110001
 null          hinge_rig  null      100    20001
 withheld      hinge_rig  withheld   60    30001
 outside       hinge_rig  outside    60    40001
