@@ -38,6 +38,19 @@ struct GapDiagnoseOptions {
 /// gap_where. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
 int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
 
+struct GapTwinsOptions {
+  std::string robot;
+  std::vector<std::string> recordings = {};  ///< none: the simulator records four
+  std::vector<std::string> without = {};     ///< "tension", "current", "joint": as if not recorded
+  double seconds = 20;                       ///< of those that the simulator records
+  double share = 0.1;                        ///< of what is hidden, at most left
+  int threads = 2;
+};
+
+/// Prints which effects the robot's sensors cannot tell apart, a row a pair. Throws as gap_where,
+/// std::runtime_error. Returns the exit code.
+int gap_twins(const GapTwinsOptions& options, std::ostream& out, std::ostream& remarks);
+
 struct GapPlanOptions {
   std::string robot, diagnosis, out;  ///< diagnosis.json; out: a folder, made if need be
   double seconds = 20;

@@ -65,6 +65,23 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
   plan->callback([=, &chosen] { chosen = [=] { return gap_plan(*o, std::cout, std::cerr); }; });
 }
 
+void add_twins(CLI::App& gap, Chosen& chosen) {
+  auto o = std::make_shared<GapTwinsOptions>();
+  o->threads = all_cores();
+  auto* twins = gap.add_subcommand(
+      "twins", "Which effects the sensors of a robot cannot tell apart, before anything is wrong");
+  twins->add_option("--robot", o->robot, "robot.xml, the model")->required();
+  twins->add_option("--real", o->recordings, "recordings to ask; default: four of the simulator");
+  twins->add_option("--without", o->without, "signals to do without")
+      ->check(CLI::IsMember({"tension", "current", "joint"}));
+  twins->add_option("--seconds", o->seconds, "of each that the simulator records")
+      ->check(CLI::Range(2.0, 600.0));
+  twins->add_option("--share", o->share, "of an effect that another leaves, at most; default 0.1")
+      ->check(CLI::Range(0.0, 1.0));
+  twins->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  twins->callback([=, &chosen] { chosen = [=] { return gap_twins(*o, std::cout, std::cerr); }; });
+}
+
 void add_blind(CLI::App& gap, Chosen& chosen) {
   auto* blind = gap.add_subcommand("blind", "Cases with something hidden, to try the diagnosis on");
   blind->require_subcommand(1);
@@ -112,6 +129,7 @@ void add_gap(CLI::App& app, Chosen& chosen) {
   add_where(*gap, chosen);
   add_diagnose(*gap, chosen);
   add_plan(*gap, chosen);
+  add_twins(*gap, chosen);
   add_blind(*gap, chosen);
 }
 

@@ -19,15 +19,6 @@ using effects::Placed;
 
 constexpr int kinds = 4;  // of excitation()
 
-Score score_of(const Excitation& excitation) {
-  Score score;
-  for (const auto& row : excitation.reference) {
-    auto& asked = score.emplace_back();
-    for (const double reference : row) asked.push_back({excitation.mode, reference});
-  }
-  return score;
-}
-
 erp::Robot with(const erp::Robot& robot, const Placed& placed) {
   erp::Robot changed = robot;
   changed.effects.push_back(effects::written(placed));

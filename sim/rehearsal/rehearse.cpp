@@ -125,6 +125,15 @@ class Stage {
 
 }  // namespace
 
+Score score_of(const Excitation& excitation) {
+  Score score;
+  for (const auto& row : excitation.reference) {
+    auto& asked = score.emplace_back();
+    for (const double reference : row) asked.push_back({excitation.mode, reference});
+  }
+  return score;
+}
+
 recording::Table rehearse(const erp::Robot& robot, const Score& score, std::uint64_t seed) {
   return Stage(robot, seed).play(score);
 }

@@ -4,6 +4,7 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/values.hpp"
+#include "sim/actuator/excitation.hpp"
 
 /// A robot under its ECUs, asked what a recording or a plan asks, in the simulator: what would have
 /// been recorded.
@@ -15,6 +16,7 @@ struct Asked {
   double reference = 0;  ///< V, m, A or N
 };
 using Score = std::vector<std::vector<Asked>>;  ///< by tick and actuator
+Score score_of(const Excitation& excitation);
 
 /// A table as interfaces/recording has it, a row a tick. The robot's effects act. Starts at the
 /// initial pose, at pretension. Throws as World does; std::runtime_error: the motion is not finite.

@@ -40,3 +40,14 @@ TEST_CASE("recordings of the robot as modelled show no gap, an effect shows its 
   CHECK_THAT(said_of({rubs}), Catch::Contains("the gap is in: gearbox of extensor\n"));
   std::filesystem::remove(plain), std::filesystem::remove(rubs);
 }
+
+TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {
+  std::ostringstream out, remarks, less;
+  launch::GapTwinsOptions options{.robot = robot_file, .seconds = 4};
+  CHECK(launch::gap_twins(options, out, remarks) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("routing_pulley_radius on flexor"));
+  options.without = {"tension"};
+  CHECK(launch::gap_twins(options, less, remarks) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("tendon_kite_line"));
+  CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // does not show
+}

@@ -22,11 +22,7 @@ erp::Robot rig_with(const effects::Placed& effect) {
 }
 
 Score slow(const erp::Robot& robot, double seconds) {
-  const auto excitation = sim::excitation(robot, 0, seconds, 7);
-  Score score;
-  for (const auto& row : excitation.reference)
-    score.push_back({{excitation.mode, row[0]}, {excitation.mode, row[1]}});
-  return score;
+  return score_of(sim::excitation(robot, 0, seconds, 7));
 }
 
 }  // namespace

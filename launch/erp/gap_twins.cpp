@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ostream>
+
+#include "launch/erp/gap.hpp"
+#include "launch/erp/table.hpp"
+#include "sim/diagnosis/twins.hpp"
+#include "sim/rehearsal/rehearse.hpp"
+
+namespace launch {
+namespace {
+
+namespace diagnosis = sim::diagnosis;
+using sim::effects::Placed;
+
+/// What the simulator would record of the robot, one a kind of excitation.
+std::vector<diagnosis::Episode> rehearsed(const erp::Robot& robot, double seconds) {
+  constexpr int kinds = 4;
+  std::vector<diagnosis::Episode> episodes;
+  std::vector<std::string> remarks;
+  for (int kind = 0; kind < kinds; ++kind) {
+    const auto score = sim::rehearsal::score_of(sim::excitation(robot, kind, seconds, 1));
+    episodes.push_back(diagnosis::lay_out(sim::rehearsal::rehearse(robot, score), robot,
+                                          sim::excitation_word(robot, kind), remarks));
+  }
+  return episodes;
+}
+
+void leave_out(const std::vector<std::string>& signals, std::vector<diagnosis::Episode>& episodes) {
+  for (const std::string& signal : signals)
+    for (diagnosis::Episode& e : episodes) {
+      for (diagnosis::ActuatorSignals& a : e.actuators) {
+        if (signal == "tension") a.tension_N.clear();
+        if (signal == "current") a.current_A.clear();
+      }
+      for (diagnosis::JointSignals& j : e.joints)
+        if (signal == "joint") j = {};
+    }
+}
+
+std::string name_of(const Placed& p) {
+  return fmt::format("{} on {}", sim::effects::about(p.effect).type, p.on);
+}
+
+std::string size_of(Placed p) {
+  const auto first = sim::effects::parameters(p.effect)[0];
+  return fmt::format("{} = {:.2g}", first.name, *first.value);
+}
+
+}  // namespace
+
+int gap_twins(const GapTwinsOptions& options, std::ostream& out, std::ostream& remarks) {
+  const erp::Robot robot = read_chains(options.robot);
+  std::vector<std::string> mended;
+  auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds)
+                                             : read_episodes(robot, options.recordings, mended);
+  for (const std::string& remark : mended) remarks << remark << "\n";
+  leave_out(options.without, episodes);
+  const diagnosis::Trials trials(robot, std::move(episodes));
+  std::vector<std::vector<std::string>> rows{
+      {"hidden", "as small as", "would pass for", "shows, sigma", "left, sigma", "likeness"}};
+  for (const auto& twin : diagnosis::twins(trials, options.share, options.threads))
+    rows.push_back({name_of(twin.hidden), size_of(twin.hidden), name_of(twin.other),
+                    fmt::format("{:.1f}", twin.shows), fmt::format("{:.2g}", twin.left),
+                    fmt::format("{:.4f}", std::sqrt(1 - std::pow(twin.left / twin.shows, 2)))});
+  for (const std::string& line : align(rows, {false, false, false, true, true, true}))
+    out << line << "\n";
+  if (rows.size() == 1) out << "every effect that shows is told from every other\n";
+  return 0;
+}
+
+}  // namespace launch

@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "sim/diagnosis/trial.hpp"
+
+/// Which effects recordings cannot tell apart, whatever their sizes.
+///
+///   left = |δz − P δz|      δz: what a small effect changes, in units of noise
+///                           P: projects onto what the parameters of another change
+///
+/// is how many standard deviations remain of the one where the other stands for it, as if laws were
+/// linear. What a change of the law's shape would tell, a fit tells.
+namespace sim::diagnosis {
+
+struct Twin {
+  effects::Placed hidden, other;  ///< 0.3 % of the range, or 10 % where that does not show
+  double shows = 0;               ///< |δz| of what is hidden
+  double left = 0;                ///< of it, once the other stands for it
+};
+
+/// Those of which at most `share` is left, the exact ones first. Bus and coarse steps, which change
+/// no residual, are in none.
+std::vector<Twin> twins(const Trials& trials, double share, int threads = 2);
+
+}  // namespace sim::diagnosis
