@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <ostream>
+#include <stdexcept>
 
 #include "launch/erp/gap.hpp"
 #include "launch/erp/table.hpp"
@@ -52,6 +53,9 @@ std::string size_of(Placed p) {
 
 int gap_twins(const GapTwinsOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(options.robot);
+  if (options.recordings.empty() && !robot.drives.empty())
+    throw std::invalid_argument(options.robot +
+                                ": the simulator does not run drives; give recordings with --real");
   std::vector<std::string> mended;
   auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds)
                                              : read_episodes(robot, options.recordings, mended);

@@ -1,30 +1,38 @@
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "sim/diagnosis/selection.hpp"
 
 namespace sim::diagnosis {
 namespace {
 
-/// How much more noise there is under a trial at each stage of the recordings held out, as a ratio
-/// of squares; never less than 1.
+/// What an effect adds to the noise of a stage, in units of the nominal: Σ over windows of
+/// (σ_now/σ)² − 1.
 struct Louder {
   effects::Stage stage;
   std::string on;
-  double now = 0, nominal = 0;  ///< Σ σ²
+  double more = 0, windows = 0;
+
+  double excess() const { return windows > 0 ? more / windows : 0; }
 };
 
 std::vector<Louder> louder(const Evidence& evidence, const Trials& trials, const Trial& trial) {
   std::vector<Louder> all;
   for (const std::size_t e : evidence.sets.held_out) {
     const auto now = trials.floor_under(trial, e);
+    const auto z = trials.whitened(trials.bare(), e);
     const auto& residuals = trials.bare().of_episode[e].residuals;
-    for (std::size_t r = 0; r < residuals.size(); ++r) {
+    std::size_t at = 0;
+    for (std::size_t r = 0; r < residuals.size(); at += residuals[r++].value.size()) {
       auto place = find_stage(all, residuals[r].stage, residuals[r].on);
       if (place == all.end()) place = all.insert(place, {residuals[r].stage, residuals[r].on});
-      const double nominal = trials.floor(e)[r];
-      place->nominal += nominal * nominal;
-      const double floor = r < now.size() ? std::max(now[r], nominal) : nominal;
-      place->now += floor * floor;
+      const auto here = std::span(z).subspan(at, residuals[r].value.size());
+      const auto windows =
+          static_cast<double>(here.size()) -
+          static_cast<double>(std::ranges::count_if(here, [](double x) { return std::isnan(x); }));
+      const double ratio = r < now.size() && windows > 0 ? now[r] / trials.floor(e)[r] : 1;
+      place->more += windows * std::max(0.0, ratio * ratio - 1), place->windows += windows;
     }
   }
   return all;
@@ -44,8 +52,7 @@ std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, 
   auto gaps = of(trial);
   for (StageGap& gap : gaps) {
     const double was = find_stage(before, gap.stage, gap.on)->excess;
-    if (const auto n = find_stage(noise, gap.stage, gap.on); n->nominal > 0)
-      gap.excess = (1 + gap.excess) * n->nominal / n->now - 1;
+    gap.excess -= find_stage(noise, gap.stage, gap.on)->excess();
     gap.open = gap.open && gap.excess > std::max({tolerance.excess, tolerance.share * was,
                                                   tolerance.of_most * most});
   }

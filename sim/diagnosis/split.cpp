@@ -108,21 +108,40 @@ std::vector<StageGap> open_stages(const Sets& sets, const Trials& plain,
   return gaps;
 }
 
-/// The row by which half of what a stage shows has passed; not too near to either end.
+/// The row by which half of a stage's excess, Σ (z² − 1), has passed.
 std::size_t middle_row(const Trials& plain, std::size_t episode, const StageGap& stage) {
-  constexpr std::size_t part = 5;  // the shorter one is at least a fifth; chosen
   const Explanation& e = plain.bare().of_episode[episode];
   const auto z = plain.whitened(plain.bare(), episode);
   const std::size_t windows = e.rows.size();
-  std::vector<double> passed(windows + 1, 0.0);
+  std::vector<double> passed{0};
   for (std::size_t k = 0; k < windows; ++k) {
-    passed[k + 1] = passed[k];
+    double here = 0;
     for (std::size_t r = 0; r < e.residuals.size(); ++r)
       if (same_stage(e.residuals[r], stage.stage, stage.on) && !std::isnan(z[r * windows + k]))
-        passed[k + 1] += z[r * windows + k] * z[r * windows + k];
+        here += z[r * windows + k] * z[r * windows + k] - 1;
+    passed.push_back(passed.back() + here);
   }
-  const auto half = std::ranges::lower_bound(passed, passed.back() / 2) - passed.begin();
-  return e.rows[std::clamp(std::size_t(half), windows / part, windows - windows / part - 1)];
+  const double half = passed.back() / 2;
+  std::size_t k = 1;
+  while (k + 1 < windows && passed[k] < half) ++k;
+  return e.rows[k];
+}
+
+std::pair<Episode, Episode> parts_of(const Episode& whole, std::size_t row) {
+  std::pair<Episode, Episode> parts{whole, whole};
+  parts.first.judged_until = parts.second.judged_from = row;
+  return parts;
+}
+
+/// Each part alone shows that the stage is open.
+bool both_show(const Cut& cut, const Trials& plain, const WhereOptions& options) {
+  const auto [first, second] = parts_of(plain.episodes()[cut.episode], cut.row);
+  for (const Episode& part : {first, second}) {
+    const auto gaps = where(plain.nominal(), std::span(&part, 1), options);
+    const auto gap = find_stage(gaps, cut.stage, cut.on);
+    if (gap == gaps.end() || !gap->open) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -141,20 +160,23 @@ Sets hold_out_what_shows(Sets sets, const Trials& plain, const WhereOptions& opt
 }
 
 std::vector<Cut> cuts(const Sets& sets, const Trials& plain, const WhereOptions& options) {
+  constexpr double worth = 0.05;  // of the gap: for less no recording is cut; chosen
   const Showing showing(sets, plain, options);
   std::vector<Cut> cuts;
   for (const StageGap& stage : open_stages(sets, plain, options)) {
     const auto shows = showing.of(stage);
-    if (shows.empty() || showing.on_both_sides(stage, sets)) continue;
-    if (std::ranges::find(cuts, shows.back(), &Cut::episode) == cuts.end())
-      cuts.push_back({shows.back(), middle_row(plain, shows.back(), stage), stage.stage, stage.on});
+    if (stage.share < worth || shows.empty() || showing.on_both_sides(stage, sets)) continue;
+    const Cut cut{shows.back(), middle_row(plain, shows.back(), stage), stage.stage, stage.on};
+    if (std::ranges::count(cuts, cut.episode, &Cut::episode) == 0 && both_show(cut, plain, options))
+      cuts.push_back(cut);
   }
   return cuts;
 }
 
 void cut_in_two(const Cut& cut, std::vector<Episode>& episodes, Sets& sets) {
-  episodes.push_back(episodes[cut.episode]);
-  episodes[cut.episode].judged_until = episodes.back().judged_from = cut.row;
+  auto [first, second] = parts_of(episodes[cut.episode], cut.row);
+  episodes[cut.episode] = std::move(first);
+  episodes.push_back(std::move(second));
   std::erase(sets.train, cut.episode), std::erase(sets.held_out, cut.episode);
   sets.train.push_back(cut.episode), sets.held_out.push_back(episodes.size() - 1);
 }

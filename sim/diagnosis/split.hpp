@@ -27,7 +27,7 @@ struct Cut {
 };
 
 /// Of the open stages that only one side shows, the recordings that show them best, each cut where
-/// half of what shows has passed.
+/// half of what shows has passed; none whose parts would not both show it.
 std::vector<Cut> cuts(const Sets& sets, const Trials& plain, const WhereOptions& options);
 
 /// The second part is a recording more, behind the others.

@@ -14,9 +14,13 @@ std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& 
                                           joints.begin());
   if (joints[j].type != erp::JointType::revolute) return {};
   double low = joints[j].max_rad, high = joints[j].min_rad;
-  for (const std::size_t e : episodes)
-    for (const double angle : trials.episodes()[e].joints[j].angle_rad)
-      if (!std::isnan(angle)) low = std::min(low, angle), high = std::max(high, angle);
+  for (const std::size_t e : episodes) {
+    const Episode& episode = trials.episodes()[e];
+    const Signal& angle = episode.joints[j].angle_rad;
+    for (std::size_t k = 0; k < angle.size(); ++k)
+      if (episode.judged(k) && !std::isnan(angle[k]))
+        low = std::min(low, angle[k]), high = std::max(high, angle[k]);
+  }
   std::vector<effects::Placed> all;
   for (const double before_rad : {0.0, 0.01, 0.02, 0.035, 0.05})
     for (const int side : {1, 2, 3}) {
@@ -57,10 +61,12 @@ std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& 
 
 effects::Placed best_try(const Trials& trials, const Trial& base, const effects::Placed& more,
                          std::span<const std::size_t> episodes) {
-  constexpr double worth = 0.01;  // of what is there, a parameter beyond the first; chosen
+  constexpr double worth = 0.01;  // of the gap, a parameter beyond the first; chosen
   effects::Placed best = more;
   if (!is_neutral(more)) return best;
-  const double before = sum(trials.blocks(base, episodes)).square;
+  const ScoreBlock whole = sum(trials.blocks(base, episodes));
+  const double before = whole.square,
+               gap = std::max(0.0, before - static_cast<double>(whole.windows));
   auto all = tries(trials, more, episodes);
   for (const double share :
        {0.1, 0.02, -0.1}) {  // of the bounds: laws that are bent from the start
@@ -72,7 +78,7 @@ effects::Placed best_try(const Trials& trials, const Trial& base, const effects:
   const auto cost = [&](const effects::Placed& one) {
     const std::size_t further = std::max<std::size_t>(1, told(one)) - 1;
     return sum(trials.blocks(trials.with(base, one, episodes), episodes)).square +
-           worth * before * static_cast<double>(further);
+           worth * gap * static_cast<double>(further);
   };
   double least = before;
   for (const effects::Placed& one : all)

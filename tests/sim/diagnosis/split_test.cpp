@@ -67,9 +67,9 @@ TEST_CASE("a recording cut in two has each of its windows once") {
 TEST_CASE(
     "a stop that one recording meets: that teaches by its first part and judges by the rest") {
   auto blind = nothing_hidden();
-  auto all = episodes(blind, 10);
+  auto all = episodes(blind, 20);
   blind.quirks.joints[0].min_in_rad = 0.6;
-  all[0] = episodes(blind, 10)[0];
+  all[0] = episodes(blind, 20)[0];
   const Diagnosis d = diagnose(hinge_rig(), all);
   CHECK(d.verdict == Verdict::supported);
   REQUIRE(d.answer.size() == 1);
