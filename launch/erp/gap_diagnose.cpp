@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <ostream>
@@ -113,6 +114,10 @@ sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
   std::vector<diagnosis::Episode> held_out;
   for (const auto& e : episodes)
     if (std::ranges::count(d.held_out, e.name)) held_out.push_back(e);
+  for (const auto& [recording, judged_from_s] : d.shared)
+    if (const auto e = std::ranges::find(held_out, recording, &diagnosis::Episode::name);
+        e != held_out.end())
+      e->judged_from = static_cast<std::size_t>(std::lround(judged_from_s / e->period_s));
   return sim::rehearsal::free_run(
       robot, found, held_out,
       {options.threads, options.seed, [&](double share) { progress.tell("free run", share); }});

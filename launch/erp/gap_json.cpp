@@ -100,6 +100,13 @@ Json confusable_of(const Diagnosis& d) {
   return list;
 }
 
+/// Of the recordings that are used for both, by name.
+Json shared(const sim::diagnosis::Diagnosis& d) {
+  Json all = Json::object();
+  for (const auto& one : d.shared) all[one.recording] = one.judged_from_s;
+  return all;
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
@@ -136,6 +143,7 @@ std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& fr
                  {"recordings", d.recordings},
                  {"train", d.train},
                  {"held_out", d.held_out},
+                 {"judged_from_s", shared(d)},
                  {"warnings", d.warnings}};
   return all.dump(1) + "\n";
 }

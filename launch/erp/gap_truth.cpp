@@ -48,7 +48,13 @@ std::optional<double> closed_by_truth(const std::string& folder,
   for (const auto& name : d["held_out"])
     files.push_back(place + "/" +
                     std::filesystem::path(name.get<std::string>()).filename().string());
-  const diagnosis::Trials trials(robot, read_episodes(robot, files, mended));
+  auto episodes = read_episodes(robot, files, mended);
+  const auto judged_from_s = d.value("judged_from_s", nlohmann::ordered_json::object());
+  for (std::size_t k = 0; k < episodes.size(); ++k)
+    if (const auto name = d["held_out"][k].get<std::string>(); judged_from_s.contains(name))
+      episodes[k].judged_from =
+          std::size_t(std::lround(judged_from_s[name].get<double>() / episodes[k].period_s));
+  const diagnosis::Trials trials(robot, std::move(episodes));
   std::vector<std::size_t> all(files.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   const auto rms = [](const diagnosis::ScoreBlock& b) {

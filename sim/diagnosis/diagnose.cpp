@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const Evidence& evidence, const std::vector<st
 }
 
 /// The recordings tried on the robot as it is, sorted so that both sides show what there is.
-Trials sorted(Evidence& evidence, std::vector<std::string>& warnings) {
+Trials sorted(Evidence& evidence, Diagnosis& d) {
   const DiagnoseOptions& options = evidence.options;
   Trials trials(evidence.robot, evidence.episodes, options.seed);
   if (!options.train.empty() || !options.held_out.empty()) return trials;
@@ -30,10 +30,11 @@ Trials sorted(Evidence& evidence, std::vector<std::string>& warnings) {
   if (all.empty()) return trials;
   for (const Cut& cut : all) {
     const Episode& episode = evidence.episodes[cut.episode];
-    warnings.push_back(fmt::format(
+    d.shared.push_back({episode.name, double(cut.row) * episode.period_s});
+    d.warnings.push_back(fmt::format(
         "too few recordings show the gap in the {} of {}: effects are chosen on the first {:.1f} s "
         "of {} and judged on the rest; record another that shows it",
-        effects::word(cut.stage), cut.on, double(cut.row) * episode.period_s, episode.name));
+        effects::word(cut.stage), cut.on, d.shared.back().judged_from_s, episode.name));
     cut_in_two(cut, evidence.episodes, evidence.sets);
   }
   return {evidence.robot, evidence.episodes, options.seed};
@@ -119,7 +120,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
   Diagnosis d;
   evidence.tell("residuals", 0.05);
   d.recordings = names_of(evidence, evidence.sets.all());
-  const Trials plain = sorted(evidence, d.warnings);
+  const Trials plain = sorted(evidence, d);
   if (evidence.sets.held_out.empty()) {
     evidence.sets.held_out = evidence.sets.train;
     d.warnings.emplace_back(

@@ -6,11 +6,17 @@
 #include "sim/diagnosis/located.hpp"
 
 /// The whole question: where robot and model part, which effect causes it, how far it closes the
-/// gap; on recordings that were not used to choose or fit.
+/// gap; on recordings that were not used to choose or fit, or on such a part of one.
 namespace sim::diagnosis {
 
 enum class Verdict { no_gap, supported, none_of_the_known, not_identifiable };
 const char* word(Verdict verdict);
+
+/// A recording that teaches until then and judges from then on.
+struct Shared {
+  std::string recording;
+  double judged_from_s;
+};
 
 struct Diagnosis {
   Verdict verdict = Verdict::no_gap;
@@ -24,6 +30,7 @@ struct Diagnosis {
   Closed overall;
   std::vector<Closed> channels;
   std::vector<std::string> recordings, train, held_out, warnings;
+  std::vector<Shared> shared;  ///< those that are in train and in held_out
 };
 
 /// The recordings tell the same signals (common_signals.hpp).

@@ -70,7 +70,7 @@ Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& 
     unit = real[c].unit;
     seconds.resize(std::size_t(double(e.rows) * tick_s) + 1);
     for (std::size_t k = 0; k < std::min(e.rows, b.size()); ++k) {
-      if (std::isnan(truth[k])) continue;
+      if (std::isnan(truth[k]) || !e.judged(k)) continue;
       Second& second = seconds[std::size_t(double(k) * tick_s)];
       second.before += std::pow(b[k] - truth[k], 2), second.after += std::pow(a[k] - truth[k], 2);
       second.floor += std::pow(n[k] - a[k], 2), ++second.rows;

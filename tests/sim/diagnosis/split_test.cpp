@@ -79,6 +79,9 @@ TEST_CASE(
   CHECK(std::ranges::count(d.train, "recording 1") == 1);
   CHECK(std::ranges::count(d.held_out, "recording 1") == 1);
   CHECK(d.recordings.size() == 3);
+  REQUIRE(d.shared.size() == 1);
+  CHECK(d.shared[0].recording == "recording 1");
+  CHECK(d.shared[0].judged_from_s > 0);
   REQUIRE(d.warnings.size() == 1);
   CHECK_THAT(d.warnings[0], Catch::Contains("recording 1") && Catch::Contains("record another"));
 }
