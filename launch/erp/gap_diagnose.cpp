@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <ostream>
@@ -117,7 +116,7 @@ sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
   for (const auto& [recording, judged_from_s] : d.shared)
     if (const auto e = std::ranges::find(held_out, recording, &diagnosis::Episode::name);
         e != held_out.end())
-      e->judged_from = static_cast<std::size_t>(std::lround(judged_from_s / e->period_s));
+      e->judge_from(judged_from_s);
   return sim::rehearsal::free_run(
       robot, found, held_out,
       {options.threads, options.seed, [&](double share) { progress.tell("free run", share); }});

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace rehearsal = sim::rehearsal;
 using Json = nlohmann::json;
+using sim::effects::name_of;
 using sim::effects::Placed;
 
 constexpr std::size_t most_suspects = 4;
@@ -80,10 +81,6 @@ Question question_of(const Json& d, const std::string& file) {
   for (const Json& one : set)
     if (question.suspects.size() < most_suspects) question.suspects.push_back(placed_of(one, file));
   return question;
-}
-
-std::string name_of(const Placed& p) {
-  return fmt::format("{} on {}", sim::effects::about(p.effect).type, p.on);
 }
 
 recording::Table trajectory_of(const sim::Excitation& excitation, const erp::Robot& robot) {

@@ -52,8 +52,7 @@ std::optional<double> closed_by_truth(const std::string& folder,
   const auto judged_from_s = d.value("judged_from_s", nlohmann::ordered_json::object());
   for (std::size_t k = 0; k < episodes.size(); ++k)
     if (const auto name = d["held_out"][k].get<std::string>(); judged_from_s.contains(name))
-      episodes[k].judged_from =
-          std::size_t(std::lround(judged_from_s[name].get<double>() / episodes[k].period_s));
+      episodes[k].judge_from(judged_from_s[name].get<double>());
   const diagnosis::Trials trials(robot, std::move(episodes));
   std::vector<std::size_t> all(files.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;

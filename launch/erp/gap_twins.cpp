@@ -13,14 +13,14 @@ namespace launch {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
+using sim::effects::name_of;
 using sim::effects::Placed;
 
 /// What the simulator would record of the robot, one a kind of excitation.
 std::vector<diagnosis::Episode> rehearsed(const erp::Robot& robot, double seconds) {
-  constexpr int kinds = 4;
   std::vector<diagnosis::Episode> episodes;
   std::vector<std::string> remarks;
-  for (int kind = 0; kind < kinds; ++kind) {
+  for (int kind = 0; kind < sim::excitation_kinds; ++kind) {
     const auto score = sim::rehearsal::score_of(sim::excitation(robot, kind, seconds, 1));
     episodes.push_back(diagnosis::lay_out(sim::rehearsal::rehearse(robot, score), robot,
                                           sim::excitation_word(robot, kind), remarks));
@@ -38,10 +38,6 @@ void leave_out(const std::vector<std::string>& signals, std::vector<diagnosis::E
       for (diagnosis::JointSignals& j : e.joints)
         if (signal == "joint") j = {};
     }
-}
-
-std::string name_of(const Placed& p) {
-  return fmt::format("{} on {}", sim::effects::about(p.effect).type, p.on);
 }
 
 std::string size_of(Placed p) {

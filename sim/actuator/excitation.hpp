@@ -15,6 +15,8 @@ struct Excitation {
   std::vector<std::vector<double>> reference;
 };
 
+inline constexpr int excitation_kinds = 4;  ///< then they come again, with other numbers
+
 /// What the excitation of a recording is like, in words.
 const char* excitation_word(const erp::Robot& robot, int recording);
 

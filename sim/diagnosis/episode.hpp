@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct Episode {
   /// same.
   std::size_t judged_from = 0, judged_until = std::numeric_limits<std::size_t>::max();
 
+  void judge_from(double time_s) {
+    judged_from = static_cast<std::size_t>(std::lround(time_s / period_s));
+  }
   bool judged(std::size_t row) const { return judged_from <= row && row < judged_until; }
 };
 

@@ -52,6 +52,7 @@ class Trials {
   /// σ of each residual of an episode.
   std::span<const double> floor(std::size_t episode) const { return floors_[episode]; }
   /// The same under a trial: where an effect is undone, some noise comes back that it had smoothed.
+  /// In the order of the trial's residuals; costs two explanations of the recording.
   std::vector<double> floor_under(const Trial& trial, std::size_t episode) const;
 
   /// nominal() with these effects beside its own.

@@ -9,7 +9,8 @@
 ///                           P: projects onto what the parameters of another change
 ///
 /// is how many standard deviations remain of the one where the other stands for it, as if laws were
-/// linear. What a change of the law's shape would tell, a fit tells.
+/// linear. What a change of the law's shape would tell, a fit tells. Ignores: further parameters of
+/// what is hidden, and laws with a threshold that 10 % of their range does not pass.
 namespace sim::diagnosis {
 
 struct Twin {

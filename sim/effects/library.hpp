@@ -18,6 +18,10 @@ struct Placed {
 };
 
 const About& about(const AnyEffect& effect);
+/// "gearbox_coulomb on flexor".
+inline std::string name_of(const Placed& placed) {
+  return std::string(about(placed.effect).type) + " on " + placed.on;
+}
 std::string_view word(Stage stage);
 std::string_view word(Seat seat);
 

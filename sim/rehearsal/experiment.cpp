@@ -17,8 +17,6 @@ namespace {
 using diagnosis::Trials;
 using effects::Placed;
 
-constexpr int kinds = 4;  // of excitation()
-
 erp::Robot with(const erp::Robot& robot, const Placed& placed) {
   erp::Robot changed = robot;
   changed.effects.push_back(effects::written(placed));
@@ -96,8 +94,9 @@ Experiment next_experiment(const erp::Robot& robot, const std::vector<Placed>& s
   experiment.candidates.resize(static_cast<std::size_t>(options.candidates));
   std::atomic<int> done = 0;
   diagnosis::in_parallel(experiment.candidates.size(), options.threads, [&](std::size_t k) {
-    const std::uint64_t seed = options.seed + k / kinds;
-    experiment.candidates[k] = try_out(robot, suspects, static_cast<int>(k % kinds), seed, options);
+    const std::uint64_t seed = options.seed + k / excitation_kinds;
+    experiment.candidates[k] =
+        try_out(robot, suspects, static_cast<int>(k % excitation_kinds), seed, options);
     if (options.progress) options.progress(double(++done) / options.candidates);
   });
   std::ranges::stable_sort(experiment.candidates, [](const Candidate& a, const Candidate& b) {
