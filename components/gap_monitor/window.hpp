@@ -11,7 +11,7 @@ namespace gap_monitor {
 
 class Window {
  public:
-  /// Throws as sim::diagnosis::Stages.
+  /// Throws as sim::residuals::Stages.
   Window(const erp::Robot& model, double window_s);
 
   void hear(const erp::SensorFrame& frame);

@@ -4,15 +4,16 @@
 
 #include <ostream>
 
-#include "sim/diagnosis/common_signals.hpp"
-#include "sim/diagnosis/drives.hpp"
-#include "sim/diagnosis/units.hpp"
 #include "sim/diagnosis/where.hpp"
+#include "sim/residuals/common_signals.hpp"
+#include "sim/residuals/drives.hpp"
+#include "sim/residuals/units.hpp"
 
 namespace launch {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
+namespace residuals = sim::residuals;
 
 void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
   const std::string share = gap.open ? fmt::format("{:.0f} %", 100 * gap.share) : "-";
@@ -45,21 +46,21 @@ void print_words(const std::vector<diagnosis::StageGap>& gaps, std::ostream& out
 }  // namespace
 
 erp::Robot read_chains(const std::string& robot_file) {
-  return diagnosis::as_chains(erp::read_robot(robot_file));
+  return residuals::as_chains(erp::read_robot(robot_file));
 }
 
-std::vector<diagnosis::Episode> read_episodes(const erp::Robot& robot,
+std::vector<residuals::Episode> read_episodes(const erp::Robot& robot,
                                               const std::vector<std::string>& recordings,
                                               std::vector<std::string>& mended) {
-  std::vector<diagnosis::Episode> episodes;
+  std::vector<residuals::Episode> episodes;
   for (const std::string& file : recordings) {
     episodes.push_back(
-        diagnosis::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
+        residuals::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
                            robot, file, mended));
-    for (std::string& odd : diagnosis::odd_units(episodes.back(), robot))
+    for (std::string& odd : residuals::odd_units(episodes.back(), robot))
       mended.push_back(std::move(odd));
   }
-  diagnosis::keep_common(episodes, robot, mended);
+  residuals::keep_common(episodes, robot, mended);
   return episodes;
 }
 

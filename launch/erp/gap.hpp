@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interfaces/robot/robot.hpp"
-#include "sim/diagnosis/episode.hpp"
+#include "sim/residuals/episode.hpp"
 
 /// `erp gap`: where recordings and a robot's model part, why, and by how much.
 namespace launch {
@@ -16,7 +16,7 @@ erp::Robot read_chains(const std::string& robot_file);
 /// Reads and lays out recordings for a robot; what was mended, and
 /// what is odd about signs and units, is told. Throws RecordingError,
 /// std::invalid_argument.
-std::vector<sim::diagnosis::Episode> read_episodes(const erp::Robot& robot,
+std::vector<sim::residuals::Episode> read_episodes(const erp::Robot& robot,
                                                    const std::vector<std::string>& recordings,
                                                    std::vector<std::string>& mended);
 

@@ -14,6 +14,7 @@ namespace launch {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
+namespace residuals = sim::residuals;
 
 /// The recordings of all three lists, each once, and which of them are to train and to judge.
 struct Sorted {
@@ -106,15 +107,15 @@ void print(const diagnosis::Diagnosis& d, std::ostream& out) {
 /// The answer in the simulator, on the recordings held out. Nothing without an answer, and nothing
 /// of drives, which the simulator does not run.
 sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
-                                   const std::vector<diagnosis::Episode>& episodes,
+                                   const std::vector<residuals::Episode>& episodes,
                                    const erp::Robot& robot, const erp::Robot& found,
                                    const GapDiagnoseOptions& options, Progress& progress) {
   if (d.answer.empty() || !options.free_run || !robot.drives.empty()) return {};
-  std::vector<diagnosis::Episode> held_out;
+  std::vector<residuals::Episode> held_out;
   for (const auto& e : episodes)
     if (std::ranges::count(d.held_out, e.name)) held_out.push_back(e);
   for (const auto& [recording, judged_from_s] : d.shared)
-    if (const auto e = std::ranges::find(held_out, recording, &diagnosis::Episode::name);
+    if (const auto e = std::ranges::find(held_out, recording, &residuals::Episode::name);
         e != held_out.end())
       e->judge_from(judged_from_s);
   return sim::rehearsal::free_run(

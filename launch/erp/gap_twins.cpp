@@ -13,29 +13,30 @@ namespace launch {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
+namespace residuals = sim::residuals;
 using sim::effects::name_of;
 using sim::effects::Placed;
 
 /// What the simulator would record of the robot, one a kind of excitation.
-std::vector<diagnosis::Episode> rehearsed(const erp::Robot& robot, double seconds) {
-  std::vector<diagnosis::Episode> episodes;
+std::vector<residuals::Episode> rehearsed(const erp::Robot& robot, double seconds) {
+  std::vector<residuals::Episode> episodes;
   std::vector<std::string> remarks;
   for (int kind = 0; kind < sim::excitation_kinds; ++kind) {
     const auto score = sim::rehearsal::score_of(sim::excitation(robot, kind, seconds, 1));
-    episodes.push_back(diagnosis::lay_out(sim::rehearsal::rehearse(robot, score), robot,
+    episodes.push_back(residuals::lay_out(sim::rehearsal::rehearse(robot, score), robot,
                                           sim::excitation_word(robot, kind), remarks));
   }
   return episodes;
 }
 
-void leave_out(const std::vector<std::string>& signals, std::vector<diagnosis::Episode>& episodes) {
+void leave_out(const std::vector<std::string>& signals, std::vector<residuals::Episode>& episodes) {
   for (const std::string& signal : signals)
-    for (diagnosis::Episode& e : episodes) {
-      for (diagnosis::ActuatorSignals& a : e.actuators) {
+    for (residuals::Episode& e : episodes) {
+      for (residuals::ActuatorSignals& a : e.actuators) {
         if (signal == "tension") a.tension_N.clear();
         if (signal == "current") a.current_A.clear();
       }
-      for (diagnosis::JointSignals& j : e.joints)
+      for (residuals::JointSignals& j : e.joints)
         if (signal == "joint") j = {};
     }
 }

@@ -24,8 +24,8 @@ struct Law {
 };
 
 /// What the voltage would be without a command, from the row before; by mode.
-Law law_of(const ActuatorSignals& s, const erp::Robot& robot, const erp::Actuator& actuator,
-           double period_s) {
+Law law_of(const residuals::ActuatorSignals& s, const erp::Robot& robot,
+           const erp::Actuator& actuator, double period_s) {
   Law law;
   if (s.mode.empty() || s.reference.empty() || s.voltage_V.empty() || s.shaft_rad.empty())
     return law;
@@ -56,8 +56,8 @@ Law law_of(const ActuatorSignals& s, const erp::Robot& robot, const erp::Actuato
   return law;
 }
 
-void add_ages(const Episode& episode, const ActuatorSignals& s, const Law& law, double tolerance_V,
-              Ages& ages) {
+void add_ages(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
+              const Law& law, double tolerance_V, Ages& ages) {
   for (std::size_t k = oldest; k < law.rest_V.size(); ++k) {
     if (std::isnan(law.rest_V[k]) || !episode.judged(k)) continue;
     const auto said_V = [&](std::size_t age) {
@@ -145,10 +145,10 @@ BusFit fit_one(effects::Placed placed, std::span<const Ages> train) {
 
 }  // namespace
 
-Ages command_ages(const Episode& episode, const erp::Robot& robot) {
+Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot) {
   Ages ages{episode.period_s, std::vector<std::size_t>(oldest, 0), 0, 0};
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
-    const ActuatorSignals& s = episode.actuators[a];
+    const residuals::ActuatorSignals& s = episode.actuators[a];
     const Law law = law_of(s, robot, robot.actuators[a], episode.period_s);
     const double count_V = robot.motor_of(robot.actuators[a]).supply_V / ECU_DUTY_MAX;
     add_ages(episode, s, law, count_V, ages);

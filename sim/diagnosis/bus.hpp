@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim/diagnosis/bootstrap.hpp"
-#include "sim/diagnosis/episode.hpp"
 #include "sim/effects/library.hpp"
+#include "sim/residuals/episode.hpp"
 
 /// The bus, seen in what the ECUs did: which command, how old, makes the voltage that was applied.
 ///
@@ -26,7 +26,7 @@ struct Ages {
 };
 
 /// Of one recording, all actuators together.
-Ages command_ages(const Episode& episode, const erp::Robot& robot);
+Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot);
 
 struct BusFit {
   effects::Placed placed;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/diagnosis/indices.hpp"
+#include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -20,7 +20,7 @@ std::vector<ScoreBlock> beyond(const Trials& plain, const Trials& known, const T
     std::vector<ScoreBlock> blocks;
     const auto& residuals = plain.bare().of_episode[e].residuals;
     for (std::size_t r = 0; r < residuals.size(); ++r) {
-      const auto this_one = [&](const Residual& other) {
+      const auto this_one = [&](const residuals::Residual& other) {
         return same_stage(other, residuals[r].stage, residuals[r].on);
       };
       const auto same = find_stage(residuals, residuals[r].stage, residuals[r].on);
@@ -69,7 +69,9 @@ std::vector<Closed> closed_by_stage(const Evidence& evidence, const Trials& plai
     c.after = std::sqrt(
         std::max(0.0, gap.floor * gap.floor + after->excess * after->floor * after->floor));
     c.closed = closed_of(c);
-    const auto here = [&](const Residual& r) { return same_stage(r, gap.stage, gap.on); };
+    const auto here = [&](const residuals::Residual& r) {
+      return same_stage(r, gap.stage, gap.on);
+    };
     c.interval = closed_interval(evidence, plain.blocks(plain.bare(), evidence.sets.held_out, here),
                                  known.blocks(trial, evidence.sets.held_out, here),
                                  after->floor / gap.floor);

@@ -9,7 +9,7 @@
 namespace sim::diagnosis {
 namespace {
 
-Sets sets_of(const DiagnoseOptions& options, const std::vector<Episode>& episodes) {
+Sets sets_of(const DiagnoseOptions& options, const std::vector<residuals::Episode>& episodes) {
   const bool given = !options.train.empty() || !options.held_out.empty();
   return given ? Sets{options.train, options.held_out} : split(episodes);
 }
@@ -29,7 +29,7 @@ Trials sorted(Evidence& evidence, Diagnosis& d) {
   const auto all = cuts(evidence.sets, trials, evidence.where_options());
   if (all.empty()) return trials;
   for (const Cut& cut : all) {
-    const Episode& episode = evidence.episodes[cut.episode];
+    const residuals::Episode& episode = evidence.episodes[cut.episode];
     d.shared.push_back({episode.name, double(cut.row) * episode.period_s});
     d.warnings.push_back(fmt::format(
         "too few recordings show the gap in the {} of {}: effects are chosen on the first {:.1f} s "
@@ -112,7 +112,7 @@ const char* word(Verdict verdict) {
   return words[static_cast<std::size_t>(verdict)];
 }
 
-Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
+Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> episodes,
                    const DiagnoseOptions& options) {
   if (episodes.empty()) throw std::invalid_argument("no recording");
   Evidence evidence{robot, std::move(episodes), options, {}};

@@ -35,7 +35,7 @@ struct Diagnosis {
 
 /// The recordings tell the same signals (common_signals.hpp).
 /// Throws std::invalid_argument: no recording, recordings in which no stage can be judged.
-Diagnosis diagnose(const erp::Robot& robot, std::vector<Episode> episodes,
+Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> episodes,
                    const DiagnoseOptions& options = {});
 
 }  // namespace sim::diagnosis

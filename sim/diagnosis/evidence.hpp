@@ -31,7 +31,7 @@ struct DiagnoseOptions {
 
 struct Evidence {
   const erp::Robot& robot;
-  std::vector<Episode> episodes;
+  std::vector<residuals::Episode> episodes;
   DiagnoseOptions options;
   Sets sets;
 

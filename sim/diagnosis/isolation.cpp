@@ -25,7 +25,7 @@ std::vector<double> signature(const Trials& trials, const Placed& nudged, std::s
              after = trials.whitened(with, episode);
   std::vector<double> means;
   std::size_t at = 0;
-  for (const Residual& r : trials.bare().of_episode[episode].residuals) {
+  for (const residuals::Residual& r : trials.bare().of_episode[episode].residuals) {
     double square = 0, windows = 0;
     for (std::size_t k = 0; k < r.value.size(); ++k, ++at)
       if (!std::isnan(before[at])) square += std::pow(after[at] - before[at], 2), ++windows;
@@ -39,7 +39,7 @@ std::vector<StageGap> gap_of(const Trials& trials, std::size_t episode, const Ev
   const std::size_t only[] = {episode};
   const auto gaps = where(trials, trials.bare(), only, evidence.where_options());
   std::vector<StageGap> ordered;
-  for (const Residual& r : trials.bare().of_episode[episode].residuals)
+  for (const residuals::Residual& r : trials.bare().of_episode[episode].residuals)
     ordered.push_back(*find_stage(gaps, r.stage, r.on));
   return ordered;
 }

@@ -33,9 +33,9 @@ double in_step(const std::vector<double>& values, double s) {
 
 }  // namespace
 
-double lattice_step(std::span<const Signal* const> readings, double finest) {
+double lattice_step(std::span<const residuals::Signal* const> readings, double finest) {
   std::vector<double> values;
-  for (const Signal* signal : readings)
+  for (const residuals::Signal* signal : readings)
     for (const double v : *signal)
       if (!std::isnan(v)) values.push_back(std::round(v / finest));
   std::ranges::sort(values);
@@ -61,31 +61,39 @@ double lattice_step(std::span<const Signal* const> readings, double finest) {
   return best > convincing ? step : finest;
 }
 
-std::vector<effects::Placed> coarse_sensors(std::span<const Episode> episodes,
+std::vector<effects::Placed> coarse_sensors(std::span<const residuals::Episode> episodes,
                                             const erp::Robot& robot) {
   std::vector<effects::Placed> all;
   const auto step = [&](auto signal_of, double finest) {
-    std::vector<const Signal*> readings;
-    for (const Episode& e : episodes) readings.push_back(&signal_of(e));
+    std::vector<const residuals::Signal*> readings;
+    for (const residuals::Episode& e : episodes) readings.push_back(&signal_of(e));
     return lattice_step(readings, finest);
   };
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const erp::Actuator& actuator = robot.actuators[a];
     const SensorScale scale(robot.motor_of(actuator), robot.sensors_of(actuator));
-    const auto look = [&](const char* type, Signal ActuatorSignals::*signal, double finest) {
-      const auto of = [&](const Episode& e) -> const Signal& { return e.actuators[a].*signal; };
+    const auto look = [&](const char* type, residuals::Signal residuals::ActuatorSignals::*signal,
+                          double finest) {
+      const auto of = [&](const residuals::Episode& e) -> const residuals::Signal& {
+        return e.actuators[a].*signal;
+      };
       add(all, type, actuator.name, step(of, finest), finest);
     };
-    look("sensor_shaft_quantisation", &ActuatorSignals::shaft_rad, scale.shaft_rad_per_count);
-    look("sensor_current_quantisation", &ActuatorSignals::current_A, scale.current_A_per_count);
-    look("sensor_tension_quantisation", &ActuatorSignals::tension_N, scale.tension_N_per_count);
+    look("sensor_shaft_quantisation", &residuals::ActuatorSignals::shaft_rad,
+         scale.shaft_rad_per_count);
+    look("sensor_current_quantisation", &residuals::ActuatorSignals::current_A,
+         scale.current_A_per_count);
+    look("sensor_tension_quantisation", &residuals::ActuatorSignals::tension_N,
+         scale.tension_N_per_count);
   }
   const auto joints = robot.joints();
   for (const erp::JointSensor& sensor : robot.joint_sensors)
     for (std::size_t j = 0; j < joints.size(); ++j) {
       if (joints[j].name != sensor.joint || joints[j].type != erp::JointType::revolute) continue;
       const double finest = 2 * std::numbers::pi / std::exp2(sensor.bits_per_rev);
-      const auto of = [&](const Episode& e) -> const Signal& { return e.joints[j].angle_rad; };
+      const auto of = [&](const residuals::Episode& e) -> const residuals::Signal& {
+        return e.joints[j].angle_rad;
+      };
       add(all, "sensor_joint_quantisation", sensor.joint, step(of, finest), finest);
     }
   return all;

@@ -18,7 +18,7 @@ std::optional<std::size_t> peak_of(const std::vector<double>& residual) {
 void take(const Evidence& evidence, const Trials& plain, const Trial& trial, std::size_t e,
           std::size_t r, std::size_t peak, Moment& into) {
   constexpr std::size_t around = 125;  // windows
-  const Explanation& bare = plain.bare().of_episode[e];
+  const residuals::Explanation& bare = plain.bare().of_episode[e];
   const auto& before = bare.residuals[r].value;
   const auto& after = trial.of_episode[e].residuals[r].value;
   into.recording = evidence.episodes[e].name, into.floor = plain.floor(e)[r];

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/diagnosis/indices.hpp"
 #include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/tries.hpp"
+#include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -85,9 +85,10 @@ std::vector<double> promises(const Trials& trials, const Trial& base, const Whic
 }  // namespace
 
 std::vector<Placed> candidates(const Trials& trials, const std::vector<std::string>& withhold) {
-  const bool estimated = std::ranges::any_of(
-      trials.bare().of_episode, [](const Explanation& e) { return e.joints->estimated; });
-  const Stages nominal(trials.nominal());
+  const bool estimated =
+      std::ranges::any_of(trials.bare().of_episode,
+                          [](const residuals::Explanation& e) { return e.joints->estimated; });
+  const residuals::Stages nominal(trials.nominal());
   std::vector<Placed> all;
   for (const effects::AnyEffect& effect : effects::library()) {
     const effects::About& about = effects::about(effect);

@@ -25,10 +25,10 @@ Sample sample(const Trials& trials, const Trial& trial, effects::Stage stage, co
     if (all.variables.empty())
       for (const Variable& v : own) all.variables.push_back({v.name, v.unit, {}});
     std::size_t first = 0;
-    for (const Residual& r : trials.bare().of_episode[e].residuals) {
+    for (const residuals::Residual& r : trials.bare().of_episode[e].residuals) {
       if (r.stage == stage && r.on == on)
         for (std::size_t k = 0; k < r.value.size(); ++k) {
-          if (std::isnan(z[first + k]) || (banded(r, k) && r.value[k] == 0)) continue;
+          if (std::isnan(z[first + k]) || (residuals::banded(r, k) && r.value[k] == 0)) continue;
           all.residual.push_back(z[first + k]);
           for (std::size_t v = 0; v < own.size(); ++v)
             all.variables[v].value.push_back(own[v].value[k]);
@@ -81,11 +81,12 @@ double explained(const Map& map, const std::vector<double>& x, const std::vector
 
 std::vector<Variable> variables(const Trials& trials, std::size_t episode, effects::Stage stage,
                                 const std::string& on) {
-  const Explanation& e = trials.bare().of_episode[episode];
-  const Episode& recorded = trials.episodes()[episode];
-  const Bump bump(Windows{}.half_width_s, recorded.period_s);
+  const residuals::Explanation& e = trials.bare().of_episode[episode];
+  const residuals::Episode& recorded = trials.episodes()[episode];
+  const residuals::Bump bump(residuals::Windows{}.half_width_s, recorded.period_s);
   std::vector<Variable> all;
-  const auto add = [&](const char* name, const char* unit, const Signal& signal, bool rate) {
+  const auto add = [&](const char* name, const char* unit, const residuals::Signal& signal,
+                       bool rate) {
     if (signal.empty()) return;
     Variable v{name, unit, {}};
     for (const std::size_t row : e.rows)
@@ -105,7 +106,7 @@ std::vector<Variable> variables(const Trials& trials, std::size_t episode, effec
   } else {
     for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
       if (robot.actuators[a].name != on) continue;
-      const ActuatorSignals& s = recorded.actuators[a];
+      const residuals::ActuatorSignals& s = recorded.actuators[a];
       add("shaft angle", "rad", s.shaft_rad, false), add("shaft speed", "rad/s", s.shaft_rad, true);
       add("tension", "N", s.tension_N, false), add("current", "A", s.current_A, false);
       add("voltage", "V", s.voltage_V, false);

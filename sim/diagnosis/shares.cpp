@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "sim/diagnosis/indices.hpp"
+#include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {

@@ -18,7 +18,7 @@ Change change_of(const Evidence& evidence, const Trials& trials,
   for (const std::size_t e : evidence.sets.held_out) {
     const auto before = trials.whitened(trials.bare(), e), after = trials.whitened(with, e);
     std::size_t at = 0;
-    for (const Residual& r : trials.bare().of_episode[e].residuals) {
+    for (const residuals::Residual& r : trials.bare().of_episode[e].residuals) {
       const auto stage = std::size_t(find_stage(stages, r.stage, r.on) - stages.begin());
       for (std::size_t n = 0; n < r.value.size(); ++n, ++at) {
         const double d = std::isnan(before[at]) ? 0 : after[at] - before[at];

@@ -8,9 +8,9 @@ namespace sim::diagnosis {
 namespace {
 
 /// How far the signals of a recording reach: of each kind the 5 % and 95 % marks of its size.
-std::vector<std::pair<double, double>> reach(const Episode& episode) {
+std::vector<std::pair<double, double>> reach(const residuals::Episode& episode) {
   std::vector<std::pair<double, double>> all;
-  const auto add = [&](const Signal& signal, bool rate) {
+  const auto add = [&](const residuals::Signal& signal, bool rate) {
     std::vector<double> values;
     for (std::size_t k = 1; k < signal.size(); ++k)
       if (const double v = rate ? signal[k] - signal[k - 1] : signal[k]; !std::isnan(v))
@@ -19,10 +19,11 @@ std::vector<std::pair<double, double>> reach(const Episode& episode) {
     if (values.empty()) all.emplace_back(0, 0);
     else all.emplace_back(values[values.size() / 20], values[values.size() * 19 / 20]);
   };
-  for (const ActuatorSignals& a : episode.actuators)
+  for (const residuals::ActuatorSignals& a : episode.actuators)
     add(a.tension_N, false), add(a.current_A, false), add(a.shaft_rad, false),
         add(a.shaft_rad, true);
-  for (const JointSignals& j : episode.joints) add(j.angle_rad, false), add(j.angle_rad, true);
+  for (const residuals::JointSignals& j : episode.joints)
+    add(j.angle_rad, false), add(j.angle_rad, true);
   return all;
 }
 
@@ -36,10 +37,10 @@ std::vector<std::size_t> Sets::all() const {
   return all;
 }
 
-Sets split(std::span<const Episode> episodes) {
+Sets split(std::span<const residuals::Episode> episodes) {
   const std::size_t count = episodes.size();
   std::vector<std::vector<std::pair<double, double>>> reaches;
-  for (const Episode& episode : episodes) reaches.push_back(reach(episode));
+  for (const residuals::Episode& episode : episodes) reaches.push_back(reach(episode));
   std::vector<std::pair<double, std::size_t>> beyond;
   for (std::size_t e = 0; e < count; ++e) {
     double sum = 0;
@@ -110,7 +111,7 @@ std::vector<StageGap> open_stages(const Sets& sets, const Trials& plain,
 
 /// The row by which half of a stage's excess, Σ (z² − 1), has passed.
 std::size_t middle_row(const Trials& plain, std::size_t episode, const StageGap& stage) {
-  const Explanation& e = plain.bare().of_episode[episode];
+  const residuals::Explanation& e = plain.bare().of_episode[episode];
   const auto z = plain.whitened(plain.bare(), episode);
   const std::size_t windows = e.rows.size();
   std::vector<double> passed{0};
@@ -127,8 +128,9 @@ std::size_t middle_row(const Trials& plain, std::size_t episode, const StageGap&
   return e.rows[k];
 }
 
-std::pair<Episode, Episode> parts_of(const Episode& whole, std::size_t row) {
-  std::pair<Episode, Episode> parts{whole, whole};
+std::pair<residuals::Episode, residuals::Episode> parts_of(const residuals::Episode& whole,
+                                                           std::size_t row) {
+  std::pair<residuals::Episode, residuals::Episode> parts{whole, whole};
   parts.first.judged_until = parts.second.judged_from = row;
   return parts;
 }
@@ -136,7 +138,7 @@ std::pair<Episode, Episode> parts_of(const Episode& whole, std::size_t row) {
 /// Each part alone shows that the stage is open.
 bool both_show(const Cut& cut, const Trials& plain, const WhereOptions& options) {
   const auto [first, second] = parts_of(plain.episodes()[cut.episode], cut.row);
-  for (const Episode& part : {first, second}) {
+  for (const residuals::Episode& part : {first, second}) {
     const auto gaps = where(plain.nominal(), std::span(&part, 1), options);
     const auto gap = find_stage(gaps, cut.stage, cut.on);
     if (gap == gaps.end() || !gap->open) return false;
@@ -173,7 +175,7 @@ std::vector<Cut> cuts(const Sets& sets, const Trials& plain, const WhereOptions&
   return cuts;
 }
 
-void cut_in_two(const Cut& cut, std::vector<Episode>& episodes, Sets& sets) {
+void cut_in_two(const Cut& cut, std::vector<residuals::Episode>& episodes, Sets& sets) {
   auto [first, second] = parts_of(episodes[cut.episode], cut.row);
   episodes[cut.episode] = std::move(first);
   episodes.push_back(std::move(second));

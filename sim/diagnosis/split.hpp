@@ -13,7 +13,7 @@ struct Sets {
 };
 
 /// Held out are those whose conditions lie farthest beyond the others', about a third.
-Sets split(std::span<const Episode> episodes);
+Sets split(std::span<const residuals::Episode> episodes);
 
 /// Each side must show the gap, to learn from and to judge by: if one does not, the recording that
 /// shows the loudest stage second best is held out, if there are two.
@@ -31,6 +31,6 @@ struct Cut {
 std::vector<Cut> cuts(const Sets& sets, const Trials& plain, const WhereOptions& options);
 
 /// The second part is a recording more, behind the others.
-void cut_in_two(const Cut& cut, std::vector<Episode>& episodes, Sets& sets);
+void cut_in_two(const Cut& cut, std::vector<residuals::Episode>& episodes, Sets& sets);
 
 }  // namespace sim::diagnosis

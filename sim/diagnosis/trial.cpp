@@ -5,17 +5,18 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sim/diagnosis/floor.hpp"
+#include "sim/residuals/floor.hpp"
 
 namespace sim::diagnosis {
 
-Trials::Trials(const erp::Robot& nominal, std::vector<Episode> episodes, std::uint64_t seed)
+Trials::Trials(const erp::Robot& nominal, std::vector<residuals::Episode> episodes,
+               std::uint64_t seed)
     : nominal_(nominal), episodes_(std::move(episodes)), seed_(seed) {
-  Stages stages(nominal);
+  residuals::Stages stages(nominal);
   bool any = false;
-  for (const Episode& episode : episodes_) {
+  for (const residuals::Episode& episode : episodes_) {
     bare_.of_episode.push_back(stages.explain(episode));
-    floors_.push_back(floors(stages, episode, nominal, seed));
+    floors_.push_back(residuals::floors(stages, episode, nominal, seed));
     any |= !bare_.of_episode.back().residuals.empty();
   }
   if (!any)
@@ -31,16 +32,16 @@ erp::Robot Trials::robot_with(std::span<const effects::Placed> all) const {
 }
 
 std::vector<double> Trials::floor_under(const Trial& trial, std::size_t episode) const {
-  Stages stages(robot_with(trial.effects));
-  return floors(stages, episodes_[episode], nominal_, seed_);
+  residuals::Stages stages(robot_with(trial.effects));
+  return residuals::floors(stages, episodes_[episode], nominal_, seed_);
 }
 
 Trial Trials::with(const Trial& base, const effects::Placed& more,
                    std::span<const std::size_t> episodes) const {
-  Trial trial{base.effects, std::vector<Explanation>(episodes_.size())};
+  Trial trial{base.effects, std::vector<residuals::Explanation>(episodes_.size())};
   trial.effects.push_back(more);
-  Stages stages(robot_with(trial.effects));
-  const Reach reach = stages.reach(more);
+  residuals::Stages stages(robot_with(trial.effects));
+  const residuals::Reach reach = stages.reach(more);
   for (const std::size_t k : episodes)
     trial.of_episode[k] = stages.explain(episodes_[k], base.of_episode[k], reach);
   return trial;
@@ -48,12 +49,13 @@ Trial Trials::with(const Trial& base, const effects::Placed& more,
 
 Trial Trials::with(std::span<const effects::Placed> all,
                    std::span<const std::size_t> episodes) const {
-  Trial trial{{all.begin(), all.end()}, std::vector<Explanation>(episodes_.size())};
-  Stages stages(robot_with(all));
+  Trial trial{{all.begin(), all.end()}, std::vector<residuals::Explanation>(episodes_.size())};
+  residuals::Stages stages(robot_with(all));
   const auto reaches = [&](auto what) {
     return std::ranges::any_of(all, [&](const auto& placed) { return what(stages.reach(placed)); });
   };
-  const bool moves = reaches([](const Reach& r) { return r.joints || r.path.has_value(); });
+  const bool moves =
+      reaches([](const residuals::Reach& r) { return r.joints || r.path.has_value(); });
   for (const std::size_t k : episodes)
     trial.of_episode[k] =
         stages.explain(episodes_[k], moves ? nullptr : bare_.of_episode[k].joints);
@@ -64,9 +66,9 @@ namespace {
 
 /// Where something may take what it likes, noise counts as it does elsewhere in the mean: to let
 /// something do so gains nothing.
-double z_of(const Residual& residual, std::size_t window, double floor) {
+double z_of(const residuals::Residual& residual, std::size_t window, double floor) {
   const double z = residual.value[window] / floor;
-  return banded(residual, window) ? std::copysign(std::hypot(1, z), z) : z;
+  return residuals::banded(residual, window) ? std::copysign(std::hypot(1, z), z) : z;
 }
 
 }  // namespace
@@ -87,16 +89,16 @@ std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) co
   return all;
 }
 
-std::vector<ScoreBlock> Trials::blocks(const Trial& trial, std::span<const std::size_t> episodes,
-                                       const std::function<bool(const Residual&)>& counts,
-                                       double block_s) const {
+std::vector<ScoreBlock> Trials::blocks(
+    const Trial& trial, std::span<const std::size_t> episodes,
+    const std::function<bool(const residuals::Residual&)>& counts, double block_s) const {
   std::vector<ScoreBlock> blocks;
   for (const std::size_t e : episodes) {
     const auto z = whitened(trial, e);
     const auto& residuals = bare_.of_episode[e].residuals;
     const std::size_t windows = bare_.of_episode[e].rows.size(), first = blocks.size();
     const auto windows_a_block =
-        std::max<std::size_t>(1, static_cast<std::size_t>(block_s / Windows{}.stride_s));
+        std::max<std::size_t>(1, static_cast<std::size_t>(block_s / residuals::Windows{}.stride_s));
     blocks.resize(first + (windows + windows_a_block - 1) / windows_a_block);
     for (std::size_t r = 0; r < residuals.size(); ++r) {
       if (counts && !counts(residuals[r])) continue;

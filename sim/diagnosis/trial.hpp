@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/diagnosis/stages.hpp"
+#include "sim/residuals/stages.hpp"
 
 /// A robot with effects, tried on recordings: its residuals in units of their noise.
 ///
@@ -18,7 +18,7 @@ namespace sim::diagnosis {
 /// The residuals of one trial on every recording.
 struct Trial {
   std::vector<effects::Placed> effects;
-  std::vector<Explanation> of_episode;
+  std::vector<residuals::Explanation> of_episode;
 };
 
 /// Sums over about a second of one recording: what the bootstrap draws.
@@ -30,9 +30,10 @@ struct ScoreBlock {
 class Trials {
  public:
   /// Throws as Stages; std::invalid_argument when no stage is to be had from the recordings.
-  Trials(const erp::Robot& nominal, std::vector<Episode> episodes, std::uint64_t seed = 1);
+  Trials(const erp::Robot& nominal, std::vector<residuals::Episode> episodes,
+         std::uint64_t seed = 1);
 
-  std::span<const Episode> episodes() const { return episodes_; }
+  std::span<const residuals::Episode> episodes() const { return episodes_; }
   const erp::Robot& nominal() const { return nominal_; }
   /// The robot as it is given.
   const Trial& bare() const { return bare_; }
@@ -47,7 +48,7 @@ class Trials {
   std::vector<double> whitened(const Trial& trial, std::size_t episode) const;
   /// Scores of the stages for which `counts`, or of all.
   std::vector<ScoreBlock> blocks(const Trial& trial, std::span<const std::size_t> episodes,
-                                 const std::function<bool(const Residual&)>& counts = {},
+                                 const std::function<bool(const residuals::Residual&)>& counts = {},
                                  double block_s = 1) const;
   /// σ of each residual of an episode.
   std::span<const double> floor(std::size_t episode) const { return floors_[episode]; }
@@ -60,7 +61,7 @@ class Trials {
 
  private:
   erp::Robot nominal_;
-  std::vector<Episode> episodes_;
+  std::vector<residuals::Episode> episodes_;
   std::uint64_t seed_;
   Trial bare_;
   std::vector<std::vector<double>> floors_;

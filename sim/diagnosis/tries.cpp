@@ -15,8 +15,8 @@ std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& 
   if (joints[j].type != erp::JointType::revolute) return {};
   double low = joints[j].max_rad, high = joints[j].min_rad;
   for (const std::size_t e : episodes) {
-    const Episode& episode = trials.episodes()[e];
-    const Signal& angle = episode.joints[j].angle_rad;
+    const residuals::Episode& episode = trials.episodes()[e];
+    const residuals::Signal& angle = episode.joints[j].angle_rad;
     for (std::size_t k = 0; k < angle.size(); ++k)
       if (episode.judged(k) && !std::isnan(angle[k]))
         low = std::min(low, angle[k]), high = std::max(high, angle[k]);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <span>
 
-#include "sim/diagnosis/indices.hpp"
 #include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
+#include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {

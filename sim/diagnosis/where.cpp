@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/diagnosis/indices.hpp"
+#include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {
 
 /// One stage over all episodes.
 struct Collected {
-  const Residual* what;
+  const residuals::Residual* what;
   double floor_square = 0;  ///< Σ σ² over its windows
   double driver_square = 0, recordings = 0;
   std::vector<ScoreBlock> blocks = {};
@@ -32,7 +32,7 @@ Interval interval_of(const std::vector<ScoreBlock>& blocks, const WhereOptions& 
 /// The z of one stage in one episode, added to what is collected.
 void collect(std::span<const double> z, double floor, double block_s, Collected& into) {
   const auto windows_a_block =
-      static_cast<std::size_t>(std::max(1.0, std::round(block_s / Windows{}.stride_s)));
+      static_cast<std::size_t>(std::max(1.0, std::round(block_s / residuals::Windows{}.stride_s)));
   for (std::size_t k = 0; k < z.size(); ++k) {
     if (k % windows_a_block == 0) into.blocks.emplace_back();
     if (std::isnan(z[k])) continue;
@@ -115,7 +115,7 @@ std::vector<StageGap> where(const Trials& trials, const Trial& trial,
   return gaps;
 }
 
-std::vector<StageGap> where(const erp::Robot& robot, std::span<const Episode> episodes,
+std::vector<StageGap> where(const erp::Robot& robot, std::span<const residuals::Episode> episodes,
                             const WhereOptions& options) {
   const Trials trials(robot, {episodes.begin(), episodes.end()}, options.seed);
   return where(trials, trials.bare(), each(episodes.size()), options);

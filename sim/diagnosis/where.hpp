@@ -71,7 +71,7 @@ std::vector<StageGap> where(const Trials& trials, const Trial& trial,
                             std::span<const std::size_t> episodes,
                             const WhereOptions& options = {});
 /// Of the nominal robot on all of them. Throws as Trials.
-std::vector<StageGap> where(const erp::Robot& robot, std::span<const Episode> episodes,
+std::vector<StageGap> where(const erp::Robot& robot, std::span<const residuals::Episode> episodes,
                             const WhereOptions& options = {});
 
 }  // namespace sim::diagnosis

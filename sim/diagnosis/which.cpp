@@ -5,9 +5,9 @@
 #include <mutex>
 
 #include "sim/diagnosis/bootstrap.hpp"
-#include "sim/diagnosis/indices.hpp"
 #include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
+#include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -28,11 +28,11 @@ Score score(const Trials& trials, const Trial& base, const Trial& with,
   const bool any = std::ranges::any_of(options.stages, &StageGap::open);
   const auto was = by_stage(trials, base, options.held_out);
   const auto is = by_stage(trials, with, options.held_out);
-  const auto open = [&](const Residual& r) {
+  const auto open = [&](const residuals::Residual& r) {
     const auto stage = find_stage(options.stages, r.stage, r.on);
     return !any || (stage != options.stages.end() && stage->open);
   };
-  const auto counts = [&](const Residual& r) {
+  const auto counts = [&](const residuals::Residual& r) {
     return open(r) || find_stage(is, r.stage, r.on)->whole.square >
                           find_stage(was, r.stage, r.on)->whole.square;
   };

@@ -74,7 +74,7 @@ Candidate try_out(const erp::Robot& robot, const std::vector<Placed>& suspects, 
   candidate.unsafe = danger(candidate.extremes, options);
   if (!candidate.unsafe.empty()) return candidate;
   std::vector<std::string> remarks;
-  const Trials trials(robot, {diagnosis::lay_out(truth, robot, "rehearsed", remarks)});
+  const Trials trials(robot, {residuals::lay_out(truth, robot, "rehearsed", remarks)});
   const std::size_t only[] = {0};
   const double first = square_of(trials, suspects[0]);
   for (std::size_t k = 1; k < suspects.size(); ++k)

@@ -5,16 +5,16 @@
 #include <map>
 #include <mutex>
 
-#include "sim/diagnosis/indices.hpp"
-#include "sim/diagnosis/measured.hpp"
 #include "sim/diagnosis/parallel.hpp"
+#include "sim/residuals/indices.hpp"
+#include "sim/residuals/measured.hpp"
 
 namespace sim::rehearsal {
 namespace {
 
 using diagnosis::Closed;
-using diagnosis::Episode;
-using diagnosis::Signal;
+using residuals::Episode;
+using residuals::Signal;
 
 constexpr double tick_s = 0.002;
 constexpr double apart_rad = 0.05;  // from the initial pose, to count as starting there; chosen
@@ -56,11 +56,11 @@ Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& 
   const Score score = score_of(e);
   std::vector<std::string> remarks;
   const auto run = [&](const erp::Robot& robot, std::uint64_t noise) {
-    return diagnosis::lay_out(rehearse(robot, score, noise), nominal, e.name, remarks);
+    return residuals::lay_out(rehearse(robot, score, noise), nominal, e.name, remarks);
   };
   const Episode before = run(nominal, seed), after = run(found, seed), again = run(found, seed + 1);
-  const auto real = diagnosis::measured(e, nominal), was = diagnosis::measured(before, nominal),
-             is = diagnosis::measured(after, nominal), noisy = diagnosis::measured(again, nominal);
+  const auto real = residuals::measured(e, nominal), was = residuals::measured(before, nominal),
+             is = residuals::measured(after, nominal), noisy = residuals::measured(again, nominal);
   Errors errors;
   for (std::size_t c = 0; c < real.size(); ++c) {
     const Signal &truth = *real[c].signal, &b = *was[c].signal, &a = *is[c].signal,
@@ -135,7 +135,7 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
     }
   }
   if (errors.empty()) return result;
-  const auto every = diagnosis::each(errors.begin()->second.second.size());
+  const auto every = each(errors.begin()->second.second.size());
   const auto interval = [&](auto of) {
     return diagnosis::middle(diagnosis::bootstrap(
         every.size(), 400, options.seed, [&](const auto& drawn) { return of(drawn).closed; }));

@@ -2,8 +2,8 @@
 #include <functional>
 
 #include "sim/diagnosis/closing.hpp"
-#include "sim/diagnosis/episode.hpp"
 #include "sim/rehearsal/rehearse.hpp"
+#include "sim/residuals/episode.hpp"
 
 /// The gap as the simulator sees it: robot.xml is let run freely, in closed loop with the firmware,
 /// on what a recording was asked, and compared with what was recorded. A loop hides gaps in what it
@@ -30,7 +30,7 @@ struct FreeRunOptions {
 /// modes or references, or in which a rehearsal fails, are left out with a remark. Where a
 /// spherical joint starts is not checked.
 FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
-                 std::span<const diagnosis::Episode> recordings,
+                 std::span<const residuals::Episode> recordings,
                  const FreeRunOptions& options = {});
 
 }  // namespace sim::rehearsal

@@ -8,7 +8,7 @@
 
 namespace {
 
-using sim::diagnosis::Episode;
+using sim::residuals::Episode;
 
 erp::Robot read(const std::string& robot) {
   return erp::read_robot(ERP_SOURCE_DIR "/configs/" + robot + "/robot.xml");
@@ -21,7 +21,7 @@ std::vector<Episode> recordings(const erp::Robot& robot, double seconds) {
   std::vector<Episode> all;
   std::vector<std::string> remarks;
   for (int k = 0; k < 4; ++k)
-    all.push_back(sim::diagnosis::lay_out(
+    all.push_back(sim::residuals::lay_out(
         sim::blind::record(robot, hidden, sim::excitation(robot, k, seconds, 5),
                            static_cast<std::uint64_t>(k)),
         robot, "recording " + std::to_string(k + 1), remarks));

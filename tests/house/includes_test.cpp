@@ -27,13 +27,16 @@ const std::vector<Rule> rules{
     {"components/force_control/",
      {"interfaces/", "components/node/", "components/follow/", "firmware/core/"}},
     {"components/gap_monitor/",
-     {"interfaces/", "components/node/", "sim/diagnosis/", "sim/effects/"}},
+     {"interfaces/", "components/node/", "sim/diagnosis/", "sim/residuals/", "sim/effects/"}},
     {"components/",
      {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},
-    {"sim/diagnosis/",
+    {"sim/residuals/",
      {"interfaces/", "firmware/core/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
-    // A robot of a physics of its own: of the simulator it may know the bones and paths, no effects.
+    {"sim/diagnosis/",
+     {"interfaces/", "firmware/core/", "sim/residuals/", "sim/effects/", "sim/actuator/"}},
+    // A robot of a physics of its own: of the simulator it may know the bones and paths, no
+    // effects.
     {"sim/blind/", {"interfaces/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/effects/", {"interfaces/"}},
     {"sim/skeleton/", {"interfaces/"}},
@@ -42,8 +45,8 @@ const std::vector<Rule> rules{
     {"sim/rehearsal/", {"interfaces/", "sim/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
     {"launch/",
-     {"interfaces/", "components/node/", "sim/formats/", "sim/blind/", "sim/diagnosis/", "sim/rehearsal/", "sim/effects/",
-      "sim/actuator/", "sim/skeleton/"}},
+     {"interfaces/", "components/node/", "sim/formats/", "sim/blind/", "sim/diagnosis/",
+      "sim/rehearsal/", "sim/residuals/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
 };
 
 // Headers of others that have one home.

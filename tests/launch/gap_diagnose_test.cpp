@@ -8,7 +8,7 @@
 
 #include "interfaces/recording/csv.hpp"
 #include "launch/erp/gap.hpp"
-#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
-#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace {

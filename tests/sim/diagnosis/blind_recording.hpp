@@ -1,6 +1,6 @@
 #pragma once
 #include "sim/blind/record.hpp"
-#include "sim/diagnosis/episode.hpp"
+#include "sim/residuals/episode.hpp"
 #include "tests/sim/rigs.hpp"
 
 /// Recordings of hinge_rig of the blind cases' own physics, with given quirks.
@@ -12,13 +12,13 @@ inline sim::blind::Case nothing_hidden() {
   return sim::blind::draw_case(hinge_rig(), sim::blind::Kind::null, 1);
 }
 
-inline std::vector<sim::diagnosis::Episode> episodes(const sim::blind::Case& blind,
+inline std::vector<sim::residuals::Episode> episodes(const sim::blind::Case& blind,
                                                      double seconds = 6, int count = 3) {
-  std::vector<sim::diagnosis::Episode> all;
+  std::vector<sim::residuals::Episode> all;
   std::vector<std::string> remarks;
   const erp::Robot robot = hinge_rig();
   for (int k = 0; k < count; ++k)
-    all.push_back(sim::diagnosis::lay_out(
+    all.push_back(sim::residuals::lay_out(
         sim::blind::record(robot, blind, sim::excitation(robot, k, seconds, 5),
                            static_cast<std::uint64_t>(k)),
         robot, "recording " + std::to_string(k + 1), remarks));

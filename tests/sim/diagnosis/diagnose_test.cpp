@@ -8,6 +8,7 @@
 #include "tests/sim/diagnosis/blind_recording.hpp"
 
 using namespace sim::diagnosis;
+using namespace sim::residuals;
 using blind_recording::episodes;
 using blind_recording::hinge_rig;
 using blind_recording::nothing_hidden;

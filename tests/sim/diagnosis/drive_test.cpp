@@ -1,4 +1,4 @@
-#include "sim/diagnosis/drives.hpp"
+#include "sim/residuals/drives.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "tests/sim/rigs.hpp"
 
 using namespace sim::diagnosis;
+using namespace sim::residuals;
 
 namespace {
 

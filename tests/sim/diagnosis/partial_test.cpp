@@ -1,12 +1,13 @@
 #include <catch2/catch.hpp>
 
-#include "sim/diagnosis/common_signals.hpp"
 #include "sim/diagnosis/isolation.hpp"
-#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "sim/residuals/common_signals.hpp"
+#include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace effects = sim::effects;
 using namespace sim::diagnosis;
+using namespace sim::residuals;
 
 namespace {
 

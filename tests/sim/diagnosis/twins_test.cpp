@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
 using namespace sim::diagnosis;
+using namespace sim::residuals;
 
 namespace {
 

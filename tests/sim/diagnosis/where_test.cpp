@@ -2,13 +2,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "sim/diagnosis/floor.hpp"
-#include "tests/sim/diagnosis/rig_recording.hpp"
+#include "sim/residuals/floor.hpp"
 #include "tests/sim/effects/magnitudes.hpp"
+#include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace effects = sim::effects;
 using namespace sim::diagnosis;
+using namespace sim::residuals;
 
 namespace {
 

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+/// Means and derivatives of sampled signals under one smooth window, so that a law can be checked
+/// without differentiating noise: both sides of an equation are weighed alike, and derivatives fall
+/// on the window (weak form).
+///
+///   ⟨x⟩ = ∫ φ x dt     ⟨ẋ⟩ = −∫ φ̇ x dt     ⟨ẍ⟩ = ∫ φ̈ x dt          φ(t) ~ (1 − (t/T)²)³, |t| < T
+///
+/// Weights are those of the samples, set so that parabolas come out exactly.
+/// Source: weak-form identification (Messenger, Bortz 2021); modulating functions (Shinbrot 1957).
+namespace sim::residuals {
+
+class Bump {
+ public:
+  /// `half_width_s` T, at least two periods.
+  Bump(double half_width_s, double period_s);
+
+  /// Samples on each side of the middle.
+  std::size_t reach() const { return mean_.size() / 2; }
+  /// Around row k; reach() ≤ k < x.size() − reach(). NaN if a sample in the window was not taken.
+  double mean(std::span<const double> x, std::size_t k) const { return sum(mean_, x, k); }
+  double rate(std::span<const double> x, std::size_t k) const { return sum(rate_, x, k); }
+  double acceleration(std::span<const double> x, std::size_t k) const { return sum(bend_, x, k); }
+  /// ⟨ẋ⟩ at every row; NaN near the ends.
+  std::vector<double> rates(std::span<const double> x) const;
+
+ private:
+  double sum(const std::vector<double>& weights, std::span<const double> x, std::size_t k) const;
+  std::vector<double> mean_, rate_, bend_;
+};
+
+}  // namespace sim::residuals

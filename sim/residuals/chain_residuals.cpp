@@ -1,0 +1,98 @@
+#include "sim/residuals/chain_residuals.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "sim/residuals/held_voltage.hpp"
+
+namespace sim::residuals {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+struct Chain {
+  const ChainTrace& trace;
+  const erp::MotorType& motor;
+  double period_s;
+  const Bump& bump;
+};
+
+/// V − R i without the current's start within each period.
+Signal resistive_V(const Chain& c) {
+  const ChainTrace& t = c.trace;
+  Signal left(t.terminal_V.size(), nan);
+  for (std::size_t k = 1; k < left.size(); ++k) {
+    // of the current before, so much is left at the end of a period
+    const double kept = std::exp(-c.period_s * t.resistance_ohm[k] / c.motor.inductance_H);
+    const double settled_A = (t.current_A[k] - kept * t.current_A[k - 1]) / (1 - kept);
+    const double a = t.current_averaged;
+    const double next_V = k + 1 < left.size() ? t.terminal_V[k + 1] : t.terminal_V[k];
+    left[k] = t.terminal_V[k] + a / 2 * (next_V - t.terminal_V[k]) -
+              t.resistance_ohm[k] * ((1 - a) * settled_A + a * t.current_A[k]);
+  }
+  return left;
+}
+
+std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
+  const Signal left = resistive_V(c);
+  erp::MotorType motor = c.motor;
+  const double back_emf = c.motor.back_emf_V_s_per_rad * c.motor.gear_ratio;
+  std::vector<double> value;
+  for (const std::size_t k : rows) {
+    motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
+    const double lag_s = (1 - c.trace.current_averaged) * current_lag_s(motor, c.period_s);
+    value.push_back(c.bump.mean(left, k) -
+                    back_emf * (c.bump.rate(c.trace.shaft_rad, k) -
+                                lag_s * c.bump.acceleration(c.trace.shaft_rad, k)));
+  }
+  return value;
+}
+
+std::vector<double> gearbox_Nm(const Chain& c, std::span<const std::size_t> rows) {
+  erp::MotorType motor = c.motor;
+  const double viscous = motor.rotor_viscous_Nm_s_per_rad * motor.gear_ratio * motor.gear_ratio;
+  std::vector<double> value;
+  for (const std::size_t k : rows) {
+    if (!c.trace.resistance_ohm.empty())
+      motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
+    value.push_back(balance_inertia(motor, c.period_s, 1 - c.trace.current_averaged) *
+                        c.bump.acceleration(c.trace.shaft_rad, k) +
+                    viscous * c.bump.rate(c.trace.shaft_rad, k) - c.bump.mean(c.trace.drive_Nm, k));
+  }
+  return value;
+}
+
+std::vector<double> tendon_N(const Chain& c, std::span<const std::size_t> rows) {
+  std::vector<double> value;
+  for (const std::size_t k : rows)
+    value.push_back(c.bump.mean(c.trace.tension_N, k) - c.bump.mean(c.trace.spring_N, k));
+  return value;
+}
+
+double driven_by(const Chain& c, const Signal& driver, std::span<const std::size_t> rows) {
+  double square = 0, count = 0;
+  for (const std::size_t k : rows)
+    if (const double x = c.bump.mean(driver, k); !std::isnan(x)) square += x * x, ++count;
+  return count > 0 ? std::sqrt(square / count) : 0;
+}
+
+}  // namespace
+
+std::vector<Residual> chain_residuals(const ChainTrace& trace, const erp::Actuator& actuator,
+                                      const erp::MotorType& motor, const Episode& episode,
+                                      const Bump& bump, std::span<const std::size_t> rows) {
+  const Chain chain{trace, motor, episode.period_s, bump};
+  std::vector<Residual> all;
+  if (trace.current_measured && !trace.terminal_V.empty())
+    all.push_back({effects::Stage::motor, actuator.name, "V", motor_V(chain, rows),
+                   driven_by(chain, trace.terminal_V, rows)});
+  if (!trace.drive_Nm.empty())
+    all.push_back({effects::Stage::gearbox, actuator.name, "Nm", gearbox_Nm(chain, rows),
+                   driven_by(chain, trace.motor_Nm, rows)});
+  if (trace.tension_measured && !trace.spring_N.empty())
+    all.push_back({effects::Stage::tendon, actuator.name, "N", tendon_N(chain, rows),
+                   driven_by(chain, trace.tension_N, rows)});
+  return all;
+}
+
+}  // namespace sim::residuals

@@ -1,0 +1,226 @@
+#include "sim/residuals/chain_trace.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "sim/residuals/held_voltage.hpp"
+
+namespace sim::residuals {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double resting_rad_per_s = 0.02;  // chosen: an encoder step in a few rows
+
+using effects::Sloped;
+
+/// The rows of one chain, one after the other.
+class Tracer {
+ public:
+  Tracer(ChainModel model, const ActuatorSignals& measured, const PathTrace& path, double period_s,
+         double speed_half_width_s)
+      : m_(std::move(model)),
+        in_(measured),
+        path_(path),
+        period_s_(period_s),
+        bump_(speed_half_width_s, period_s),
+        law_{Spring::of(m_.actuator.tendon), m_.actuator.tendon.damping_N_s_per_m,
+             m_.actuator.spindle.radius_m, 0} {
+    law_.rest_m = m_.start_m - law_.spring.stretch_m(m_.actuator.tendon.pretension_N);
+  }
+
+  ChainTrace run() {
+    undo_sensors();
+    out_.tension_measured = !in_.tension_N.empty(), out_.current_measured = !in_.current_A.empty();
+    if (!out_.current_measured) out_.current_averaged = 1;
+    rows_ = std::max({out_.shaft_rad.size(), in_.voltage_V.size(), in_.tension_N.size()});
+    out_.speed_rad_per_s = bump_.rates(out_.shaft_rad);
+    if (!path_.length_m.empty()) path_rate_ = bump_.rates(path_.length_m);
+    if (!path_.length_m.empty() && !m_.effects.empty()) calm_path_m_ = calm(path_.length_m);
+    const bool turning = !out_.shaft_rad.empty();
+    if (turning && !path_.length_m.empty())
+      out_.spring_N.assign(rows_, nan), out_.path_slope.assign(rows_, 1);
+    if (turning && !in_.voltage_V.empty())
+      out_.terminal_V.assign(rows_, nan), out_.resistance_ohm.assign(rows_, nan);
+    samples_.reserve(rows_), wound_slope_.reserve(rows_);
+    for (std::size_t k = 0; k < rows_; ++k) take(k);
+    if (!out_.tension_measured) out_.tension_N = out_.spring_N;
+    find_drive();
+    return std::move(out_);
+  }
+
+ private:
+  void undo_sensors() {
+    const auto undone = [&](effects::Sense sense, const Signal& said) {
+      Signal value = said;
+      if (!m_.effects.empty())
+        for (std::size_t k = 0; k < said.size(); ++k)
+          value[k] = m_.effects.undo(
+              sense, said[k],
+              {period_s_ * double(k), period_s_, m_.motor.gear_ratio, rate_of(said, k, period_s_)});
+      return value;
+    };
+    out_.current_averaged =
+        in_.current_around
+            ? 1
+            : m_.effects.averaged(effects::Sense::current, {0, period_s_, m_.motor.gear_ratio, 0});
+    out_.shaft_rad = undone(effects::Sense::shaft, in_.shaft_rad);
+    out_.current_A = undone(effects::Sense::current, in_.current_A);
+    out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
+  }
+
+  /// For what remembers: noise would wear a hysteresis down.
+  Signal calm(const Signal& noisy) const {
+    constexpr double half_width_s = 0.03;
+    const Bump bump(half_width_s, period_s_);
+    Signal calm = noisy;
+    for (std::size_t k = bump.reach(); k + bump.reach() < noisy.size(); ++k)
+      calm[k] = bump.mean(noisy, k);
+    return calm;
+  }
+
+  /// What was not taken is as it was before: effects that remember know of no gap.
+  effects::ChainSample sample(std::size_t k) const {
+    effects::ChainSample s;
+    s.path_m = m_.start_m;
+    if (!samples_.empty()) s = samples_.back();
+    const auto renew = [&](double& held, const Signal& signal, std::size_t row) {
+      if (!signal.empty() && !std::isnan(signal[row])) held = signal[row];
+    };
+    s.dt_s = period_s_;
+    s.supply_V = m_.motor.supply_V, s.gear_ratio = m_.motor.gear_ratio;
+    renew(s.voltage_V, in_.voltage_V, k), renew(s.current_A, out_.current_A, k);
+    renew(s.shaft_rad, out_.shaft_rad, k), renew(s.speed_rad_per_s, out_.speed_rad_per_s, k);
+    if (out_.tension_measured) renew(s.tension_N, out_.tension_N, k);
+    else if (k > 0) renew(s.tension_N, out_.spring_N, k - 1);
+    renew(s.path_m, path_.length_m, k), renew(s.wrap_rad, path_.wrap_rad, k);
+    if (const double square = square_A2(k); !std::isnan(square)) s.current_square_A2 = square;
+    s.radius_m = law_.radius_m;
+    s.load_Nm = s.radius_m * s.tension_N;
+    s.path_change_m = s.path_m - m_.start_m;
+    s.stretch_m = s.stiffness_N_per_m = s.line_speed_m_per_s = 0;  // not yet known
+    s.pushes = pushes_;
+    return s;
+  }
+  /// ⟨i²⟩ over the period that ends at a row: within it the current falls evenly as the motor
+  /// speeds up, i = i_k + (K_E N/R)(ω_k − ω).
+  double square_A2(std::size_t k) const {
+    if (k == 0 || out_.current_A.empty() || out_.speed_rad_per_s.empty()) return 0;
+    const double fall_A = m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio /
+                          m_.motor.resistance_ohm *
+                          (out_.speed_rad_per_s[k] - out_.speed_rad_per_s[k - 1]);
+    const double mean_A = out_.current_A[k] + fall_A / 2;
+    return mean_A * mean_A + fall_A * fall_A / 12;
+  }
+
+  void take(std::size_t k) {
+    effects::ChainSample s = sample(k);
+    Sloped wound{s.radius_m * s.shaft_rad, s.radius_m}, path{s.path_m, 1}, pull;
+    if (!m_.effects.empty()) {
+      path = m_.effects.path(s, path);
+      const bool calmed = k < calm_path_m_.size() && !std::isnan(calm_path_m_[k]);
+      const double calm_m = calmed ? path.slope * (calm_path_m_[k] - s.path_m) : 0.0;
+      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
+      s.stiffness_N_per_m =
+          law_.spring.slope_N_per_m(pushes_ ? std::abs(s.stretch_m) : s.stretch_m);
+      wound = m_.effects.wound(s, wound);
+      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
+      pull = m_.effects.pull(s);
+    }
+    s.stretch_m = path.value - law_.rest_m + wound.value;
+    s.line_speed_m_per_s = wound.slope * s.speed_rad_per_s;
+    if (!out_.spring_N.empty()) stretch(k, s, path, wound, pull);
+    if (!out_.terminal_V.empty()) {
+      out_.terminal_V[k] = m_.effects.voltage_V(in_.voltage_V[k], s);
+      out_.resistance_ohm[k] = m_.effects.resistance_ohm(m_.motor.resistance_ohm, s);
+    }
+    samples_.push_back(s);
+    wound_slope_.push_back(wound.slope);
+  }
+
+  void stretch(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
+               Sloped pull) {
+    const bool in_play = pushes_ && wound.slope == 0;  // neither end draws the other
+    const double rate =
+        in_play ? 0 : path.slope * path_rate_[k] + wound.slope * out_.speed_rad_per_s[k];
+    const double spring = std::copysign(law_.spring.force_N(std::abs(s.stretch_m)), s.stretch_m);
+    const double force = spring + law_.damping_N_s_per_m * rate + pull.value;
+    out_.spring_N[k] = std::isnan(rate)  ? nan
+                       : pushes_         ? force
+                       : s.stretch_m > 0 ? std::max(0.0, force)
+                                         : 0.0;
+    out_.path_slope[k] = path.slope;
+  }
+
+  /// i as measured; or, as the motor's law has it, its mean around the row, late by L/R.
+  double current_A(std::size_t k) const {
+    if (out_.current_measured) return out_.current_A[k];
+    if (k + 1 >= rows_) return nan;
+    const double late_s = m_.motor.inductance_H / out_.resistance_ohm[k];
+    const double next_V = out_.terminal_V[k + 1], now_V = out_.terminal_V[k];
+    const double mean_V = (now_V + next_V) / 2 - late_s * (next_V - now_V) / period_s_;
+    const double answered =
+        out_.speed_rad_per_s[k] - late_s * rate_of(out_.speed_rad_per_s, k, period_s_);
+    return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * answered) /
+           out_.resistance_ohm[k];
+  }
+  /// ī over the period that ends at row k, but for what the speed changes.
+  double mean_A(std::size_t k) const {
+    const double now = current_A(k);
+    return now + trailing_ * (current_A(k - 1) - now);
+  }
+
+  /// ī over the two periods around row k.
+  double around_A(std::size_t k) const {
+    const double a = out_.current_averaged;
+    return (1 - a) * 0.5 * (mean_A(k) + mean_A(k + 1)) + a * current_A(k);
+  }
+
+  void find_drive() {
+    const bool driven = out_.current_measured || !out_.terminal_V.empty();
+    if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
+    out_.drive_Nm.assign(rows_, nan), out_.motor_Nm.assign(rows_, nan);
+    for (std::size_t k = 1; k + 1 < rows_; ++k) {
+      out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * around_A(k);
+      out_.drive_Nm[k] = drive_Nm(k);
+    }
+  }
+
+  double drive_Nm(std::size_t k) {
+    const erp::MotorType& m = m_.motor;
+    const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
+    if (!(std::abs(omega) > resting_rad_per_s)) return nan;
+    const int way = omega > 0 ? 1 : -1;
+    effects::ChainSample s = samples_[k];
+    s.tension_N = out_.tension_N[k];
+    const double near_N =
+        m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
+    s.load_Nm = wound_slope_[k] * near_N;
+    const double dry = std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(way, s));
+    const double load =
+        m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm + m_.effects.torque_Nm(s);
+    const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
+    return out_.motor_Nm[k] - n * way * m.rotor_coulomb_Nm - load / e;
+  }
+
+  ChainModel m_;
+  const ActuatorSignals& in_;
+  const PathTrace& path_;
+  double period_s_;
+  double trailing_ = trail_s(m_.motor, period_s_) / period_s_;
+  Bump bump_;
+  TendonLaw law_;
+  bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission
+  std::size_t rows_ = 0;
+  Signal path_rate_, calm_path_m_, wound_slope_;
+  std::vector<effects::ChainSample> samples_;
+  ChainTrace out_;
+};
+
+}  // namespace
+
+ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
+                 double period_s, double speed_half_width_s) {
+  return Tracer(std::move(model), measured, path, period_s, speed_half_width_s).run();
+}
+
+}  // namespace sim::residuals

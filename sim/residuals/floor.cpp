@@ -1,0 +1,134 @@
+#include "sim/residuals/floor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/actuator/noise.hpp"
+#include "sim/actuator/sensors.hpp"
+
+namespace sim::residuals {
+namespace {
+
+constexpr double calibration = 0.003;  // of a current sensor at its best; chosen
+constexpr double of_voltage = 3e-4;    // of an amplifier's where it stands for a current; chosen
+
+void disturb(Signal& signal, double noise_rms, double step, Noise& noise) {
+  for (double& x : signal) x += noise_rms * noise.normal() + step * (noise.uniform() - 0.5);
+}
+
+/// The step of an effect on a sensor, or 0.
+double coarse_step(const std::vector<effects::Placed>& all, const char* type,
+                   const std::string& on) {
+  for (effects::Placed placed : all)
+    if (effects::about(placed.effect).type == type && placed.on == on)
+      return *effects::parameters(placed.effect)[0].value;
+  return 0;
+}
+
+/// The noise of a signal that no data sheet tells of, from its third differences: they leave
+/// little of a motion, and 20 times the noise's variance.
+double noise_of(const Signal& signal) {
+  std::vector<double> square;
+  for (std::size_t k = 3; k < signal.size(); ++k)
+    if (const double d = signal[k] - 3 * signal[k - 1] + 3 * signal[k - 2] - signal[k - 3];
+        !std::isnan(d))
+      square.push_back(d * d);
+  if (square.empty()) return 0;
+  const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
+  std::nth_element(square.begin(), middle, square.end());
+  constexpr double median_of_chi_square = 0.455;
+  return std::sqrt(*middle / 20 / median_of_chi_square);
+}
+
+/// What a sensor of such steps would have said with its lattice elsewhere. Its error is no white
+/// noise: it stays for as long as the signal does.
+void requantise(Signal& signal, double step, Noise& noise) {
+  constexpr std::size_t reach = 12;  // rows to each side: a step smoothed over
+  const Signal said = signal;
+  const double shift = noise.uniform();
+  for (std::size_t k = 0; k < said.size(); ++k) {
+    double sum = 0, count = 0;
+    for (std::size_t n = k < reach ? 0 : k - reach; n < std::min(said.size(), k + reach + 1); ++n)
+      if (!std::isnan(said[n])) sum += said[n], ++count;
+    if (count == 0 || std::isnan(said[k])) continue;
+    const double smooth = sum / count;
+    signal[k] = said[k] + step * (std::round(smooth / step + shift) - shift) - smooth;
+  }
+}
+
+/// Sampled half a period late: by an amplifier, or by a simulator's step.
+void delay(Signal& signal) {
+  constexpr double late = 0.5;
+  const Signal said = signal;
+  for (std::size_t k = 1; k + 1 < said.size(); ++k)
+    signal[k] = said[k] - late * (said[k + 1] - said[k - 1]) / 2;
+}
+
+}  // namespace
+
+Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_t seed) {
+  Episode again = episode;
+  Noise noise(seed);
+  const auto coarse = effects::read_effects(robot);
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const erp::SensorType& sensors = robot.sensors_of(robot.actuators[a]);
+    const SensorScale scale(robot.motor_of(robot.actuators[a]), sensors);
+    ActuatorSignals& s = again.actuators[a];
+    delay(s.tension_N);
+    const bool told = sensors.encoder_counts_per_rev > 0;  // some drives' are not
+    if (told) disturb(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
+    else disturb(s.shaft_rad, noise_of(s.shaft_rad), 0, noise);
+    for (double& i : s.current_A) i *= 1 + calibration;
+    if (s.current_A.empty())
+      for (double& v : s.voltage_V) v *= 1 + of_voltage;
+    disturb(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
+    const bool drive = robot.actuators[a].tendon.path.empty();
+    const double of_tension =
+        drive && sensors.tension_noise_N == 0 ? noise_of(s.tension_N) : sensors.tension_noise_N;
+    disturb(s.tension_N, of_tension, scale.tension_N_per_count, noise);
+    const auto coarsen = [&](const char* type, Signal& signal) {
+      if (const double step = coarse_step(coarse, type, robot.actuators[a].name); step > 0)
+        requantise(signal, step, noise);
+    };
+    coarsen("sensor_shaft_quantisation", s.shaft_rad);
+    coarsen("sensor_current_quantisation", s.current_A);
+    coarsen("sensor_tension_quantisation", s.tension_N);
+  }
+  const auto joints = robot.joints();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    JointSignals& signals = again.joints[j];
+    const auto sensor =
+        std::ranges::find(robot.joint_sensors, joints[j].name, &erp::JointSensor::joint);
+    if (sensor != robot.joint_sensors.end() && joints[j].type == erp::JointType::revolute) {
+      const double finest = 2 * std::numbers::pi / std::exp2(sensor->bits_per_rev);
+      disturb(signals.angle_rad, sensor->noise_rad, finest, noise);
+      if (const double step = coarse_step(coarse, "sensor_joint_quantisation", sensor->joint);
+          step > 0)
+        requantise(signals.angle_rad, step, noise);
+      continue;
+    }
+    disturb(signals.angle_rad, noise_of(signals.angle_rad), 0, noise);
+    for (Signal& part : signals.quaternion) disturb(part, noise_of(part), 0, noise);
+  }
+  return again;
+}
+
+std::vector<double> floors(Stages& stages, const Episode& episode, const erp::Robot& robot,
+                           std::uint64_t seed) {
+  const auto said = stages.residuals(episode);
+  const auto again = stages.residuals(said_again(episode, robot, seed));
+  std::vector<double> floors;
+  for (std::size_t r = 0; r < said.size(); ++r) {
+    double square = 0;
+    std::size_t windows = 0;
+    for (std::size_t k = 0; k < said[r].value.size(); ++k)
+      if (const double change = again[r].value[k] - said[r].value[k];
+          !std::isnan(change) && !banded(said[r], k) && !banded(again[r], k))
+        square += change * change, ++windows;
+    floors.push_back(windows ? std::sqrt(square / static_cast<double>(windows)) : 0);
+  }
+  return floors;
+}
+
+}  // namespace sim::residuals

@@ -1,0 +1,86 @@
+// Where joints were that a recording leaves out.
+#include <algorithm>
+
+#include "sim/residuals/indices.hpp"
+#include "sim/residuals/pose_from_tendons.hpp"
+#include "sim/residuals/stages.hpp"
+
+namespace sim::residuals {
+namespace {
+
+/// Tendons that say shaft and tension.
+std::vector<std::size_t> telling(const Episode& episode, const erp::Robot& robot) {
+  std::vector<std::size_t> lines;
+  for (std::size_t a = 0; a < episode.actuators.size(); ++a)
+    if (const ActuatorSignals& s = episode.actuators[a];
+        !robot.actuators[a].tendon.path.empty() && !s.shaft_rad.empty() && !s.tension_N.empty())
+      lines.push_back(a);
+  return lines;
+}
+
+/// Without what the motors do: it is of no matter here.
+Episode lines_alone(const Episode& episode) {
+  Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
+  for (const ActuatorSignals& s : episode.actuators)
+    lines.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
+  const auto& joints = bones_.joint_list();
+  std::vector<std::size_t> missing;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (std::ranges::count(recorded_joints_, joints[j].name) &&
+        !was_measured(trace.signals[j], joints[j].type))
+      missing.push_back(j);
+  return missing;
+}
+
+void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
+  const auto missing = missing_joints(trace), lines = telling(episode, equipped_.robot);
+  if (missing.empty() || lines.empty()) return;
+  const bool near = guess && guess->estimated;
+  if (near) trace.nearby = guess->nearby;
+  const Episode pulled = lines_alone(episode);
+  const auto chains = [&](const std::vector<JointSignals>& signals) {
+    const auto paths = this->paths(episode, {.signals = signals, .nearby = trace.nearby}, lines);
+    std::vector<ChainTrace> all;
+    for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(pulled, lines[n], paths[n]));
+    return all;
+  };
+  const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s);
+  if (lines.size() < search.unknowns()) return;
+  constexpr int from_afar = 6, from_near = 2;  // steps, chosen
+  if (near)
+    for (const std::size_t j : missing) trace.signals[j] = guess->signals[j];
+  else search.start(trace.signals, episode.rows);
+  search.better(trace.signals, near ? from_near : from_afar, near ? from_near : 1);
+  trace.estimated = true;
+  if (!trace.nearby) trace.nearby = nearby(episode, trace, missing);
+}
+
+std::shared_ptr<const PathsNearby> Stages::nearby(const Episode& episode, const JointTrace& trace,
+                                                  std::span<const std::size_t> missing) {
+  constexpr double nudge_rad = 1e-3;
+  const auto all = each(episode.actuators.size());
+  PathsNearby near{trace.signals, bones_.paths(trace.signals, episode.rows, all), {}, {}};
+  near.slope_m.resize(all.size());
+  for (const std::size_t j : missing) {
+    if (bones_.joint_list()[j].type == erp::JointType::fixed) continue;
+    if (bones_.joint_list()[j].type != erp::JointType::revolute) return nullptr;
+    auto nudged = trace.signals;
+    for (double& angle : nudged[j].angle_rad) angle += nudge_rad;
+    auto moved = bones_.paths(nudged, episode.rows, all);
+    for (const std::size_t a : all) {
+      Signal& slope = near.slope_m[a].emplace_back(std::move(moved[a].length_m));
+      for (std::size_t k = 0; k < slope.size(); ++k)
+        slope[k] = (slope[k] - near.paths[a].length_m[k]) / nudge_rad;
+    }
+    near.hinges.push_back(j);
+  }
+  return std::make_shared<const PathsNearby>(std::move(near));
+}
+
+}  // namespace sim::residuals
