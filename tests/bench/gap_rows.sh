@@ -2,7 +2,8 @@
 # How well the diagnosis finds what it is not told, row by row, on seeds that nothing was tuned to.
 #   tests/bench/gap_rows.sh                 every row: hours
 #   tests/bench/gap_rows.sh null pair       these
-# Cases and scores go to erp_runs/gap_rows; a row that was stopped goes on where it was.
+# Cases and scores go to erp_runs/gap_rows, every score so far to erp_runs/gap_rows/gap_rows.md; a row that
+# was stopped goes on where it was.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 erp=build/release/bin/erp
@@ -31,6 +32,21 @@ run_row() {  # name robot kind cases seed without
   $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
 }
 
+tell() {  # every row that has a score, with what was missed, case by case
+  echo "# How well the diagnosis finds what it is not told"
+  echo "By \`tests/bench/gap_rows.sh\` with $($erp --version), 4 recordings of 25 s a case."
+  local name robot cases seed without
+  while read -r name robot _ cases seed without; do
+    [ -f "$out/$name.score" ] || continue
+    echo
+    echo "## $name"
+    echo "$cases cases of $robot, seeds from $seed${without:+, without $without}."
+    echo '```'
+    cat "$out/$name.score"
+    echo '```'
+  done <<<"$rows"
+}
+
 mkdir -p "$out"
 known=$(awk 'NF {print $1}' <<<"$rows")
 for name in ${*:-$known}; do
@@ -42,3 +58,4 @@ for name in ${*:-$known}; do
   # shellcheck disable=SC2086
   run_row $row
 done
+tell >"$out/gap_rows.md"
