@@ -16,6 +16,6 @@ verdict=0
 build/release/bin/erp gap diagnose --robot "$robot" --real "$out"/case/case_0001/*.csv \
   --out "$out" || verdict=$?
 echo "what was hidden:"
-grep -E '"(type|on)"' "$out/truth.json"
+grep -vE '[][]|^ *[{}]|"(case|kind)"' "$out/truth.json"
 [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || xdg-open "$out/report.html" 2>/dev/null || true
 exit "$verdict"

@@ -8,6 +8,7 @@
 
 #include "interfaces/recording/error.hpp"
 #include "interfaces/values.hpp"
+#include "interfaces/xml/words.hpp"
 
 namespace recording {
 namespace {
@@ -16,29 +17,6 @@ struct Cell {
   std::string text;
   std::size_t column = 1;  ///< of its first character in the line, from 1
 };
-
-/// How far one word is from another: letters changed, added or left out.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row[b.size()];
-}
-
-std::string nearest_signal(std::string_view word) {
-  const auto& known = known_signals();
-  const auto best = std::ranges::min_element(
-      known, {}, [&](std::string_view signal) { return distance(signal, word); });
-  return std::string(*best);
-}
 
 class Parser {
  public:
@@ -124,9 +102,9 @@ class Parser {
       fail(cell.column, "column \"" + name + "\" stands there twice", "remove one");
     if (name != "time_s" &&
         (signal.size() == name.size() || std::ranges::find(known, signal) == known.end()))
-      fail(cell.column, "unknown column \"" + name + "\"",
+      fail(cell.column, "unknown column " + xml::quote(name),
            signal.size() == name.size() ? "name it <actuator or joint>.<signal>"
-                                        : "did you mean " + nearest_signal(signal) + "?");
+                                        : xml::did_you_mean(signal, {known.begin(), known.end()}));
     order_.push_back(order_.size());
     table_.columns.push_back({name, {}});
   }

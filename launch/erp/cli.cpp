@@ -4,6 +4,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "interfaces/recording/error.hpp"
 #include "interfaces/xml/errors.hpp"
 #include "interfaces/xml/words.hpp"
 #include "launch/erp/verbs.hpp"
@@ -34,18 +35,25 @@ bool is_unknown_verb(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
+int fail(const std::exception& error, int code) {
+  std::cerr << "erp: " << error.what() << '\n';
+  return code;
+}
+
 int carry_out(const Chosen& chosen) {
   try {
     return chosen();
   } catch (const xml::Errors& error) {
     std::cerr << error.what() << '\n';
     return 2;
+  } catch (const recording::WriteError& error) {
+    return fail(error, 1);
+  } catch (const recording::RecordingError& error) {
+    return fail(error, 2);
   } catch (const std::invalid_argument& error) {
-    std::cerr << "erp: " << error.what() << '\n';
-    return 2;
+    return fail(error, 2);
   } catch (const std::exception& error) {
-    std::cerr << "erp: " << error.what() << '\n';
-    return 1;
+    return fail(error, 1);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "sim/diagnosis/where.hpp"
@@ -22,23 +23,20 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
                      gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);
 }
 
-/// The stages for which `holds`, in words.
-std::string named(const std::vector<diagnosis::StageGap>& gaps, bool diagnosis::StageGap::*holds,
-                  bool wanted) {
-  std::string names;
+void print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>& gaps,
+                 std::ostream& out) {
+  std::string open;
   for (const auto& gap : gaps)
-    if (gap.*holds == wanted)
-      names += fmt::format("{}{} of {}", names.empty() ? "" : ", ", sim::effects::word(gap.stage),
-                           gap.on);
-  return names;
-}
-
-void print_words(const std::vector<diagnosis::StageGap>& gaps, std::ostream& out) {
-  const std::string open = named(gaps, &diagnosis::StageGap::open, true);
-  const std::string unjudged = named(gaps, &diagnosis::StageGap::judged, false);
+    if (gap.open)
+      open += fmt::format("{}{} of {}", open.empty() ? "" : ", ", sim::effects::word(gap.stage),
+                          gap.on);
+  const auto unjudged = diagnosis::not_judged(robot, gaps);
+  const bool some = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
   if (!unjudged.empty())
-    out << "not judged, for want of windows in which they move: " << unjudged << "\n";
+    out << fmt::format("not judged, for want of signals or of windows in which they move: {}\n",
+                       fmt::join(unjudged, ", "));
   if (!open.empty()) out << "the gap is in: " << open << "\n";
+  else if (!some) out << "nothing could be judged\n";
   else if (unjudged.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
   else out << "no gap in the others: they are left with the noise of their sensors\n";
 }
@@ -49,31 +47,34 @@ erp::Robot read_chains(const std::string& robot_file) {
   return residuals::as_chains(erp::read_robot(robot_file));
 }
 
-std::vector<residuals::Episode> read_episodes(const erp::Robot& robot,
-                                              const std::vector<std::string>& recordings,
-                                              std::vector<std::string>& mended) {
-  std::vector<residuals::Episode> episodes;
+Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings) {
+  Reading read;
   for (const std::string& file : recordings) {
-    episodes.push_back(
+    read.episodes.push_back(
         residuals::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
-                           robot, file, mended));
-    for (std::string& odd : residuals::odd_units(episodes.back(), robot))
-      mended.push_back(std::move(odd));
+                           robot, file, read.mended));
+    for (std::string& odd : residuals::odd_units(read.episodes.back(), robot))
+      read.odd.push_back(std::move(odd));
   }
-  residuals::keep_common(episodes, robot, mended);
-  return episodes;
+  residuals::keep_common(read.episodes, robot, read.mended);
+  return read;
+}
+
+void tell(const Reading& reading, std::ostream& remarks) {
+  for (const auto* list : {&reading.mended, &reading.odd})
+    for (const std::string& remark : *list) remarks << remark << "\n";
 }
 
 int gap_where(const std::string& robot_file, const std::vector<std::string>& recordings,
               std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(robot_file);
-  std::vector<std::string> mended;
-  const auto gaps = diagnosis::where(robot, read_episodes(robot, recordings, mended));
-  for (const std::string& remark : mended) remarks << remark << "\n";
+  const Reading read = read_episodes(robot, recordings);
+  tell(read, remarks);
+  const auto gaps = diagnosis::where(robot, read.episodes);
   out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
                      "floor", "times", "share", "windows");
   for (const auto& gap : gaps) print_row(gap, out);
-  print_words(gaps, out);
+  print_words(robot, gaps, out);
   return 0;
 }
 

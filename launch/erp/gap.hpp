@@ -13,12 +13,16 @@ namespace launch {
 /// The robot, its drives as chains. Throws xml::Errors.
 erp::Robot read_chains(const std::string& robot_file);
 
-/// Reads and lays out recordings for a robot; what was mended, and
-/// what is odd about signs and units, is told. Throws RecordingError,
-/// std::invalid_argument.
-std::vector<sim::residuals::Episode> read_episodes(const erp::Robot& robot,
-                                                   const std::vector<std::string>& recordings,
-                                                   std::vector<std::string>& mended);
+/// Recordings laid out for a robot, and in words what was mended, and what of signs and units a
+/// person should mend.
+struct Reading {
+  std::vector<sim::residuals::Episode> episodes;
+  std::vector<std::string> mended, odd;
+};
+/// Throws RecordingError, std::invalid_argument.
+Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings);
+/// What there is to say of it, a line each.
+void tell(const Reading& reading, std::ostream& remarks);
 
 /// Prints a row a stage, the largest share of the gap first, and the stages that leave their noise
 /// floor in words; what was mended in the recordings goes to `remarks`. Throws xml::Errors,

@@ -14,8 +14,8 @@
 #include "launch/erp/gap.hpp"
 #include "launch/erp/gap_files.hpp"
 #include "launch/erp/gap_truth.hpp"
-#include "launch/erp/model.hpp"
 #include "launch/erp/progress.hpp"
+#include "launch/erp/text_files.hpp"
 #include "sim/blind/shows.hpp"
 #include "sim/diagnosis/diagnose.hpp"
 #include "sim/diagnosis/parallel.hpp"
@@ -72,7 +72,10 @@ std::pair<std::size_t, std::size_t> part_of_work() {
 int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = erp::read_robot(options.robot);
   const auto kind = sim::blind::kind_of(options.kind);
-  fs::create_directories(options.out);
+  if (fs::exists(options.out + "/cases.json"))
+    throw std::invalid_argument(options.out +
+                                ": holds cases already; move it away or name another");
+  make_folder(options.out);
   write_file(options.out + "/robot.xml", erp::write_robot(robot));
   const auto count = static_cast<std::size_t>(options.cases);
   std::vector<Json> truths(count), cases(count);
@@ -132,12 +135,12 @@ int blind_run(const std::string& folder, int threads, std::ostream& out, std::os
   std::mutex telling;
   Progress progress(remarks);
   sim::diagnosis::in_parallel(mine.size(), threads, [&](std::size_t k) {
-    std::vector<std::string> files, mended;
+    std::vector<std::string> files;
     for (const Json& file : mine[k]["recordings"])
       files.push_back(folder + "/" + file.get<std::string>());
     sim::diagnosis::DiagnoseOptions how{.threads = 1};
     how.withhold = mine[k]["withhold"].get<std::vector<std::string>>();
-    const auto d = sim::diagnosis::diagnose(robot, read_episodes(robot, files, mended), how);
+    const auto d = sim::diagnosis::diagnose(robot, read_episodes(robot, files).episodes, how);
     const std::string place = folder + "/" + mine[k]["case"].get<std::string>();
     write_file(place + "/diagnosis.part", diagnosis_json(d, {}, robot));
     fs::rename(place + "/diagnosis.part", place + "/diagnosis.json");

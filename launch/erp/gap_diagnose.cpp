@@ -7,8 +7,8 @@
 
 #include "launch/erp/gap.hpp"
 #include "launch/erp/gap_files.hpp"
-#include "launch/erp/model.hpp"
 #include "launch/erp/progress.hpp"
+#include "launch/erp/text_files.hpp"
 
 namespace launch {
 namespace {
@@ -78,7 +78,7 @@ void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
   }
 }
 
-void print(const diagnosis::Diagnosis& d, std::ostream& out) {
+void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
   print_where(d, out);
   const bool explained = d.verdict == diagnosis::Verdict::supported;
   for (const auto& n : d.answer) {
@@ -102,6 +102,32 @@ void print(const diagnosis::Diagnosis& d, std::ostream& out) {
     if (c.before > 1.5 * c.floor && !d.answer.empty())
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
+}
+
+/// What was mended in the recordings was told at the start.
+void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
+           const std::vector<std::string>& odd, std::ostream& out) {
+  print_answer(d, out);
+  if (!free_run.channels.empty())
+    out << fmt::format(
+        "free run    {:.3g} times what noise alone would do before, {:.3g} after: {:.1f} % "
+        "closed\n",
+        free_run.all.before, free_run.all.after, 100 * free_run.all.closed);
+  for (const std::string& warning : d.warnings) out << "warning     " << warning << "\n";
+  for (const std::string& sign : odd) out << "mend first  " << sign << ", and ask again\n";
+  out << "verdict     " << diagnosis::word(d.verdict);
+  if (d.verdict == diagnosis::Verdict::no_gap && !d.not_judged.empty())
+    out << ", in what could be judged";
+  out << "\n";
+}
+
+void write_found(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
+                 const erp::Robot& robot, const erp::Robot& found, const std::string& folder) {
+  write_file(folder + "/diagnosis.json", diagnosis_json(d, free_run, robot));
+  write_file(folder + "/report.html", diagnosis_report(d, free_run, robot));
+  const std::string mended = folder + "/robot.xml";
+  if (d.verdict == diagnosis::Verdict::supported) write_file(mended, erp::write_robot(found));
+  else std::filesystem::remove(mended);  // of an earlier diagnosis
 }
 
 /// The answer in the simulator, on the recordings held out. Nothing without an answer, and nothing
@@ -143,9 +169,9 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
   const erp::Robot robot = read_chains(options.robot);
   check_types(options.withhold);
   const Sorted sorted = sort(options);
-  std::vector<std::string> mended;
-  const auto episodes = read_episodes(robot, sorted.files, mended);
-  for (const std::string& remark : mended) remarks << remark << "\n";
+  const Reading read = read_episodes(robot, sorted.files);
+  tell(read, remarks);
+  if (!options.out.empty()) make_folder(options.out);
   std::optional<Progress> progress(std::in_place, remarks);
   diagnosis::DiagnoseOptions how{.train = sorted.train,
                                  .held_out = sorted.held_out,
@@ -153,31 +179,20 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
                                  .threads = options.threads,
                                  .seed = options.seed};
   how.progress = [&](const std::string& what, double share) { progress->tell(what, share); };
-  diagnosis::Diagnosis d = diagnosis::diagnose(robot, episodes, how);
-  d.warnings.insert(d.warnings.begin(), mended.begin(), mended.end());
+  diagnosis::Diagnosis d = diagnosis::diagnose(robot, read.episodes, how);
   erp::Robot found = erp::read_robot(options.robot);
   for (const auto& n : d.answer) found.effects.push_back(sim::effects::written(n.placed));
-  const auto free_run = run_freely(d, episodes, robot, found, options, *progress);
+  const auto free_run = run_freely(d, read.episodes, robot, found, options, *progress);
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
-  print(d, out);
-  if (!free_run.channels.empty())
-    out << fmt::format(
-        "free run    {:.3g} times what noise alone would do before, {:.3g} after: {:.1f} % "
-        "closed\n",
-        free_run.all.before, free_run.all.after, 100 * free_run.all.closed);
-  for (std::size_t k = mended.size(); k < d.warnings.size(); ++k)  // those were told at the start
-    out << "warning     " << d.warnings[k] << "\n";
-  out << "verdict     " << diagnosis::word(d.verdict) << "\n";
+  print(d, free_run, read.odd, out);
+  d.warnings.insert(d.warnings.begin(), read.odd.begin(), read.odd.end());
+  d.warnings.insert(d.warnings.begin(), read.mended.begin(), read.mended.end());
   if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
-    write_file(options.out + "/diagnosis.json", diagnosis_json(d, free_run, robot));
-    write_file(options.out + "/report.html", diagnosis_report(d, free_run, robot));
-    const std::string mended_robot = options.out + "/robot.xml";
-    if (d.verdict == diagnosis::Verdict::supported)
-      write_file(mended_robot, erp::write_robot(found));
-    else std::filesystem::remove(mended_robot);  // of an earlier diagnosis
-    out << "report      " << options.out << "/report.html\n";
+    write_found(d, free_run, robot, found, options.out);
+    out << fmt::format(
+        "report      {0}/report.html, {0}/diagnosis.json{1}\n", options.out,
+        d.verdict == diagnosis::Verdict::supported ? ", " + options.out + "/robot.xml" : "");
   }
   return exit_code(d.verdict);
 }

@@ -10,8 +10,8 @@
 
 #include "interfaces/recording/csv.hpp"
 #include "launch/erp/gap.hpp"
-#include "launch/erp/model.hpp"
 #include "launch/erp/progress.hpp"
+#include "launch/erp/text_files.hpp"
 #include "sim/rehearsal/experiment.hpp"
 
 namespace launch {
@@ -33,9 +33,8 @@ Json read_diagnosis(const std::string& file) {
     Json d = Json::parse(in);
     d.at("effects"), d.at("confusable"), d.at("verdict");
     return d;
-  } catch (const Json::exception& wrong) {
-    throw std::invalid_argument(file +
-                                ": is no diagnosis.json of erp gap diagnose: " + wrong.what());
+  } catch (const Json::exception&) {
+    throw std::invalid_argument(file + ": is no diagnosis.json of erp gap diagnose; give one");
   }
 }
 
@@ -102,7 +101,7 @@ recording::Table trajectory_of(const sim::Excitation& excitation, const erp::Rob
 
 void write_graph(const std::string& out, const std::string& robot_file, const erp::Robot& robot,
                  const sim::Excitation& excitation) {
-  fs::create_directories(out);
+  make_folder(out);
   std::ostringstream csv;
   recording::write_csv(trajectory_of(excitation, robot), csv);
   write_file(out + "/trajectory.csv", csv.str());

@@ -28,10 +28,12 @@ svg{max-width:100%;height:auto;display:block;margin:.6rem 0}svg text{font-size:1
 .note{color:#555}</style></head><body>
 )";
 
-std::string title_of(Verdict verdict) {
-  switch (verdict) {
+std::string title_of(const Diagnosis& d) {
+  switch (d.verdict) {
     case Verdict::no_gap:
-      return "No gap: robot and model differ by no more than the noise of the sensors.";
+      return fmt::format(
+          "No gap{}: robot and model differ by no more than the noise of the sensors.",
+          d.not_judged.empty() ? "" : " in what could be judged");
     case Verdict::supported:
       return "An explanation that recordings held out support.";
     case Verdict::none_of_the_known:
@@ -53,7 +55,7 @@ std::string parameters_of(const Named& n) {
 }
 
 std::string summary(const Diagnosis& d) {
-  std::string html = fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d.verdict));
+  std::string html = fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d));
   if (!d.answer.empty()) html += "<ul>\n";
   for (const Named& n : d.answer)
     html += fmt::format("<li><b>{}</b>: {}</li>\n", escaped(name_of(n)), escaped(parameters_of(n)));
@@ -72,6 +74,8 @@ std::string summary(const Diagnosis& d) {
         "after. Closed: {:.1f} % ({:.1f} … {:.1f}).</p>\n",
         d.overall.before, d.overall.after, 100 * d.overall.closed, 100 * d.overall.interval.low,
         100 * d.overall.interval.high);
+  if (d.verdict == Verdict::supported)
+    html += "<p>Beside this page: robot.xml, the model with it; diagnosis.json, all figures.</p>\n";
   return html;
 }
 
@@ -112,7 +116,12 @@ std::string chains(const Diagnosis& d) {
     if (!std::ranges::count(places, place.on)) places.push_back(place.on);
   std::string html = "<h2>Where</h2>\n";
   if (places.empty())
-    html += svg::chain("every stage is at its floor", names, std::vector<double>(9, 0.0));
+    html += svg::chain(d.not_judged.empty() ? "every stage is at its floor"
+                                            : "every stage that could be judged is at its floor",
+                       names, std::vector<double>(9, 0.0));
+  if (!d.not_judged.empty())
+    html += fmt::format("<p class=\"note\">Not judged: {}.</p>\n",
+                        escaped(fmt::format("{}", fmt::join(d.not_judged, ", "))));
   for (const std::string& on : places) {
     std::vector<double> shares(names.size(), 0.0);
     for (const Located& place : d.where)
@@ -139,7 +148,10 @@ std::string stages(const Diagnosis& d) {
 }
 
 std::string moments(const Diagnosis& d) {
-  std::string html = d.worst.empty() ? "" : "<h2>The worst moments</h2>\n";
+  if (d.worst.empty()) return "";
+  std::string html =
+      "<h2>The worst moments</h2>\n<p class=\"note\">The green band is twice the noise; where a "
+      "line breaks, a window cannot be judged, as when a shaft rests.</p>\n";
   for (const Moment& m : d.worst)
     html += svg::plot(
         {fmt::format("{} of {}, {}", sim::effects::word(m.stage), m.on, m.recording), "time, s",
@@ -166,7 +178,8 @@ std::string ranking(const Diagnosis& d) {
   }
   columns.push_back("like the first");
   std::string html =
-      "<h2>Which</h2>\n" +
+      "<h2>Which</h2>\n<p class=\"note\">First those that take away 30 % of what some stage shows; "
+      "of equals, the plainer.</p>\n" +
       svg::bars("Share of the gap that each effect alone takes away, held out", bars, 1);
   if (!rows.empty())
     html +=

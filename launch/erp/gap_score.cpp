@@ -8,6 +8,7 @@
 
 #include "launch/erp/gap_blind.hpp"
 #include "launch/erp/gap_truth.hpp"
+#include "launch/erp/text_files.hpp"
 
 namespace launch {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "launch/erp/gap.hpp"
+#include "launch/erp/text_files.hpp"
 #include "sim/diagnosis/diagnose.hpp"
 
 namespace launch {
@@ -19,12 +19,6 @@ std::string sha256(const std::string& text) {
   std::string hex;
   for (unsigned int k = 0; k < length; ++k) hex += fmt::format("{:02x}", digest[k]);
   return hex;
-}
-
-std::string read_text(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw std::invalid_argument(file + ": cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::optional<double> closed_by_truth(const std::string& folder,
@@ -43,12 +37,11 @@ std::optional<double> closed_by_truth(const std::string& folder,
   const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
   const std::string place = folder + "/" + truth["case"].get<std::string>();
   const auto d = nlohmann::ordered_json::parse(read_text(place + "/diagnosis.json"));
-  std::vector<std::string> mended;
   std::vector<std::string> files;  // wherever it was diagnosed from
   for (const auto& name : d["held_out"])
     files.push_back(place + "/" +
                     std::filesystem::path(name.get<std::string>()).filename().string());
-  auto episodes = read_episodes(robot, files, mended);
+  auto episodes = read_episodes(robot, files).episodes;
   const auto judged_from_s = d.value("judged_from_s", nlohmann::ordered_json::object());
   for (std::size_t k = 0; k < episodes.size(); ++k)
     if (const auto name = d["held_out"][k].get<std::string>(); judged_from_s.contains(name))

@@ -6,8 +6,6 @@
 namespace launch {
 
 std::string sha256(const std::string& text);
-/// Throws std::invalid_argument.
-std::string read_text(const std::string& file);
 
 /// The fraction of the gap that what was hidden closes, with its true parameters as the library
 /// has them, on the recordings that the diagnosis held out. Nothing: it is not in the library.

@@ -53,10 +53,9 @@ int gap_twins(const GapTwinsOptions& options, std::ostream& out, std::ostream& r
   if (options.recordings.empty() && !robot.drives.empty())
     throw std::invalid_argument(options.robot +
                                 ": the simulator does not run drives; give recordings with --real");
-  std::vector<std::string> mended;
-  auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds)
-                                             : read_episodes(robot, options.recordings, mended);
-  for (const std::string& remark : mended) remarks << remark << "\n";
+  const Reading read = read_episodes(robot, options.recordings);
+  tell(read, remarks);
+  auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds) : read.episodes;
   leave_out(options.without, episodes);
   const diagnosis::Trials trials(robot, std::move(episodes));
   std::vector<std::vector<std::string>> rows{

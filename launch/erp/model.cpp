@@ -12,6 +12,7 @@
 #include "interfaces/robot/check.hpp"
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/xml.hpp"
+#include "launch/erp/text_files.hpp"
 #include "sim/actuator/pose_plan.hpp"
 #include "sim/effects/library.hpp"
 #include "sim/formats/formats.hpp"
@@ -48,12 +49,6 @@ std::vector<sim::TimedPose> poses_in(const std::string& file, const erp::Robot& 
 }
 
 }  // namespace
-
-void write_file(const std::string& file, const std::string& text) {
-  std::ofstream out(file);
-  if (!(out << text) || !out.flush())
-    throw std::invalid_argument(file + ": cannot be written; name another file");
-}
 
 ModelFigures figures_of(const erp::Robot& robot) {
   ModelFigures f{.name = robot.name};

@@ -7,9 +7,6 @@
 /// `erp model`: robots in other formats, and in figures.
 namespace launch {
 
-/// Throws std::invalid_argument, naming the file.
-void write_file(const std::string& file, const std::string& text);
-
 /// What a robot has.
 struct ModelFigures {
   std::string name;

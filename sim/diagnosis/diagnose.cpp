@@ -1,6 +1,6 @@
 #include "sim/diagnosis/diagnose.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
@@ -40,7 +40,8 @@ Trials sorted(Evidence& evidence, Diagnosis& d) {
   return {evidence.robot, evidence.episodes, options.seed};
 }
 
-Verdict judge(const Selection& selection, const Observed& observed) {
+Verdict judge(const Selection& selection, const Observed& observed,
+              const std::vector<StageGap>& stages) {
   const bool left = std::ranges::any_of(selection.left, &StageGap::open);
   const bool coarse_alone = !observed.sensors.empty() && !left;  // and that is all held out shows
   if (selection.gap && !coarse_alone)
@@ -48,7 +49,9 @@ Verdict judge(const Selection& selection, const Observed& observed) {
            : selection.told      ? Verdict::none_of_the_known
                                  : Verdict::not_identifiable;
   if (observed.any()) return Verdict::supported;
-  return observed.bus_unexplained() ? Verdict::none_of_the_known : Verdict::no_gap;
+  if (observed.bus_unexplained()) return Verdict::none_of_the_known;
+  return std::ranges::any_of(stages, &StageGap::judged) ? Verdict::no_gap
+                                                        : Verdict::not_identifiable;
 }
 
 /// What was seen without a fit comes first where it is all there is to say, the bus last where
@@ -75,27 +78,6 @@ void add_unexplained_bus(const std::string& robot, const Observed& observed, Dia
       "explains how old those were that it followed",
       100 * observed.late));
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
-}
-
-/// What the recordings leave unjudged for want of signals; empty: nothing.
-std::string not_judged(const erp::Robot& robot, const std::vector<StageGap>& stages,
-                       const Observed& observed) {
-  using effects::Stage;
-  std::string names;
-  const auto look = [&](Stage stage, const std::string& on) {
-    const auto found = find_stage(stages, stage, on);
-    if (found != stages.end() && found->judged) return;
-    names += (names.empty() ? "" : ", ") + std::string(effects::word(stage)) + " of " + on;
-  };
-  for (const erp::Actuator& a : robot.actuators) {
-    if (a.tendon.path.empty()) continue;  // a drive
-    for (const Stage stage : {Stage::motor, Stage::gearbox, Stage::tendon}) look(stage, a.name);
-  }
-  for (const erp::Joint& joint : robot.joints())
-    if (joint.type != erp::JointType::fixed) look(Stage::joint, joint.name);
-  if (robot.drives.empty() && !observed.bus_told)
-    names += std::string(names.empty() ? "" : ", ") + "the bus";
-  return names;
 }
 
 /// The robot with what was seen without a fit.
@@ -135,17 +117,22 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   if (!observed.sensors.empty())
     coarse.emplace(as_observed(robot, observed), evidence.episodes, options.seed);
   const Trials& known = coarse ? *coarse : plain;
-  if (const auto names = not_judged(robot, d.stages, observed); !names.empty())
-    d.warnings.push_back("not judged, the recordings say too little of it: " + names);
+  d.not_judged = not_judged(robot, d.stages);
+  if (robot.drives.empty() && !observed.bus_told) d.not_judged.emplace_back("the bus");
+  if (!d.not_judged.empty())
+    d.warnings.push_back(fmt::format("not judged, the recordings say too little of it: {}",
+                                     fmt::join(d.not_judged, ", ")));
   const Selection selection = select(evidence, known, d.stages);
-  d.verdict = judge(selection, observed);
+  d.verdict = judge(selection, observed, d.stages);
   d.answer = selection.answer, d.ranked = selection.ranked;
   d.interaction = selection.interaction;
   add_observed(observed, d);
   if (d.verdict == Verdict::not_identifiable)
     d.warnings.emplace_back(
-        "the recordings held out show too little of the gap to judge what causes it; record more "
-        "of what shows it, see where and when");
+        selection.gap
+            ? "the recordings held out show too little of the gap to judge what causes it; "
+              "record more of what shows it, see where and when"
+            : "nothing could be judged; record all signals, of motions of some seconds");
   d.where = d.verdict == Verdict::supported ? where_of_answer(evidence, plain, d.stages, d.answer)
                                             : where_of_stages(evidence, plain, d.stages, d.ranked);
   if (observed.bus_unexplained()) add_unexplained_bus(robot.name, observed, d);

@@ -30,7 +30,8 @@ struct Diagnosis {
   Closed overall;
   std::vector<Closed> channels;
   std::vector<std::string> recordings, train, held_out, warnings;
-  std::vector<Shared> shared;  ///< those that are in train and in held_out
+  std::vector<std::string> not_judged;  ///< stages and the bus, in words
+  std::vector<Shared> shared;           ///< those that are in train and in held_out
 };
 
 /// The recordings tell the same signals (common_signals.hpp).

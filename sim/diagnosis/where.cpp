@@ -121,4 +121,21 @@ std::vector<StageGap> where(const erp::Robot& robot, std::span<const residuals::
   return where(trials, trials.bare(), each(episodes.size()), options);
 }
 
+std::vector<std::string> not_judged(const erp::Robot& robot, const std::vector<StageGap>& stages) {
+  using effects::Stage;
+  std::vector<std::string> names;
+  const auto look = [&](Stage stage, const std::string& on) {
+    const auto found = find_stage(stages, stage, on);
+    if (found == stages.end() || !found->judged)
+      names.push_back(std::string(effects::word(stage)) + " of " + on);
+  };
+  for (const erp::Actuator& a : robot.actuators) {
+    if (a.tendon.path.empty()) continue;  // a drive
+    for (const Stage stage : {Stage::motor, Stage::gearbox, Stage::tendon}) look(stage, a.name);
+  }
+  for (const erp::Joint& joint : robot.joints())
+    if (joint.type != erp::JointType::fixed) look(Stage::joint, joint.name);
+  return names;
+}
+
 }  // namespace sim::diagnosis

@@ -74,4 +74,7 @@ std::vector<StageGap> where(const Trials& trials, const Trial& trial,
 std::vector<StageGap> where(const erp::Robot& robot, std::span<const residuals::Episode> episodes,
                             const WhereOptions& options = {});
 
+/// What such a robot has and the recordings say too little of, in words: "gearbox of flexor".
+std::vector<std::string> not_judged(const erp::Robot& robot, const std::vector<StageGap>& stages);
+
 }  // namespace sim::diagnosis

@@ -58,12 +58,27 @@ double square_of(const Trials& trials, const Placed& suspect) {
   return diagnosis::fit(trials, trials.bare(), suspect, only).square;
 }
 
+/// An excitation that begins where the robot rests: at pretension, with no line taken in.
+Excitation from_rest(const erp::Robot& robot, int kind, double duration_s, std::uint64_t seed) {
+  constexpr double ramp_s = 1;
+  Excitation all = excitation(robot, kind, duration_s, seed);
+  const auto rows = std::min(all.reference.size(), std::size_t(ramp_s / all.period_s));
+  for (std::size_t k = 0; k < rows; ++k)
+    for (std::size_t a = 0; a < all.reference[k].size(); ++a) {
+      const double rest =
+          all.mode == erp::Mode::force ? robot.actuators[a].tendon.pretension_N : 0.0;
+      double& reference = all.reference[k][a];
+      reference = std::lerp(rest, reference, double(k) / double(rows));
+    }
+  return all;
+}
+
 double split(double other, double first) { return std::sqrt(std::max(0.0, other - first)); }
 
 Candidate try_out(const erp::Robot& robot, const std::vector<Placed>& suspects, int kind,
                   std::uint64_t seed, const ExperimentOptions& options) {
   Candidate candidate{kind, seed};
-  const Score score = score_of(excitation(robot, kind, options.seconds, seed));
+  const Score score = score_of(from_rest(robot, kind, options.seconds, seed));
   candidate.extremes = extremes_of(rehearse(robot, score, seed), robot);
   recording::Table truth;
   for (const Placed& suspect : suspects) {
@@ -104,7 +119,7 @@ Experiment next_experiment(const erp::Robot& robot, const std::vector<Placed>& s
   });
   const Candidate& best = experiment.candidates.front();
   if (best.unsafe.empty())
-    experiment.chosen = excitation(robot, best.kind, options.seconds, best.seed);
+    experiment.chosen = from_rest(robot, best.kind, options.seconds, best.seed);
   return experiment;
 }
 

@@ -38,8 +38,9 @@ Score score_of(const Episode& e) {
   for (std::size_t k = 0; k < e.rows; ++k)
     for (std::size_t a = 0; a < e.actuators.size(); ++a) {
       const double mode = e.actuators[a].mode[k];
-      score[k][a] = {static_cast<erp::Mode>(std::isnan(mode) ? 0 : std::lround(mode)),
-                     std::isnan(mode) ? mode : e.actuators[a].reference[k]};
+      if (std::isnan(mode)) score[k][a].reference = mode;
+      else if (mode != 0)
+        score[k][a] = {static_cast<erp::Mode>(std::lround(mode)), e.actuators[a].reference[k]};
     }
   return score;
 }

@@ -24,17 +24,14 @@ class Stage {
     last_.resize(robot.actuators.size());
     name_columns();
     give_gains();
-    send([](std::size_t) { return std::pair(ECU_REQUEST_ARM, 0); });
+    send([&](std::size_t a) { return demand(a); });
   }
 
   recording::Table play(const Score& score) {
     for (const auto& asked : score) {
       for (std::size_t a = 0; a < last_.size(); ++a)
         if (!std::isnan(asked[a].reference)) last_[a] = asked[a];
-      send([&](std::size_t a) {
-        return std::pair(EcuUnits::request(last_[a].mode),
-                         units_[a].setpoint(last_[a].mode, last_[a].reference));
-      });
+      send([&](std::size_t a) { return demand(a); });
       ecus_.tick(world_);
       put(tick_s * static_cast<double>(table_.rows()));
     }
@@ -58,6 +55,13 @@ class Stage {
                                            std::uint8_t(k), k + 1 == gains.size(), gains[k]});
       ecus_.accept(message);
     }
+  }
+
+  /// An actuator that nothing is asked of stays armed, which drives nothing, ready for what comes.
+  std::pair<ecu_request, std::int32_t> demand(std::size_t a) const {
+    const auto& [mode, reference] = last_[a];
+    if (mode == erp::Mode::off) return {ECU_REQUEST_ARM, 0};
+    return {EcuUnits::request(mode), units_[a].setpoint(mode, reference)};
   }
 
   template <class Of>

@@ -10,7 +10,8 @@
 /// been recorded.
 namespace sim::rehearsal {
 
-/// What an actuator is asked in a tick of the ECUs, 2 ms; a reference of NaN: as before.
+/// What an actuator is asked in a tick of the ECUs, 2 ms; a reference of NaN: as before, at the
+/// start nothing.
 struct Asked {
   erp::Mode mode = erp::Mode::off;
   double reference = 0;  ///< V, m, A or N

@@ -12,8 +12,9 @@
 namespace sim::residuals {
 namespace {
 
-constexpr double together = 0.8;  // correlation, from which a slope is believed; chosen
-constexpr double far_off = 3;     // times: no effect of a robot is as large; chosen
+constexpr double together = 0.8;   // correlation, from which a slope is believed; chosen
+constexpr double far_off = 3;      // times: few effects of a robot are as large; chosen
+constexpr double beyond_all = 30;  // times: none is; chosen
 
 /// y = slope · x + rest.
 struct Line {
@@ -30,7 +31,7 @@ Line line_of(const Signal& x, const Signal& y) {
   return {c / vx, c / std::sqrt(vx * vy)};
 }
 
-/// What a signal that is so many times too large looks like.
+/// What a signal that is so many times too large looks like; empty: like no unit.
 std::string looks_like(double times, double gear_ratio) {
   struct Unit {
     double times;
@@ -44,7 +45,7 @@ std::string looks_like(double times, double gear_ratio) {
                         {1 / gear_ratio, "it looks as if divided by the gear ratio once more"}};
   for (const Unit& unit : units)
     if (std::abs(std::log(times / unit.times)) < 0.25) return unit.what;
-  return "check its unit";
+  return times > beyond_all || times < 1 / beyond_all ? "check its unit" : "";
 }
 
 class Check {
@@ -55,26 +56,33 @@ class Check {
   std::vector<std::string> run() {
     const auto paths = bones_.paths(e_.joints, e_.rows, each(robot_.actuators.size()));
     for (std::size_t a = 0; a < robot_.actuators.size(); ++a)
-      if (!robot_.actuators[a].tendon.path.empty()) motor(a), tendon(a, paths[a]);
+      if (!robot_.actuators[a].tendon.path.empty() && motor(a)) tendon(a, paths[a]);
     const auto joints = robot_.joints();
     for (std::size_t j = 0; j < joints.size(); ++j) limits(joints[j], e_.joints[j].angle_rad);
     return std::move(odd_);
   }
 
  private:
-  void say(const std::string& column, double times, const std::string& of, double gear_ratio) {
-    if (times < 0)
-      odd_.push_back(fmt::format("{}: {}: its sign is against {}", e_.name, column, of));
-    else if (times > far_off || times < 1 / far_off)
+  bool say(const std::string& column, double times, const std::string& of, double gear_ratio) {
+    if (times < 0) {
+      odd_.push_back(fmt::format("{}: {}: its sign is against {}: multiply the column by -1",
+                                 e_.name, column, of));
+      return false;
+    }
+    const std::string unit =
+        times > far_off || times < 1 / far_off ? looks_like(times, gear_ratio) : "";
+    if (!unit.empty())
       odd_.push_back(fmt::format("{}: {}: {:.3g} times what {} foretells: {}", e_.name, column,
-                                 times, of, looks_like(times, gear_ratio)));
+                                 times, of, unit));
+    return unit.empty();
   }
 
-  /// Of the signal y, as many times too large as it answers to what foretells it.
-  void compare(const std::string& column, const Signal& foretold, const Signal& y,
+  /// Of the signal y, as many times too large as it answers to what foretells it. Whether it is in
+  /// order.
+  bool compare(const std::string& column, const Signal& foretold, const Signal& y,
                const std::string& of, double gear_ratio) {
     const Line line = line_of(foretold, y);
-    if (std::abs(line.correlation) > together) say(column, line.slope, of, gear_ratio);
+    return std::abs(line.correlation) <= together || say(column, line.slope, of, gear_ratio);
   }
 
   Signal speed_of(const Signal& shaft) const {
@@ -83,19 +91,21 @@ class Check {
     return speed;
   }
 
-  void motor(std::size_t a) {
+  /// Whether the shaft is in order, by which the tendon is judged.
+  bool motor(std::size_t a) {
     const erp::MotorType& m = robot_.motor_of(robot_.actuators[a]);
     const ActuatorSignals& s = e_.actuators[a];
-    if (s.voltage_V.empty() || s.shaft_rad.empty()) return;
+    if (s.voltage_V.empty() || s.shaft_rad.empty()) return true;
     Signal speed = speed_of(s.shaft_rad), foretold(speed.size()), drop(speed.size());
     const double back_emf = m.back_emf_V_s_per_rad * m.gear_ratio;
     for (std::size_t k = 0; k < speed.size(); ++k) foretold[k] = s.voltage_V[k] / back_emf;
     const std::string& name = robot_.actuators[a].name;
-    compare(name + ".shaft_rad", foretold, speed, "the voltage", m.gear_ratio);
-    if (s.current_A.empty()) return;
+    const bool good = compare(name + ".shaft_rad", foretold, speed, "the voltage", m.gear_ratio);
+    if (s.current_A.empty()) return good;
     for (std::size_t k = 0; k < speed.size(); ++k)
       drop[k] = (s.voltage_V[k] - back_emf * speed[k]) / m.resistance_ohm;
-    compare(name + ".current_A", drop, s.current_A, "the motor's law", m.gear_ratio);
+    if (good) compare(name + ".current_A", drop, s.current_A, "the motor's law", m.gear_ratio);
+    return good;
   }
 
   void tendon(std::size_t a, const PathTrace& path) {

@@ -48,6 +48,7 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   for (const char* name : {"before", "floor", "after", "closed", "closed_interval"})
     CHECK(d["gap"].contains(name));
 
+  CHECK_THROWS_WITH(launch::blind_make(make, out, remarks), Catch::Contains("holds cases already"));
   std::ofstream(truth, std::ios::app) << " ";
   out.str("");
   CHECK(launch::blind_score(cases, truth, out) == 1);

@@ -203,3 +203,9 @@ TEST_CASE("what the recordings leave unjudged is said") {
   REQUIRE(d.warnings.size() == 1);
   CHECK_THAT(d.warnings[0], Catch::Contains("motor of flexor, motor of extensor"));
 }
+
+TEST_CASE("where nothing can be judged there is no word of no gap") {
+  const Diagnosis d = diagnose(hinge_rig(), episodes(nothing_hidden(), 0.1, 1));
+  CHECK(d.verdict == Verdict::not_identifiable);
+  CHECK_THAT(d.warnings.back(), Catch::Contains("nothing could be judged"));
+}

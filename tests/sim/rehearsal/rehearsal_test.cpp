@@ -56,6 +56,18 @@ TEST_CASE("let run freely, the right effect closes the gap to a robot of another
   CHECK(wrong.all.closed < 0.5);
 }
 
+TEST_CASE(
+    "a recording whose first rows nobody commanded, as the logger's, runs freely all the same") {
+  const erp::Robot robot = blind_recording::hinge_rig();
+  auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 1);
+  for (auto& actuator : recordings[0].actuators)
+    for (std::size_t k = 0; k < 4; ++k)
+      actuator.mode[k] = actuator.reference[k] = recording::not_taken;
+  const FreeRun run = free_run(robot, robot, recordings, {.threads = 1});
+  CHECK(run.remarks.empty());
+  CHECK(run.all.before < 3);  // it moves as the recording does: some 200 where it rests
+}
+
 TEST_CASE("a recording that begins elsewhere is left out, and it is said why") {
   auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 3, 1);
   const erp::Robot robot = blind_recording::hinge_rig();
@@ -75,7 +87,11 @@ TEST_CASE(
   const Experiment apart = next_experiment(robot, {coulomb, viscous}, quick);
   CHECK(apart.candidates.front().least > 20);
   CHECK(apart.candidates.front().least >= apart.candidates[1].least);
-  CHECK_FALSE(apart.chosen.reference.empty());
+  REQUIRE_FALSE(apart.chosen.reference.empty());
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const bool force = apart.chosen.mode == erp::Mode::force;
+    CHECK(apart.chosen.reference[0][a] == (force ? robot.actuators[a].tendon.pretension_N : 0.0));
+  }
   CHECK(apart.candidates.front().extremes.of_max_tension < 0.85);
 
   const auto offset = placed("tendon_length_offset", "flexor", 4e-4);

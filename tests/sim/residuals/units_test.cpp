@@ -57,3 +57,9 @@ TEST_CASE("wrong signs and units are told with what they look like") {
              "sign");
   check_says(odd_after([&](Episode& e) { scale(e.joints[0].angle_rad, degrees); }), "", "degrees");
 }
+
+TEST_CASE("what is a third too small looks like no unit, and a shaft's sign is told once") {
+  CHECK(odd_after([](Episode& e) { scale(e.actuators[0].tension_N, 0.3); }).empty());
+  CHECK(odd_after([](Episode& e) { scale(e.actuators[0].tension_N, 0.01); }).size() == 1);
+  CHECK(odd_after([](Episode& e) { scale(e.actuators[1].shaft_rad, -1); }).size() == 1);
+}

@@ -1,0 +1,30 @@
+#include "launch/erp/text_files.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace launch {
+
+std::string read_text(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::invalid_argument(file + ": cannot be read; check the name");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_file(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  if (!(out << text) || !out.flush())
+    throw std::invalid_argument(file + ": cannot be written; name another file");
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed)
+    throw std::invalid_argument(folder + ": this folder cannot be made: " + failed.message() +
+                                "; name another");
+}
+
+}  // namespace launch
