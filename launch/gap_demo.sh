@@ -16,6 +16,6 @@ verdict=0
 build/release/bin/erp gap diagnose --robot "$robot" --real "$out"/case/case_0001/*.csv \
   --out "$out" || verdict=$?
 echo "what was hidden:"
-grep -vE '[][]|^ *[{}]|"(case|kind)"' "$out/truth.json"
+sed -n '/"hidden"/,$p' "$out/truth.json" | grep -E '": [^[{]' | grep -v '"stage"'
 [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || xdg-open "$out/report.html" 2>/dev/null || true
 exit "$verdict"
