@@ -35,8 +35,7 @@ const std::vector<Rule> rules{
      {"interfaces/", "firmware/core/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/diagnosis/",
      {"interfaces/", "firmware/core/", "sim/residuals/", "sim/effects/", "sim/actuator/"}},
-    // A robot of a physics of its own: of the simulator it may know the bones and paths, no
-    // effects.
+    // A robot of a physics of its own: of the simulator it may know bones and paths, no effects.
     {"sim/blind/", {"interfaces/", "firmware/core/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/effects/", {"interfaces/"}},
     {"sim/skeleton/", {"interfaces/"}},

@@ -41,6 +41,19 @@ TEST_CASE("recordings of the robot as modelled show no gap, an effect shows its 
   std::filesystem::remove(plain), std::filesystem::remove(rubs);
 }
 
+TEST_CASE("a stage without its signals is named, not passed over") {
+  const auto file = recorded("erp_gap_less.csv", {});
+  recording::Table table = recording::read_table(file);
+  std::erase_if(table.columns, [](const auto& c) { return c.name == "flexor.shaft_rad"; });
+  std::ofstream out(file);
+  recording::write_csv(table, out);
+  out.close();
+  CHECK_THAT(said_of({file}),
+             Catch::Contains("motor of flexor, gearbox of flexor, tendon of flexor") &&
+                 Catch::Contains("no gap in the others"));
+  std::filesystem::remove(file);
+}
+
 TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {
   std::ostringstream out, remarks, less;
   launch::GapTwinsOptions options{.robot = robot_file, .seconds = 4};

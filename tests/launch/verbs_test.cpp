@@ -99,6 +99,13 @@ TEST_CASE("a topic that nobody has ends with exit code 1 and the nearest name") 
   CHECK_THAT(result.text, Contains("did you mean \"clock\"?"));
 }
 
+TEST_CASE("a recording that is not there ends with exit code 2 and its name") {
+  const Bus bus;
+  const auto result = bus.erp({"log", "info", "none.mcap"});
+  CHECK(result.code == 2);
+  CHECK_THAT(result.text, Contains("none.mcap: cannot open"));
+}
+
 TEST_CASE("a component without a robot says so, with exit code 2") {
   const auto folder = Bus::make_folder();
   launch::Process worker({ERP_TEST_COMPONENTS "/worker"}, (folder / "log").string());

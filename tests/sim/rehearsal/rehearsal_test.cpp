@@ -65,7 +65,7 @@ TEST_CASE(
       actuator.mode[k] = actuator.reference[k] = recording::not_taken;
   const FreeRun run = free_run(robot, robot, recordings, {.threads = 1});
   CHECK(run.remarks.empty());
-  CHECK(run.all.before < 3);  // it moves as the recording does: some 200 where it rests
+  CHECK(run.all.before < 3);  // it moves as the recording does: 527 where it rests
 }
 
 TEST_CASE("a recording that begins elsewhere is left out, and it is said why") {
