@@ -9,7 +9,7 @@
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/topic_csv.hpp"
 #include "launch/erp/plot.hpp"
-#include "launch/erp/table.hpp"
+#include "launch/text/columns.hpp"
 
 namespace launch {
 namespace {

@@ -11,6 +11,7 @@
 #include "launch/erp/meaning.hpp"
 #include "launch/erp/onlooker.hpp"
 #include "launch/erp/processor_share.hpp"
+#include "launch/text/columns.hpp"
 
 namespace launch {
 namespace {

@@ -12,7 +12,7 @@
 #include "interfaces/robot/check.hpp"
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "launch/erp/text_files.hpp"
+#include "launch/text/text_files.hpp"
 #include "sim/actuator/pose_plan.hpp"
 #include "sim/effects/library.hpp"
 #include "sim/formats/formats.hpp"

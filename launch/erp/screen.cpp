@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "launch/text/columns.hpp"
+
 namespace launch {
 namespace {
 

@@ -26,15 +26,8 @@ struct Status {
   std::vector<Row> rows;
 };
 
-/// Cells padded to the widest of their column.
-std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows,
-                               const std::vector<bool>& right_aligned);
-
 std::string microseconds(double duration_us);  ///< "85 µs", "1.3 ms", "-" when not measured
 std::vector<std::string> render_rows(const std::vector<Row>& rows);
 std::vector<std::string> render(const Status& status);
-
-/// At most `width` characters of UTF-8 text.
-std::string clipped(const std::string& text, std::size_t width);
 
 }  // namespace launch

@@ -2,9 +2,9 @@
 #include <memory>
 #include <thread>
 
-#include "launch/erp/gap.hpp"
-#include "launch/erp/gap_blind.hpp"
 #include "launch/erp/verbs.hpp"
+#include "launch/gap/blind.hpp"
+#include "launch/gap/gap.hpp"
 
 namespace launch {
 namespace {
@@ -19,12 +19,12 @@ void add_where(CLI::App& gap, Chosen& chosen) {
   where->add_option("--robot", *robot, "robot.xml, the model")->required();
   where->add_option("--real", *recordings, "recordings of the robot, MCAP or CSV")->required();
   where->callback([=, &chosen] {
-    chosen = [=] { return gap_where(*robot, *recordings, std::cout, std::cerr); };
+    chosen = [=] { return gap::where(*robot, *recordings, std::cout, std::cerr); };
   });
 }
 
 void add_diagnose(CLI::App& gap, Chosen& chosen) {
-  auto o = std::make_shared<GapDiagnoseOptions>();
+  auto o = std::make_shared<gap::DiagnoseOptions>();
   o->threads = all_cores();
   auto* diagnose = gap.add_subcommand(
       "diagnose", "Where the gap lies, which effect causes it, how far that effect closes it");
@@ -44,11 +44,11 @@ void add_diagnose(CLI::App& gap, Chosen& chosen) {
       "do not let the answer run freely in the simulator");
   diagnose->add_option("--seed", o->seed, "of the bootstrap");
   diagnose->callback(
-      [=, &chosen] { chosen = [=] { return gap_diagnose(*o, std::cout, std::cerr); }; });
+      [=, &chosen] { chosen = [=] { return gap::diagnose(*o, std::cout, std::cerr); }; });
 }
 
 void add_plan(CLI::App& gap, Chosen& chosen) {
-  auto o = std::make_shared<GapPlanOptions>();
+  auto o = std::make_shared<gap::PlanOptions>();
   o->threads = all_cores();
   auto* plan = gap.add_subcommand(
       "plan", "What to record next: the excitation that best splits what cannot be told apart");
@@ -62,11 +62,11 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
   plan->add_option("--candidates", o->candidates, "that are rehearsed")->check(CLI::PositiveNumber);
   plan->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
   plan->add_option("--seed", o->seed, "of the candidates");
-  plan->callback([=, &chosen] { chosen = [=] { return gap_plan(*o, std::cout, std::cerr); }; });
+  plan->callback([=, &chosen] { chosen = [=] { return gap::plan(*o, std::cout, std::cerr); }; });
 }
 
 void add_twins(CLI::App& gap, Chosen& chosen) {
-  auto o = std::make_shared<GapTwinsOptions>();
+  auto o = std::make_shared<gap::TwinsOptions>();
   o->threads = all_cores();
   auto* twins = gap.add_subcommand(
       "twins", "Which effects the sensors of a robot cannot tell apart, before anything is wrong");
@@ -79,13 +79,13 @@ void add_twins(CLI::App& gap, Chosen& chosen) {
   twins->add_option("--share", o->share, "of an effect that another leaves, at most; default 0.1")
       ->check(CLI::Range(0.0, 1.0));
   twins->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
-  twins->callback([=, &chosen] { chosen = [=] { return gap_twins(*o, std::cout, std::cerr); }; });
+  twins->callback([=, &chosen] { chosen = [=] { return gap::twins(*o, std::cout, std::cerr); }; });
 }
 
 void add_blind(CLI::App& gap, Chosen& chosen) {
   auto* blind = gap.add_subcommand("blind", "Cases with something hidden, to try the diagnosis on");
   blind->require_subcommand(1);
-  auto o = std::make_shared<BlindMakeOptions>();
+  auto o = std::make_shared<gap::BlindMakeOptions>();
   o->threads = all_cores();
   auto* make = blind->add_subcommand("make", "Draw and record cases; seal what they hide");
   make->add_option("--robot", o->robot, "robot.xml, the model")->required();
@@ -101,7 +101,8 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->add_option("--without", o->without, "signals not recorded")
       ->check(CLI::IsMember({"tension", "current", "joint"}));
   make->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
-  make->callback([=, &chosen] { chosen = [=] { return blind_make(*o, std::cout, std::cerr); }; });
+  make->callback(
+      [=, &chosen] { chosen = [=] { return gap::blind_make(*o, std::cout, std::cerr); }; });
 
   auto folder = std::make_shared<std::string>();
   auto threads = std::make_shared<int>(all_cores());
@@ -110,7 +111,7 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   run->add_option("folder", *folder, "as blind make left it")->required();
   run->add_option("--threads", *threads, "default: all cores")->check(CLI::PositiveNumber);
   run->callback([=, &chosen] {
-    chosen = [=] { return blind_run(*folder, *threads, std::cout, std::cerr); };
+    chosen = [=] { return gap::blind_run(*folder, *threads, std::cout, std::cerr); };
   });
 
   auto truth = std::make_shared<std::string>();
@@ -118,7 +119,7 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   score->add_option("folder", *folder, "with diagnoses")->required();
   score->add_option("--truth", *truth, "the sealed file")->required();
   score->callback(
-      [=, &chosen] { chosen = [=] { return blind_score(*folder, *truth, std::cout); }; });
+      [=, &chosen] { chosen = [=] { return gap::blind_score(*folder, *truth, std::cout); }; });
 }
 
 }  // namespace

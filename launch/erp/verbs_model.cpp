@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "launch/erp/model.hpp"
-#include "launch/erp/text_files.hpp"
+#include "launch/text/text_files.hpp"
 #include "launch/erp/verbs.hpp"
 
 namespace launch {

@@ -14,9 +14,11 @@ struct Closed {
   std::string channel;  ///< stage and place, or "all"
   std::string unit;
   double before = 0, floor = 0, after = 0;  ///< rms
-  double driven_by = 0;                     ///< rms of what drives the stage; 0: "all"
+  double driven_by = 0;                     ///< rms of what drives the stage; 0: nothing to name
   double closed = 0;                        ///< (before − after)/(before − floor)
   Interval interval;
+  /// There is something to close; of less, `closed` is a ratio of noise to noise.
+  bool gapes() const { return before > 1.5 * floor; }
 };
 
 /// Stage by stage, in its unit.

@@ -43,9 +43,13 @@ const std::vector<Rule> rules{
     {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
     {"sim/rehearsal/", {"interfaces/", "sim/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
-    {"launch/",
-     {"interfaces/", "components/node/", "sim/formats/", "sim/blind/", "sim/diagnosis/",
-      "sim/rehearsal/", "sim/residuals/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
+    {"launch/text/", {}},
+    {"launch/gap/",
+     {"interfaces/", "launch/text/", "sim/formats/", "sim/blind/", "sim/diagnosis/",
+      "sim/rehearsal/", "sim/residuals/", "sim/effects/"}},
+    {"launch/erp/",
+     {"interfaces/", "components/node/", "launch/text/", "launch/gap/", "sim/formats/",
+      "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
 };
 
 // Headers of others that have one home.
@@ -68,12 +72,13 @@ const Rule* rule_for(const std::string& file) {
   return best;
 }
 
-/// The first folder component, or two for components and sim: what counts as "itself".
+/// The first folder component, or two for components, sim and launch: what counts as "itself".
 std::string home_of(const std::string& file) {
   const auto slash = file.find('/');
   const auto second = file.find('/', slash + 1);
   const auto top = file.substr(0, slash + 1);
-  return top == "components/" || top == "sim/" ? file.substr(0, second + 1) : top;
+  const bool of_rooms = top == "components/" || top == "sim/" || top == "launch/";
+  return of_rooms ? file.substr(0, second + 1) : top;
 }
 
 std::vector<std::string> violations(const std::string& file, std::istream& text) {

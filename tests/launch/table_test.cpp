@@ -3,23 +3,12 @@
 #include <catch2/catch.hpp>
 
 using Catch::Matchers::Contains;
-using Strings = std::vector<std::string>;
 
 TEST_CASE("a time is shown in the unit that suits it") {
   CHECK(launch::microseconds(0) == "-");
   CHECK(launch::microseconds(85) == "85 µs");
   CHECK(launch::microseconds(1310) == "1.3 ms");
   CHECK(launch::microseconds(2.5e6) == "2.5 s");
-}
-
-TEST_CASE("columns are aligned by characters, not bytes") {
-  CHECK(launch::align({{"a", "µs"}, {"long", "1 m"}}, {false, true}) ==
-        Strings{"a      µs", "long  1 m"});
-}
-
-TEST_CASE("a line is clipped between characters") {
-  CHECK(launch::clipped("µµµ", 2) == "µµ");
-  CHECK(launch::clipped("abc", 5) == "abc");
 }
 
 TEST_CASE("the head of the table says where the run stands and how long it still takes") {

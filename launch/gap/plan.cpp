@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
-#include "launch/erp/gap.hpp"
-#include "launch/erp/progress.hpp"
-#include "launch/erp/text_files.hpp"
+#include "launch/gap/gap.hpp"
+#include "launch/text/progress.hpp"
+#include "launch/text/text_files.hpp"
 #include "sim/rehearsal/experiment.hpp"
 
-namespace launch {
+namespace launch::gap {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,7 +132,7 @@ void print(const rehearsal::Experiment& experiment, const erp::Robot& robot,
 
 }  // namespace
 
-int gap_plan(const GapPlanOptions& options, std::ostream& out, std::ostream& remarks) {
+int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
@@ -178,4 +178,4 @@ int gap_plan(const GapPlanOptions& options, std::ostream& out, std::ostream& rem
   return 0;
 }
 
-}  // namespace launch
+}  // namespace launch::gap

@@ -5,7 +5,7 @@
 
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/recording/table.hpp"
-#include "launch/erp/gap.hpp"
+#include "launch/gap/gap.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace {
@@ -27,12 +27,12 @@ Planned plan(const fs::path& folder, const std::string& one, const std::string& 
       << (sure.empty() ? "" : ", ") << sure << R"(], "confusable": [)" << one << ", " << other
       << "]}";
   std::ostringstream out, remarks;
-  const int code = launch::gap_plan({.robot = rigs::config("hinge_rig/robot.xml"),
-                                     .diagnosis = (folder / "diagnosis.json").string(),
-                                     .out = (folder / "next").string(),
-                                     .seconds = 4,
-                                     .candidates = 3},
-                                    out, remarks);
+  const int code = launch::gap::plan({.robot = rigs::config("hinge_rig/robot.xml"),
+                                      .diagnosis = (folder / "diagnosis.json").string(),
+                                      .out = (folder / "next").string(),
+                                      .seconds = 4,
+                                      .candidates = 3},
+                                     out, remarks);
   return {code, out.str()};
 }
 
@@ -87,9 +87,9 @@ TEST_CASE("twins are split by no motion, and no graph is written") {
 TEST_CASE("a plan without a diagnosis says which file it misses") {
   const Folder folder;
   std::ostringstream out, remarks;
-  CHECK_THROWS_WITH(launch::gap_plan({.robot = rigs::config("hinge_rig/robot.xml"),
-                                      .diagnosis = (folder.path / "diagnosis.json").string(),
-                                      .out = folder.path.string()},
-                                     out, remarks),
+  CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("hinge_rig/robot.xml"),
+                                       .diagnosis = (folder.path / "diagnosis.json").string(),
+                                       .out = folder.path.string()},
+                                      out, remarks),
                     Catch::Contains("diagnosis.json"));
 }

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "launch/erp/gap_blind.hpp"
-#include "launch/erp/gap_truth.hpp"
-#include "launch/erp/text_files.hpp"
+#include "launch/gap/blind.hpp"
+#include "launch/gap/truth.hpp"
+#include "launch/text/text_files.hpp"
 
-namespace launch {
+namespace launch::gap {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -214,4 +214,4 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
   return 0;
 }
 
-}  // namespace launch
+}  // namespace launch::gap

@@ -1,4 +1,4 @@
-#include "launch/erp/progress.hpp"
+#include "launch/text/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

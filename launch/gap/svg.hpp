@@ -3,7 +3,7 @@
 #include <vector>
 
 /// Small drawings for a page: inline SVG, no script, nothing fetched.
-namespace launch::svg {
+namespace launch::gap::svg {
 
 std::string escaped(const std::string& text);
 
@@ -38,4 +38,4 @@ std::string matrix(const std::string& title, const std::vector<std::string>& row
 std::string chain(const std::string& title, const std::vector<std::string>& boxes,
                   const std::vector<double>& shares);
 
-}  // namespace launch::svg
+}  // namespace launch::gap::svg

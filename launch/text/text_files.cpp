@@ -1,4 +1,4 @@
-#include "launch/erp/text_files.hpp"
+#include "launch/text/text_files.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -10,7 +10,7 @@
 ///   DIR/<case>/1.csv …                      of each case, and the SHA-256 of the truth
 ///   DIR/<case>/diagnosis.json               what it found
 ///   TRUTH                                   what was hidden, apart
-namespace launch {
+namespace launch::gap {
 
 struct BlindMakeOptions {
   std::string robot, out, truth, kind = "single";
@@ -29,4 +29,4 @@ int blind_run(const std::string& folder, int threads, std::ostream& out, std::os
 /// another.
 int blind_score(const std::string& folder, const std::string& truth, std::ostream& out);
 
-}  // namespace launch
+}  // namespace launch::gap

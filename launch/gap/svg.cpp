@@ -1,11 +1,11 @@
-#include "launch/erp/svg.hpp"
+#include "launch/gap/svg.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace launch::svg {
+namespace launch::gap::svg {
 namespace {
 
 std::string text(double x, double y, const std::string& words, const char* anchor = "start",
@@ -177,4 +177,4 @@ std::string chain(const std::string& title, const std::vector<std::string>& boxe
   return svg + "</svg>\n";
 }
 
-}  // namespace launch::svg
+}  // namespace launch::gap::svg

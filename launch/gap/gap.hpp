@@ -8,7 +8,7 @@
 #include "sim/residuals/episode.hpp"
 
 /// `erp gap`: where recordings and a robot's model part, why, and by how much.
-namespace launch {
+namespace launch::gap {
 
 /// The robot, its drives as chains. Throws xml::Errors.
 erp::Robot read_chains(const std::string& robot_file);
@@ -27,10 +27,10 @@ void tell(const Reading& reading, std::ostream& remarks);
 /// Prints a row a stage, the largest share of the gap first, and the stages that leave their noise
 /// floor in words; what was mended in the recordings goes to `remarks`. Throws xml::Errors,
 /// RecordingError, std::invalid_argument. Returns the exit code.
-int gap_where(const std::string& robot_file, const std::vector<std::string>& recordings,
-              std::ostream& out, std::ostream& remarks);
+int where(const std::string& robot_file, const std::vector<std::string>& recordings,
+          std::ostream& out, std::ostream& remarks);
 
-struct GapDiagnoseOptions {
+struct DiagnoseOptions {
   std::string robot, out;  ///< out: a folder, made if need be; empty: nothing is written
   std::vector<std::string> recordings, train, held_out, withhold;
   int threads = 2;
@@ -40,9 +40,9 @@ struct GapDiagnoseOptions {
 
 /// Prints where, which and how far, and writes diagnosis.json, report.html and robot.xml. Throws as
 /// gap_where. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
-int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
+int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
 
-struct GapTwinsOptions {
+struct TwinsOptions {
   std::string robot;
   std::vector<std::string> recordings = {};  ///< none: the simulator records four
   std::vector<std::string> without = {};     ///< "tension", "current", "joint": as if not recorded
@@ -51,11 +51,11 @@ struct GapTwinsOptions {
   int threads = 2;
 };
 
-/// Prints which effects the robot's sensors cannot tell apart, a row a pair. Throws as gap_where,
+/// Prints which effects the robot's sensors cannot tell apart, a row a pair. Throws as where,
 /// std::runtime_error. Returns the exit code.
-int gap_twins(const GapTwinsOptions& options, std::ostream& out, std::ostream& remarks);
+int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks);
 
-struct GapPlanOptions {
+struct PlanOptions {
   std::string robot, diagnosis, out;  ///< diagnosis.json; out: a folder, made if need be
   double seconds = 20;
   int candidates = 24, threads = 2;
@@ -66,6 +66,6 @@ struct GapPlanOptions {
 /// a graph to launch: graph.xml, reference.xml, trajectory.csv. Throws xml::Errors,
 /// std::invalid_argument. Returns 0; 1: nothing to split, or none is safe; 5: none would split
 /// them.
-int gap_plan(const GapPlanOptions& options, std::ostream& out, std::ostream& remarks);
+int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks);
 
-}  // namespace launch
+}  // namespace launch::gap

@@ -5,12 +5,12 @@
 #include <optional>
 #include <ostream>
 
-#include "launch/erp/gap.hpp"
-#include "launch/erp/gap_files.hpp"
-#include "launch/erp/progress.hpp"
-#include "launch/erp/text_files.hpp"
+#include "launch/gap/files.hpp"
+#include "launch/gap/gap.hpp"
+#include "launch/text/progress.hpp"
+#include "launch/text/text_files.hpp"
 
-namespace launch {
+namespace launch::gap {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
@@ -22,7 +22,7 @@ struct Sorted {
   std::vector<std::size_t> train, held_out;
 };
 
-Sorted sort(const GapDiagnoseOptions& options) {
+Sorted sort(const DiagnoseOptions& options) {
   Sorted sorted;
   const auto index = [&](const std::string& file) {
     const auto found = std::ranges::find(sorted.files, file);
@@ -30,7 +30,11 @@ Sorted sort(const GapDiagnoseOptions& options) {
     sorted.files.push_back(file);
     return sorted.files.size() - 1;
   };
-  for (const std::string& file : options.recordings) index(file);
+  for (const std::string& file : options.recordings) {
+    if (std::ranges::count(sorted.files, file))
+      throw std::invalid_argument(file + ": named twice; one recording is no repeat of itself");
+    index(file);
+  }
   for (const std::string& file : options.train) sorted.train.push_back(index(file));
   for (const std::string& file : options.held_out) sorted.held_out.push_back(index(file));
   const auto rest = [&](std::vector<std::size_t>& into, const std::vector<std::size_t>& others) {
@@ -99,7 +103,7 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
         "held-out recordings\n",
         d.overall.before, d.overall.after, 100 * d.overall.closed);
   for (const auto& c : d.channels)
-    if (c.before > 1.5 * c.floor && !d.answer.empty())
+    if (c.gapes() && !d.answer.empty())
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
@@ -135,7 +139,7 @@ void write_found(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& f
 sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
                                    const std::vector<residuals::Episode>& episodes,
                                    const erp::Robot& robot, const erp::Robot& found,
-                                   const GapDiagnoseOptions& options, Progress& progress) {
+                                   const DiagnoseOptions& options, Progress& progress) {
   if (d.answer.empty() || !options.free_run || !robot.drives.empty()) return {};
   std::vector<residuals::Episode> held_out;
   for (const auto& e : episodes)
@@ -165,7 +169,7 @@ int exit_code(diagnosis::Verdict verdict) {
   return 5;
 }
 
-int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
+int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(options.robot);
   check_types(options.withhold);
   const Sorted sorted = sort(options);
@@ -197,4 +201,4 @@ int gap_diagnose(const GapDiagnoseOptions& options, std::ostream& out, std::ostr
   return exit_code(d.verdict);
 }
 
-}  // namespace launch
+}  // namespace launch::gap

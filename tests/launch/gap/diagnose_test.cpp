@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
-#include "launch/erp/gap.hpp"
+#include "launch/gap/gap.hpp"
 #include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -44,10 +44,10 @@ struct Told {
   std::string text;
 };
 
-Told diagnosed(const Folder& folder, launch::GapDiagnoseOptions how) {
+Told diagnosed(const Folder& folder, launch::gap::DiagnoseOptions how) {
   how.robot = robot_file, how.out = folder.path / "found";
   std::ostringstream out, remarks;
-  const int code = launch::gap_diagnose(how, out, remarks);
+  const int code = launch::gap::diagnose(how, out, remarks);
   return {code, out.str()};
 }
 
@@ -102,6 +102,11 @@ TEST_CASE("the report shows where, which and how far, and needs no other file") 
   CHECK(interval[1] > 0.03);
   CHECK(d["gap"]["closed"] > 0.9);
   CHECK(d["gap"]["closed_interval"][0] <= d["gap"]["closed"]);
+  for (const auto& [name, channel] : d["gap"]["channels"].items()) {
+    INFO(name);
+    CHECK(channel["closed"].is_null() == (name != "gearbox extensor"));
+    CHECK(channel["driven_by"] > 0);
+  }
 }
 
 TEST_CASE("what cannot be asked of recordings is refused, with the name that is wrong") {
@@ -113,4 +118,6 @@ TEST_CASE("what cannot be asked of recordings is refused, with the name that is 
                     Catch::Contains("two.csv") && Catch::Contains("both in"));
   CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one}, .held_out = {one}}),
                     Catch::Contains("leave some to train on"));
+  CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one, two, one}}),
+                    Catch::Contains("one.csv") && Catch::Contains("named twice"));
 }

@@ -1,4 +1,4 @@
-#include "launch/erp/gap.hpp"
+#include "launch/gap/gap.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "sim/residuals/drives.hpp"
 #include "sim/residuals/units.hpp"
 
-namespace launch {
+namespace launch::gap {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
@@ -65,8 +65,8 @@ void tell(const Reading& reading, std::ostream& remarks) {
     for (const std::string& remark : *list) remarks << remark << "\n";
 }
 
-int gap_where(const std::string& robot_file, const std::vector<std::string>& recordings,
-              std::ostream& out, std::ostream& remarks) {
+int where(const std::string& robot_file, const std::vector<std::string>& recordings,
+          std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(robot_file);
   const Reading read = read_episodes(robot, recordings);
   tell(read, remarks);
@@ -78,4 +78,4 @@ int gap_where(const std::string& robot_file, const std::vector<std::string>& rec
   return 0;
 }
 
-}  // namespace launch
+}  // namespace launch::gap

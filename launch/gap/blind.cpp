@@ -1,4 +1,4 @@
-#include "launch/erp/gap_blind.hpp"
+#include "launch/gap/blind.hpp"
 
 #include <fmt/format.h>
 
@@ -11,16 +11,16 @@
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
-#include "launch/erp/gap.hpp"
-#include "launch/erp/gap_files.hpp"
-#include "launch/erp/gap_truth.hpp"
-#include "launch/erp/progress.hpp"
-#include "launch/erp/text_files.hpp"
+#include "launch/gap/files.hpp"
+#include "launch/gap/gap.hpp"
+#include "launch/gap/truth.hpp"
+#include "launch/text/progress.hpp"
+#include "launch/text/text_files.hpp"
 #include "sim/blind/shows.hpp"
 #include "sim/diagnosis/diagnose.hpp"
 #include "sim/diagnosis/parallel.hpp"
 
-namespace launch {
+namespace launch::gap {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -151,4 +151,4 @@ int blind_run(const std::string& folder, int threads, std::ostream& out, std::os
   return 0;
 }
 
-}  // namespace launch
+}  // namespace launch::gap

@@ -6,7 +6,7 @@
 #include "sim/rehearsal/free_run.hpp"
 
 /// What `erp gap diagnose` leaves in its folder.
-namespace launch {
+namespace launch::gap {
 
 /// diagnosis.json; its names are in sim/diagnosis/README.md.
 std::string diagnosis_json(const sim::diagnosis::Diagnosis& diagnosis,
@@ -14,4 +14,4 @@ std::string diagnosis_json(const sim::diagnosis::Diagnosis& diagnosis,
 /// report.html, self-contained.
 std::string diagnosis_report(const sim::diagnosis::Diagnosis& diagnosis,
                              const sim::rehearsal::FreeRun& free_run, const erp::Robot& robot);
-}  // namespace launch
+}  // namespace launch::gap

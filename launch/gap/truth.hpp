@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace launch {
+namespace launch::gap {
 
 std::string sha256(const std::string& text);
 
@@ -12,4 +12,4 @@ std::string sha256(const std::string& text);
 std::optional<double> closed_by_truth(const std::string& folder,
                                       const nlohmann::ordered_json& truth);
 
-}  // namespace launch
+}  // namespace launch::gap

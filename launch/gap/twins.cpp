@@ -4,12 +4,12 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "launch/erp/gap.hpp"
-#include "launch/erp/table.hpp"
+#include "launch/gap/gap.hpp"
+#include "launch/text/columns.hpp"
 #include "sim/diagnosis/twins.hpp"
 #include "sim/rehearsal/rehearse.hpp"
 
-namespace launch {
+namespace launch::gap {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
@@ -48,7 +48,7 @@ std::string size_of(Placed p) {
 
 }  // namespace
 
-int gap_twins(const GapTwinsOptions& options, std::ostream& out, std::ostream& remarks) {
+int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(options.robot);
   if (options.recordings.empty() && !robot.drives.empty())
     throw std::invalid_argument(options.robot +
@@ -70,4 +70,4 @@ int gap_twins(const GapTwinsOptions& options, std::ostream& out, std::ostream& r
   return 0;
 }
 
-}  // namespace launch
+}  // namespace launch::gap

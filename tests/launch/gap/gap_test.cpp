@@ -1,4 +1,4 @@
-#include "launch/erp/gap.hpp"
+#include "launch/gap/gap.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -25,7 +25,7 @@ std::string recorded(const std::string& name, const std::vector<erp::Effect>& ef
 
 std::string said_of(const std::vector<std::string>& files) {
   std::ostringstream out, remarks;
-  CHECK(launch::gap_where(robot_file, files, out, remarks) == 0);
+  CHECK(launch::gap::where(robot_file, files, out, remarks) == 0);
   CHECK(remarks.str().empty());
   return out.str();
 }
@@ -56,11 +56,11 @@ TEST_CASE("a stage without its signals is named, not passed over") {
 
 TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {
   std::ostringstream out, remarks, less;
-  launch::GapTwinsOptions options{.robot = robot_file, .seconds = 4};
-  CHECK(launch::gap_twins(options, out, remarks) == 0);
+  launch::gap::TwinsOptions options{.robot = robot_file, .seconds = 4};
+  CHECK(launch::gap::twins(options, out, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("routing_pulley_radius on flexor"));
   options.without = {"tension"};
-  CHECK(launch::gap_twins(options, less, remarks) == 0);
+  CHECK(launch::gap::twins(options, less, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("tendon_kite_line"));
   CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // does not show
 }

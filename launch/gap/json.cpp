@@ -2,9 +2,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "launch/erp/gap_files.hpp"
+#include "launch/gap/files.hpp"
 
-namespace launch {
+namespace launch::gap {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -41,13 +41,24 @@ Json json_of(const Named& n) {
 }
 
 Json json_of(const Closed& c) {
-  return {{"unit", c.unit},
-          {"before", rounded(c.before)},
-          {"floor", rounded(c.floor)},
-          {"after", rounded(c.after)},
-          {"driven_by", rounded(c.driven_by)},
-          {"closed", rounded(c.closed)},
-          {"closed_interval", pair_of(c.interval)}};
+  Json json{{"unit", c.unit},
+            {"before", rounded(c.before)},
+            {"floor", rounded(c.floor)},
+            {"after", rounded(c.after)}};
+  if (c.driven_by > 0) json["driven_by"] = rounded(c.driven_by);
+  json["closed"] = rounded(c.closed);
+  json["closed_interval"] = pair_of(c.interval);
+  return json;
+}
+
+/// By name. What a channel without a gap closes is null.
+Json channels_of(const std::vector<Closed>& channels) {
+  Json all = Json::object();
+  for (const Closed& c : channels) {
+    Json& json = all[c.channel] = json_of(c);
+    if (!c.gapes()) json["closed"] = json["closed_interval"] = nullptr;
+  }
+  return all;
 }
 
 Json json_of(const StageGap& gap) {
@@ -112,13 +123,11 @@ Json shared(const sim::diagnosis::Diagnosis& d) {
 std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
                            const erp::Robot& robot) {
   Json gap = json_of(d.overall);
-  gap["channels"] = Json::object();
-  for (const Closed& c : d.channels) gap["channels"][c.channel] = json_of(c);
+  gap["channels"] = channels_of(d.channels);
   gap["interaction"] = rounded(d.interaction);
   if (!free_run.channels.empty()) {
     gap["free_running"] = json_of(free_run.all);
-    for (const Closed& c : free_run.channels)
-      gap["free_running"]["channels"][c.channel] = json_of(c);
+    gap["free_running"]["channels"] = channels_of(free_run.channels);
   }
   Json unexplained = Json::array();
   for (const Unexplained& u : d.unexplained) {
@@ -148,4 +157,4 @@ std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& fr
   return all.dump(1) + "\n";
 }
 
-}  // namespace launch
+}  // namespace launch::gap

@@ -1,4 +1,4 @@
-#include "launch/erp/gap_truth.hpp"
+#include "launch/gap/truth.hpp"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "launch/erp/gap.hpp"
-#include "launch/erp/text_files.hpp"
+#include "launch/gap/gap.hpp"
+#include "launch/text/text_files.hpp"
 #include "sim/diagnosis/diagnose.hpp"
 
-namespace launch {
+namespace launch::gap {
 
 std::string sha256(const std::string& text) {
   unsigned char digest[EVP_MAX_MD_SIZE];
@@ -57,4 +57,4 @@ std::optional<double> closed_by_truth(const std::string& folder,
   return before > 1 ? (before - after) / (before - 1) : 0;
 }
 
-}  // namespace launch
+}  // namespace launch::gap

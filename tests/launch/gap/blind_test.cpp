@@ -1,4 +1,4 @@
-#include "launch/erp/gap_blind.hpp"
+#include "launch/gap/blind.hpp"
 
 #include <unistd.h>
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "launch/erp/gap_truth.hpp"
+#include "launch/gap/truth.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace fs = std::filesystem;
@@ -29,13 +29,13 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   const Folder folder;
   const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
   std::ostringstream out, remarks;
-  launch::BlindMakeOptions make{.robot = robot_file, .out = cases, .truth = truth};
+  launch::gap::BlindMakeOptions make{.robot = robot_file, .out = cases, .truth = truth};
   make.cases = 2, make.recordings = 3, make.seconds = 5, make.seed = 14;
-  REQUIRE(launch::blind_make(make, out, remarks) == 0);
+  REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
   const std::string before = out.str();
-  REQUIRE(launch::blind_run(cases, 2, out, remarks) == 0);
+  REQUIRE(launch::gap::blind_run(cases, 2, out, remarks) == 0);
   out.str("");
-  REQUIRE(launch::blind_score(cases, truth, out) == 0);
+  REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("stage and place") && Catch::Contains("(2 of 2)"));
 
   const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
@@ -48,10 +48,11 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   for (const char* name : {"before", "floor", "after", "closed", "closed_interval"})
     CHECK(d["gap"].contains(name));
 
-  CHECK_THROWS_WITH(launch::blind_make(make, out, remarks), Catch::Contains("holds cases already"));
+  CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks),
+                    Catch::Contains("holds cases already"));
   std::ofstream(truth, std::ios::app) << " ";
   out.str("");
-  CHECK(launch::blind_score(cases, truth, out) == 1);
+  CHECK(launch::gap::blind_score(cases, truth, out) == 1);
   CHECK_THAT(out.str(), Catch::Contains("hash"));
 }
 
@@ -86,9 +87,9 @@ TEST_CASE("pairs: both found, and F1 of all that was named") {
   const std::string truth = folder.path / "truth.json";
   std::ofstream(truth) << truths.dump();
   std::ofstream(folder.path / "cases.json")
-      << nlohmann::json{{"truth_sha256", launch::sha256(truths.dump())}};
+      << nlohmann::json{{"truth_sha256", launch::gap::sha256(truths.dump())}};
   std::ostringstream out;
-  REQUIRE(launch::blind_score(folder.path, truth, out) == 0);
+  REQUIRE(launch::gap::blind_score(folder.path, truth, out) == 0);
   INFO(out.str());
   CHECK_THAT(out.str(), Catch::Contains("(2 of 3)"));
   CHECK_THAT(out.str(), Catch::Contains("0.805"));  // of means 7/9 and 5/6

@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include "launch/gap/report_parts.hpp"
+#include "launch/gap/svg.hpp"
+
+namespace launch::gap {
+
+using namespace sim::diagnosis;
+using svg::escaped;
+
+std::string page::stages(const Diagnosis& d) {
+  std::string html =
+      "<table><tr><th>stage</th><th>residual</th><th>floor</th><th>after</th><th>closed</th>"
+      "<th>of what drives it, before</th><th>after</th></tr>\n";
+  for (const Closed& c : d.channels)
+    html += fmt::format(
+        "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
+        "<td>{:.2f} %</td><td>{:.2f} %</td></tr>\n",
+        escaped(c.channel), c.before, c.unit, c.floor, c.after,
+        c.gapes() ? fmt::format("{:.1f} % ({:.1f} … {:.1f})", 100 * c.closed,
+                                               100 * c.interval.low, 100 * c.interval.high)
+                                 : "–",
+        100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
+  return html + "</table>\n";
+}
+
+std::string page::free_running(const sim::rehearsal::FreeRun& run) {
+  if (run.channels.empty()) return "";
+  std::string html = fmt::format(
+      "<h2>The simulator let run freely</h2>\n<p>On the held-out recordings' references, in closed "
+      "loop with the firmware: {:.3g} times what noise alone would do before, {:.3g} after. "
+      "Closed: "
+      "{:.1f} % ({:.1f} … {:.1f}).</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
+      "alone</th>"
+      "<th>after</th><th>closed</th></tr>\n",
+      run.all.before, run.all.after, 100 * run.all.closed, 100 * run.all.interval.low,
+      100 * run.all.interval.high);
+  for (const Closed& c : run.channels)
+    html += fmt::format(
+        "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
+        escaped(c.channel), c.before, c.unit, c.floor, c.after,
+        c.gapes() ? fmt::format("{:.1f} %", 100 * c.closed) : "–");
+  return html + "</table>\n";
+}
+
+}  // namespace launch::gap

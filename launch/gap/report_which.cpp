@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "launch/gap/report_parts.hpp"
+#include "launch/gap/svg.hpp"
+
+namespace launch::gap {
+
+using namespace sim::diagnosis;
+using svg::escaped;
+
+std::string page::name_of(const Named& n) { return n.type + " on " + n.on; }
+
+std::string page::ranking(const Diagnosis& d) {
+  if (d.ranked.empty()) return "";
+  constexpr std::size_t most = 14;
+  std::vector<svg::Bar> bars;
+  std::vector<std::string> rows, columns;
+  std::vector<std::vector<double>> cells;
+  for (const StageGap& gap : d.stages)
+    columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
+  for (std::size_t k = 0; k < d.ranked.size() && k < most; ++k) {
+    const Named& n = d.ranked[k];
+    bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
+                    n.gain_interval.high, n.supported});
+    if (n.signature.empty() || columns.size() > 24) continue;
+    rows.push_back(name_of(n)), cells.push_back(n.signature);
+    cells.back().push_back(std::abs(n.likeness));
+  }
+  columns.push_back("like the first");
+  std::string html =
+      "<h2>Which</h2>\n<p class=\"note\">First those that take away 30 % of what some stage shows; "
+      "of equals, the plainer.</p>\n" +
+      svg::bars("Share of the gap that each effect alone takes away, held out", bars, 1);
+  if (!rows.empty())
+    html +=
+        svg::matrix("Signatures: at which stage an effect shows, in percent", rows, columns, cells);
+  return html;
+}
+
+std::string page::unexplained(const Diagnosis& d) {
+  if (d.unexplained.empty()) return "";
+  std::string html = "<h2>What no effect explains</h2>\n";
+  for (const Unexplained& u : d.unexplained) {
+    html += fmt::format("<p>{} of {}: {:.3g} times its noise.", sim::effects::word(u.stage),
+                        escaped(u.on), std::sqrt(1 + u.excess));
+    if (!u.shape) {
+      html += "</p>\n";
+      continue;
+    }
+    html += fmt::format(" A map over the {} foretells {:.0f} % of it.</p>\n",
+                        escaped(u.shape->variable), 100 * std::max(0.0, u.shape->explained));
+    std::vector<double> low = u.shape->mean, high = u.shape->mean;
+    for (std::size_t k = 0; k < low.size(); ++k)
+      low[k] -= u.shape->deviation[k], high[k] += u.shape->deviation[k];
+    html += svg::plot({fmt::format("{} of {}", sim::effects::word(u.stage), u.on),
+                       fmt::format("{}, {}", u.shape->variable, u.shape->unit),
+                       "residual, times noise", 720, 240, 1},
+                      {{"", "#bbb", u.shape->middle, low},
+                       {"", "#bbb", u.shape->middle, high},
+                       {"mean", "#c0392b", u.shape->middle, u.shape->mean}});
+  }
+  return html;
+}
+
+}  // namespace launch::gap
