@@ -49,7 +49,7 @@ inline constexpr std::size_t capacity_of<ImuSample> = 32;
 template <>
 inline constexpr std::size_t capacity_of<StageSample> = 320;
 template <>
-inline constexpr std::size_t capacity_of<EcuParameterValue> = 2048;
+inline constexpr std::size_t capacity_of<EcuParameterValue> = 2560;
 template <>
 inline constexpr std::size_t capacity_of<GainValue> = 2048;
 

@@ -77,7 +77,8 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
     case ECU_STATE_RUNNING:
       return wants_off ? Demand{} : offer ? drive(*offer, dt_s) : stay_safe();
     case ECU_STATE_FAULT:
-      return {was_silence(fault_) || wants_off ? ECU_REQUEST_CLEAR : ECU_REQUEST_OFF, 0};
+      if (was_silence(fault_) || wants_off) return {ECU_REQUEST_CLEAR, fault_};
+      return {ECU_REQUEST_OFF, 0};
   }
   return {};
 }

@@ -74,7 +74,7 @@ void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now
   sample.current_A = channel.current_counts * units.current_A_per_count;
   sample.shaft_rad = units.shaft_rad(channel.encoder_counts);
   sample.line_m = units.line_m(sample.shaft_rad);
-  sample.tension_N = channel.tension_counts * units.tension_N_per_count;
+  sample.tension_N = units.tension_N(channel.tension_counts);
 }
 
 void Plant::sense_analog(const erp::EcuAnalogSample& said) {

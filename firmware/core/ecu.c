@@ -20,6 +20,12 @@ bool ecu_is_warning(const ecu_channel* channel) {
   return is_live(channel) && channel->ticks_since_command >= ECU_WARN_TICKS;
 }
 
+void ecu_overran(ecu_channel* channel, bool overran) {
+  if (overran) ++channel->overruns;
+  channel->overruns_in_a_row = overran ? channel->overruns_in_a_row + 1u : 0u;
+  if (channel->overruns_in_a_row >= ECU_OVERRUNS_TRIP) ecu_trip(channel, ECU_FAULT_OVERRUN);
+}
+
 /* ---- commands ---- */
 
 /* Within low .. high, give or take half a quantum: what rounds to the limit is not beyond it. */
@@ -53,13 +59,16 @@ static bool reject(ecu_channel* channel) {
   return false;
 }
 
+static float applied_V(const ecu_channel* c) {
+  return GAIN(c, SUPPLY) * (float)c->duty / (float)ECU_DUTY_MAX;
+}
+
 /* A law takes over at the voltage that is applied now: 0 after arming. */
 static void start_law(ecu_channel* channel, ecu_request request, int32_t setpoint) {
-  const float applied_V = GAIN(channel, SUPPLY) * (float)channel->duty / (float)ECU_DUTY_MAX;
-  const float error_A = (float)setpoint / 1000.0f - channel->current_A;
+  const float error_A = (float)setpoint / 1000.0f - channel->sensed.current_A;
   if (request == ECU_REQUEST_CURRENT)
     channel->current_memory =
-        (law_current_memory){.integral_V = applied_V, .last_error_A = error_A};
+        (law_current_memory){.integral_V = applied_V(channel), .last_error_A = error_A};
 }
 
 static bool follow(ecu_channel* channel, ecu_request request, int32_t setpoint) {
@@ -84,6 +93,13 @@ static bool arm(ecu_channel* channel) {
   return true;
 }
 
+/* A clear that comes late, and was meant for another fault, clears nothing. */
+static bool clear(ecu_channel* channel, int32_t fault) {
+  if (channel->state == ECU_STATE_FAULT && fault != (int32_t)channel->fault) return false;
+  ecu_apply(channel, ECU_EVENT_CLEAR);
+  return true;
+}
+
 bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint) {
   if (channel->gains_complete && !is_sane(channel, request, setpoint)) return reject(channel);
   switch (request) {
@@ -91,8 +107,7 @@ bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint) {
       ecu_apply(channel, ECU_EVENT_OFF);
       return true;
     case ECU_REQUEST_CLEAR:
-      ecu_apply(channel, ECU_EVENT_CLEAR);
-      return true;
+      return clear(channel, setpoint);
     case ECU_REQUEST_ARM:
       return arm(channel);
     default:
@@ -102,36 +117,8 @@ bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint) {
 
 /* ---- one period ---- */
 
-/* Counts to SI. A reading at a converter's rail says nothing: the last good one stays, until the
- * third in a row trips. Tension 0 is a slack tendon, not a rail. */
-static void measure(ecu_channel* c, const ecu_inputs* inputs) {
-  const float counts_per_period =
-      c->has_inputs
-          ? (float)(int32_t)((uint32_t)inputs->encoder_counts - (uint32_t)c->inputs.encoder_counts)
-          : 0.0f;
-  const float current = (float)inputs->current_counts, tension = (float)inputs->tension_counts;
-  const float current_max = GAIN(c, CURRENT_COUNTS_MAX);
-  const bool current_at_rail = current >= current_max || current <= -current_max;
-  const bool tension_at_rail = tension >= GAIN(c, TENSION_COUNTS_MAX);
-  c->shaft_rad = (float)inputs->encoder_counts * GAIN(c, SHAFT_SCALE);
-  c->speed_rad_per_s = counts_per_period * GAIN(c, SHAFT_SCALE) / ECU_PERIOD_S;
-  if (!current_at_rail) c->current_A = current * GAIN(c, CURRENT_SCALE);
-  if (!tension_at_rail) c->tension_N = tension * GAIN(c, TENSION_SCALE);
-  c->rail_ticks = current_at_rail || tension_at_rail ? c->rail_ticks + 1u : 0u;
-}
-
-/* Over-current is judged on the raw reading: a short drives the converter to its rail. */
-static void count_over_current(ecu_channel* c, const ecu_inputs* inputs) {
-  const float current_A = (float)inputs->current_counts * GAIN(c, CURRENT_SCALE);
-  const float trip_A = GAIN(c, CURRENT_TRIP);
-  const bool over = current_A > trip_A || current_A < -trip_A;
-  c->over_current_ticks = over ? c->over_current_ticks + 1u : 0u;
-}
-
-static void check_limits(ecu_channel* c) {
-  if (c->over_current_ticks >= ECU_OVER_CURRENT_TICKS) ecu_trip(c, ECU_FAULT_OVER_CURRENT);
-  if (c->tension_N > GAIN(c, TENSION_TRIP)) ecu_trip(c, ECU_FAULT_OVER_TENSION);
-  if (c->rail_ticks >= ECU_RAIL_TICKS) ecu_trip(c, ECU_FAULT_SENSOR_RANGE);
+static void judge(ecu_channel* c, ecu_fault fault) {
+  if (fault != ECU_FAULT_NONE) ecu_trip(c, fault);
 }
 
 static void check_timeout(ecu_channel* c) {
@@ -147,15 +134,16 @@ static float law_V(ecu_channel* c) {
       return milli;
     case ECU_REQUEST_LENGTH:
       return law_length_V(GAIN(c, LENGTH_KP), (float)c->setpoint * GAIN(c, SHAFT_SCALE),
-                          c->shaft_rad);
+                          c->sensed.shaft_rad);
     case ECU_REQUEST_CURRENT:
       return law_current_V(&c->current_memory, GAIN(c, CURRENT_KP), GAIN(c, CURRENT_KI),
-                           GAIN(c, CURRENT_KD), milli - c->current_A, GAIN(c, SUPPLY),
+                           GAIN(c, CURRENT_KD), milli - c->sensed.current_A, GAIN(c, SUPPLY),
                            ECU_PERIOD_S);
     case ECU_REQUEST_FORCE: {
       const law_force_gains gains = {GAIN(c, FORCE_K_CURRENT), GAIN(c, FORCE_K_SPEED),
                                      GAIN(c, FORCE_K_TENSION), GAIN(c, FORCE_PREFILTER)};
-      return law_force_V(&gains, milli, c->current_A, c->speed_rad_per_s, c->tension_N);
+      return law_force_V(&gains, milli, c->sensed.current_A, c->sensed.speed_rad_per_s,
+                         c->sensed.tension_N);
     }
     default:
       return 0.0f;
@@ -164,9 +152,9 @@ static float law_V(ecu_channel* c) {
 
 /* The law's voltage, limited, to the nearest PWM count; no number is no voltage. */
 static int16_t drive(ecu_channel* c) {
-  const float voltage_V =
-      law_limit_current_V(law_V(c), c->speed_rad_per_s, GAIN(c, RESISTANCE), GAIN(c, BACK_EMF),
-                          GAIN(c, CURRENT_LIMIT), GAIN(c, SUPPLY));
+  const float voltage_V = law_limit_current_V(
+      law_V(c), c->sensed.speed_rad_per_s, GAIN(c, RESISTANCE), GAIN(c, BACK_EMF),
+      ecu_current_limit_A(c->gains, &c->sensed.inputs), GAIN(c, SUPPLY));
   const float counts = voltage_V / GAIN(c, SUPPLY) * (float)ECU_DUTY_MAX;
   if (!(counts >= -(float)ECU_DUTY_MAX && counts <= (float)ECU_DUTY_MAX)) return 0;
   return (int16_t)(counts < 0.0f ? counts - 0.5f : counts + 0.5f);
@@ -174,13 +162,14 @@ static int16_t drive(ecu_channel* c) {
 
 int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs) {
   if (channel->gains_complete) {
-    measure(channel, inputs);
-    count_over_current(channel, inputs);
-    check_limits(channel);
+    const ecu_fault sensor =
+        ecu_sense(&channel->sensed, channel->gains, inputs, applied_V(channel));
+    judge(channel, ecu_strain_tick(&channel->strain, channel->gains, &channel->sensed, inputs));
+    judge(channel, sensor);
     check_timeout(channel);
   }
-  channel->inputs = *inputs;
-  channel->has_inputs = true;
+  channel->sensed.inputs = *inputs;
+  channel->sensed.has_inputs = true;
   channel->duty = channel->state == ECU_STATE_RUNNING ? drive(channel) : 0;
   return channel->duty;
 }

@@ -20,18 +20,18 @@
 
 #include "firmware/core/laws.h"
 #include "firmware/core/parameters.h"
+#include "firmware/core/sensing.h"
+#include "firmware/core/strain.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define ECU_PERIOD_S 0.002f       /* control period: 500 Hz, paper 5.1 */
 #define ECU_DUTY_MAX 1023         /* PWM counts at full supply, either sign; chosen: 11 bits */
 #define ECU_WARN_TICKS 10u        /* 20 ms without a command: warn */
 #define ECU_TIMEOUT_TICKS 25u     /* 50 ms without a command: trip */
 #define ECU_BAD_SETPOINTS_TRIP 5u /* insane set-points in a row */
-#define ECU_OVER_CURRENT_TICKS 2u /* 4 ms over the trip level */
-#define ECU_RAIL_TICKS 3u         /* samples in a row at a converter's rail */
+#define ECU_OVERRUNS_TRIP 3u      /* control periods overrun in a row */
 
 typedef enum {
   ECU_STATE_BOOT = 0,
@@ -42,34 +42,17 @@ typedef enum {
   ECU_STATE_COUNT
 } ecu_state;
 
-typedef enum {
-  ECU_FAULT_NONE = 0,
-  ECU_FAULT_COMMAND_TIMEOUT = 1,
-  ECU_FAULT_OVER_CURRENT = 2,
-  ECU_FAULT_OVER_TENSION = 3,
-  ECU_FAULT_SETPOINT = 4,     /* out of range or of an unknown request, several in a row */
-  ECU_FAULT_SENSOR_RANGE = 5, /* a converter at its rail */
-  ECU_FAULT_CORRUPT = 6       /* several corrupt frames in a row */
-} ecu_fault;
-
 /* What a command asks; set-points are integers in the quantum given. A request is a level, not an
  * edge: it is repeated every period, and to repeat it is harmless. */
 typedef enum {
   ECU_REQUEST_OFF = 0,
-  ECU_REQUEST_CLEAR = 1,   /* leave fault */
+  ECU_REQUEST_CLEAR = 1,   /* leave fault; the set-point is the ecu_fault that is meant */
   ECU_REQUEST_ARM = 2,     /* ready, PWM 0 */
   ECU_REQUEST_VOLTAGE = 3, /* mV */
   ECU_REQUEST_LENGTH = 4,  /* encoder counts; P law on the motor encoder */
   ECU_REQUEST_CURRENT = 5, /* mA; PID */
   ECU_REQUEST_FORCE = 6    /* mN; state space with prefilter */
 } ecu_request;
-
-/* One reading of the converters. */
-typedef struct {
-  int32_t encoder_counts; /* motor shaft, positive = winding up */
-  int16_t current_counts; /* signed, positive = winding up */
-  uint16_t tension_counts;
-} ecu_inputs;
 
 typedef struct {
   ecu_state state;
@@ -82,16 +65,15 @@ typedef struct {
   uint32_t rejected_commits;               /* ever */
   float gains[ECU_PARAMETER_COUNT];        /* in force */
   float gains_staged[ECU_PARAMETER_COUNT]; /* written, not yet committed */
-  uint32_t written;                        /* bits: parameters staged or in force */
+  uint64_t written;                        /* bits: parameters staged or in force */
   bool staged_spoilt;                      /* a value of the staged set was refused or lost */
   bool gains_complete;                     /* a set is in force */
-  /* measured, SI */
-  float shaft_rad, speed_rad_per_s, current_A, tension_N;
-  ecu_inputs inputs; /* of the last tick */
-  bool has_inputs;
+  ecu_sensed sensed;
+  ecu_strain strain;
   law_current_memory current_memory;
   int16_t duty;
-  uint32_t rail_ticks, over_current_ticks;
+  uint32_t overruns;          /* ever */
+  uint32_t overruns_in_a_row; /* control periods */
 } ecu_channel;
 
 void ecu_init(ecu_channel* channel);
@@ -118,6 +100,10 @@ int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs);
 
 /* Forces the fault state from outside (corrupt frames, watchdogs). The first cause stays. */
 void ecu_trip(ecu_channel* channel, ecu_fault fault);
+
+/* Tells, once a period, whether the control loop of the last one was still at work when the next
+ * began. The third such period in a row trips. */
+void ecu_overran(ecu_channel* channel, bool overran);
 
 /* Armed or running, and 20 ms or more without a command. */
 bool ecu_is_warning(const ecu_channel* channel);

@@ -119,7 +119,7 @@ void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* said
     put_setpoint(&c, said->channel[k].setpoint);
   }
   put(&c, 3, said->answers);
-  put(&c, 3, said->repeat);
+  put(&c, 3, said->count);
   seal(frame, FRAME_COMMAND, ecu, &c);
 }
 
@@ -131,7 +131,7 @@ bool frame_unpack_command(const bus_frame* frame, frame_command* said) {
     said->channel[k].setpoint = take_setpoint(&c);
   }
   said->answers = take8(&c, 3);
-  said->repeat = take8(&c, 3);
+  said->count = take8(&c, 3);
   return true;
 }
 

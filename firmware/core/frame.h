@@ -9,7 +9,7 @@
  *
  *   EMERGENCY  1     ECU -> host  kind 1, channel 1, fault 4, reset cause 4, version 6, tick 32
  *   COMMAND    2     host -> ECU  request 3, set-point 22 (s); the same for channel 1;
- *                                 answers 3, repeat 3
+ *                                 answers 3, count 3
  *   STATUS     3, 4  ECU -> host  channel 0, channel 1: encoder 16, current 12 (s), tension 12,
  *                                 running 1, 11 bits that depend on it, follows 1, counter 3
  *                                   running:     duty 11 (s)
@@ -22,9 +22,9 @@
  *   PARAMETER  8     host -> ECU  channel 1, index 6, commit 1, position 8, float32
  *
  * Counters. Every period an ECU counts one up, modulo 8; all its frames of that period carry the
- * number. A COMMAND says in `answers` the counter of the newest STATUS it was computed from, and
- * counts `repeat` up when it answers the same again: so every fresh command differs from the one
- * before, a stuck sender does not feed the watchdog, and lockstep knows which tick was answered.
+ * number. COMMANDs to an ECU are counted modulo 8 as well, so that one that is late or comes twice
+ * neither moves anything nor feeds the watchdog; and each says in `answers` the counter of the
+ * newest STATUS it was computed from, by which lockstep knows which tick was answered.
  *
  * Outside running the duty is 0, so its bits carry the state: boot and fault codes need no frame
  * of their own. EMERGENCY says the same at once, with the highest priority, and boots are said by
@@ -42,7 +42,7 @@
 extern "C" {
 #endif
 
-#define FRAME_VERSION 1u
+#define FRAME_VERSION 2u
 #define FRAME_ECUS 128
 #define FRAME_SETPOINT_MAX 2097151       /* 22 bits signed; -2097152 is reserved: */
 #define FRAME_SETPOINT_REFUSED INT32_MIN /* one that did not fit; the ECU rejects it */
@@ -90,7 +90,7 @@ typedef struct {
 typedef struct {
   frame_channel_command channel[2];
   uint8_t answers; /* 0..7 */
-  uint8_t repeat;  /* 0..7 */
+  uint8_t count;   /* 0..7 */
 } frame_command;
 
 typedef struct {

@@ -4,9 +4,8 @@
 #include "firmware/core/ecu.h"
 #include "firmware/core/state.h"
 
-_Static_assert(ECU_PARAMETER_COUNT <= 32, "`written` has one bit a parameter");
-static const uint32_t all_written =
-    ECU_PARAMETER_COUNT == 32 ? UINT32_MAX : (1u << ECU_PARAMETER_COUNT) - 1u;
+_Static_assert(ECU_PARAMETER_COUNT < 64, "`written` has one bit a parameter");
+static const uint64_t all_written = ((uint64_t)1 << ECU_PARAMETER_COUNT) - 1u;
 
 static bool is_finite(float x) { return x >= -FLT_MAX && x <= FLT_MAX; } /* false for NaN */
 
@@ -17,16 +16,20 @@ static bool is_sane(const float* g) {
       ECU_PARAMETER_SUPPLY,        ECU_PARAMETER_SHAFT_SCALE,        ECU_PARAMETER_CURRENT_SCALE,
       ECU_PARAMETER_TENSION_SCALE, ECU_PARAMETER_CURRENT_COUNTS_MAX, ECU_PARAMETER_RESISTANCE,
       ECU_PARAMETER_CURRENT_LIMIT, ECU_PARAMETER_TENSION_COUNTS_MAX, ECU_PARAMETER_TENSION_LIMIT};
-  static const uint8_t not_negative[] = {ECU_PARAMETER_BACK_EMF, ECU_PARAMETER_LENGTH_KP,
-                                         ECU_PARAMETER_CURRENT_KP, ECU_PARAMETER_CURRENT_KI,
-                                         ECU_PARAMETER_CURRENT_KD};
+  static const uint8_t not_negative[] = {
+      ECU_PARAMETER_BACK_EMF,       ECU_PARAMETER_LENGTH_KP,         ECU_PARAMETER_CURRENT_KP,
+      ECU_PARAMETER_CURRENT_KI,     ECU_PARAMETER_CURRENT_KD,        ECU_PARAMETER_TENSION_ZERO,
+      ECU_PARAMETER_OVERLOAD_LIMIT, ECU_PARAMETER_CURRENT_CONTINUOUS};
   for (unsigned i = 0; i < sizeof above_zero; ++i)
     if (!(g[above_zero[i]] > 0.0f)) return false;
   for (unsigned i = 0; i < sizeof not_negative; ++i)
     if (!(g[not_negative[i]] >= 0.0f)) return false;
   return g[ECU_PARAMETER_CURRENT_TRIP] >= g[ECU_PARAMETER_CURRENT_LIMIT] &&
          g[ECU_PARAMETER_TENSION_TRIP] >= g[ECU_PARAMETER_TENSION_LIMIT] &&
-         g[ECU_PARAMETER_SHAFT_MIN] < g[ECU_PARAMETER_SHAFT_MAX];
+         g[ECU_PARAMETER_SHAFT_MIN] < g[ECU_PARAMETER_SHAFT_MAX] &&
+         g[ECU_PARAMETER_TENSION_ZERO] < g[ECU_PARAMETER_TENSION_COUNTS_MAX] &&
+         (g[ECU_PARAMETER_TEMPERATURE_SCALE] == 0.0f ||
+          g[ECU_PARAMETER_TEMPERATURE_DERATE] < g[ECU_PARAMETER_TEMPERATURE_TRIP]);
 }
 
 static void copy(float* to, const float* from) {
@@ -58,7 +61,7 @@ bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit
   const bool readable = index < ECU_PARAMETER_COUNT && is_finite(value);
   if (readable) {
     channel->gains_staged[index] = value;
-    channel->written |= 1u << index;
+    channel->written |= (uint64_t)1 << index;
   } else {
     ecu_spoil_parameters(channel);
   }

@@ -25,8 +25,7 @@ static bool hear_corrupt(ecu_link* link) {
 /* Newer than the last one heard? Counters run modulo 8; one or two behind is late. */
 static bool is_fresh(ecu_link* link, const frame_command* command) {
   if (!link->has_heard) return true;
-  unsigned ahead = frame_ahead(command->answers, link->last_answers);
-  if (ahead == 0) ahead = frame_ahead(command->repeat, link->last_repeat);
+  const unsigned ahead = frame_ahead(command->count, link->last_count);
   if (ahead == 0) {
     ++link->repeated;
     return false;
@@ -35,15 +34,14 @@ static bool is_fresh(ecu_link* link, const frame_command* command) {
     ++link->late;
     return false;
   }
-  link->lost += ahead - 1;
+  link->lost += ahead - 1u;
   return true;
 }
 
 static bool hear_command(ecu_link* link, const frame_command* command) {
   if (!is_fresh(link, command)) return false;
   link->has_heard = true;
-  link->last_answers = command->answers;
-  link->last_repeat = command->repeat;
+  link->last_count = command->count;
   link->answered = link->answered || command->answers == counter(link);
   for (int k = 0; k < 2; ++k) {
     const frame_channel_command* said = &command->channel[k];
@@ -93,7 +91,7 @@ ecu_reading ecu_reading_of(const ecu_channel* channel) {
                        .fault = channel->fault,
                        .request = channel->request,
                        .setpoint = channel->setpoint,
-                       .inputs = channel->inputs,
+                       .inputs = channel->sensed.inputs,
                        .duty = channel->duty};
 }
 

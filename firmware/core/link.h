@@ -26,8 +26,8 @@ typedef struct {
   uint32_t tick;           /* periods since boot */
   /* heard */
   bool has_heard;
-  bool answered; /* a command computed from this tick's STATUS has come */
-  uint8_t last_answers, last_repeat;
+  bool answered;      /* a command computed from this tick's STATUS has come */
+  uint8_t last_count; /* of a COMMAND */
   bool follows[2];
   bool set_open[2]; /* PARAMETERs were heard since the last commit */
   uint8_t last_position[2];

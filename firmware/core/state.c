@@ -32,8 +32,9 @@ void ecu_apply(ecu_channel* channel, ecu_event event) {
   if (next == channel->state) return;
   if (channel->state == FAULT) {
     channel->fault = ECU_FAULT_NONE;
-    channel->rail_ticks = 0;
-    channel->over_current_ticks = 0;
+    channel->overruns_in_a_row = 0u;
+    ecu_sensing_clear(&channel->sensed);
+    ecu_strain_clear(&channel->strain);
   }
   channel->state = next;
   channel->bad_setpoints = 0;

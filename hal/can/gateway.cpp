@@ -90,21 +90,14 @@ void Gateway::fill_in(Ecu& ecu, const EcuChannelCommand& asked) {
       ecu.command.channel[asked.channel];
 }
 
-/// `answers` never goes back; `repeat` tells two answers to the same tick apart.
+/// What it answers, as far as that is still known, and its own number.
 void Gateway::number(Ecu& ecu, std::uint64_t answered_sequence) {
   const Past& past = past_[answered_sequence % past_.size()];
   const bool known = past.sequence == answered_sequence && answered_sequence != 0;
-  const std::uint8_t answers = known ? past.counter[ecu.address] : ecu.answers;
-  const std::uint8_t ahead = frame_ahead(answers, ecu.answers);
-  if (ecu.commanded && (ahead == 0 || ahead >= FRAME_LATE)) {
-    ecu.repeat = static_cast<std::uint8_t>((ecu.repeat + 1) & 7);
-  } else {
-    ecu.answers = answers;
-    ecu.repeat = 0;
-  }
-  ecu.commanded = true;
+  if (known) ecu.answers = past.counter[ecu.address];
+  ecu.count = static_cast<std::uint8_t>((ecu.count + 1) & 7);
   ecu.command.answers = ecu.answers;
-  ecu.command.repeat = ecu.repeat;
+  ecu.command.count = ecu.count;
 }
 
 std::span<const CanFrame> Gateway::parameters(const EcuParameter& message) {

@@ -102,9 +102,9 @@ class Gateway {
   };
   struct Ecu {
     std::uint8_t address = 0;
-    bool in_use = false, speaks_ours = true, commanded = false;
+    bool in_use = false, speaks_ours = true;
     std::uint8_t counter = 0;  ///< of the newest STATUS
-    std::uint8_t answers = 0, repeat = 0;
+    std::uint8_t answers = 0, count = 0;  ///< of the newest COMMAND
     std::array<int, 2> channel{-1, -1};
     std::array<int, 4> analog{-1, -1, -1, -1};
     Counter analog_page[2];

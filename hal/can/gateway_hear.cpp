@@ -143,7 +143,6 @@ Heard Gateway::hear_emergency(Ecu& ecu, const CanFrame& frame) {
   if (emergencies_.size() < emergencies_kept) emergencies_.push_back(emergency);
   if (!emergency.said.boot) return Heard::nothing;
   ecu.speaks_ours = emergency.said.version == FRAME_VERSION;
-  ecu.commanded = false;
   for (Counter& page : ecu.analog_page) page = {};
   for (int index : ecu.channel) {
     if (index < 0) continue;

@@ -32,6 +32,8 @@ struct SensorType {
   double current_range_A = 8, current_noise_A = 0;  ///< −range … +range
   int tension_bits = 12;
   double tension_range_N = 200, tension_noise_N = 0;  ///< 0 … range
+  /// Live zero: what a slack tendon reads, so that a broken wire reads less. 0: none.
+  int tension_zero_counts = 0;
   Sampling sampling;
   std::string source;
   void visit(auto& v) {
@@ -43,6 +45,7 @@ struct SensorType {
     v.required("tension_bits", tension_bits, xml::Range{8, 12});
     v.required("tension_range_N", tension_range_N, xml::positive);
     v("tension_noise_N", tension_noise_N, xml::at_least_zero);
+    v("tension_zero_counts", tension_zero_counts, xml::Range{0, 2047});
     sampling.visit(v);
     v("source", source);
   }

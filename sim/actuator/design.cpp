@@ -135,6 +135,32 @@ void set_converters(EcuParameters& p, const SensorScale& scale) {
   set(p, ECU_PARAMETER_CURRENT_COUNTS_MAX, scale.current_counts_max);
   set(p, ECU_PARAMETER_TENSION_SCALE, scale.tension_N_per_count);
   set(p, ECU_PARAMETER_TENSION_COUNTS_MAX, scale.tension_counts_max);
+  set(p, ECU_PARAMETER_TENSION_ZERO, scale.tension_zero_counts);
+}
+
+const erp::Potentiometer* potentiometer_of(const erp::Robot& robot, const erp::Actuator& actuator) {
+  for (const erp::Potentiometer& p : robot.potentiometers)
+    if (p.actuator == actuator.name && p.ecu == actuator.ecu) return &p;
+  return nullptr;
+}
+
+void set_stuck(EcuParameters& p, const erp::MotorType& motor, const erp::SensorType& sensors,
+               double share) {
+  const SensorScale scale(motor, sensors);
+  const double speed = share * motor.supply_V / (motor.back_emf_V_s_per_rad * motor.gear_ratio);
+  if (sensors.current_noise_A >= scale.current_A_per_count)
+    set(p, ECU_PARAMETER_CURRENT_STUCK_SPEED, speed);
+  if (sensors.tension_noise_N >= scale.tension_N_per_count)
+    set(p, ECU_PARAMETER_TENSION_STUCK_SPEED, speed);
+}
+
+void set_wiper(EcuParameters& p, const erp::Potentiometer& wiper) {
+  const int counts_max = (1 << wiper.bits) - 1;
+  const double quantum = wiper.range_rad / counts_max;
+  set(p, ECU_PARAMETER_WIPER_INPUT, wiper.input);
+  set(p, ECU_PARAMETER_WIPER_SCALE, quantum);
+  set(p, ECU_PARAMETER_WIPER_COUNTS_MAX, counts_max);
+  set(p, ECU_PARAMETER_WIPER_TOLERANCE, 0.1 + 6 * wiper.noise_rad + 2 * quantum);
 }
 
 /// Above the limit, below the converter's end; never below the limit itself.
@@ -184,6 +210,8 @@ EcuParameters design_parameters(const erp::Robot& robot, const erp::Actuator& ac
   EcuParameters p{};
   set_converters(p, SensorScale(motor, sensors));
   set_limits(p, motor, sensors, actuator, options.line_travel_m);
+  set_stuck(p, motor, sensors, options.stuck_share);
+  if (const auto* wiper = potentiometer_of(robot, actuator)) set_wiper(p, *wiper);
   set_motor(p, motor, options.period_s);
   set_force(p, design_force(force_model(motor, actuator.tendon, r), options));
   return p;

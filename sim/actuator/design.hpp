@@ -33,7 +33,10 @@
 /// winding is faster than the loop, and 0.3 of the error goes each period.
 /// Limits: trips at 1.5 times the current limit and 1.2 times the largest tension, within the
 /// converters' ranges; the spindle may wind `line_travel_m` either way.
-/// Source of the rules: chosen; of the force law: paper, 5.1.
+/// Sensors: a converter is expected to be noisy where its noise is a quantum or more: one that
+/// rests for 50 ticks then does so once in 10²⁰. The potentiometer may be off by 0.1 rad (play, a
+/// shaft that twists), six times its noise, and two quanta. It counts if it hangs on the actuator's
+/// own ECU. Source of the rules: chosen; of the force law: paper, 5.1.
 namespace sim {
 
 struct DesignOptions {
@@ -41,6 +44,9 @@ struct DesignOptions {
   double force_bandwidth_per_s = 35;  ///< where the slow pole goes; chosen, see design_test.cpp
   /// All three poles of the force loop, s-plane; all zero: the motor's own and the bandwidth.
   std::array<std::complex<double>, 3> force_poles_per_s{};
+  /// A reading that rests is a fault while the shaft turns faster than this share of the no-load
+  /// speed; chosen. 0: never, as where a sensor may be one that robot.xml does not describe.
+  double stuck_share = 0.1;
   double line_travel_m = 0.2;  ///< chosen; fits the 22 bits of a CAN set-point
 };
 

@@ -11,8 +11,10 @@ EcuUnits::EcuUnits(const erp::MotorType& motor, const erp::SensorType& sensors,
       shaft_rad_per_count(2 * std::numbers::pi /
                           (sensors.encoder_counts_per_rev * motor.gear_ratio)),
       current_A_per_count(sensors.current_range_A / (1 << (sensors.current_bits - 1))),
-      tension_N_per_count(sensors.tension_range_N / ((1 << sensors.tension_bits) - 1)),
-      supply_V(motor.supply_V) {}
+      tension_N_per_count(sensors.tension_range_N /
+                          ((1 << sensors.tension_bits) - 1 - sensors.tension_zero_counts)),
+      supply_V(motor.supply_V),
+      tension_zero_counts(sensors.tension_zero_counts) {}
 
 ecu_request EcuUnits::request(erp::Mode mode) {
   switch (mode) {

@@ -8,12 +8,13 @@
 /// Between SI and the counts of an ECU, for one actuator.
 ///
 ///   shaft = encoder · 2π / (counts per rev · N)        line = −r · shaft
-///   current = counts · range / 2^(bits−1)              tension = counts · range / (2^bits − 1)
-///   voltage = duty / 1023 · supply
+///   current = counts · range / 2^(bits−1)              tension = (counts − z) · range / (2^bits −
+///   1 − z) voltage = duty / 1023 · supply
 namespace sim {
 
 struct EcuUnits {
   double radius_m, shaft_rad_per_count, current_A_per_count, tension_N_per_count, supply_V;
+  int tension_zero_counts;  ///< z, the live zero
 
   EcuUnits(const erp::MotorType& motor, const erp::SensorType& sensors,
            const erp::Spindle& spindle);
@@ -22,6 +23,9 @@ struct EcuUnits {
     return encoder_counts * shaft_rad_per_count;
   }
   double line_m(double shaft) const { return -radius_m * shaft; }
+  double tension_N(std::uint16_t counts) const {
+    return (counts - tension_zero_counts) * tension_N_per_count;
+  }
   double voltage_V(std::int16_t duty) const { return duty * supply_V / ECU_DUTY_MAX; }
 
   /// The ECU's request and set-point for a reference in V, m, A or N.

@@ -19,9 +19,11 @@ SensorScale::SensorScale(const erp::MotorType& motor, const erp::SensorType& sen
     : shaft_rad_per_count(2 * std::numbers::pi /
                           (sensors.encoder_counts_per_rev * motor.gear_ratio)),
       current_A_per_count(sensors.current_range_A / (1 << (sensors.current_bits - 1))),
-      tension_N_per_count(sensors.tension_range_N / ((1 << sensors.tension_bits) - 1)),
+      tension_N_per_count(sensors.tension_range_N /
+                          ((1 << sensors.tension_bits) - 1 - sensors.tension_zero_counts)),
       current_counts_max((1 << (sensors.current_bits - 1)) - 1),
-      tension_counts_max((1 << sensors.tension_bits) - 1) {}
+      tension_counts_max((1 << sensors.tension_bits) - 1),
+      tension_zero_counts(sensors.tension_zero_counts) {}
 
 ActuatorSensors::ActuatorSensors(const erp::MotorType& motor, const erp::SensorType& sensors,
                                  std::uint64_t seed, effects::Acting effects)
@@ -48,8 +50,10 @@ ActuatorCounts ActuatorSensors::read(double shaft_rad, double current_A, double 
       static_cast<std::int32_t>(std::floor(shaft / scale_.shaft_rad_per_count + 0.5)),
       static_cast<std::int16_t>(convert(current, scale_.current_A_per_count,
                                         -scale_.current_counts_max - 1, scale_.current_counts_max)),
-      static_cast<std::uint16_t>(
-          convert(tension, scale_.tension_N_per_count, 0, scale_.tension_counts_max))};
+      static_cast<std::uint16_t>(scale_.tension_zero_counts +
+                                 convert(tension, scale_.tension_N_per_count,
+                                         -scale_.tension_zero_counts,
+                                         scale_.tension_counts_max - scale_.tension_zero_counts))};
 }
 
 double angle_rad(const JointReading& joint, std::optional<erp::AxisName> about) {

@@ -11,9 +11,9 @@
 ///
 ///   encoder  = ⌊θ N c / 2π + ½⌋            c counts a motor revolution, 0 where it booted
 ///   current  = ⌊(i + noise) / q⌉           q = range / 2^(bits−1), −2^(bits−1) … 2^(bits−1) − 1
-///   tension  = ⌊(F + noise) / q⌉           q = range / (2^bits − 1), 0 … 2^bits − 1
-///   joint    = ⌊(φ + noise) / q⌉           q = 2π / 2^bits, not wrapped
-///   potentiometer = ⌊(S_P + noise) / q⌉    S_P = (L_K − L_K0)/r + S_P0 = S_P0 − θ (eq. 5, in rad),
+///   tension  = z + ⌊(F + noise) / q⌉       q = range / (2^bits − 1 − z), z its live zero, 0 …
+///   2^bits − 1 joint    = ⌊(φ + noise) / q⌉           q = 2π / 2^bits, not wrapped potentiometer =
+///   ⌊(S_P + noise) / q⌉    S_P = (L_K − L_K0)/r + S_P0 = S_P0 − θ (eq. 5, in rad),
 ///                                          q = range / (2^bits − 1), 0 … 2^bits − 1
 ///
 /// Beyond its range a converter stays at its rail. Effects on a sensor act on value and noise,
@@ -23,7 +23,7 @@ namespace sim {
 /// Counts to SI for one actuator.
 struct SensorScale {
   double shaft_rad_per_count, current_A_per_count, tension_N_per_count;
-  int current_counts_max, tension_counts_max;
+  int current_counts_max, tension_counts_max, tension_zero_counts;
 
   SensorScale(const erp::MotorType& motor, const erp::SensorType& sensors);
 };

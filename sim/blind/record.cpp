@@ -64,9 +64,9 @@ Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const Cha
             {q.shaft, 0, s.shaft_rad_per_count, -far, far, motor.gear_ratio},
             {q.current, sensors.current_noise_A, s.current_A_per_count, -current_end, current_end},
             {q.tension, sensors.tension_noise_N, s.tension_N_per_count, 0,
-             s.tension_N_per_count * s.tension_counts_max}};
+             s.tension_N_per_count * (s.tension_counts_max - s.tension_zero_counts)}};
   ecu_init(&unit.ecu);
-  const auto gains = design_parameters(robot, actuator, {});
+  const auto gains = design_parameters(robot, actuator, {.stuck_share = 0});
   for (std::size_t k = 0; k < gains.size(); ++k)
     ecu_parameter(&unit.ecu, static_cast<std::uint8_t>(k), gains[k], k + 1 == gains.size());
   ecu_command(&unit.ecu, ECU_REQUEST_ARM, 0);
@@ -158,7 +158,8 @@ class Run {
       const ecu_inputs inputs{
           static_cast<std::int32_t>(std::lround(u.shaft_rad / u.units.shaft_rad_per_count)),
           static_cast<std::int16_t>(std::lround(u.current_A / u.units.current_A_per_count)),
-          static_cast<std::uint16_t>(std::lround(u.tension_N / u.units.tension_N_per_count))};
+          static_cast<std::uint16_t>(u.units.tension_zero_counts +
+                                     std::lround(u.tension_N / u.units.tension_N_per_count))};
       u.voltage_V = u.units.voltage_V(ecu_tick(&u.ecu, &inputs));
       volts.push_back(u.voltage_V);
     }

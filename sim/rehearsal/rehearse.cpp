@@ -47,7 +47,7 @@ class Stage {
 
   void give_gains() {
     for (const erp::Actuator& a : robot_.actuators) {
-      const auto gains = design_parameters(robot_, a, {});
+      const auto gains = design_parameters(robot_, a, {.stuck_share = 0});
       erp::EcuParameter message;
       for (std::size_t k = 0; k < gains.size(); ++k)
         erp::append(message.values,
@@ -106,7 +106,7 @@ class Stage {
       add(units_[a].voltage_V(said.duty_counts));
       add(said.current_counts * units_[a].current_A_per_count);
       add(units_[a].shaft_rad(said.encoder_counts));
-      add(said.tension_counts * units_[a].tension_N_per_count);
+      add(units_[a].tension_N(said.tension_counts));
     }
     const auto joints = robot_.joints();
     for (std::size_t j = 0; j < joints.size(); ++j) {

@@ -62,13 +62,12 @@ void VirtualEcus::add_analogs(const erp::Robot& robot, Effects acting, std::uint
                         JointAngleSensor(s, ++seed, {acting, s.joint, effects::Seat::joint}),
                         {s.sampling, step_s},
                         0});
-  for (const erp::Potentiometer& s : robot.potentiometers)
-    analogs_.push_back({s.ecu,
-                        s.input,
-                        place_of(robot.actuators, s.actuator),
-                        PotentiometerSensor(s, ++seed),
-                        {s.sampling, step_s},
-                        0});
+  for (const erp::Potentiometer& s : robot.potentiometers) {
+    const std::size_t actuator = place_of(robot.actuators, s.actuator);
+    if (channels_[actuator].ecu == s.ecu) channels_[actuator].wiper = analogs_.size();
+    analogs_.push_back(
+        {s.ecu, s.input, actuator, PotentiometerSensor(s, ++seed), {s.sampling, step_s}, 0});
+  }
 }
 
 VirtualEcus::Channel* VirtualEcus::find(int ecu, int number) {
@@ -130,7 +129,8 @@ void VirtualEcus::tick(World& world) {
   while (const erp::EcuCommand* command = bus_.arrived(world.time_s())) obey(*command);
   for (std::size_t k = 0; k < channels_.size(); ++k) {
     const ActuatorCounts& counts = channels_[k].counts;
-    const ecu_inputs inputs{counts.encoder, counts.current, counts.tension};
+    ecu_inputs inputs{counts.encoder, counts.current, counts.tension};
+    if (channels_[k].wiper) inputs.potentiometer_counts = analogs_[*channels_[k].wiper].counts;
     voltage_V_[k] =
         channels_[k].supply_V * ecu_tick(&channels_[k].firmware, &inputs) / ECU_DUTY_MAX;
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -58,6 +59,7 @@ class VirtualEcus {
     Sampled<ActuatorCounts> readings;
     ActuatorCounts counts;
     ecu_channel firmware;
+    std::optional<std::size_t> wiper = {};  ///< which analog input is its potentiometer
   };
   /// An analog input: a joint's angle or an actuator's potentiometer.
   struct Analog {

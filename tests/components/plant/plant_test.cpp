@@ -177,6 +177,7 @@ TEST_CASE("silence is forgiven by speaking again, other faults only by saying of
   Bench bench;
   bench.ecu_says(ECU_STATE_FAULT, ECU_FAULT_COMMAND_TIMEOUT);
   CHECK(bench.asks().request == ECU_REQUEST_CLEAR);
+  CHECK(bench.asks().setpoint == ECU_FAULT_COMMAND_TIMEOUT);
   bench.ecu_says(ECU_STATE_FAULT, ECU_FAULT_OVER_CURRENT);
   bench.says("a", 0, Mode::force, 20);
   CHECK(bench.asks().request == ECU_REQUEST_OFF);

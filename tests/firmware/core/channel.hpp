@@ -39,6 +39,27 @@ inline Gains rig_gains() {
   return g;
 }
 
+/// The same with every sensor that an ECU can have: a live zero of 10 %, a ten-turn potentiometer
+/// of 12 bits, a winding's temperature of 0.1 degrees a count, the supply.
+inline Gains fitted_gains() {
+  Gains g = rig_gains();
+  g[ECU_PARAMETER_TENSION_ZERO] = 410;
+  g[ECU_PARAMETER_CURRENT_STUCK_SPEED] = 0.5f;
+  g[ECU_PARAMETER_TENSION_STUCK_SPEED] = 0.5f;
+  g[ECU_PARAMETER_WIPER_SCALE] = 20 * pi / 4096;
+  g[ECU_PARAMETER_WIPER_COUNTS_MAX] = 4095;
+  g[ECU_PARAMETER_WIPER_TOLERANCE] = 0.1f;
+  g[ECU_PARAMETER_CURRENT_CONTINUOUS] = 2;
+  g[ECU_PARAMETER_OVERLOAD_LIMIT] = 24;
+  g[ECU_PARAMETER_TEMPERATURE_SCALE] = 0.1f;
+  g[ECU_PARAMETER_TEMPERATURE_ZERO] = -40;
+  g[ECU_PARAMETER_TEMPERATURE_DERATE] = 80;
+  g[ECU_PARAMETER_TEMPERATURE_TRIP] = 100;
+  g[ECU_PARAMETER_SUPPLY_SCALE] = 0.005f;
+  g[ECU_PARAMETER_SUPPLY_MIN] = 9;
+  return g;
+}
+
 /// Writes a whole set; returns what its commit said.
 inline bool load(ecu_channel& channel, const Gains& gains) {
   bool accepted = false;
@@ -47,11 +68,11 @@ inline bool load(ecu_channel& channel, const Gains& gains) {
   return accepted;
 }
 
-inline ecu_channel in_state(ecu_state state) {
+inline ecu_channel in_state(ecu_state state, const Gains& gains = rig_gains()) {
   ecu_channel channel;
   ecu_init(&channel);
   if (state == ECU_STATE_BOOT) return channel;
-  load(channel, rig_gains());
+  load(channel, gains);
   if (state == ECU_STATE_FAULT) ecu_trip(&channel, ECU_FAULT_OVER_CURRENT);
   if (state == ECU_STATE_ARMED || state == ECU_STATE_RUNNING)
     ecu_command(&channel, ECU_REQUEST_ARM, 0);

@@ -87,7 +87,7 @@ TEST_CASE("a command comes out as it went in") {
       CHECK(out.channel[k].setpoint == in.channel[k].setpoint);
     }
     CHECK(out.answers == in.answers);
-    CHECK(out.repeat == in.repeat);
+    CHECK(out.count == in.count);
   }
 }
 

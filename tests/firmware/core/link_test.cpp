@@ -18,12 +18,12 @@ struct Ecu {
 
   Ecu() { ecu_link_init(&link, 12, &channel[0], &channel[1], 0b0101); }
 
-  bool command(std::uint8_t answers, std::uint8_t repeat, std::int32_t setpoint_mV) {
-    return hear(packed(answers, repeat, setpoint_mV));
+  bool command(std::uint8_t count, std::int32_t setpoint_mV, std::uint8_t answers = 0) {
+    return hear(packed(count, setpoint_mV, answers));
   }
-  static bus_frame packed(std::uint8_t answers, std::uint8_t repeat, std::int32_t setpoint_mV) {
+  static bus_frame packed(std::uint8_t count, std::int32_t setpoint_mV, std::uint8_t answers = 0) {
     const frame_command said{
-        {{ECU_REQUEST_VOLTAGE, setpoint_mV}, {FRAME_REQUEST_NONE, 0}}, answers, repeat};
+        {{ECU_REQUEST_VOLTAGE, setpoint_mV}, {FRAME_REQUEST_NONE, 0}}, answers, count};
     bus_frame frame;
     frame_pack_command(&frame, 12, &said);
     return frame;
@@ -56,14 +56,14 @@ int count(const std::vector<bus_frame>& frames, frame_function function) {
 
 TEST_CASE("a command reaches the channels it speaks to, and only them") {
   Ecu ecu;
-  CHECK(ecu.command(1, 0, 2000));
+  CHECK(ecu.command(1, 2000));
   CHECK(ecu.channel[0].setpoint == 2000);
   CHECK(ecu.channel[1].setpoint == 1000);
 }
 
 TEST_CASE("another ECU's frames, and frames that ECUs say, are not heard") {
   Ecu ecu;
-  bus_frame frame = Ecu::packed(1, 0, 2000);
+  bus_frame frame = Ecu::packed(1, 2000);
   const frame_command said{{{ECU_REQUEST_OFF, 0}, {ECU_REQUEST_OFF, 0}}, 1, 0};
   frame_pack_command(&frame, 13, &said);
   CHECK_FALSE(ecu.hear(frame));
@@ -74,31 +74,38 @@ TEST_CASE("another ECU's frames, and frames that ECUs say, are not heard") {
 
 TEST_CASE("a sender that is stuck on one frame does not feed the watchdog") {
   Ecu ecu;
-  for (int i = 0; i < 26; ++i) ecu.command(1, 0, 2000), tick(ecu.channel[0]);
+  for (int i = 0; i < 26; ++i) ecu.command(1, 1200), tick(ecu.channel[0]);
   CHECK(ecu.channel[0].fault == ECU_FAULT_COMMAND_TIMEOUT);
   CHECK(ecu.link.repeated == 25);
 }
 
 TEST_CASE("a late command is dropped and counted, lost ones are counted") {
   Ecu ecu;
-  CHECK(ecu.command(5, 0, 2000));
-  CHECK_FALSE(ecu.command(4, 0, 3000));
+  CHECK(ecu.command(5, 2000));
+  CHECK_FALSE(ecu.command(4, 3000));
   CHECK(ecu.channel[0].setpoint == 2000);
   CHECK(ecu.link.late == 1);
-  CHECK(ecu.command(0, 0, 4000));  // 6 and 7 lost
+  CHECK(ecu.command(0, 4000));  // 6 and 7 lost
   CHECK(ecu.link.lost == 2);
-  CHECK(ecu.command(0, 1, 5000));  // the same tick answered again
+  CHECK(ecu.command(1, 5000));
   CHECK(ecu.channel[0].setpoint == 5000);
   CHECK(ecu.link.lost == 2);
+}
+
+TEST_CASE("of two commands in the wrong order the older is late, whatever they answer") {
+  Ecu ecu;
+  CHECK(ecu.command(2, 2000, 0));
+  CHECK_FALSE(ecu.command(1, 3000, 5));  // computed from a STATUS three periods older
+  CHECK(ecu.channel[0].setpoint == 2000);
 }
 
 TEST_CASE("a tick is answered by the command that carries its counter, by no other") {
   Ecu ecu;
   ecu.say(true);
   CHECK_FALSE(ecu.link.answered);
-  ecu.command(0, 0, 1000);
+  ecu.command(1, 1000, 0);
   CHECK_FALSE(ecu.link.answered);
-  ecu.command(1, 0, 1000);
+  ecu.command(2, 1000, 1);
   CHECK(ecu.link.answered);
   ecu.say();
   CHECK_FALSE(ecu.link.answered);
@@ -106,11 +113,11 @@ TEST_CASE("a tick is answered by the command that carries its counter, by no oth
 
 TEST_CASE("five corrupt frames in a row trip both channels, four and a good one do not") {
   Ecu ecu;
-  bus_frame bad = Ecu::packed(1, 0, 2000);
+  bus_frame bad = Ecu::packed(1, 2000);
   bad.data[3] ^= 0x10;
   for (std::uint8_t round = 0; round < 3; ++round) {
     for (int i = 0; i < 4; ++i) CHECK_FALSE(ecu.hear(bad));
-    CHECK(ecu.command(round, 0, 2000));
+    CHECK(ecu.command(round, 2000));
   }
   CHECK(ecu.channel[0].state == ECU_STATE_RUNNING);
   for (int i = 0; i < 5; ++i) ecu.hear(bad);
@@ -183,7 +190,7 @@ TEST_CASE("a fault is said once in an emergency frame, and again when it is a ne
   CHECK(said.channel == 1);
   CHECK(said.fault == ECU_FAULT_OVER_TENSION);
   CHECK(count(ecu.say(), FRAME_EMERGENCY) == 0);
-  ecu_command(&ecu.channel[1], ECU_REQUEST_CLEAR, 0);
+  ecu_command(&ecu.channel[1], ECU_REQUEST_CLEAR, ecu.channel[1].fault);
   CHECK(count(ecu.say(), FRAME_EMERGENCY) == 0);
   ecu_trip(&ecu.channel[1], ECU_FAULT_CORRUPT);
   CHECK(count(ecu.say(), FRAME_EMERGENCY) == 1);

@@ -48,7 +48,9 @@ TEST_CASE("a fault latches until it is cleared, and keeps its first cause") {
     CHECK(tick(channel) == 0);
   }
   CHECK(channel.fault == ECU_FAULT_OVER_TENSION);
-  CHECK(ecu_command(&channel, ECU_REQUEST_CLEAR, 0));
+  CHECK_FALSE(ecu_command(&channel, ECU_REQUEST_CLEAR, ECU_FAULT_COMMAND_TIMEOUT));  // of before
+  CHECK(channel.state == ECU_STATE_FAULT);
+  CHECK(ecu_command(&channel, ECU_REQUEST_CLEAR, ECU_FAULT_OVER_TENSION));
   CHECK(channel.state == ECU_STATE_IDLE);
   CHECK(channel.fault == ECU_FAULT_NONE);
 }
@@ -57,7 +59,7 @@ TEST_CASE("after a fault the old set-point is gone: armed again, it waits at PWM
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   tick(channel);
   ecu_trip(&channel, ECU_FAULT_OVER_TENSION);
-  ecu_command(&channel, ECU_REQUEST_CLEAR, 0);
+  ecu_command(&channel, ECU_REQUEST_CLEAR, channel.fault);
   ecu_command(&channel, ECU_REQUEST_ARM, 0);
   CHECK(tick(channel) == 0);
   CHECK(channel.setpoint == 0);
@@ -112,7 +114,7 @@ TEST_CASE("a fault whose cause persists cannot be cleared for good") {
   ecu_channel channel = in_state(ECU_STATE_IDLE);
   for (int i = 0; i < 3; ++i) tick(channel, {0, 0, 4095});
   REQUIRE(channel.state == ECU_STATE_FAULT);
-  ecu_command(&channel, ECU_REQUEST_CLEAR, 0);
+  ecu_command(&channel, ECU_REQUEST_CLEAR, channel.fault);
   for (int i = 0; i < 3; ++i) tick(channel, {0, 0, 4095});
   CHECK(channel.state == ECU_STATE_FAULT);
 }
@@ -174,7 +176,7 @@ TEST_CASE("speed is taken from the encoder over one period, through the wrap of 
   tick(channel, {INT32_MAX - 100, 0, 0});
   tick(channel, {INT32_MIN + 99, 0, 0});  // 200 counts on
   const float scale = rig_gains()[ECU_PARAMETER_SHAFT_SCALE];
-  CHECK(channel.speed_rad_per_s == Approx(200 * scale / 0.002f));
+  CHECK(channel.sensed.speed_rad_per_s == Approx(200 * scale / 0.002f));
 }
 
 TEST_CASE("only a running channel drives: in every other state PWM is 0 at any speed and load") {

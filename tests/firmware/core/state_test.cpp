@@ -12,6 +12,8 @@ namespace {
 const ecu_state boot = ECU_STATE_BOOT, idle = ECU_STATE_IDLE, armed = ECU_STATE_ARMED,
                 running = ECU_STATE_RUNNING, fault = ECU_STATE_FAULT;
 
+const std::int32_t over_current = ECU_FAULT_OVER_CURRENT;  // what in_state trips with
+
 struct Row {
   const char* event;
   std::function<void(ecu_channel&)> happens;
@@ -40,7 +42,8 @@ TEST_CASE("every event leads from every state where the table says") {
     {"good gains", commit,                                    idle, idle,  armed,   running, fault},
     {"insane gains", bad_commit,                              boot, idle,  armed,   running, fault},
     {"off", command(ECU_REQUEST_OFF),                         boot, idle,  idle,    idle,    fault},
-    {"clear", command(ECU_REQUEST_CLEAR),                     boot, idle,  armed,   running, idle},
+    {"clear", command(ECU_REQUEST_CLEAR, over_current),       boot, idle,  armed,   running, idle},
+    {"another clear", command(ECU_REQUEST_CLEAR, 1),          boot, idle,  armed,   running, fault},
     {"arm", command(ECU_REQUEST_ARM),                         boot, armed, armed,   armed,   fault},
     {"voltage", command(ECU_REQUEST_VOLTAGE, 500),            boot, idle,  running, running, fault},
     {"length", command(ECU_REQUEST_LENGTH, 100),              boot, idle,  running, running, fault},

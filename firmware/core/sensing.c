@@ -1,0 +1,102 @@
+#include "firmware/core/sensing.h"
+
+#include "firmware/core/parameters.h"
+
+#define GAIN(id) (gains[ECU_PARAMETER_##id])
+
+static float magnitude(float x) { return x < 0.0f ? -x : x; }
+
+static uint32_t count_if(bool holds, uint32_t ticks) { return holds ? ticks + 1u : 0u; }
+
+/* ---- counts to SI ---- */
+
+static bool current_at_rail(const float* gains, const ecu_inputs* inputs) {
+  return magnitude((float)inputs->current_counts) >= GAIN(CURRENT_COUNTS_MAX);
+}
+
+/* Without a live zero, tension 0 is a slack tendon and no rail. */
+static bool tension_at_rail(const float* gains, const ecu_inputs* inputs) {
+  const float counts = (float)inputs->tension_counts, half_zero = 0.5f * GAIN(TENSION_ZERO);
+  return counts >= GAIN(TENSION_COUNTS_MAX) || counts < half_zero;
+}
+
+/* Slack and noise may read a little less than a live zero; no tendon pushes. */
+static float tension_of(const float* gains, const ecu_inputs* inputs) {
+  const float counts = (float)inputs->tension_counts - GAIN(TENSION_ZERO);
+  return counts > 0.0f ? counts * GAIN(TENSION_SCALE) : 0.0f;
+}
+
+static void convert(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
+  const uint32_t now = (uint32_t)inputs->encoder_counts, last = (uint32_t)s->inputs.encoder_counts;
+  const float counts_per_period = s->has_inputs ? (float)(int32_t)(now - last) : 0.0f;
+  const bool current_lost = current_at_rail(gains, inputs),
+             tension_lost = tension_at_rail(gains, inputs);
+  s->shaft_rad = (float)inputs->encoder_counts * GAIN(SHAFT_SCALE);
+  s->speed_rad_per_s = counts_per_period * GAIN(SHAFT_SCALE) / ECU_PERIOD_S;
+  if (!current_lost) s->current_A = (float)inputs->current_counts * GAIN(CURRENT_SCALE);
+  if (!tension_lost) s->tension_N = tension_of(gains, inputs);
+  s->rail_ticks = count_if(current_lost || tension_lost, s->rail_ticks);
+}
+
+/* ---- evidence ---- */
+
+/* Ticks of turning without a change; standing still is no evidence either way. */
+static uint32_t same_for(uint32_t ticks, bool same, float speed_rad_per_s, float from_rad_per_s) {
+  if (!same || from_rad_per_s <= 0.0f) return 0u;
+  return magnitude(speed_rad_per_s) >= from_rad_per_s ? ticks + 1u : ticks;
+}
+
+static void look_for_stuck(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
+  const bool same_current = inputs->current_counts == s->inputs.current_counts;
+  const bool taut = tension_of(gains, inputs) > 0.0f; /* cut off at 0, a reading may well rest */
+  const bool same_tension = taut && inputs->tension_counts == s->inputs.tension_counts;
+  s->same_current_ticks =
+      same_for(s->same_current_ticks, same_current, s->speed_rad_per_s, GAIN(CURRENT_STUCK_SPEED));
+  s->same_tension_ticks =
+      same_for(s->same_tension_ticks, same_tension, s->speed_rad_per_s, GAIN(TENSION_STUCK_SPEED));
+}
+
+static void look_at_encoder(ecu_sensed* s, const float* gains, float applied_V) {
+  const float emf_V = applied_V - GAIN(RESISTANCE) * s->current_A;
+  const float seen_V = GAIN(BACK_EMF) * s->speed_rad_per_s;
+  const bool turns = magnitude(emf_V) > 0.75f * GAIN(RESISTANCE) * GAIN(CURRENT_LIMIT);
+  const bool unseen = emf_V > 0.0f ? seen_V < emf_V / 8.0f : seen_V > emf_V / 8.0f;
+  s->lag_ticks = count_if(GAIN(BACK_EMF) > 0.0f && turns && unseen, s->lag_ticks);
+}
+
+/* Beyond its range a potentiometer stays at its end, and says nothing. */
+static void look_at_potentiometer(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
+  const float counts = (float)inputs->potentiometer_counts;
+  if (GAIN(WIPER_TOLERANCE) <= 0.0f || counts <= 0.0f || counts >= GAIN(WIPER_COUNTS_MAX)) {
+    s->apart_ticks = 0u;
+    return;
+  }
+  const float sum_rad = s->shaft_rad + counts * GAIN(WIPER_SCALE);
+  if (!s->has_wiper_zero) s->wiper_zero_rad = sum_rad;
+  s->has_wiper_zero = true;
+  s->apart_ticks =
+      count_if(magnitude(sum_rad - s->wiper_zero_rad) > GAIN(WIPER_TOLERANCE), s->apart_ticks);
+}
+
+static ecu_fault worst(const ecu_sensed* s) {
+  if (s->rail_ticks >= ECU_RAIL_TICKS) return ECU_FAULT_SENSOR_RANGE;
+  if (s->lag_ticks >= ECU_DISAGREE_TICKS) return ECU_FAULT_ENCODER;
+  if (s->apart_ticks >= ECU_DISAGREE_TICKS) return ECU_FAULT_POTENTIOMETER;
+  if (s->same_current_ticks >= ECU_STUCK_TICKS || s->same_tension_ticks >= ECU_STUCK_TICKS)
+    return ECU_FAULT_SENSOR_STUCK;
+  return ECU_FAULT_NONE;
+}
+
+ecu_fault ecu_sense(ecu_sensed* sensed, const float* gains, const ecu_inputs* inputs,
+                    float applied_V) {
+  convert(sensed, gains, inputs);
+  if (sensed->has_inputs) look_for_stuck(sensed, gains, inputs);
+  look_at_encoder(sensed, gains, applied_V);
+  look_at_potentiometer(sensed, gains, inputs);
+  return worst(sensed);
+}
+
+void ecu_sensing_clear(ecu_sensed* sensed) {
+  sensed->rail_ticks = sensed->same_current_ticks = sensed->same_tension_ticks = 0u;
+  sensed->lag_ticks = sensed->apart_ticks = 0u;
+}

@@ -1,0 +1,161 @@
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "tests/firmware/core/channel.hpp"
+
+// Sensors that are broken, and sensors that only look so.
+using namespace firmware;
+
+namespace {
+
+/// A channel that is driven at 3 V, its shaft at 2 rad/s as the motor's equation wants, with noise
+/// on its converters. Each sensor can be overruled.
+struct Turning {
+  ecu_channel channel = in_state(ECU_STATE_RUNNING, fitted_gains());
+  std::mt19937 random{1};
+  std::normal_distribution<float> noise{0, 1};
+  float shaft_rad = 0, current_A = 0.1f, tension_N = 20, speed_rad_per_s = 2;
+  ecu_inputs last{};
+
+  ecu_inputs read() {
+    const Gains g = fitted_gains();
+    shaft_rad += speed_rad_per_s * ECU_PERIOD_S;
+    return {std::int32_t(shaft_rad / g[ECU_PARAMETER_SHAFT_SCALE]),
+            std::int16_t(current_A / g[ECU_PARAMETER_CURRENT_SCALE] + 4 * noise(random)),
+            std::uint16_t(tension_N / g[ECU_PARAMETER_TENSION_SCALE] + 410 + noise(random)),
+            std::int32_t((30 - shaft_rad) / g[ECU_PARAMETER_WIPER_SCALE] + noise(random)),
+            600,
+            2400};
+  }
+
+  /// Runs on with one reading changed; returns the tick it tripped at, 0: it did not.
+  template <class Change>
+  int trips_within(int ticks, Change change) {
+    for (int k = 1; k <= ticks; ++k) {
+      ecu_command(&channel, ECU_REQUEST_VOLTAGE, 3000);
+      ecu_inputs inputs = read();
+      change(inputs);
+      tick(channel, inputs);
+      last = inputs;
+      if (channel.state == ECU_STATE_FAULT) return k;
+    }
+    return 0;
+  }
+  int runs_on(int ticks) {
+    return trips_within(ticks, [](ecu_inputs&) {});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("sensors that live and agree trip nothing") {
+  Turning motor;
+  CHECK(motor.runs_on(5000) == 0);
+}
+
+TEST_CASE("a force sensor that is open or shorted trips at the third sample") {
+  for (const std::uint16_t rail : {std::uint16_t(4095), std::uint16_t(0), std::uint16_t(200)}) {
+    INFO("at " << rail);
+    Turning motor;
+    motor.runs_on(100);
+    CHECK(motor.trips_within(10, [&](ecu_inputs& in) { in.tension_counts = rail; }) == 3);
+    CHECK(motor.channel.fault == ECU_FAULT_SENSOR_RANGE);
+    CHECK(motor.channel.request == ECU_REQUEST_OFF);
+    CHECK(motor.channel.sensed.tension_N == Approx(20).margin(0.3));
+  }
+}
+
+TEST_CASE("a slack tendon reads its live zero, or a little less, and no tension") {
+  Turning motor;
+  motor.tension_N = -1;
+  CHECK(motor.runs_on(500) == 0);
+  CHECK(motor.channel.sensed.tension_N == 0);
+}
+
+TEST_CASE("a slack tendon without a live zero rests at 0, and that is no stuck sensor") {
+  Turning motor;
+  Gains gains = fitted_gains();
+  gains[ECU_PARAMETER_TENSION_ZERO] = 0;
+  load(motor.channel, gains);
+  CHECK(motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 0; }) == 0);
+}
+
+TEST_CASE("a frozen converter trips after 100 ms of turning") {
+  Turning current, tension;
+  CHECK(current.trips_within(100, [](ecu_inputs& in) { in.current_counts = 25; }) == 51);
+  CHECK(current.channel.fault == ECU_FAULT_SENSOR_STUCK);
+  CHECK(tension.trips_within(100, [](ecu_inputs& in) { in.tension_counts = 800; }) == 51);
+  CHECK(tension.channel.fault == ECU_FAULT_SENSOR_STUCK);
+}
+
+TEST_CASE("a reading that rests while the shaft rests is believed") {
+  Turning motor;
+  motor.speed_rad_per_s = 0.4f;
+  motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 800; });
+  CHECK(motor.channel.fault != ECU_FAULT_SENSOR_STUCK);
+}
+
+TEST_CASE("where the host does not ask for it, a still reading is believed") {
+  Turning motor;
+  Gains gains = fitted_gains();
+  gains[ECU_PARAMETER_TENSION_STUCK_SPEED] = 0;
+  load(motor.channel, gains);
+  CHECK(motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 800; }) == 0);
+}
+
+TEST_CASE("an encoder that has lost a phase trips within 50 ms of driving, either way round") {
+  for (const bool winds : {true, false}) {
+    Turning motor;
+    motor.speed_rad_per_s = winds ? 2.0f : -2.0f;
+    Gains gains = fitted_gains();
+    gains[ECU_PARAMETER_WIPER_TOLERANCE] = 0;  // so that it is the motor's equation that tells
+    load(motor.channel, gains);
+    int k = 0;
+    const auto dithers = [&](ecu_inputs& in) { in.encoder_counts = 1000 + (++k % 2); };
+    const auto command = winds ? 3000 : -3000;
+    int tripped = 0;
+    for (int n = 1; n < 60 && !tripped; ++n) {
+      ecu_command(&motor.channel, ECU_REQUEST_VOLTAGE, command);
+      ecu_inputs in = motor.read();
+      dithers(in);
+      tick(motor.channel, in);
+      if (motor.channel.state == ECU_STATE_FAULT) tripped = n;
+    }
+    CHECK(tripped == 26);
+    CHECK(motor.channel.fault == ECU_FAULT_ENCODER);
+  }
+}
+
+TEST_CASE("a motor that stalls at its current limit is no broken encoder") {
+  for (const float resistance : {0.516f, 0.88f}) {  // the gains say 0.516
+    Turning motor;
+    motor.speed_rad_per_s = 0;
+    int tripped = 0;
+    for (int n = 0; n < 200 && !tripped; ++n) {
+      ecu_command(&motor.channel, ECU_REQUEST_VOLTAGE, 12000);
+      motor.current_A = 12.0f * float(motor.channel.duty) / ECU_DUTY_MAX / resistance;
+      const ecu_inputs in = motor.read();
+      tick(motor.channel, in);
+      if (motor.channel.state == ECU_STATE_FAULT) tripped = n;
+    }
+    INFO("at " << resistance << " ohm");
+    CHECK(tripped == 0);
+  }
+}
+
+TEST_CASE("an encoder that slips comes apart from the potentiometer") {
+  Turning motor;
+  motor.runs_on(100);
+  const float scale = fitted_gains()[ECU_PARAMETER_SHAFT_SCALE];
+  const auto slipped = [&](ecu_inputs& in) { in.encoder_counts -= std::int32_t(0.2f / scale); };
+  CHECK(motor.trips_within(100, slipped) == 25);
+  CHECK(motor.channel.fault == ECU_FAULT_POTENTIOMETER);
+  ecu_command(&motor.channel, ECU_REQUEST_CLEAR, motor.channel.fault);
+  CHECK(motor.channel.state == ECU_STATE_IDLE);
+  CHECK(motor.trips_within(100, slipped) == 25);  // it has not gone away
+}
+
+TEST_CASE("beyond its range a potentiometer says nothing") {
+  Turning motor;
+  CHECK(motor.trips_within(300, [](ecu_inputs& in) { in.potentiometer_counts = 4095; }) == 0);
+}
