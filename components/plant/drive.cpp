@@ -12,6 +12,9 @@ double top_line_speed_m_per_s(const erp::MotorType& motor, double radius_m) {
 }
 
 /// Faults that only say the host was silent: cleared by the host speaking again.
+/// How fast slack is wound up; chosen.
+constexpr double take_up_m_per_s = 0.010;
+
 bool was_silence(std::uint8_t fault) {
   return fault == ECU_FAULT_COMMAND_TIMEOUT || fault == ECU_FAULT_CORRUPT;
 }
@@ -19,7 +22,7 @@ bool was_silence(std::uint8_t fault) {
 }  // namespace
 
 Drive::Drive(const erp::Actuator& actuator, const erp::MotorType& motor,
-             const erp::SensorType& sensors)
+             const erp::SensorType& sensors, const TendonWatch::Params& watch)
     : name_(actuator.name),
       ecu_(actuator.ecu),
       channel_(actuator.channel),
@@ -27,7 +30,9 @@ Drive::Drive(const erp::Actuator& actuator, const erp::MotorType& motor,
       relax_tension_N_(actuator.relax_tension_N),
       approach_m_per_s_(0.5 * top_line_speed_m_per_s(motor, actuator.spindle.radius_m)),
       units_(motor, sensors, actuator.spindle),
-      limits_(actuator, motor, sensors) {}
+      limits_(actuator, motor, sensors),
+      watch_(watch),
+      slack_N_(watch.slack_N) {}
 
 Checked Drive::accept(std::string_view controller, std::int32_t priority, erp::Mode mode,
                       double reference, std::int64_t now_ns, std::int64_t stale_ns) {
@@ -44,7 +49,7 @@ Checked Drive::accept(std::string_view controller, std::int32_t priority, erp::M
 }
 
 void Drive::observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts,
-                    std::int64_t now_ns) {
+                    double tension_N, std::int64_t now_ns) {
   if (state == ECU_STATE_ARMED && state_ != ECU_STATE_ARMED) {
     armed_ns_ = now_ns;
     approaching_ = true;
@@ -53,6 +58,7 @@ void Drive::observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_co
   state_ = state;
   fault_ = fault;
   encoder_counts_ = encoder_counts;
+  tension_N_ = tension_N;
 }
 
 void Drive::lose() {
@@ -65,17 +71,20 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
   priority_ = offer ? offer->priority : 0;
   const bool wants_off = offer && offer->mode == erp::Mode::off;
   if (state_ != ECU_STATE_RUNNING || offer) safe_now_ = erp::SafeAction::none;
+  if (wants_off) watch_.forget();
+  const bool snapped = watch_.now() == Tautness::snapped;
   switch (state_) {
     case ECU_STATE_BOOT:
     case ECU_STATE_COUNT:
       return {};
     case ECU_STATE_IDLE:
-      return {offer && !wants_off ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
+      return {offer && !wants_off && !snapped ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
     case ECU_STATE_ARMED:
       if (!offer || wants_off) return {};
       return offer->received_ns > armed_ns_ ? drive(*offer, dt_s) : Demand{ECU_REQUEST_ARM, 0};
     case ECU_STATE_RUNNING:
-      return wants_off ? Demand{} : offer ? drive(*offer, dt_s) : stay_safe();
+      if (wants_off) return {};
+      return mind_the_tendon(offer ? drive(*offer, dt_s) : stay_safe(), now_ns, dt_s);
     case ECU_STATE_FAULT:
       if (was_silence(fault_) || wants_off) return {ECU_REQUEST_CLEAR, fault_};
       return {ECU_REQUEST_OFF, 0};
@@ -109,6 +118,34 @@ Demand Drive::stay_safe() {
       break;
   }
   return {ECU_REQUEST_VOLTAGE, 0};
+}
+
+/// A length law stops by itself where it is told to; the others wind until something pulls back.
+bool Drive::pulls(const Demand& demand) const {
+  const double slack =
+      demand.request == ECU_REQUEST_FORCE ? units_.setpoint(erp::Mode::force, 2 * slack_N_) : 0;
+  return demand.request != ECU_REQUEST_LENGTH && demand.setpoint > slack;
+}
+
+Demand Drive::mind_the_tendon(Demand demand, std::int64_t now_ns, double dt_s) {
+  const double line_m = units_.line_m(units_.shaft_rad(encoder_counts_));
+  switch (watch_.see(tension_N_, line_m, pulls(demand), now_ns)) {
+    case Tautness::taut:
+      taking_up_ = false;
+      return demand;
+    case Tautness::slack:
+      return take_up(dt_s);
+    case Tautness::snapped:
+      break;
+  }
+  return {};
+}
+
+Demand Drive::take_up(double dt_s) {
+  if (!taking_up_) take_up_line_m_ = units_.line_m(units_.shaft_rad(encoder_counts_));
+  taking_up_ = true;
+  take_up_line_m_ -= take_up_m_per_s * dt_s;
+  return {ECU_REQUEST_LENGTH, units_.setpoint(erp::Mode::length, take_up_line_m_)};
 }
 
 }  // namespace plant

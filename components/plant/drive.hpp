@@ -5,6 +5,7 @@
 
 #include "components/plant/arbiter.hpp"
 #include "components/plant/limits.hpp"
+#include "components/plant/tendon_watch.hpp"
 #include "sim/actuator/ecu_units.hpp"
 
 /// One actuator as the plant sees it: from what controllers offer and what its ECU says, to what
@@ -15,6 +16,8 @@
 ///   idle        off                      arm
 ///   armed       off                      its mode, once a command came after arming
 ///   running     the safe action          its mode
+///   …           and pulls at nothing      takes the slack up slowly; when it comes to nothing, off
+///                                         until the driver says off
 ///   fault       clear when it was the silence of the host, otherwise off until the driver says off
 namespace plant {
 
@@ -27,7 +30,8 @@ struct Demand {
 
 class Drive {
  public:
-  Drive(const erp::Actuator& actuator, const erp::MotorType& motor, const erp::SensorType& sensors);
+  Drive(const erp::Actuator& actuator, const erp::MotorType& motor, const erp::SensorType& sensors,
+        const TendonWatch::Params& watch);
 
   const std::string& name() const { return name_; }
   int ecu() const { return ecu_; }
@@ -39,7 +43,7 @@ class Drive {
   Checked accept(std::string_view controller, std::int32_t priority, erp::Mode mode,
                  double reference, std::int64_t now_ns, std::int64_t stale_ns);
   /// What the ECU reported.
-  void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts,
+  void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts, double tension_N,
                std::int64_t now_ns);
   /// The device fell silent: nothing is known until it speaks again.
   void lose();
@@ -50,6 +54,7 @@ class Drive {
   std::int32_t priority() const { return priority_; }
   /// The safe action in force; none while a controller drives or the ECU is off.
   erp::SafeAction safe_action() const { return safe_now_; }
+  Tautness tendon() const { return watch_.now(); }
   std::uint32_t limited() const { return limited_; }
   std::uint32_t refused() const { return refused_; }
   std::string_view reason() const { return reason_; }
@@ -57,6 +62,9 @@ class Drive {
  private:
   Demand drive(const Offer& offer, double dt_s);
   Demand stay_safe();
+  Demand mind_the_tendon(Demand demand, std::int64_t now_ns, double dt_s);
+  bool pulls(const Demand& demand) const;
+  Demand take_up(double dt_s);
 
   std::string name_;
   int ecu_, channel_;
@@ -71,6 +79,9 @@ class Drive {
   std::int64_t armed_ns_ = 0;
   double approach_line_m_ = 0;
   bool approaching_ = false;
+  TendonWatch watch_;
+  double slack_N_, tension_N_ = 0, take_up_line_m_ = 0;
+  bool taking_up_ = false;
   erp::SafeAction safe_now_ = erp::SafeAction::none;
   std::int32_t priority_ = 0;
   std::uint32_t limited_ = 0, refused_ = 0;

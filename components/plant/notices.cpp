@@ -29,6 +29,17 @@ std::string limit_text(const Drive& drive) {
 
 }  // namespace
 
+void Plant::notice_tendon(const Drive& drive, Said& said) {
+  if (drive.tendon() == said.tendon) return;
+  said.tendon = drive.tendon();
+  if (said.tendon == Tautness::snapped)
+    notices_.push_back({erp::Severity::fault, drive.name(), "tendon_snapped",
+                        "nothing pulls back however much is wound: off until the driver says off"});
+  if (said.tendon == Tautness::slack && !std::exchange(said.slack, true))
+    notices_.push_back({erp::Severity::warning, drive.name(), "tendon_slack",
+                        "no tension for 20 ms: the slack is wound up slowly"});
+}
+
 void Plant::notice_changes() {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const Drive& drive = drives_[i];
@@ -43,6 +54,7 @@ void Plant::notice_changes() {
       notices_.push_back({erp::Severity::fault, drive.name(), "ecu_fault",
                           ecu_fault_name(frame_.actuators._buffer[i].ecu_fault)});
     said.state = drive.state();
+    notice_tendon(drive, said);
     // The first of a row is said; the counters on actuator_owner carry the rest.
     const bool first = (drive.limited() && !said.limited) || (drive.refused() && !said.refused);
     if (first)

@@ -5,6 +5,14 @@
 #include <numbers>
 
 namespace plant {
+namespace {
+
+/// Six times the noise, so that a slack tendon never reads taut.
+TendonWatch::Params watch_of(const erp::SensorType& sensors, const Plant::Params& params) {
+  return {std::max(params.slack_N, 6 * sensors.tension_noise_N), params.take_up_m};
+}
+
+}  // namespace
 
 Plant::Plant(const Params& params, const erp::Robot& robot)
     : stale_ns_(std::llround(1e9 * params.stale_s)),
@@ -17,7 +25,8 @@ Plant::Plant(const Params& params, const erp::Robot& robot)
   for (const auto& actuator : robot.actuators) {
     drive_at_[static_cast<std::size_t>(actuator.ecu)][static_cast<std::size_t>(actuator.channel)] =
         static_cast<int>(drives_.size());
-    drives_.emplace_back(actuator, robot.motor_of(actuator), robot.sensors_of(actuator));
+    drives_.emplace_back(actuator, robot.motor_of(actuator), robot.sensors_of(actuator),
+                         watch_of(robot.sensors_of(actuator), params));
     erp::ActuatorSample sample{};
     erp::assign(sample.name, actuator.name);
     sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
@@ -63,9 +72,9 @@ void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now
   sample.valid = channel.fresh ? erp::valid::all : 0;
   boots_[i] = channel.fresh && channel.state == ECU_STATE_BOOT;
   if (!channel.fresh) return;
-  drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts,
-                now_ns);
   const sim::EcuUnits& units = drive.units();
+  drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts,
+                units.tension_N(channel.tension_counts), now_ns);
   sample.ecu_state = channel.state;
   sample.ecu_fault = channel.fault;
   sample.mode = static_cast<std::uint8_t>(sim::EcuUnits::mode(channel.request));

@@ -19,9 +19,13 @@ class Plant {
   struct Params {
     double stale_s = 0.020;        ///< a command older than this no longer drives
     double device_lost_s = 0.050;  ///< without a frame for so long nothing is known
+    double slack_N = 0.5;     ///< a tendon below it is slack; at least what its sensor can tell
+    double take_up_m = 0.03;  ///< slack that may be wound up; more, and it has snapped
     void visit(auto& v) {
       v("stale_s", stale_s, xml::positive);
       v("device_lost_s", device_lost_s, xml::positive);
+      v("slack_N", slack_N, xml::at_least_zero);
+      v("take_up_m", take_up_m, xml::positive);
     }
   };
 
@@ -43,17 +47,20 @@ class Plant {
   }
 
  private:
+  struct Said {
+    std::string owner;
+    ecu_state state = ECU_STATE_BOOT;
+    Tautness tendon = Tautness::taut;
+    bool slack = false;  ///< was said: once is enough
+    std::uint32_t limited = 0, refused = 0;
+  };
+
   void sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns);
   void add_analogs(const erp::Robot& robot);
   void sense_analog(const erp::EcuAnalogSample& said);
   void say_unknown(const std::string& controller, const std::string& name);
   void notice_changes();
-
-  struct Said {
-    std::string owner;
-    ecu_state state = ECU_STATE_BOOT;
-    std::uint32_t limited = 0, refused = 0;
-  };
+  void notice_tendon(const Drive& drive, Said& said);
 
   std::int64_t stale_ns_, device_lost_ns_;
   std::vector<Drive> drives_;

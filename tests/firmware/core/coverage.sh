@@ -5,4 +5,4 @@ set -eu
 find "$2" -name '*.gcda' -delete
 "$1" > "$4.log" || { cat "$4.log"; exit 1; }
 gcovr --root "$3" --object-directory "$2" --filter "$3/firmware/core/" --exclude-throw-branches \
-  --txt --txt-summary --branches --fail-under-line 95 --fail-under-branch 95 "$2"
+  --txt - --print-summary --branches --fail-under-line 95 --fail-under-branch 95 "$2"

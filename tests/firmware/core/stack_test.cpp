@@ -59,7 +59,7 @@ struct Depth {
 Graph firmware() {
   Graph graph;
   std::stringstream objects(ERP_FIRMWARE_OBJECTS);
-  for (std::string object; std::getline(objects, object, ';');) {
+  for (std::string object; std::getline(objects, object, ':');) {
     std::ifstream file(object.substr(0, object.size() - 1) + "ci");
     INFO(object);
     REQUIRE(file);

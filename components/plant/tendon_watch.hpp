@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+
+/// Whether a tendon is taut, from its tension and its line alone.
+///
+///   slack     below `slack_N` for 20 ms while it should pull
+///   snapped   slack, and `take_up_m` of line wound since without coming taut; stays so until
+///             `forget`
+///
+/// A slack tendon is no fault: limbs are moved by hand, followers let go. But a force law on it
+/// finds nothing to stop it.
+namespace plant {
+
+enum class Tautness { taut, slack, snapped };
+
+class TendonWatch {
+ public:
+  struct Params {
+    double slack_N, take_up_m;
+  };
+  explicit TendonWatch(const Params& params) : params_(params) {}
+
+  /// One reading. `should_pull`: it is asked for more than slack. Line falls when wound.
+  Tautness see(double tension_N, double line_m, bool should_pull, std::int64_t now_ns);
+  Tautness now() const { return now_; }
+  /// Nothing is known of the tendon: the ECU is off.
+  void forget() { now_ = Tautness::taut, loose_ = false; }
+
+  static constexpr std::int64_t patience_ns = 20'000'000;  ///< of tension that fails
+
+ private:
+  Params params_;
+  Tautness now_ = Tautness::taut;
+  bool loose_ = false;
+  std::int64_t loose_since_ns_ = 0;
+  double loose_line_m_ = 0;  ///< where it came loose
+};
+
+}  // namespace plant
