@@ -72,7 +72,9 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
   const bool wants_off = offer && offer->mode == erp::Mode::off;
   if (state_ != ECU_STATE_RUNNING || offer) safe_now_ = erp::SafeAction::none;
   if (wants_off) watch_.forget();
+  if (state_ != ECU_STATE_RUNNING) watch_.rest();
   const bool snapped = watch_.now() == Tautness::snapped;
+  if (watch_.now() != Tautness::slack) taking_up_ = false;
   switch (state_) {
     case ECU_STATE_BOOT:
     case ECU_STATE_COUNT:
@@ -80,7 +82,7 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
     case ECU_STATE_IDLE:
       return {offer && !wants_off && !snapped ? ECU_REQUEST_ARM : ECU_REQUEST_OFF, 0};
     case ECU_STATE_ARMED:
-      if (!offer || wants_off) return {};
+      if (!offer || wants_off || snapped) return {};
       return offer->received_ns > armed_ns_ ? drive(*offer, dt_s) : Demand{ECU_REQUEST_ARM, 0};
     case ECU_STATE_RUNNING:
       if (wants_off) return {};
@@ -131,18 +133,17 @@ Demand Drive::mind_the_tendon(Demand demand, std::int64_t now_ns, double dt_s) {
   const double line_m = units_.line_m(units_.shaft_rad(encoder_counts_));
   switch (watch_.see(tension_N_, line_m, pulls(demand), now_ns)) {
     case Tautness::taut:
-      taking_up_ = false;
       return demand;
     case Tautness::slack:
-      return take_up(dt_s);
+      return take_up(line_m, dt_s);
     case Tautness::snapped:
       break;
   }
   return {};
 }
 
-Demand Drive::take_up(double dt_s) {
-  if (!taking_up_) take_up_line_m_ = units_.line_m(units_.shaft_rad(encoder_counts_));
+Demand Drive::take_up(double line_m, double dt_s) {
+  if (!taking_up_) take_up_line_m_ = line_m;
   taking_up_ = true;
   take_up_line_m_ -= take_up_m_per_s * dt_s;
   return {ECU_REQUEST_LENGTH, units_.setpoint(erp::Mode::length, take_up_line_m_)};

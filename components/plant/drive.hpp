@@ -64,7 +64,7 @@ class Drive {
   Demand stay_safe();
   Demand mind_the_tendon(Demand demand, std::int64_t now_ns, double dt_s);
   bool pulls(const Demand& demand) const;
-  Demand take_up(double dt_s);
+  Demand take_up(double line_m, double dt_s);
 
   std::string name_;
   int ecu_, channel_;

@@ -23,7 +23,10 @@ class TendonWatch {
   /// One reading. `should_pull`: it is asked for more than slack. Line falls when wound.
   Tautness see(double tension_N, double line_m, bool should_pull, std::int64_t now_ns);
   Tautness now() const { return now_; }
-  /// Nothing is known of the tendon: the ECU is off.
+  /// It is not pulled any more: what was seen says nothing of later, but that it has snapped.
+  void rest() {
+    if (now_ != Tautness::snapped) forget();
+  }
   void forget() { now_ = Tautness::taut, loose_ = false; }
 
   static constexpr std::int64_t patience_ns = 20'000'000;  ///< of tension that fails

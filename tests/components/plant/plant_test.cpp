@@ -250,6 +250,22 @@ TEST_CASE("slack that is taken up is forgotten, and the force law goes on") {
   CHECK(tendon.notices("tendon_slack").size() == 1);
 }
 
+TEST_CASE("after a rest slack is taken up from where the line is now, not from where it was") {
+  Loose tendon;
+  tendon.bench.run();
+  for (int k = 0; k < 500; ++k) tendon.period(20, 0);
+  tendon.bench.says("a", 0, Mode::off, 0);
+  tendon.bench.asks();
+  tendon.line_m = 0.010;  // let out by hand meanwhile
+  tendon.bench.ecu_says(ECU_STATE_IDLE, 0, tendon.encoder(), 0);
+  tendon.bench.asks();
+  tendon.bench.run();
+  int forced = 0;
+  while (tendon.period(20, 0).request == ECU_REQUEST_FORCE) ++forced;
+  CHECK(forced == 10);
+  CHECK(tendon.line_m == Approx(0.010 - 10 * 0.037 * 0.002).margin(5e-5));
+}
+
 TEST_CASE("who asks for next to nothing may have a slack tendon") {
   Loose tendon;
   tendon.bench.run("a", Mode::force, 0.9);
