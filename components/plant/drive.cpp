@@ -11,10 +11,10 @@ double top_line_speed_m_per_s(const erp::MotorType& motor, double radius_m) {
   return radius_m * motor.supply_V / (motor.back_emf_V_s_per_rad * motor.gear_ratio);
 }
 
-/// Faults that only say the host was silent: cleared by the host speaking again.
 /// How fast slack is wound up; chosen.
 constexpr double take_up_m_per_s = 0.010;
 
+/// Faults that only say the host was silent: cleared by the host speaking again.
 bool was_silence(std::uint8_t fault) {
   return fault == ECU_FAULT_COMMAND_TIMEOUT || fault == ECU_FAULT_CORRUPT;
 }

@@ -1,12 +1,8 @@
 #include "firmware/core/sensing.h"
 
-#include "firmware/core/parameters.h"
-
-#define GAIN(id) (gains[ECU_PARAMETER_##id])
+#include "firmware/core/evidence.h"
 
 static float magnitude(float x) { return x < 0.0f ? -x : x; }
-
-static uint32_t count_if(bool holds, uint32_t ticks) { return holds ? ticks + 1u : 0u; }
 
 /* ---- counts to SI ---- */
 

@@ -1,10 +1,6 @@
 #include "firmware/core/strain.h"
 
-#include "firmware/core/parameters.h"
-
-#define GAIN(id) (gains[ECU_PARAMETER_##id])
-
-static uint32_t count_if(bool holds, uint32_t ticks) { return holds ? ticks + 1u : 0u; }
+#include "firmware/core/evidence.h"
 
 /* A converter that is not fitted has scale 0. */
 static float temperature_C(const float* gains, const ecu_inputs* inputs) {

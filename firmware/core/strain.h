@@ -1,10 +1,12 @@
 /* What a channel puts its motor and its ECU through, and where that ends.
  *
  *   over-current  |i| above the trip level for two samples, judged on the raw reading: a short
- * drives the converter to its rail I2t           h' = i^2 - i_continuous^2, never below 0; a fault
- * above the limit, A^2 s temperature   from `derate` on the current limit falls, to 0 at `trip`; a
- * fault above that for 100 ms supply        below the least voltage for 10 ms tension       above
- * the trip level at once
+ *                 drives the converter to its rail
+ *   I2t           h' = i^2 - i_continuous^2, never below 0; a fault above the limit, A^2 s
+ *   temperature   from `derate` on the current limit falls, to 0 at `trip`; a fault above that
+ *                 for 100 ms
+ *   supply        below the least voltage for 10 ms
+ *   tension       above the trip level at once
  */
 #ifndef ERP_FIRMWARE_STRAIN_H
 #define ERP_FIRMWARE_STRAIN_H

@@ -36,7 +36,8 @@
 /// Sensors: a converter is expected to be noisy where its noise is a quantum or more: one that
 /// rests for 50 ticks then does so once in 10²⁰. The potentiometer may be off by 0.1 rad (play, a
 /// shaft that twists), six times its noise, and two quanta. It counts if it hangs on the actuator's
-/// own ECU. Source of the rules: chosen; of the force law: paper, 5.1.
+/// own ECU.
+/// Source of the rules: chosen; of the force law: paper, 5.1.
 namespace sim {
 
 struct DesignOptions {

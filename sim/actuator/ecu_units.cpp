@@ -1,20 +1,20 @@
 #include "sim/actuator/ecu_units.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "sim/actuator/sensors.hpp"
 
 namespace sim {
 
 EcuUnits::EcuUnits(const erp::MotorType& motor, const erp::SensorType& sensors,
                    const erp::Spindle& spindle)
-    : radius_m(spindle.radius_m),
-      shaft_rad_per_count(2 * std::numbers::pi /
-                          (sensors.encoder_counts_per_rev * motor.gear_ratio)),
-      current_A_per_count(sensors.current_range_A / (1 << (sensors.current_bits - 1))),
-      tension_N_per_count(sensors.tension_range_N /
-                          ((1 << sensors.tension_bits) - 1 - sensors.tension_zero_counts)),
-      supply_V(motor.supply_V),
-      tension_zero_counts(sensors.tension_zero_counts) {}
+    : radius_m(spindle.radius_m), supply_V(motor.supply_V) {
+  const SensorScale scale(motor, sensors);
+  shaft_rad_per_count = scale.shaft_rad_per_count;
+  current_A_per_count = scale.current_A_per_count;
+  tension_N_per_count = scale.tension_N_per_count;
+  tension_zero_counts = scale.tension_zero_counts;
+}
 
 ecu_request EcuUnits::request(erp::Mode mode) {
   switch (mode) {

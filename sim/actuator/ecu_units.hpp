@@ -8,8 +8,8 @@
 /// Between SI and the counts of an ECU, for one actuator.
 ///
 ///   shaft = encoder · 2π / (counts per rev · N)        line = −r · shaft
-///   current = counts · range / 2^(bits−1)              tension = (counts − z) · range / (2^bits −
-///   1 − z) voltage = duty / 1023 · supply
+///   current = counts · range / 2^(bits−1)              voltage = duty / 1023 · supply
+///   tension = (counts − z) · range / (2^bits − 1 − z)
 namespace sim {
 
 struct EcuUnits {

@@ -11,9 +11,10 @@
 ///
 ///   encoder  = ⌊θ N c / 2π + ½⌋            c counts a motor revolution, 0 where it booted
 ///   current  = ⌊(i + noise) / q⌉           q = range / 2^(bits−1), −2^(bits−1) … 2^(bits−1) − 1
-///   tension  = z + ⌊(F + noise) / q⌉       q = range / (2^bits − 1 − z), z its live zero, 0 …
-///   2^bits − 1 joint    = ⌊(φ + noise) / q⌉           q = 2π / 2^bits, not wrapped potentiometer =
-///   ⌊(S_P + noise) / q⌉    S_P = (L_K − L_K0)/r + S_P0 = S_P0 − θ (eq. 5, in rad),
+///   tension  = z + ⌊(F + noise) / q⌉       q = range / (2^bits − 1 − z), 0 … 2^bits − 1, z the
+///                                          live zero
+///   joint    = ⌊(φ + noise) / q⌉           q = 2π / 2^bits, not wrapped
+///   potentiometer = ⌊(S_P + noise) / q⌉    S_P = (L_K − L_K0)/r + S_P0 = S_P0 − θ (eq. 5, in rad),
 ///                                          q = range / (2^bits − 1), 0 … 2^bits − 1
 ///
 /// Beyond its range a converter stays at its rail. Effects on a sensor act on value and noise,

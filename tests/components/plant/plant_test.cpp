@@ -1,76 +1,9 @@
-#include "components/plant/plant.hpp"
-
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <limits>
-#include <vector>
 
-using erp::Mode;
-using plant::Plant;
+#include "tests/components/plant/bench.hpp"
 
-namespace {
-
-constexpr std::int64_t ms = 1'000'000;
-
-erp::Robot one_muscle(erp::SafeAction safe = erp::SafeAction::relax) {
-  erp::Robot robot;
-  robot.name = "one";
-  erp::MotorType motor;
-  motor.name = "m";
-  motor.resistance_ohm = 0.5, motor.inductance_H = 5e-5, motor.back_emf_V_s_per_rad = 0.0115;
-  motor.torque_Nm_per_A = 0.0115, motor.gear_ratio = 128, motor.gear_efficiency = 0.59;
-  motor.rotor_inertia_kg_m2 = 14.5e-7, motor.supply_V = 12, motor.current_limit_A = 4;
-  robot.motor_types.push_back(motor);
-  erp::SensorType sensors;
-  sensors.name = "s";
-  robot.sensor_types.push_back(sensors);
-  erp::Actuator actuator;
-  actuator.name = "flexor", actuator.motor = "m", actuator.sensors = "s";
-  actuator.max_tension_N = 150, actuator.safe_action = safe, actuator.spindle.radius_m = 0.0045;
-  robot.actuators.push_back(actuator);
-  return robot;
-}
-
-/// A plant with one actuator, and a hand to play controllers and the ECU.
-struct Bench {
-  Plant plant;
-  std::int64_t now_ns = 1000 * ms;
-  std::uint64_t sequence = 0;
-  explicit Bench(erp::SafeAction safe = erp::SafeAction::relax) : plant({}, one_muscle(safe)) {}
-
-  void ecu_says(ecu_state state, std::uint8_t fault = 0, std::int32_t encoder = 0,
-                std::uint16_t tension = 819) {
-    erp::EcuFrame frame;
-    frame.sequence = sequence++;
-    frame.stamp_ns = now_ns;
-    erp::EcuChannelSample channel{};
-    channel.fresh = true, channel.state = static_cast<std::uint8_t>(state), channel.fault = fault;
-    channel.encoder_counts = encoder, channel.tension_counts = tension;
-    erp::append(frame.channels, channel);
-    plant.sense(frame, now_ns);
-  }
-  void says(const char* controller, int priority, Mode mode, double reference) {
-    erp::ActuatorCommand command;
-    erp::assign(command.controller, controller);
-    command.priority = priority;
-    erp::ActuatorReference r{};
-    erp::assign(r.name, "flexor");
-    r.mode = static_cast<std::uint8_t>(mode), r.reference = reference;
-    erp::append(command.actuators, r);
-    plant.accept(command, now_ns);
-  }
-  erp::EcuChannelCommand asks() { return plant.command(now_ns).channels._buffer[0]; }
-  erp::ActuatorOwnerSample owner() { return plant.owners().actuators._buffer[0]; }
-  void run(const char* controller = "a", Mode mode = Mode::force, double reference = 20) {
-    ecu_says(ECU_STATE_ARMED);
-    now_ns += 2 * ms;
-    says(controller, 0, mode, reference);
-    ecu_says(ECU_STATE_RUNNING);
-    asks();
-  }
-};
-
-}  // namespace
+using namespace bench;
 
 TEST_CASE("counts become SI and SI becomes counts") {
   Bench bench;
@@ -186,90 +119,6 @@ TEST_CASE("silence is forgiven by speaking again, other faults only by saying of
   CHECK(bench.asks().request == ECU_REQUEST_OFF);
   bench.says("a", 0, Mode::off, 0);
   CHECK(bench.asks().request == ECU_REQUEST_CLEAR);
-}
-
-namespace {
-
-/// A motor that winds as it is told, on a tendon that pulls at nothing.
-struct Loose {
-  Bench bench;
-  double line_m = 0, wound_s = 0;
-
-  /// Counts of the rig's kind: 2048 a motor turn, gear 128.
-  std::int32_t encoder() const { return std::int32_t(-line_m / 0.0045 / (2 * M_PI) * 2048 * 128); }
-  /// One period: the force law would wind at the motor's 37 mm/s.
-  erp::EcuChannelCommand period(double reference_N, std::uint16_t tension) {
-    bench.now_ns += 2 * ms;
-    bench.says("a", 0, Mode::force, reference_N);
-    bench.ecu_says(ECU_STATE_RUNNING, 0, encoder(), tension);
-    const auto asked = bench.asks();
-    if (asked.request == ECU_REQUEST_FORCE) line_m -= 0.037 * 0.002;
-    if (asked.request == ECU_REQUEST_LENGTH)
-      line_m = -0.0045 * asked.setpoint / (2048.0 * 128) * 2 * M_PI;
-    return asked;
-  }
-  std::vector<plant::Notice> notices(const char* code) {
-    auto all = bench.plant.take_notices();
-    std::erase_if(all, [&](const auto& notice) { return notice.code != code; });
-    return all;
-  }
-};
-
-}  // namespace
-
-TEST_CASE(
-    "a tendon that snaps is let run for 20 ms, wound slowly for 30 mm, and then switched off") {
-  Loose snapped;
-  snapped.bench.run();
-  int forced = 0;
-  while (snapped.period(20, 0).request == ECU_REQUEST_FORCE) ++forced;
-  CHECK(forced == 10);  // the eleventh period is 20 ms after the first
-  CHECK(snapped.notices("tendon_slack").size() == 1);
-  int slow = 1;
-  while (snapped.period(20, 0).request == ECU_REQUEST_LENGTH && slow < 5000) ++slow;
-  CHECK(slow * 0.002 * 0.010 == Approx(0.030 - 10 * 0.037 * 0.002).epsilon(0.02));
-  CHECK(snapped.notices("tendon_snapped").size() == 1);
-  CHECK(-snapped.line_m == Approx(0.030).epsilon(0.02));
-  for (int k = 0; k < 100; ++k) CHECK(snapped.period(20, 0).request == ECU_REQUEST_OFF);
-  snapped.bench.ecu_says(ECU_STATE_IDLE);
-  CHECK(snapped.bench.asks().request == ECU_REQUEST_OFF);
-  snapped.bench.says("a", 0, Mode::off, 0);
-  snapped.bench.asks();
-  snapped.bench.says("a", 0, Mode::force, 20);
-  CHECK(snapped.bench.asks().request == ECU_REQUEST_ARM);
-}
-
-TEST_CASE("slack that is taken up is forgotten, and the force law goes on") {
-  Loose tendon;
-  tendon.bench.run();
-  for (int k = 0; k < 500; ++k) tendon.period(20, 0);
-  CHECK(tendon.period(20, 0).request == ECU_REQUEST_LENGTH);
-  CHECK(tendon.period(20, 819).request == ECU_REQUEST_FORCE);
-  for (int k = 0; k < 9; ++k) CHECK(tendon.period(20, 0).request == ECU_REQUEST_FORCE);
-  CHECK(tendon.period(20, 819).request == ECU_REQUEST_FORCE);
-  CHECK(tendon.notices("tendon_slack").size() == 1);
-}
-
-TEST_CASE("after a rest slack is taken up from where the line is now, not from where it was") {
-  Loose tendon;
-  tendon.bench.run();
-  for (int k = 0; k < 500; ++k) tendon.period(20, 0);
-  tendon.bench.says("a", 0, Mode::off, 0);
-  tendon.bench.asks();
-  tendon.line_m = 0.010;  // let out by hand meanwhile
-  tendon.bench.ecu_says(ECU_STATE_IDLE, 0, tendon.encoder(), 0);
-  tendon.bench.asks();
-  tendon.bench.run();
-  int forced = 0;
-  while (tendon.period(20, 0).request == ECU_REQUEST_FORCE) ++forced;
-  CHECK(forced == 10);
-  CHECK(tendon.line_m == Approx(0.010 - 10 * 0.037 * 0.002).margin(5e-5));
-}
-
-TEST_CASE("who asks for next to nothing may have a slack tendon") {
-  Loose tendon;
-  tendon.bench.run("a", Mode::force, 0.9);
-  for (int k = 0; k < 500; ++k) CHECK(tendon.period(0.9, 0).request == ECU_REQUEST_FORCE);
 }
 
 TEST_CASE("a reference that is not a number is refused and the old one goes stale") {
