@@ -35,6 +35,7 @@ using BodyPoseSample = erp_BodyPoseSample;
 using ActuatorOwnerSample = erp_ActuatorOwnerSample;
 using ImuSample = erp_ImuSample;
 using StageSample = erp_StageSample;
+using ComponentValue = erp_ComponentValue;
 
 template <>
 inline constexpr std::size_t capacity_of<JointSample> = 128;
@@ -48,6 +49,8 @@ template <>
 inline constexpr std::size_t capacity_of<ImuSample> = 32;
 template <>
 inline constexpr std::size_t capacity_of<StageSample> = 320;
+template <>
+inline constexpr std::size_t capacity_of<ComponentValue> = 128;
 template <>
 inline constexpr std::size_t capacity_of<EcuParameterValue> = 2560;
 template <>
@@ -65,7 +68,7 @@ using BodyPose = Message<erp_BodyPose, &erp_BodyPose::bodies>;
 using ImuFrame = Message<erp_ImuFrame, &erp_ImuFrame::imus>;
 using StageResidual = Message<erp_StageResidual, &erp_StageResidual::stages>;
 using ActuatorOwner = Message<erp_ActuatorOwner, &erp_ActuatorOwner::actuators>;
-using ComponentState = Message<erp_ComponentState>;
+using ComponentState = Message<erp_ComponentState, &erp_ComponentState::values>;
 using LifecycleCommand = Message<erp_LifecycleCommand>;
 using Clock = Message<erp_Clock>;
 using Event = Message<erp_Event>;

@@ -115,6 +115,19 @@ void Node::count_step(std::int64_t stamp_ns) {
   last_step_ns_ = now_ns;
 }
 
+void Node::show(const std::string& name, double value) {
+  const auto same = [&](const erp::ComponentValue& v) { return name == v.name; };
+  const auto known = std::ranges::find_if(erp::samples(state_.values), same);
+  if (known != erp::samples(state_.values).end()) {
+    known->value = value;
+    return;
+  }
+  erp::ComponentValue shown{};
+  erp::assign(shown.name, name);
+  shown.value = value;
+  erp::append(state_.values, shown);
+}
+
 void Node::report(erp::Severity severity, const std::string& subject, const std::string& code,
                   const std::string& text) {
   const auto kept_back = damper_.admit(subject + ' ' + code, clock_.now_ns());

@@ -61,6 +61,9 @@ class Node {
 
   /// Counts one step answering a message stamped `stamp_ns`: rate, age, jitter.
   void count_step(std::int64_t stamp_ns);
+  /// A figure of this component's own, in every heartbeat from now on. Throws std::length_error
+  /// beyond 128 names, or for one longer than 32 characters.
+  void show(const std::string& name, double value);
   /// Says a thing once, to the log and on the `event` topic.
   void report(erp::Severity severity, const std::string& subject, const std::string& code,
               const std::string& text);

@@ -16,7 +16,8 @@ constexpr double take_up_m_per_s = 0.010;
 
 /// Faults that only say the host was silent: cleared by the host speaking again.
 bool was_silence(std::uint8_t fault) {
-  return fault == ECU_FAULT_COMMAND_TIMEOUT || fault == ECU_FAULT_CORRUPT;
+  return fault == ECU_FAULT_COMMAND_TIMEOUT || fault == ECU_FAULT_CORRUPT ||
+         fault == ECU_FAULT_BUS_OFF;
 }
 
 }  // namespace
@@ -31,6 +32,8 @@ Drive::Drive(const erp::Actuator& actuator, const erp::MotorType& motor,
       approach_m_per_s_(0.5 * top_line_speed_m_per_s(motor, actuator.spindle.radius_m)),
       units_(motor, sensors, actuator.spindle),
       limits_(actuator, motor, sensors),
+      max_line_speed_m_per_s_(actuator.max_line_speed_m_per_s.value_or(Slew::free)),
+      max_tension_rate_N_per_s_(actuator.max_tension_rate_N_per_s.value_or(Slew::free)),
       watch_(watch),
       slack_N_(watch.slack_N) {}
 
@@ -53,7 +56,7 @@ void Drive::observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_co
   if (state == ECU_STATE_ARMED && state_ != ECU_STATE_ARMED) {
     armed_ns_ = now_ns;
     approaching_ = true;
-    approach_line_m_ = units_.line_m(units_.shaft_rad(encoder_counts));
+    slewed_mode_ = erp::Mode::off;
   }
   state_ = state;
   fault_ = fault;
@@ -66,10 +69,12 @@ void Drive::lose() {
   safe_now_ = erp::SafeAction::none;
 }
 
-Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
+Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s, bool limb_broken) {
   const Offer* offer = arbiter_.winner(now_ns, stale_ns);
   priority_ = offer ? offer->priority : 0;
   const bool wants_off = offer && offer->mode == erp::Mode::off;
+  if (limb_broken && !wants_off) offer = nullptr;
+  if (!offer) slewed_mode_ = erp::Mode::off;
   if (state_ != ECU_STATE_RUNNING || offer) safe_now_ = erp::SafeAction::none;
   if (wants_off) watch_.forget();
   if (state_ != ECU_STATE_RUNNING) watch_.rest();
@@ -94,16 +99,33 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s) {
   return {};
 }
 
-/// After arming, a length reference is approached from where the line is, at half the motor's top
-/// speed; once reached it is followed as it comes.
+/// After arming, a length reference is approached at half the motor's top speed; once reached it
+/// is followed as it comes.
+double Drive::rate_per_s(erp::Mode mode) const {
+  if (mode == erp::Mode::force) return max_tension_rate_N_per_s_;
+  if (mode != erp::Mode::length) return Slew::free;
+  return approaching_ ? std::min(approach_m_per_s_, max_line_speed_m_per_s_)
+                      : max_line_speed_m_per_s_;
+}
+
+/// A mode begins where line or tension are, not where its reference is.
+double Drive::slewed(const Offer& offer, double dt_s) {
+  if (slewed_mode_ != offer.mode)
+    slew_.start(offer.mode == erp::Mode::force ? tension_N_
+                                               : units_.line_m(units_.shaft_rad(encoder_counts_)));
+  slewed_mode_ = offer.mode;
+  return slew_.towards(offer.reference, rate_per_s(offer.mode), dt_s);
+}
+
 Demand Drive::drive(const Offer& offer, double dt_s) {
-  double reference = offer.reference;
-  if (offer.mode == erp::Mode::length && approaching_) {
-    const double step_m = approach_m_per_s_ * dt_s;
-    approach_line_m_ += std::clamp(reference - approach_line_m_, -step_m, step_m);
-    approaching_ = approach_line_m_ != reference;
-    reference = approach_line_m_;
+  const double reference = slewed(offer, dt_s);
+  const bool reached = reference == offer.reference;
+  if (!reached && !(approaching_ && offer.mode == erp::Mode::length)) {
+    ++limited_;
+    reason_ = offer.mode == erp::Mode::force ? "limited to max_tension_rate_N_per_s"
+                                             : "limited to max_line_speed_m_per_s";
   }
+  if (reached && offer.mode == erp::Mode::length) approaching_ = false;
   return {sim::EcuUnits::request(offer.mode), units_.setpoint(offer.mode, reference)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "components/plant/arbiter.hpp"
 #include "components/plant/limits.hpp"
+#include "components/plant/slew.hpp"
 #include "components/plant/tendon_watch.hpp"
 #include "sim/actuator/ecu_units.hpp"
 
@@ -15,7 +16,8 @@
 ///   boot        off                      off (the plant sends the gains)
 ///   idle        off                      arm
 ///   armed       off                      its mode, once a command came after arming
-///   running     the safe action          its mode
+///   running     the safe action          its mode, no faster than robot.xml allows
+///   …           and its limb is broken   the safe action
 ///   …           and pulls at nothing      takes the slack up slowly; when it comes to nothing, off
 ///                                         until the driver says off
 ///   fault       clear when it was the silence of the host, otherwise off until the driver says off
@@ -47,8 +49,9 @@ class Drive {
                std::int64_t now_ns);
   /// The device fell silent: nothing is known until it speaks again.
   void lose();
-  /// What to ask of the ECU now; `dt_s` since the last call.
-  Demand decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s);
+  /// What to ask of the ECU now; `dt_s` since the last call. `limb_broken`: one that it works with
+  /// is lost (limbs.hpp), so nobody drives.
+  Demand decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s, bool limb_broken = false);
 
   std::string_view owner() const { return arbiter_.owner(); }
   std::int32_t priority() const { return priority_; }
@@ -61,6 +64,8 @@ class Drive {
 
  private:
   Demand drive(const Offer& offer, double dt_s);
+  double rate_per_s(erp::Mode mode) const;
+  double slewed(const Offer& offer, double dt_s);
   Demand stay_safe();
   Demand mind_the_tendon(Demand demand, std::int64_t now_ns, double dt_s);
   bool pulls(const Demand& demand) const;
@@ -77,7 +82,9 @@ class Drive {
   std::uint8_t fault_ = 0;
   std::int32_t encoder_counts_ = 0, hold_counts_ = 0;
   std::int64_t armed_ns_ = 0;
-  double approach_line_m_ = 0;
+  double max_line_speed_m_per_s_, max_tension_rate_N_per_s_;
+  Slew slew_;
+  erp::Mode slewed_mode_ = erp::Mode::off;  ///< of slew_
   bool approaching_ = false;
   TendonWatch watch_;
   double slack_N_, tension_N_ = 0, take_up_line_m_ = 0;

@@ -40,6 +40,19 @@ void Plant::notice_tendon(const Drive& drive, Said& said) {
                         "no tension for 20 ms: the slack is wound up slowly"});
 }
 
+void Plant::notice_limb(std::size_t actuator) {
+  Said& said = said_[actuator];
+  const std::string& name = drives_[actuator].name();
+  const bool lost = limbs_.lost(actuator), broken = limbs_.broken(actuator) && !lost;
+  if (lost && !said.lost)
+    notices_.push_back({erp::Severity::fault, name, "ecu_lost",
+                        "no word of its ECU: off, as far as anyone knows"});
+  if (broken && !said.broken)
+    notices_.push_back({erp::Severity::warning, name, "limb_broken",
+                        "one that it works with is lost: it drops to its safe action"});
+  said.lost = lost, said.broken = broken;
+}
+
 void Plant::notice_changes() {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const Drive& drive = drives_[i];
@@ -55,6 +68,7 @@ void Plant::notice_changes() {
                           ecu_fault_name(frame_.actuators._buffer[i].ecu_fault)});
     said.state = drive.state();
     notice_tendon(drive, said);
+    notice_limb(i);
     // The first of a row is said; the counters on actuator_owner carry the rest.
     const bool first = (drive.limited() && !said.limited) || (drive.refused() && !said.refused);
     if (first)

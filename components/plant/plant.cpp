@@ -17,6 +17,7 @@ TendonWatch::Params watch_of(const erp::SensorType& sensors, const Plant::Params
 Plant::Plant(const Params& params, const erp::Robot& robot)
     : stale_ns_(std::llround(1e9 * params.stale_s)),
       device_lost_ns_(std::llround(1e9 * params.device_lost_s)),
+      limbs_(robot, device_lost_ns_),
       boots_(robot.actuators.size(), false),
       said_(robot.actuators.size()) {
   for (auto& ecu : drive_at_) ecu.fill(-1);
@@ -72,6 +73,7 @@ void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now
   sample.valid = channel.fresh ? erp::valid::all : 0;
   boots_[i] = channel.fresh && channel.state == ECU_STATE_BOOT;
   if (!channel.fresh) return;
+  limbs_.heard(i, now_ns);
   const sim::EcuUnits& units = drive.units();
   drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts,
                 units.tension_N(channel.tension_counts), now_ns);
@@ -137,8 +139,10 @@ const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
   const double dt_s =
       last_decision_ns_ ? 1e-9 * static_cast<double>(now_ns - last_decision_ns_) : 0;
   last_decision_ns_ = now_ns;
+  limbs_.look(now_ns);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const Demand demand = drives_[i].decide(now_ns, stale_ns_, dt_s);
+    if (limbs_.lost(i)) lose(i);
+    const Demand demand = drives_[i].decide(now_ns, stale_ns_, dt_s, limbs_.broken(i));
     auto& channel = command_.channels._buffer[i];
     channel.request = static_cast<std::uint8_t>(demand.request);
     channel.setpoint = demand.setpoint;
@@ -149,12 +153,17 @@ const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
   return command_;
 }
 
+void Plant::lose(std::size_t actuator) {
+  drives_[actuator].lose();
+  auto& sample = frame_.actuators._buffer[actuator];
+  sample.valid = 0;
+  sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
+}
+
 bool Plant::check_device(std::int64_t now_ns) {
   if (!device_heard_ || now_ns - last_frame_ns_ <= device_lost_ns_) return false;
   device_heard_ = false;
-  for (auto& drive : drives_) drive.lose();
-  for (auto& sample : erp::samples(frame_.actuators))
-    sample.valid = 0, sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
+  for (std::size_t i = 0; i < drives_.size(); ++i) lose(i);
   notices_.push_back({erp::Severity::fault, "", "device_lost",
                       "no frame from the device; its ECUs stop by themselves"});
   return true;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/plant/drive.hpp"
+#include "components/plant/limbs.hpp"
 #include "components/plant/notice.hpp"
 #include "interfaces/topics.hpp"
 
@@ -18,7 +19,7 @@ class Plant {
  public:
   struct Params {
     double stale_s = 0.020;        ///< a command older than this no longer drives
-    double device_lost_s = 0.050;  ///< without a frame for so long nothing is known
+    double device_lost_s = 0.050;  ///< without a word of it for so long, an ECU is lost; or all
     double slack_N = 0.5;     ///< a tendon below it is slack; at least what its sensor can tell
     double take_up_m = 0.03;  ///< slack that may be wound up; more, and it has snapped
     void visit(auto& v) {
@@ -51,18 +52,22 @@ class Plant {
     std::string owner;
     ecu_state state = ECU_STATE_BOOT;
     Tautness tendon = Tautness::taut;
-    bool slack = false;  ///< was said: once is enough
+    bool slack = false;                 ///< was said: once is enough
+    bool lost = false, broken = false;  ///< it, its limb
     std::uint32_t limited = 0, refused = 0;
   };
 
   void sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns);
+  void lose(std::size_t actuator);
   void add_analogs(const erp::Robot& robot);
   void sense_analog(const erp::EcuAnalogSample& said);
   void say_unknown(const std::string& controller, const std::string& name);
   void notice_changes();
   void notice_tendon(const Drive& drive, Said& said);
+  void notice_limb(std::size_t actuator);
 
   std::int64_t stale_ns_, device_lost_ns_;
+  Limbs limbs_;
   std::vector<Drive> drives_;
   /// An analog input: a joint's sensor or an actuator's potentiometer.
   struct Analog {

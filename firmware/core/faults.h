@@ -17,7 +17,8 @@
   X(OVERLOAD, 10, "more current for longer than the motor bears (I2t)")       \
   X(OVER_TEMPERATURE, 11, "over-temperature")                                 \
   X(SUPPLY, 12, "supply voltage too low")                                     \
-  X(OVERRUN, 13, "control periods overrun in a row")
+  X(OVERRUN, 13, "control periods overrun in a row")                          \
+  X(BUS_OFF, 14, "its CAN controller went off the bus")
 
 typedef enum {
 #define ECU_FAULT_ENUM(id, number, words) ECU_FAULT_##id = (number),

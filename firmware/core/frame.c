@@ -258,6 +258,37 @@ bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* said) {
   return true;
 }
 
+void frame_pack_discover(bus_frame* frame, uint8_t ecu) {
+  const cursor c = {0, 0};
+  seal(frame, FRAME_DISCOVER, ecu, &c);
+}
+
+bool frame_unpack_discover(const bus_frame* frame) {
+  cursor c;
+  return unseal(frame, FRAME_DISCOVER, FRAME_DISCOVER, &c);
+}
+
+void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* said) {
+  cursor c = {0, 0};
+  put(&c, 6, said->version);
+  put(&c, 2, said->channels);
+  put(&c, 4, said->analog_inputs);
+  put(&c, 4, said->reset_cause);
+  put(&c, 24, said->serial);
+  seal(frame, FRAME_HELLO, ecu, &c);
+}
+
+bool frame_unpack_hello(const bus_frame* frame, frame_hello* said) {
+  cursor c;
+  if (!unseal(frame, FRAME_HELLO, FRAME_HELLO, &c)) return false;
+  said->version = take8(&c, 6);
+  said->channels = take8(&c, 2);
+  said->analog_inputs = take8(&c, 4);
+  said->reset_cause = take8(&c, 4);
+  said->serial = take(&c, 24);
+  return true;
+}
+
 uint8_t frame_ahead(uint8_t heard, uint8_t last) { return (uint8_t)(heard - last) & 7u; }
 
 int32_t frame_unwrap(int32_t last, uint16_t low) {

@@ -20,6 +20,8 @@
  *                                   page 1:  request 3, set-point 22 (s), rejected 16,
  *                                            refused gain sets 8
  *   PARAMETER  8     host -> ECU  channel 1, index 6, commit 1, position 8, float32
+ *   DISCOVER   9     host -> ECU  nothing; to one address, or to 127: everyone
+ *   HELLO      10    ECU -> host  version 6, channels 2, analog inputs 4, reset cause 4, serial 24
  *
  * Counters. Every period an ECU counts one up, modulo 8; all its frames of that period carry the
  * number. COMMANDs to an ECU are counted modulo 8 as well, so that one that is late or comes twice
@@ -42,8 +44,9 @@
 extern "C" {
 #endif
 
-#define FRAME_VERSION 2u
-#define FRAME_ECUS 128
+#define FRAME_VERSION 3u
+#define FRAME_ECUS 127u                  /* addresses 0 .. 126 */
+#define FRAME_EVERYONE 127u              /* the address of a DISCOVER that all ECUs answer */
 #define FRAME_SETPOINT_MAX 2097151       /* 22 bits signed; -2097152 is reserved: */
 #define FRAME_SETPOINT_REFUSED INT32_MIN /* one that did not fit; the ECU rejects it */
 #define FRAME_REQUEST_NONE 7u            /* this channel is not spoken to */
@@ -63,7 +66,9 @@ typedef enum {
   FRAME_ANALOG = 5,
   FRAME_HEALTH_0 = 6,
   FRAME_HEALTH_1 = 7,
-  FRAME_PARAMETER = 8
+  FRAME_PARAMETER = 8,
+  FRAME_DISCOVER = 9,
+  FRAME_HELLO = 10
 } frame_function;
 
 typedef enum {
@@ -131,6 +136,14 @@ typedef struct {
   float value;
 } frame_parameter;
 
+typedef struct {
+  uint8_t version;       /* FRAME_VERSION it speaks */
+  uint8_t channels;      /* bit k: channel k is fitted */
+  uint8_t analog_inputs; /* bit k: input k has a sensor */
+  uint8_t reset_cause;   /* frame_reset_cause of its last boot */
+  uint32_t serial;       /* lower 24 bits of the board's number; 0: it has none */
+} frame_hello;
+
 uint16_t frame_identifier(frame_function function, uint8_t ecu);
 frame_function frame_function_of(const bus_frame* frame);
 uint8_t frame_ecu_of(const bus_frame* frame);
@@ -152,6 +165,10 @@ void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel, const fra
 bool frame_unpack_health(const bus_frame* frame, frame_health* said);
 void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* said);
 bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* said);
+void frame_pack_discover(bus_frame* frame, uint8_t ecu);
+bool frame_unpack_discover(const bus_frame* frame);
+void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* said);
+bool frame_unpack_hello(const bus_frame* frame, frame_hello* said);
 
 /* How many counters of 8 `heard` is ahead of `last`. From FRAME_LATE on it is behind instead. */
 #define FRAME_LATE 6u

@@ -14,11 +14,18 @@ static uint8_t counter(const ecu_link* link) { return (uint8_t)(link->tick & 7u)
 
 /* ---- hearing ---- */
 
+static void trip_both(ecu_link* link, ecu_fault fault) {
+  for (int k = 0; k < 2; ++k)
+    if (link->channel[k]) ecu_trip(link->channel[k], fault);
+}
+
+void ecu_link_bus(ecu_link* link, bool off) {
+  if (off) trip_both(link, ECU_FAULT_BUS_OFF);
+}
+
 static bool hear_corrupt(ecu_link* link) {
   ++link->corrupt;
-  if (++link->corrupt_in_a_row >= ECU_CORRUPT_TRIP)
-    for (int k = 0; k < 2; ++k)
-      if (link->channel[k]) ecu_trip(link->channel[k], ECU_FAULT_CORRUPT);
+  if (++link->corrupt_in_a_row >= ECU_CORRUPT_TRIP) trip_both(link, ECU_FAULT_CORRUPT);
   return false;
 }
 
@@ -72,9 +79,18 @@ static bool hear_parameter(ecu_link* link, const frame_parameter* said) {
   return ecu_parameter(channel, said->index, said->value, said->commit);
 }
 
+static bool hear_discover(ecu_link* link, const bus_frame* frame) {
+  if (!frame_unpack_discover(frame)) return false;
+  link->asked_for_hello = true;
+  return true;
+}
+
 bool ecu_link_hear(ecu_link* link, const bus_frame* frame) {
   const frame_function function = frame_function_of(frame);
-  if (frame_ecu_of(frame) != link->ecu) return false;
+  const uint8_t to = frame_ecu_of(frame);
+  if (to == FRAME_EVERYONE || function == FRAME_DISCOVER)
+    return (to == FRAME_EVERYONE || to == link->ecu) && hear_discover(link, frame);
+  if (to != link->ecu) return false;
   if (function != FRAME_COMMAND && function != FRAME_PARAMETER) return false;
   frame_command command;
   frame_parameter parameter;
@@ -135,6 +151,16 @@ static void say_analog(const ecu_link* link, uint8_t page, const int32_t* counts
   frame_pack_analog(frame, link->ecu, &said);
 }
 
+static void say_hello(const ecu_link* link, bus_frame* frame) {
+  const frame_hello said = {
+      .version = FRAME_VERSION,
+      .channels = (uint8_t)((link->channel[0] ? 1u : 0u) | (link->channel[1] ? 2u : 0u)),
+      .analog_inputs = link->analog_inputs,
+      .reset_cause = link->reset_cause,
+      .serial = link->serial};
+  frame_pack_hello(frame, link->ecu, &said);
+}
+
 /* A fault is said once, when it is new. */
 static bool has_new_fault(ecu_link* link, uint8_t k, const ecu_reading* reading) {
   const bool said_before = link->said_fault[k];
@@ -148,18 +174,32 @@ static void say_fault(const ecu_link* link, uint8_t k, ecu_fault fault, bus_fram
   frame_pack_emergency(frame, link->ecu, &said);
 }
 
-unsigned ecu_link_say(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames) {
+static unsigned say_new_faults(ecu_link* link, const ecu_report* report, bus_frame* frames) {
   unsigned count = 0;
-  const bool health_due = (link->tick + link->ecu) % ECU_HEALTH_TICKS == 0;
-  for (uint8_t k = 0; k < 2; ++k) {
-    const ecu_reading* reading = &report->channel[k];
-    if (!link->channel[k]) continue;
-    if (has_new_fault(link, k, reading)) say_fault(link, k, reading->fault, &frames[count++]);
+  for (uint8_t k = 0; k < 2; ++k)
+    if (link->channel[k] && has_new_fault(link, k, &report->channel[k]))
+      say_fault(link, k, report->channel[k].fault, &frames[count++]);
+  return count;
+}
+
+/* One page in turn each 50 ms, or all of them. */
+static unsigned say_healths(ecu_link* link, const ecu_report* report, bool all, bus_frame* frames) {
+  unsigned count = 0;
+  const bool due = (link->tick + link->ecu) % ECU_HEALTH_TICKS == 0;
+  for (uint8_t k = 0; k < 2; ++k)
     for (uint8_t page = 0; page < 2; ++page)
-      if (whole || (health_due && link->health_turn == 2 * page + k))
-        say_health(link, k, page, reading, &frames[count++]);
-  }
-  if (health_due) link->health_turn = (link->health_turn + 1) & 3;
+      if (link->channel[k] && (all || (due && link->health_turn == 2 * page + k)))
+        say_health(link, k, page, &report->channel[k], &frames[count++]);
+  if (due) link->health_turn = (link->health_turn + 1) & 3;
+  return count;
+}
+
+unsigned ecu_link_say(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames) {
+  const bool all = whole || link->asked_for_hello;
+  link->asked_for_hello = false;
+  unsigned count = say_new_faults(link, report, frames);
+  if (all) say_hello(link, &frames[count++]);
+  count += say_healths(link, report, all, frames + count);
   for (uint8_t page = 0; page < 2; ++page)
     if (link->analog_inputs >> 2 * page & 3)
       say_analog(link, page, report->analog_counts, &frames[count++]);
@@ -168,7 +208,8 @@ unsigned ecu_link_say(ecu_link* link, const ecu_report* report, bool whole, bus_
   return count;
 }
 
-void ecu_link_say_boot(const ecu_link* link, frame_reset_cause cause, bus_frame* frame) {
+void ecu_link_say_boot(ecu_link* link, frame_reset_cause cause, bus_frame* frame) {
+  link->reset_cause = (uint8_t)cause;
   const frame_emergency said = {
       .boot = true, .reset_cause = (uint8_t)cause, .version = FRAME_VERSION, .tick = link->tick};
   frame_pack_emergency(frame, link->ecu, &said);

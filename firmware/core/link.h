@@ -16,7 +16,7 @@ extern "C" {
 
 #define ECU_CORRUPT_TRIP 5u    /* corrupt frames in a row: ECU_FAULT_CORRUPT */
 #define ECU_HEALTH_TICKS 25u   /* one HEALTH frame every 50 ms; a round takes 200 ms */
-#define ECU_LINK_FRAMES_MAX 10 /* 2 EMERGENCY, 4 HEALTH, 2 ANALOG, 2 STATUS */
+#define ECU_LINK_FRAMES_MAX 11 /* 2 EMERGENCY, HELLO, 4 HEALTH, 2 ANALOG, 2 STATUS */
 #define ECU_ANALOG_INPUTS 4
 
 typedef struct {
@@ -24,6 +24,8 @@ typedef struct {
   uint8_t analog_inputs;   /* bit k: input k has a sensor */
   ecu_channel* channel[2]; /* lent; null where none is fitted */
   uint32_t tick;           /* periods since boot */
+  uint32_t serial;         /* of the board, 24 bits; its owner sets it */
+  uint8_t reset_cause;     /* frame_reset_cause */
   /* heard */
   bool has_heard;
   bool answered;      /* a command computed from this tick's STATUS has come */
@@ -34,6 +36,7 @@ typedef struct {
   uint32_t corrupt_in_a_row;
   uint32_t lost, late, repeated, corrupt; /* since boot */
   /* said */
+  bool asked_for_hello;
   bool said_fault[2];
   uint8_t health_turn;
 } ecu_link;
@@ -66,12 +69,15 @@ void ecu_link_tick(ecu_link* link);
 /* A channel as its last tick left it. */
 ecu_reading ecu_reading_of(const ecu_channel* channel);
 
-/* The frames of this period, STATUS last, at most ECU_LINK_FRAMES_MAX. `whole` adds every HEALTH
- * page: for the first period, and to say a period again to a host that has just come. */
+/* The frames of this period, STATUS last, at most ECU_LINK_FRAMES_MAX. `whole` adds HELLO and every
+ * HEALTH page: for the first period, to say a period again, and whenever a host has asked. */
 unsigned ecu_link_say(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames);
 
 /* The one frame to say after a reset. */
-void ecu_link_say_boot(const ecu_link* link, frame_reset_cause cause, bus_frame* frame);
+void ecu_link_say_boot(ecu_link* link, frame_reset_cause cause, bus_frame* frame);
+
+/* Tells, once a period, whether the CAN controller is off the bus: then both channels trip. */
+void ecu_link_bus(ecu_link* link, bool off);
 
 #ifdef __cplusplus
 }

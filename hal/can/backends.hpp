@@ -13,8 +13,9 @@
 /// The back ends of `open_bus`, and what they share; inside hal/can only.
 namespace erp::can {
 
-std::unique_ptr<CanBus> open_socketcan(const std::string& interface);
+std::unique_ptr<CanBus> open_socketcan(const std::string& interface, const BusOptions& options);
 std::unique_ptr<CanBus> open_udp(const std::string& group, int port);
+std::unique_ptr<CanBus> open_trace(const std::string& file);
 
 /// An open file descriptor, closed once.
 class Descriptor {
@@ -39,6 +40,10 @@ inline bool wait_readable(int fd, double timeout_s) {
   const timespec timeout{static_cast<std::time_t>(whole_s),
                          static_cast<long>((timeout_s - whole_s) * 1e9)};
   return ::ppoll(&waiting, 1, &timeout, nullptr) > 0;
+}
+
+constexpr std::int64_t to_ns(const timespec& time) {
+  return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
 }  // namespace erp::can

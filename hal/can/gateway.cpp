@@ -29,6 +29,8 @@ Gateway::Gateway(const Robot& robot) {
   commands_.reserve(FRAME_ECUS);
   parameters_.reserve(capacity_of<EcuParameterValue>);
   emergencies_.reserve(emergencies_kept);
+  hellos_.reserve(hellos_kept);
+  frame_pack_discover(&discover_, FRAME_EVERYONE);
 }
 
 void Gateway::add(const Actuator& actuator) {
@@ -61,6 +63,11 @@ void Gateway::add(const AnalogInput& used) {
   analogs_.push_back({ecu.address, static_cast<std::uint8_t>(used.input), false});
   append(tick_.analogs,
          EcuAnalogSample{.ecu = ecu.address, .input = static_cast<std::uint8_t>(used.input)});
+}
+
+bool Gateway::understands(int ecu) const {
+  return ecu >= 0 && ecu < static_cast<int>(FRAME_ECUS) &&
+         ecus_[static_cast<std::size_t>(ecu)].speaks_ours;
 }
 
 // ---- to the ECUs ----

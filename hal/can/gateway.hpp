@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,13 @@ struct EcuEmergency {
   frame_emergency said{};
 };
 
+/// An ECU that has said what it is.
+struct EcuHello {
+  std::uint8_t ecu = 0;
+  bool named = false;  ///< by robot.xml
+  frame_hello said{};
+};
+
 /// Translates between the plant's messages and the ECUs' frames. Pure: no DDS, no clock, no heap
 /// after construction.
 ///
@@ -40,12 +48,15 @@ struct EcuEmergency {
 /// carries its last values and `fresh` false. So ECUs whose clocks drift apart cost one incomplete
 /// tick each time one overtakes another, and frames of simulated ECUs never mix two ticks.
 ///
+/// An ECU is listened to once its HELLO, or its boot, has said that it speaks this version of the
+/// frames; `discover` asks for that.
+///
 /// What a channel follows is not in its STATUS while it runs, only whether the newest command was
 /// accepted: the gateway fills in that command. It is exact when frames do not cross on the way
 /// (lockstep), up to a period early when they do, and corrected by each HEALTH.
 class Gateway {
  public:
-  static constexpr std::size_t emergencies_kept = 64;
+  static constexpr std::size_t emergencies_kept = 64, hellos_kept = 256;
 
   /// Throws std::invalid_argument when two actuators share a channel or two sensors an input.
   explicit Gateway(const Robot& robot);
@@ -55,6 +66,9 @@ class Gateway {
 
   /// The PARAMETER frames of a message, in its order; valid until the next call.
   std::span<const CanFrame> parameters(const EcuParameter& message);
+
+  /// The DISCOVER that every ECU answers.
+  std::span<const CanFrame> discover() const { return {&discover_, 1}; }
 
   /// The COMMAND frames last made. An ECU that has heard them takes them for repeated.
   std::span<const CanFrame> again() const { return commands_; }
@@ -71,9 +85,13 @@ class Gateway {
 
   /// Boots and faults said since the last `clear_emergencies`; beyond `emergencies_kept` the
   /// newest are dropped.
-  /// A boot with a version other than FRAME_VERSION: that ECU is not listened to any further.
   std::span<const EcuEmergency> emergencies() const { return emergencies_; }
-  void clear_emergencies() { emergencies_.clear(); }
+  /// Every ECU that said what it is, once each time it changes; kept and cleared with those.
+  std::span<const EcuHello> hellos() const { return hellos_; }
+  void clear_news() { emergencies_.clear(), hellos_.clear(); }
+
+  /// Whether an ECU of robot.xml has said that it speaks this version; false for any other.
+  bool understands(int ecu) const;
 
   /// What an ECU last said of itself about a channel, in the order of robot.xml's actuators.
   const frame_health& position_page(std::size_t actuator) const {
@@ -102,8 +120,9 @@ class Gateway {
   };
   struct Ecu {
     std::uint8_t address = 0;
-    bool in_use = false, speaks_ours = true;
-    std::uint8_t counter = 0;  ///< of the newest STATUS
+    bool in_use = false, speaks_ours = false;
+    std::optional<frame_hello> hello;
+    std::uint8_t counter = 0;             ///< of the newest STATUS
     std::uint8_t answers = 0, count = 0;  ///< of the newest COMMAND
     std::array<int, 2> channel{-1, -1};
     std::array<int, 4> analog{-1, -1, -1, -1};
@@ -125,6 +144,8 @@ class Gateway {
   Heard hear_analog(Ecu& ecu, const CanFrame& frame);
   Heard hear_health(Ecu& ecu, const CanFrame& frame);
   Heard hear_emergency(Ecu& ecu, const CanFrame& frame);
+  Heard hear_hello(Ecu& ecu, const CanFrame& frame);
+  void forget(Ecu& ecu);
   Heard hear_corrupt();
   Heard finish(bool closed_early);
   bool is_new(Counter& counter, std::uint8_t heard);
@@ -138,7 +159,9 @@ class Gateway {
   EcuFrame tick_, frame_;          ///< being assembled; last ended
   std::array<Past, 8> past_{};
   std::vector<CanFrame> commands_, parameters_;
+  CanFrame discover_{};
   std::vector<EcuEmergency> emergencies_;
+  std::vector<EcuHello> hellos_;
   GatewayCounters counters_;
 };
 

@@ -1,5 +1,7 @@
 #include "hal/can/gateway.hpp"
 
+#include <tuple>
+
 // What the ECUs say, one function a kind of frame.
 namespace erp {
 namespace {
@@ -12,9 +14,12 @@ bool is_mode(std::uint8_t request) {
 
 Heard Gateway::hear(const CanFrame& frame) {
   const frame_function function = frame_function_of(&frame);
-  Ecu& ecu = ecus_[frame_ecu_of(&frame)];
-  if (function == FRAME_COMMAND || function == FRAME_PARAMETER) return Heard::nothing;
+  if (function == FRAME_COMMAND || function == FRAME_PARAMETER || function == FRAME_DISCOVER)
+    return Heard::nothing;
   if (!frame_is_intact(&frame)) return hear_corrupt();
+  if (frame_ecu_of(&frame) == FRAME_EVERYONE) return hear_corrupt();
+  Ecu& ecu = ecus_[frame_ecu_of(&frame)];
+  if (function == FRAME_HELLO) return hear_hello(ecu, frame);
   if (!ecu.in_use) {
     ++counters_.foreign;
     return Heard::nothing;
@@ -136,13 +141,31 @@ Heard Gateway::hear_health(Ecu& ecu, const CanFrame& frame) {
   return Heard::nothing;
 }
 
-/// A booted ECU counts from zero again: periods, encoder, and what it has heard.
+Heard Gateway::hear_hello(Ecu& ecu, const CanFrame& frame) {
+  frame_hello said;
+  if (!frame_unpack_hello(&frame, &said)) return hear_corrupt();
+  const auto key = [](const frame_hello& h) {
+    return std::tuple(h.version, h.channels, h.analog_inputs, h.reset_cause, h.serial);
+  };
+  const bool is_news = !ecu.hello || key(*ecu.hello) != key(said);
+  ecu.hello = said;
+  ecu.speaks_ours = ecu.in_use && said.version == FRAME_VERSION;
+  if (is_news && hellos_.size() < hellos_kept) hellos_.push_back({ecu.address, ecu.in_use, said});
+  return Heard::nothing;
+}
+
 Heard Gateway::hear_emergency(Ecu& ecu, const CanFrame& frame) {
   EcuEmergency emergency{ecu.address, {}};
   if (!frame_unpack_emergency(&frame, &emergency.said)) return hear_corrupt();
   if (emergencies_.size() < emergencies_kept) emergencies_.push_back(emergency);
   if (!emergency.said.boot) return Heard::nothing;
   ecu.speaks_ours = emergency.said.version == FRAME_VERSION;
+  forget(ecu);
+  return Heard::nothing;
+}
+
+/// A booted ECU counts from zero again: periods, encoder, and what it has heard.
+void Gateway::forget(Ecu& ecu) {
   for (Counter& page : ecu.analog_page) page = {};
   for (int index : ecu.channel) {
     if (index < 0) continue;
@@ -152,7 +175,6 @@ Heard Gateway::hear_emergency(Ecu& ecu, const CanFrame& frame) {
     channel.sent = channel.followed = {};
     channel.next_position = 0;
   }
-  return Heard::nothing;
 }
 
 }  // namespace erp

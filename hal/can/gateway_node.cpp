@@ -2,40 +2,88 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 
-#include "firmware/core/fault_names.h"
+#include "hal/can/load.hpp"
 
 namespace can {
 namespace {
 
-constexpr std::int64_t tick_ns = 2'000'000;     // the ECUs' period
-constexpr std::int64_t late_ns = 3'000'000;     // chosen: what an ECU may lag behind the others
-constexpr std::int64_t say_ns = 1'000'000'000;  // counters are said once a second at most
-constexpr std::uint64_t clock_period = 50;      // ticks: 10 Hz
+constexpr std::int64_t tick_ns = 2'000'000;        // the ECUs' period
+constexpr std::int64_t late_ns = 3'000'000;        // chosen: what an ECU may lag behind the others
+constexpr std::int64_t mind_ns = 1'000'000;        // chosen: how often buses are looked after
+constexpr std::int64_t say_ns = 1'000'000'000;     // counters are said once a second at most
+constexpr std::int64_t discover_ns = 100'000'000;  // chosen: between two calls for ECUs
+constexpr std::uint64_t clock_period = 50;         // ticks: 10 Hz
+constexpr std::size_t window = 2;                  // chosen: frames an ECU in flight
 
 std::uint64_t ticks_in(double duration_s) {
   return static_cast<std::uint64_t>(std::llround(duration_s * 1e9 / tick_ns));
+}
+
+std::vector<std::string> actuators_by_ecu(const erp::Robot& robot) {
+  std::vector<std::string> names(FRAME_ECUS);
+  for (const erp::Actuator& actuator : robot.actuators) {
+    std::string& list = names[static_cast<std::size_t>(actuator.ecu)];
+    list += (list.empty() ? "" : ", ") + actuator.name;
+  }
+  return names;
+}
+
+std::string trace_name(const std::string& file, const std::string& bus, std::size_t buses) {
+  if (buses == 1) return file;
+  std::filesystem::path path(file);
+  return path.replace_filename(path.stem().string() + "." + bus + path.extension().string());
 }
 
 }  // namespace
 
 GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::Node& node)
     : node_(node),
-      bus_(erp::open_bus(params.bus)),
+      routes_(robot),
       gateway_(robot),
+      ecus_(robot.ecus()),
+      drives_(actuators_by_ecu(robot)),
       frame_out_(node.advertise<erp::EcuFrame>()),
       clock_out_(node.advertise<erp::Clock>()),
       end_sequence_(ticks_in(node.options().duration_s)) {
+  open(params, robot);
   parameter_in_ = &node.subscribe<erp::EcuParameter>(
       [this](const auto& m) { send(gateway_.parameters(m)); }, 8);
   node.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
-  node.watch(bus_->fd(), [this] { receive(); });
+  for (erp::BusKeeper& bus : buses_) node.watch(bus.bus().fd(), [this, &bus] { receive(bus); });
+  node.on_activate([this] { discover(); });
   node.on_deactivate([this] { publish_clock(); });
   node.every(say_ns, [this] { say_counters(); });
+  node.every(discover_ns, [this] { discover(); });
+  node.every(mind_ns, [this] { mind(); });
   if (!node.clock().lockstep()) node.every(tick_ns, [this] { close_late_tick(); });
 }
 
-void GatewayNode::send(std::span<const erp::CanFrame> frames) { bus_->send(frames); }
+void GatewayNode::open(const Params& params, const erp::Robot& robot) {
+  erp::refuse_overload(robot);
+  auto opened = erp::open_buses(robot, params.bus, window);
+  buses_.reserve(opened.size());
+  for (std::size_t k = 0; k < opened.size(); ++k) {
+    buses_.emplace_back(routes_.name(k), std::move(opened[k]));
+    if (!params.trace.empty())
+      buses_[k].record(trace_name(params.trace, routes_.name(k), opened.size()));
+  }
+  for (const erp::BusPlan& plan : robot.buses())
+    frame_time_s_.push_back(erp::frame_time_s(8, plan.bitrate_per_s));
+  refused_said_.assign(buses_.size(), 0);
+  frames_before_.assign(buses_.size(), 0);
+}
+
+std::int64_t GatewayNode::now_ns() const {
+  return node_.clock().lockstep() ? 0 : node::monotonic_ns();
+}
+
+void GatewayNode::send(std::span<const erp::CanFrame> frames) {
+  if (buses_.size() == 1) return buses_[0].post(frames, now_ns());
+  routes_.sort(frames);
+  for (std::size_t k = 0; k < buses_.size(); ++k) buses_[k].post(routes_.on(k), now_ns());
+}
 
 void GatewayNode::on_command(const erp::EcuCommand& command) {
   // Gains sent before this command are waiting already: they go first, in every run alike.
@@ -46,10 +94,13 @@ void GatewayNode::on_command(const erp::EcuCommand& command) {
   if (end_sequence_ && command.answers >= end_sequence_) node_.finish();
 }
 
-void GatewayNode::receive() {
+void GatewayNode::receive(erp::BusKeeper& bus) {
   std::array<erp::CanFrame, 64> frames;
-  while (const auto n = bus_->receive(frames, 0))
-    for (std::size_t i = 0; i < n; ++i) switch (gateway_.hear(frames[i])) {
+  while (const auto n = bus.bus().receive(frames, 0))
+    for (const erp::CanFrame& frame : std::span(frames).first(n)) {
+      const auto ecu = frame_ecu_of(&frame);
+      if (gateway_.understands(ecu)) watch_.heard(ecu, now_ns());
+      switch (gateway_.hear(frame)) {
         case erp::Heard::tick:
           publish_tick();
           break;
@@ -60,7 +111,24 @@ void GatewayNode::receive() {
           if (!open_since_ns_) open_since_ns_ = node::monotonic_ns();
           break;
       }
-  say_emergencies();
+    }
+  bus.flush(now_ns());
+  say_news();
+}
+
+void GatewayNode::mind() {
+  for (erp::BusKeeper& bus : buses_)
+    for (const auto& notice : bus.mind(now_ns()))
+      node_.report(notice.severity, bus.name(), notice.code, notice.text);
+  watch_.step(now_ns(), [this](int ecu, erp::EcuWatch::News news) { say_ecu(ecu, news); });
+}
+
+/// Calls for the ECUs until all have answered.
+void GatewayNode::discover() {
+  const auto understood = [this](int ecu) { return gateway_.understands(ecu); };
+  if (std::ranges::all_of(ecus_, understood)) return;
+  send(gateway_.discover());
+  if (++asked_ == 11) say_unanswered();
 }
 
 void GatewayNode::close_late_tick() {
@@ -84,33 +152,6 @@ void GatewayNode::publish_clock() {
   const auto sequence = gateway_.frame().sequence;
   clock.stamp_ns = sequence ? static_cast<std::int64_t>(sequence - 1) * tick_ns : 0;
   clock_out_.publish(clock);
-}
-
-void GatewayNode::say_emergencies() {
-  for (const auto& emergency : gateway_.emergencies()) {
-    const bool boot = emergency.said.boot;
-    node_.report(boot ? erp::Severity::info : erp::Severity::fault,
-                 "ecu " + std::to_string(emergency.ecu), boot ? "boot" : "emergency",
-                 boot ? "the ECU has started" : ecu_fault_name(emergency.said.fault));
-  }
-  gateway_.clear_emergencies();
-}
-
-void GatewayNode::say_counters() {
-  const auto now = gateway_.counters();
-  const auto say = [&](std::uint64_t count, std::uint64_t before, const char* what) {
-    if (count > before)
-      node_.report(erp::Severity::warning, "bus", what,
-                   std::to_string(count - before) + " " + what + " more, " + std::to_string(count) +
-                       " in all");
-  };
-  say(now.corrupt, said_.corrupt, "corrupt_frames");
-  say(now.lost, said_.lost, "lost_frames");
-  say(now.foreign, said_.foreign, "foreign_frames");
-  say(now.incomplete_ticks, said_.incomplete_ticks, "incomplete_ticks");
-  say(bus_->counters().refused, refused_said_, "transmit_queue_full");
-  said_ = now;
-  refused_said_ = bus_->counters().refused;
 }
 
 }  // namespace can

@@ -1,3 +1,4 @@
+#include <array>
 #include <charconv>
 
 #include "hal/can/backends.hpp"
@@ -6,8 +7,8 @@ namespace erp {
 namespace {
 
 constexpr auto usage =
-    "write socketcan:INTERFACE (e.g. socketcan:can0) or udp:GROUP:PORT (e.g. "
-    "udp:239.255.42.1:20000)";
+    "write socketcan:INTERFACE (e.g. socketcan:can0), udp:GROUP:PORT (e.g. "
+    "udp:239.255.42.1:20000) or trace:FILE";
 
 int port_of(const std::string& text) {
   int port = 0;
@@ -18,13 +19,13 @@ int port_of(const std::string& text) {
   return port;
 }
 
-std::unique_ptr<CanBus> open_by_name(const std::string& specification) {
+std::unique_ptr<CanBus> open_by_name(const std::string& specification, const BusOptions& options) {
   const auto colon = specification.find(':');
   const std::string backend = specification.substr(0, colon);
   const std::string rest = colon == std::string::npos ? "" : specification.substr(colon + 1);
   if (backend == "socketcan") {
     if (rest.empty()) throw std::invalid_argument(std::string("names no interface; ") + usage);
-    return can::open_socketcan(rest);
+    return can::open_socketcan(rest, options);
   }
   if (backend == "udp") {
     const auto last = rest.rfind(':');
@@ -32,15 +33,21 @@ std::unique_ptr<CanBus> open_by_name(const std::string& specification) {
       throw std::invalid_argument(std::string("names no group and port; ") + usage);
     return can::open_udp(rest.substr(0, last), port_of(rest.substr(last + 1)));
   }
+  if (backend == "trace") return can::open_trace(rest);
   throw std::invalid_argument("unknown back end \"" + backend + "\"; " + usage);
 }
 
 }  // namespace
 
-std::unique_ptr<CanBus> open_bus(const std::string& specification) {
+const char* name_of(BusState state) {
+  static constexpr std::array names{"active", "warning", "passive", "bus-off", "down"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+std::unique_ptr<CanBus> open_bus(const std::string& specification, const BusOptions& options) {
   const std::string place = "CAN bus \"" + specification + "\": ";
   try {
-    return open_by_name(specification);
+    return open_by_name(specification, options);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(place + error.what());
   } catch (const std::runtime_error& error) {

@@ -57,7 +57,9 @@ RobotEcus::RobotEcus(const Robot& robot, std::span<ecu_channel* const> channels)
 }
 
 int RobotEcus::index_of(int address) const {
-  return address >= 0 && address < FRAME_ECUS ? index_[static_cast<std::size_t>(address)] : -1;
+  return address >= 0 && address < static_cast<int>(FRAME_ECUS)
+             ? index_[static_cast<std::size_t>(address)]
+             : -1;
 }
 
 RobotEcus::Ecu* RobotEcus::find(int address) {
@@ -71,6 +73,10 @@ const ecu_link* RobotEcus::link(int address) const {
 }
 
 bool RobotEcus::hear(const CanFrame& frame) {
+  if (frame_ecu_of(&frame) == FRAME_EVERYONE) {
+    for (Ecu& ecu : ecus_) ecu_link_hear(&ecu.link, &frame);
+    return true;
+  }
   Ecu* ecu = find(frame_ecu_of(&frame));
   return ecu && ecu_link_hear(&ecu->link, &frame);
 }
@@ -109,7 +115,7 @@ std::span<const CanFrame> RobotEcus::say(bool whole) {
 
 std::span<const CanFrame> RobotEcus::boot(frame_reset_cause cause) {
   frames_.clear();
-  for (const Ecu& ecu : ecus_) ecu_link_say_boot(&ecu.link, cause, &frames_.emplace_back());
+  for (Ecu& ecu : ecus_) ecu_link_say_boot(&ecu.link, cause, &frames_.emplace_back());
   return frames_;
 }
 

@@ -1,91 +1,25 @@
-#include <linux/can.h>
-#include <linux/can/error.h>
-#include <linux/can/raw.h>
-#include <net/if.h>
-#include <sys/socket.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 
-#include "hal/can/backends.hpp"
+#include "firmware/core/bundle.h"
+#include "hal/can/error_frame.hpp"
+#include "hal/can/interface.hpp"
+#include "hal/can/socketcan_socket.hpp"
+#include "hal/can/stamp_clock.hpp"
 
 namespace erp::can {
 namespace {
 
-constexpr std::size_t batch = 64;  // frames to one system call
-
-Descriptor raw_socket() {
-  const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
-  if (fd >= 0) return Descriptor(fd);
-  if (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)
-    throw std::invalid_argument("this kernel has no SocketCAN; use udp:239.255.42.1:20000");
-  throw std::runtime_error(std::string("no CAN socket: ") + std::strerror(errno));
-}
-
-unsigned index_of(const std::string& interface) {
-  const unsigned index = ::if_nametoindex(interface.c_str());
-  if (index == 0)
-    throw std::invalid_argument("no interface \"" + interface +
-                                "\"; `ip -br link show type can` lists them, `ip link add " +
-                                "vcan0 type vcan` makes a virtual one");
-  return index;
-}
-
-template <class Value>
-void set(const Descriptor& socket, int option, const Value& value) {
-  if (::setsockopt(socket.get(), SOL_CAN_RAW, option, &value, sizeof value) != 0)
-    throw std::runtime_error(std::string("cannot set up the CAN socket: ") + std::strerror(errno));
-}
-
-/// Of a socket bound to an interface that is down: ENETDOWN, while bind itself succeeds.
-int pending_error(const Descriptor& socket) {
-  int error = 0;
-  socklen_t size = sizeof error;
-  ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size);
-  return error;
-}
-
-/// Messages of one sendmmsg or recvmmsg, pointing at their frames.
-struct Batch {
-  std::array<can_frame, batch> frames{};
-  std::array<iovec, batch> parts{};
-  std::array<mmsghdr, batch> messages{};
-  Batch() {
-    for (std::size_t i = 0; i < batch; ++i) {
-      parts[i] = {&frames[i], sizeof frames[i]};
-      messages[i].msg_hdr.msg_iov = &parts[i];
-      messages[i].msg_hdr.msg_iovlen = 1;
-    }
-  }
-  Batch(const Batch&) = delete;
-  Batch& operator=(const Batch&) = delete;
-};
-
 class SocketCanBus final : public CanBus {
  public:
-  explicit SocketCanBus(const std::string& interface) : socket_(raw_socket()) {
-    sockaddr_can where{};
-    where.can_family = AF_CAN;
-    where.can_ifindex = static_cast<int>(index_of(interface));
-    // Data frames with 11-bit identifiers only, and the controller's error frames.
-    set(socket_, CAN_RAW_FILTER, can_filter{0, CAN_EFF_FLAG | CAN_RTR_FLAG});
-    set(socket_, CAN_RAW_ERR_FILTER,
-        can_err_mask_t{CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL | CAN_ERR_ACK |
-                       CAN_ERR_BUSERROR});
-    if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0)
-      throw std::invalid_argument("\"" + interface + "\" is no CAN interface (" +
-                                  std::strerror(errno) +
-                                  "); `ip -br link show type can` lists them");
-    if (pending_error(socket_) == ENETDOWN)
-      throw std::runtime_error("interface \"" + interface + "\" is down; `ip link set " +
-                               interface + " up type can bitrate 1000000`");
-  }
+  SocketCanBus(const std::string& interface, const BusOptions& options)
+      : interface_(interface), options_(options), socket_(open_raw(interface, options)) {}
 
-  /// In bus-off the kernel takes frames and forgets them: `counters().off` is the only sign.
+  /// In bus-off the kernel takes frames and forgets them: then they are refused here.
   std::size_t send(std::span<const CanFrame> frames) override {
     std::size_t taken = 0;
-    while (taken < frames.size()) {
+    while (taken < frames.size() && counters_.state != BusState::off) {
       const std::size_t some = send_batch(frames.subspan(taken));
       if (some == 0) break;
       taken += some;
@@ -96,71 +30,152 @@ class SocketCanBus final : public CanBus {
   }
 
   std::size_t receive(std::span<CanFrame> frames, double timeout_s) override {
-    if (!wait_readable(socket_.get(), timeout_s)) return 0;
-    std::size_t filled = 0;
-    while (filled < frames.size() && receive_batch(frames, filled)) continue;
+    if (waiting_.empty() && !wait_readable(socket_.get(), timeout_s)) return 0;
+    std::size_t filled = take_waiting(frames);
+    while (filled < frames.size() && receive_batch())
+      filled += take_waiting(frames.subspan(filled));
     return filled;
   }
 
   int fd() const override { return socket_.get(); }
   BusCounters counters() const override { return counters_; }
+  std::size_t in_flight() const override { return in_flight_; }
+  void record(FrameSink* sink) override { sink_ = sink; }
+
+  void restart() override {
+    restart_interface(interface_);
+    enter(BusState::active);
+  }
 
  private:
+  void enter(BusState state) {
+    counters_.state = state;
+    if (counters_.off()) in_flight_ = 0;  // what was there is lost
+  }
+
+  // ---- sending ----
+
   std::size_t send_batch(std::span<const CanFrame> frames) {
-    const std::size_t count = std::min(batch, frames.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      can_frame& out = outgoing_.frames[i];
-      out.can_id = frames[i].id;
-      out.len = std::min<std::uint8_t>(frames[i].size, CAN_MAX_DLEN);
-      std::memcpy(out.data, frames[i].data, sizeof out.data);
+    std::array<std::size_t, Batch::size> parts;  // classic frames in each message
+    const std::size_t room = options_.window - std::min(options_.window, in_flight_);
+    std::size_t count = 0, packed = 0;
+    for (; count < std::min(room, Batch::size) && packed < frames.size(); ++count) {
+      parts[count] = pack(frames.subspan(packed), count);
+      packed += parts[count];
     }
     const int sent = ::sendmmsg(socket_.get(), outgoing_.messages.data(),
                                 static_cast<unsigned>(count), MSG_DONTWAIT);
-    if (sent < 0 && errno == ENETDOWN) counters_.off = true;
-    return sent > 0 ? static_cast<std::size_t>(sent) : 0;  // ENOBUFS, EAGAIN: the queue is full
+    if (sent < 0 && errno == ENETDOWN) enter(BusState::down);
+    if (sent <= 0) return 0;  // ENOBUFS, EAGAIN: the queue is full
+    if (counters_.state == BusState::down) enter(BusState::active);
+    in_flight_ += static_cast<std::size_t>(sent);
+    std::size_t taken = 0;
+    for (int i = 0; i < sent; ++i) taken += parts[static_cast<std::size_t>(i)];
+    return taken;
   }
 
-  bool receive_batch(std::span<CanFrame> frames, std::size_t& filled) {
-    const auto room = static_cast<unsigned>(std::min(batch, frames.size() - filled));
-    const int count =
-        ::recvmmsg(socket_.get(), incoming_.messages.data(), room, MSG_DONTWAIT, nullptr);
-    if (count < 0 && errno == ENETDOWN) counters_.off = true;
-    for (int i = 0; i < count; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if (is_data(incoming_.frames[k], incoming_.messages[k].msg_len))
-        frames[filled++] = read(incoming_.frames[k]);
+  /// Fills message `i`; returns how many frames went into it.
+  std::size_t pack(std::span<const CanFrame> frames, std::size_t i) {
+    canfd_frame& out = outgoing_.frames[i];
+    out.flags = 0;
+    if (!options_.fd) {
+      out.can_id = frames[0].id;
+      out.len = std::min<std::uint8_t>(frames[0].size, CAN_MAX_DLEN);
+      std::memcpy(out.data, frames[0].data, CAN_MAX_DLEN);
+      outgoing_.set_size(i, CAN_MTU);
+      return 1;
     }
+    bus_bundle bundle;
+    const unsigned count =
+        bundle_pack(&bundle, frames.data(),
+                    static_cast<unsigned>(std::min<std::size_t>(frames.size(), BUNDLE_FRAMES_MAX)));
+    out.can_id = bundle.id;
+    out.len = bundle.size;
+    out.flags = CANFD_BRS;
+    std::memcpy(out.data, bundle.data, sizeof out.data);
+    outgoing_.set_size(i, CANFD_MTU);
+    return count;
+  }
+
+  // ---- receiving ----
+
+  bool receive_batch() {
+    incoming_.lend();
+    const int count =
+        ::recvmmsg(socket_.get(), incoming_.messages.data(), Batch::size, MSG_DONTWAIT, nullptr);
+    if (count < 0 && errno == ENETDOWN) enter(BusState::down);
+    std::size_t filled = 0;
+    for (int i = 0; i < count; ++i) take(static_cast<std::size_t>(i), filled);
+    waiting_ = std::span(storage_).first(filled);
     return count > 0;
   }
 
-  bool is_data(const can_frame& in, unsigned size) {
-    if (in.can_id & CAN_ERR_FLAG) {
-      ++counters_.errors;
-      if (in.can_id & CAN_ERR_BUSOFF) counters_.off = true;
-      if (in.can_id & CAN_ERR_RESTARTED) counters_.off = false;
-      return false;
+  void take(std::size_t i, std::size_t& filled) {
+    msghdr& message = incoming_.messages[i].msg_hdr;
+    const canfd_frame& in = incoming_.frames[i];
+    if (in.can_id & CAN_ERR_FLAG) return take_error(in);
+    const Circumstances seen = circumstances_of(message);
+    if (seen.dropped != counters_.overrun) in_flight_ = 0;  // confirmations may be among them
+    counters_.overrun = seen.dropped;
+    const bool own = (message.msg_flags & MSG_CONFIRM) != 0;
+    if (own && in_flight_ > 0) --in_flight_;
+    const auto frames = std::span(storage_).subspan(filled);
+    const std::size_t count = read(in, incoming_.messages[i].msg_len, frames);
+    if (sink_)
+      for (const CanFrame& frame : frames.first(count))
+        sink_->frame(frame, clock_.stamp_ns(seen.kernel_ns, seen.hardware_ns), own);
+    if (own) return;
+    if (counters_.off()) enter(BusState::active);  // who hears others is on
+    counters_.received += count;
+    counters_.unreadable += count == 0;
+    filled += count;
+  }
+
+  void take_error(const canfd_frame& in) {
+    can_frame error;
+    std::memcpy(&error, &in, sizeof error);
+    ++counters_.errors;
+    counters_.unacknowledged += (error.can_id & CAN_ERR_ACK) != 0;
+    enter(state_after(error, counters_.state));
+  }
+
+  /// The classic frames in what was received; 0: none of ours.
+  static std::size_t read(const canfd_frame& in, unsigned size, std::span<CanFrame> frames) {
+    const auto id = static_cast<std::uint16_t>(in.can_id & CAN_SFF_MASK);
+    if (size == CANFD_MTU) {
+      bus_bundle bundle{id, in.len, {}};
+      std::memcpy(bundle.data, in.data, sizeof bundle.data);
+      return bundle_unpack(&bundle, frames.data());
     }
-    const bool ours = size == CAN_MTU && in.len <= CAN_MAX_DLEN;
-    ++(ours ? counters_.received : counters_.unreadable);
-    counters_.off = false;
-    return ours;
+    if (size != CAN_MTU || in.len > CAN_MAX_DLEN) return 0;
+    frames[0] = {id, in.len, {}};
+    std::memcpy(frames[0].data, in.data, sizeof frames[0].data);
+    return 1;
   }
 
-  static CanFrame read(const can_frame& in) {
-    CanFrame frame{static_cast<std::uint16_t>(in.can_id & CAN_SFF_MASK), in.len, {}};
-    std::memcpy(frame.data, in.data, sizeof frame.data);
-    return frame;
+  std::size_t take_waiting(std::span<CanFrame> frames) {
+    const std::size_t count = std::min(frames.size(), waiting_.size());
+    std::copy_n(waiting_.begin(), count, frames.begin());
+    waiting_ = waiting_.subspan(count);
+    return count;
   }
 
+  std::string interface_;
+  BusOptions options_;
   Descriptor socket_;
   Batch outgoing_, incoming_;
+  std::array<CanFrame, Batch::size * BUNDLE_FRAMES_MAX> storage_;  ///< of the last batch
+  std::span<CanFrame> waiting_;                                    ///< its frames not yet taken
+  std::size_t in_flight_ = 0;
+  StampClock clock_;
+  FrameSink* sink_ = nullptr;
   BusCounters counters_;
 };
 
 }  // namespace
 
-std::unique_ptr<CanBus> open_socketcan(const std::string& interface) {
-  return std::make_unique<SocketCanBus>(interface);
+std::unique_ptr<CanBus> open_socketcan(const std::string& interface, const BusOptions& options) {
+  return std::make_unique<SocketCanBus>(interface, options);
 }
 
 }  // namespace erp::can

@@ -53,6 +53,7 @@ class UdpBus final : public CanBus {
       : receiver_(udp_socket()), sender_(udp_socket()), group_(address(group, port)) {
     set(receiver_, SOL_SOCKET, SO_REUSEADDR, 1, "cannot share the port");
     set(receiver_, SOL_SOCKET, SO_RCVBUF, 1 << 20, "cannot set the receive buffer");
+    set(receiver_, SOL_SOCKET, SO_TIMESTAMPNS, 1, "cannot stamp what is received");
     bind_to(receiver_, group_);
     set(receiver_, IPPROTO_IP, IP_ADD_MEMBERSHIP, ip_mreq{group, loopback()},
         "cannot join the group on loopback");
@@ -87,6 +88,7 @@ class UdpBus final : public CanBus {
 
   int fd() const override { return receiver_.get(); }
   BusCounters counters() const override { return counters_; }
+  void record(FrameSink* sink) override { sink_ = sink; }
 
  private:
   bool send_datagram(std::span<const CanFrame> frames) {
@@ -109,24 +111,40 @@ class UdpBus final : public CanBus {
   /// Takes one datagram off the socket; false when none is there. Own ones are passed over.
   bool receive_datagram() {
     std::array<std::uint8_t, datagram_bytes + 1> datagram;
+    alignas(cmsghdr) std::array<char, 64> control;
     sockaddr_in from{};
-    socklen_t from_size = sizeof from;
-    const ssize_t size = ::recvfrom(receiver_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT,
-                                    reinterpret_cast<sockaddr*>(&from), &from_size);
+    iovec part{datagram.data(), datagram.size()};
+    msghdr message{&from, sizeof from, &part, 1, control.data(), control.size(), 0};
+    const ssize_t size = ::recvmsg(receiver_.get(), &message, MSG_DONTWAIT);
     if (size < 0) return false;
     const bool own = from.sin_port == own_.sin_port && from.sin_addr.s_addr == own_.sin_addr.s_addr;
-    if (!own) unpack(std::span(datagram).first(static_cast<std::size_t>(size)));
+    if (own && !sink_) return true;
+    const auto frames = unpack(std::span(datagram).first(static_cast<std::size_t>(size)));
+    if (sink_)
+      for (const CanFrame& frame : frames) sink_->frame(frame, stamp_ns(message), own);
+    if (own) return true;
+    counters_.received += frames.size();
+    counters_.unreadable += frames.empty();
+    waiting_ = frames;
     return true;
   }
 
-  void unpack(std::span<const std::uint8_t> datagram) {
+  static std::int64_t stamp_ns(msghdr& message) {
+    for (cmsghdr* part = CMSG_FIRSTHDR(&message); part; part = CMSG_NXTHDR(&message, part))
+      if (part->cmsg_level == SOL_SOCKET && part->cmsg_type == SO_TIMESTAMPNS) {
+        timespec stamp;
+        std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+        return to_ns(stamp);
+      }
+    return 0;
+  }
+
+  /// The frames of a datagram, in `storage_`; none: it is not ours.
+  std::span<CanFrame> unpack(std::span<const std::uint8_t> datagram) {
     const bool ours = datagram.size() > header_bytes && datagram.size() <= datagram_bytes &&
                       (datagram.size() - header_bytes) % frame_bytes == 0 &&
                       std::memcmp(datagram.data(), magic, header_bytes) == 0;
-    if (!ours) {
-      ++counters_.unreadable;
-      return;
-    }
+    if (!ours) return {};
     const std::size_t count = (datagram.size() - header_bytes) / frame_bytes;
     const std::uint8_t* at = datagram.data() + header_bytes;
     for (std::size_t i = 0; i < count; ++i, at += frame_bytes) {
@@ -134,8 +152,7 @@ class UdpBus final : public CanBus {
       storage_[i].size = at[2];
       std::memcpy(storage_[i].data, at + 3, 8);
     }
-    counters_.received += count;
-    waiting_ = std::span(storage_).first(count);
+    return std::span(storage_).first(count);
   }
 
   std::size_t take_waiting(std::span<CanFrame> frames) {
@@ -149,6 +166,7 @@ class UdpBus final : public CanBus {
   sockaddr_in group_, own_{};
   std::array<CanFrame, frames_per_datagram> storage_;  ///< of the last datagram
   std::span<CanFrame> waiting_;                        ///< its frames not yet taken
+  FrameSink* sink_ = nullptr;
   BusCounters counters_;
 };
 

@@ -26,6 +26,9 @@ struct MotorType {
   double rotor_viscous_Nm_s_per_rad = 0, gear_viscous_Nm_s_per_rad = 0;  ///< µ_M, µ_G
   double rotor_coulomb_Nm = 0, gear_coulomb_Nm = 0;                      ///< τ_CM, τ_CG
   double supply_V = 12, current_limit_A = 0;
+  /// What the winding bears for ever, and ∫ (i² − continuous²) dt beyond which it is switched off;
+  /// 0: not judged.
+  double continuous_current_A = 0, overload_A2_s = 0;
   std::string source;
   void visit(auto& v) {
     v.required("name", name);
@@ -43,6 +46,8 @@ struct MotorType {
     v("gear_coulomb_Nm", gear_coulomb_Nm, xml::at_least_zero);
     v.required("supply_V", supply_V, xml::positive);
     v.required("current_limit_A", current_limit_A, xml::positive);
+    v("continuous_current_A", continuous_current_A, xml::at_least_zero);
+    v("overload_A2_s", overload_A2_s, xml::at_least_zero);
     v("source", source);
   }
 };
@@ -141,6 +146,11 @@ struct Actuator {
   SafeAction safe_action = SafeAction::relax;
   double max_tension_N = 0;
   double relax_tension_N = 2.0;  ///< what `relax` lets the tendon down to
+  /// How fast references may change, beyond what motor and controller do; absent: as they come.
+  std::optional<double> max_line_speed_m_per_s, max_tension_rate_N_per_s;
+  /// When an ECU of it falls silent, all of a limb drop to their safe actions: what pulls on must
+  /// not pull alone. Those that name none are one together.
+  std::string limb;
   std::string source;
   Spindle spindle;
   Tendon tendon;
@@ -149,11 +159,14 @@ struct Actuator {
     v.required("name", name);
     v.required("motor", motor);
     v.required("sensors", sensors);
-    v.required("ecu", ecu, xml::Range{0, 127});
+    v.required("ecu", ecu, xml::Range{0, 126});
     v.required("channel", channel, xml::Range{0, 1});
     v.required("safe_action", safe_action);
     v.required("max_tension_N", max_tension_N, xml::positive);
     v("relax_tension_N", relax_tension_N, xml::at_least_zero);
+    v("max_line_speed_m_per_s", max_line_speed_m_per_s, xml::positive);
+    v("max_tension_rate_N_per_s", max_tension_rate_N_per_s, xml::positive);
+    v("limb", limb);
     v("source", source);
     v.child(spindle);
     v.child(tendon);

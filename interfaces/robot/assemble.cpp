@@ -33,6 +33,7 @@ void append_part(Robot& robot, const Robot& part) {
   append(robot.joint_sensors, part.joint_sensors);
   append(robot.potentiometers, part.potentiometers);
   append(robot.imus, part.imus);
+  append(robot.can_buses, part.can_buses);
   append(robot.effects, part.effects);
 }
 
@@ -40,6 +41,8 @@ void shift_ecus(Robot& part, int offset) {
   for (Actuator& actuator : part.actuators) actuator.ecu += offset;
   for (JointSensor& sensor : part.joint_sensors) sensor.ecu += offset;
   for (Potentiometer& sensor : part.potentiometers) sensor.ecu += offset;
+  for (BusPlan& bus : part.can_buses)
+    for (int& ecu : bus.ecus) ecu += offset;
 }
 
 std::vector<std::string> names_in(const Robot& part) {

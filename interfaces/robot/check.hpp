@@ -45,6 +45,7 @@ inline std::string place_words(const xml::Place& place) {
 void check_names(const Robot& robot, Findings& findings);
 void check_references(const Robot& robot, Findings& findings);
 void check_ecus(const Robot& robot, Findings& findings);
+void check_buses(const Robot& robot, Findings& findings);
 void check_skeleton(const Robot& robot, Findings& findings);
 void check_tendons(const Robot& robot, Findings& findings);
 void check_drives(const Robot& robot, Findings& findings);

@@ -12,9 +12,9 @@ constexpr double most_imu_Hz = 500;
 /// A mirror's offset can carry an ecu out of what the XSD allows.
 template <class Item>
 void check_ecu_number(const Item& item, Findings& findings) {
-  if (item.ecu < 0 || item.ecu > 127)
+  if (item.ecu < 0 || item.ecu > 126)
     findings.add(item, "ecu=\"" + std::to_string(item.ecu) + "\" is out of range",
-                 "give 0 to 127; in a mirrored part ecu_offset is added");
+                 "give 0 to 126; in a mirrored part ecu_offset is added");
 }
 
 void check_channels(const Robot& robot, Findings& findings) {

@@ -58,6 +58,7 @@ void check_names(const Robot& robot, Findings& findings) {
   check_unique(robot.bodies(), findings);
   check_unique(robot.joints(), findings);
   check_unique(robot.actuators, findings);
+  check_unique(robot.can_buses, findings);
   check_unique(robot.drives, findings);
   check_unique(robot.motor_types, findings);
   check_unique(robot.sensor_types, findings);

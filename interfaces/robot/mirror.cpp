@@ -73,7 +73,7 @@ Robot mirrored(Robot part, const Mirror& mirror) {
   for (MotorType& type : part.motor_types) renamed(type.name);
   for (SensorType& type : part.sensor_types) renamed(type.name);
   for (Actuator& actuator : part.actuators) {
-    renamed.each(actuator.name, actuator.motor, actuator.sensors);
+    renamed.each(actuator.name, actuator.limb, actuator.motor, actuator.sensors);
     for (auto& point : actuator.tendon.path)
       std::visit([&](auto& p) { reflect(p), renamed(p.body); }, point);
   }
@@ -82,6 +82,7 @@ Robot mirrored(Robot part, const Mirror& mirror) {
   for (Effect& effect : part.effects) renamed(effect.on);
   for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint), reflect(sensor);
   for (Potentiometer& sensor : part.potentiometers) renamed(sensor.actuator);
+  for (BusPlan& bus : part.can_buses) renamed(bus.name);
   for (Imu& imu : part.imus) imu.at_m = reflected(imu.at_m), renamed.each(imu.name, imu.body);
   return part;
 }

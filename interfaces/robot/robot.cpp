@@ -1,5 +1,6 @@
 #include "interfaces/robot/robot.hpp"
 
+#include <set>
 #include <stdexcept>
 
 #include "interfaces/robot/assemble.hpp"
@@ -33,6 +34,21 @@ std::vector<AnalogInput> Robot::analog_inputs() const {
   for (const Potentiometer& sensor : potentiometers)
     inputs.push_back({sensor.ecu, sensor.input, "potentiometer of " + xml::quote(sensor.actuator)});
   return inputs;
+}
+
+std::vector<int> Robot::ecus() const {
+  std::set<int> used;
+  for (const Actuator& actuator : actuators) used.insert(actuator.ecu);
+  for (const AnalogInput& input : analog_inputs()) used.insert(input.ecu);
+  return {used.begin(), used.end()};
+}
+
+std::vector<BusPlan> Robot::buses() const {
+  if (!can_buses.empty()) return can_buses;
+  BusPlan only;
+  only.name = "can";
+  only.ecus = ecus();
+  return {only};
 }
 
 Vec3 Robot::gravity_m_per_s2() const {
@@ -71,6 +87,7 @@ std::vector<xml::Error> check_robot(const Robot& robot) {
   check_names(robot, findings);
   check_references(robot, findings);
   check_ecus(robot, findings);
+  check_buses(robot, findings);
   check_skeleton(robot, findings);
   check_tendons(robot, findings);
   check_drives(robot, findings);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "interfaces/robot/actuator.hpp"
+#include "interfaces/robot/bus.hpp"
 #include "interfaces/robot/drive.hpp"
 #include "interfaces/robot/effect.hpp"
 #include "interfaces/robot/sensors.hpp"
@@ -68,6 +69,7 @@ struct Robot {
   std::vector<JointSensor> joint_sensors;
   std::vector<Potentiometer> potentiometers;
   std::vector<Imu> imus;
+  std::vector<BusPlan> can_buses;  ///< as they stand; `buses()` is never empty
   std::vector<Effect> effects;
   std::vector<Pretension> pretensions;  ///< the last one that names an actuator counts
   std::vector<Include> includes;
@@ -84,6 +86,7 @@ struct Robot {
     v.list(joint_sensors);
     v.list(potentiometers);
     v.list(imus);
+    v.list(can_buses);
     v.list(effects);
     v.list(pretensions);
   }
@@ -92,6 +95,10 @@ struct Robot {
   std::vector<Joint> joints() const;
   /// Of the joint sensors, then of the potentiometers.
   std::vector<AnalogInput> analog_inputs() const;
+  /// Addresses in use, ascending.
+  std::vector<int> ecus() const;
+  /// The CAN buses in the order of the file; where none is named, one with every ECU.
+  std::vector<BusPlan> buses() const;
   Vec3 gravity_m_per_s2() const;  ///< zero when no part gives it
   /// Throw std::out_of_range when the robot has no type of that name (read_robot refuses that).
   const MotorType& motor_of(const Actuator& actuator) const;

@@ -69,7 +69,7 @@ struct JointSensor {
   void visit(auto& v) {
     v.required("joint", joint);
     v("about", about);
-    v.required("ecu", ecu, xml::Range{0, 127});
+    v.required("ecu", ecu, xml::Range{0, 126});
     v.required("input", input, xml::Range{0, 3});
     v.required("bits_per_rev", bits_per_rev, xml::Range{8, 20});
     v("noise_rad", noise_rad, xml::at_least_zero);
@@ -94,7 +94,7 @@ struct Potentiometer {
   std::string source;
   void visit(auto& v) {
     v.required("actuator", actuator);
-    v.required("ecu", ecu, xml::Range{0, 127});
+    v.required("ecu", ecu, xml::Range{0, 126});
     v.required("input", input, xml::Range{0, 3});
     v.required("bits", bits, xml::Range{8, 20});
     v.required("range_rad", range_rad, xml::positive);

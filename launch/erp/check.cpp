@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "hal/can/load.hpp"
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
@@ -36,8 +37,13 @@ class Checker {
  private:
   void check_as(const xml::Element& root, const std::string& file) {
     if (root.name == erp::Robot::element) {
-      sim::effects::equip(erp::read_robot(file));
+      const erp::Robot robot = erp::read_robot(file);
+      sim::effects::equip(robot);
+      erp::refuse_overload(robot);
       praise(file);
+      if (!robot.can_buses.empty())
+        for (const erp::BusLoad& load : erp::bus_loads(robot))
+          out_ << "  bus " << to_string(load) << '\n';
     } else if (root.name == erp::Graph::element) {
       const erp::Graph graph = erp::read_graph(file);
       praise(file);

@@ -35,11 +35,14 @@ bool is_device_type(const std::string& type) {
   return type == "sim" || type == "gateway" || type == "replay";
 }
 
-/// The default bus is shared by the whole machine, so each ERP_DOMAIN gets a port of its own.
+constexpr int ports_a_domain = 16;  // one a bus; chosen
+
+/// The default bus is shared by the whole machine, so each ERP_DOMAIN gets ports of its own.
 std::string bus_of(const erp::Graph& graph) {
   if (graph.bus != erp::Graph{}.bus) return graph.bus;
   const char* domain = std::getenv("ERP_DOMAIN");
-  return "udp:239.255.42.1:" + std::to_string(20000 + (domain ? std::atoi(domain) : 0));
+  return "udp:239.255.42.1:" +
+         std::to_string(20000 + ports_a_domain * (domain ? std::atoi(domain) : 0));
 }
 
 bool needs_robot_behind_bus(const erp::Graph& graph) {

@@ -174,6 +174,8 @@ void set_limits(EcuParameters& p, const erp::MotorType& motor, const erp::Sensor
   set(p, ECU_PARAMETER_CURRENT_LIMIT, motor.current_limit_A);
   set(p, ECU_PARAMETER_CURRENT_TRIP,
       trip_level(motor.current_limit_A, 1.5, 0.95 * sensors.current_range_A));
+  set(p, ECU_PARAMETER_CURRENT_CONTINUOUS, motor.continuous_current_A);
+  set(p, ECU_PARAMETER_OVERLOAD_LIMIT, motor.overload_A2_s);
   set(p, ECU_PARAMETER_TENSION_LIMIT, actuator.max_tension_N);
   set(p, ECU_PARAMETER_TENSION_TRIP,
       trip_level(actuator.max_tension_N, 1.2, 0.98 * sensors.tension_range_N));

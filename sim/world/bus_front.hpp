@@ -2,28 +2,33 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "hal/can/bus.hpp"
+#include "hal/can/robot_buses.hpp"
 #include "hal/can/robot_ecus.hpp"
 #include "sim/world/virtual_ecus.hpp"
 
-/// The simulated robot behind a CAN bus: the virtual ECUs speak frames instead of DDS.
+/// The simulated robot behind its CAN buses: the virtual ECUs speak frames instead of DDS.
 namespace sim {
 
 class BusFront {
  public:
-  /// Throws std::runtime_error when the bus cannot be opened.
-  BusFront(const std::string& bus, const erp::Robot& robot, VirtualEcus& ecus);
+  /// `where` as erp::open_buses takes it, and throws.
+  BusFront(const std::string& where, const erp::Robot& robot, VirtualEcus& ecus);
 
-  int descriptor() const { return bus_->fd(); }
-  /// Takes everything that waits on the bus. True when every ECU has its answer to the last tick.
-  bool hear();
-  void say_boot();
-  void say(const erp::EcuFrame& tick) { bus_->send(ecus_.report(tick)); }
-  void say_again() { bus_->send(ecus_.again()); }
+  std::size_t buses() const { return buses_.size(); }
+  int descriptor(std::size_t bus) const { return buses_[bus]->fd(); }
+  /// Takes everything that waits on a bus. True when every ECU has its answer to the last tick.
+  bool hear(std::size_t bus);
+  void say_boot() { send(ecus_.boot(FRAME_RESET_POWER)); }
+  void say(const erp::EcuFrame& tick) { send(ecus_.report(tick)); }
+  void say_again() { send(ecus_.again()); }
 
  private:
-  std::unique_ptr<erp::CanBus> bus_;
+  void send(std::span<const erp::CanFrame> frames);
+
+  erp::BusRoutes routes_;
+  std::vector<std::unique_ptr<erp::CanBus>> buses_;
   erp::RobotEcus ecus_;
 };
 

@@ -48,13 +48,20 @@ std::uint64_t ticks_in(double duration_s) {
 SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node)
     : node_(node),
       world_(robot, world_options(params)),
+      mishaps_(params.mishaps, robot),
       ecus_(robot, ecu_options(params)),
       imus_(world_, static_cast<std::uint64_t>(params.seed), tick_s),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
       clock_out_(node.advertise<erp::Clock>()),
       end_ticks_(ticks_in(node.options().duration_s)) {
-  if (params.bus.empty()) join_bus_as_device();
+  if (mishaps_.needs_separate_ecus() && params.converter_port == 0)
+    throw std::invalid_argument(
+        "hang, busy and bus_off befall ECUs that are programs of their own: give converter_port, "
+        "and start `ecu`");
+  if (!mishaps_.empty()) ecus_.suffer(&mishaps_);
+  if (params.converter_port > 0) serve_outside(params, robot);
+  else if (params.bus.empty()) join_bus_as_device();
   else stand_behind(params.bus, robot);
   if (!robot.imus.empty()) imus_out_ = &node.advertise<erp::ImuFrame>();
   erp::assign(imu_frame_.robot, robot.name);
@@ -84,10 +91,33 @@ void SimNode::join_bus_as_device() {
 
 void SimNode::stand_behind(const std::string& bus, const erp::Robot& robot) {
   bus_ = std::make_unique<BusFront>(bus, robot, ecus_);
-  node_.watch(bus_->descriptor(), [this] {
-    const bool answered = bus_->hear();
-    if (answered && node_.clock().lockstep()) tick();
-  });
+  for (std::size_t k = 0; k < bus_->buses(); ++k)
+    node_.watch(bus_->descriptor(k), [this, k] {
+      const bool answered = bus_->hear(k);
+      if (answered && node_.clock().lockstep()) tick();
+    });
+}
+
+void SimNode::serve_outside(const Params& params, const erp::Robot& robot) {
+  if (node_.clock().lockstep())
+    throw std::invalid_argument(
+        "converter_port: ECUs that run elsewhere keep their own time; leave "
+        "lockstep out");
+  outside_ = std::make_unique<OutsideEcus>(robot, params.converter_port, substeps_of(params),
+                                           static_cast<std::uint64_t>(params.seed));
+  if (!mishaps_.empty()) outside_->suffer(&mishaps_);
+  node_.watch(outside_->descriptor(), [this] { outside_->hear(); });
+}
+
+/// Who has come and who has gone, of the ECUs outside.
+void SimNode::say_outside() {
+  const int alive = outside_->alive();
+  if (alive == alive_said_) return;
+  node_.report(alive > alive_said_ ? erp::Severity::info : erp::Severity::warning, "ecus",
+               "outside",
+               std::to_string(alive) + " of " + std::to_string(world_.robot().ecus().size()) +
+                   " ECUs are connected");
+  alive_said_ = alive;
 }
 
 void SimNode::on_command(const erp::EcuCommand& command) {
@@ -101,7 +131,8 @@ void SimNode::on_command(const erp::EcuCommand& command) {
 
 void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
-  ecus_.tick(world_);
+  if (outside_) outside_->tick(world_), say_outside();
+  else ecus_.tick(world_);
   watch_world();
   ++ticks_;
   if (at_end()) node_.finish();
@@ -110,10 +141,9 @@ void SimNode::tick() {
 
 void SimNode::measure_and_say() {
   node_.clock().advance(static_cast<std::int64_t>(ticks_) * tick_ns);
-  ecus_.fill(frame_);
   frame_.sequence = ticks_;
   frame_.stamp_ns = node_.clock().now_ns();
-  say_frame();  // first: the control loop waits for it
+  if (!outside_) ecus_.fill(frame_), say_frame();  // first: the control loop waits for it
   publish_truth();
   publish_imus();
   if (ticks_ % clock_period == 0) publish_clock(false);

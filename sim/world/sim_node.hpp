@@ -9,6 +9,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/world/bus_front.hpp"
 #include "sim/world/imus.hpp"
+#include "sim/world/outside_ecus.hpp"
 #include "sim/world/virtual_ecus.hpp"
 #include "sim/world/world.hpp"
 
@@ -20,7 +21,9 @@
 ///              further behind is left out and counted as overruns
 ///   lockstep   a tick follows the command that answers the last frame, as fast as that comes
 ///
-/// With `bus` set it is the robot behind a CAN bus instead, and a gateway is the device.
+/// With `bus` set it is the robot behind its CAN buses instead, and a gateway is the device. With
+/// `converter_port` set its ECUs are other programs, on those buses (outside_ecus.hpp); in real
+/// time only, for nobody can hold their clocks.
 namespace sim {
 
 class SimNode {
@@ -34,13 +37,17 @@ class SimNode {
   struct Params {
     double physics_Hz = 1000;  ///< a multiple of the ECUs' 500 Hz, or std::invalid_argument
     int seed = 1;              ///< of the sensors' noise
-    std::string bus;           ///< "": ECUs speak DDS; otherwise CAN frames on this bus
-    std::vector<Lock> locks;   ///< joints held still
+    std::string bus;  ///< "": ECUs speak DDS; otherwise CAN frames, on erp::open_buses of this
+    int converter_port = 0;   ///< 0: the ECUs are in here; else others, to which this is the robot
+    std::vector<Lock> locks;  ///< joints held still
+    std::vector<Mishap> mishaps;  ///< what breaks, and when
     void visit(auto& v) {
       v("physics_Hz", physics_Hz, xml::Range{500, 20000});
       v("seed", seed, xml::Range{0, 1e9});
       v("bus", bus);
+      v("converter_port", converter_port, xml::Range{0, 65535});
       v.list(locks);
+      v.list(mishaps);
     }
   };
 
@@ -49,6 +56,8 @@ class SimNode {
  private:
   void join_bus_as_device();
   void stand_behind(const std::string& bus, const erp::Robot& robot);
+  void serve_outside(const Params& params, const erp::Robot& robot);
+  void say_outside();
   void tick();
   bool at_end() const { return end_ticks_ && ticks_ >= end_ticks_; }
   void measure_and_say();
@@ -63,7 +72,10 @@ class SimNode {
 
   node::Node& node_;
   World world_;
+  Mishaps mishaps_;
   VirtualEcus ecus_;
+  std::unique_ptr<OutsideEcus> outside_;                ///< null: the ECUs are in here
+  int alive_said_ = 0;                                  ///< ECUs outside
   std::set<std::pair<std::size_t, std::string>> said_;  ///< of which actuator, what
   Imus imus_;
   std::unique_ptr<BusFront> bus_;  ///< null: the ECUs speak DDS

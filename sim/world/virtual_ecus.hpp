@@ -1,14 +1,11 @@
 #pragma once
-#include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "firmware/core/ecu.h"
 #include "interfaces/topics.hpp"
-#include "sim/actuator/sampling.hpp"
-#include "sim/actuator/sensors.hpp"
 #include "sim/world/bus_effects.hpp"
+#include "sim/world/converters.hpp"
 #include "sim/world/world.hpp"
 
 /// The ECUs of a simulated robot: firmware/core on one channel an actuator, between the world's
@@ -37,6 +34,9 @@ class VirtualEcus {
   VirtualEcus(const VirtualEcus&) = delete;
   VirtualEcus& operator=(const VirtualEcus&) = delete;
 
+  /// What breaks from now on; lent, or null.
+  void suffer(const Mishaps* mishaps) { converters_.suffer(mishaps); }
+
   /// What a bus delivers. Channels the robot does not have are ignored.
   void accept(const erp::EcuCommand& command);
   void accept(const erp::EcuParameter& parameters);
@@ -52,38 +52,20 @@ class VirtualEcus {
   std::span<ecu_channel* const> channels() { return channel_pointers_; }
 
  private:
-  struct Channel {
-    int ecu, number;
-    double supply_V;
-    ActuatorSensors sensors;
-    Sampled<ActuatorCounts> readings;
-    ActuatorCounts counts;
-    ecu_channel firmware;
-    std::optional<std::size_t> wiper = {};  ///< which analog input is its potentiometer
-  };
-  /// An analog input: a joint's angle or an actuator's potentiometer.
-  struct Analog {
-    int ecu, input;
-    std::size_t source;  ///< which joint, or which actuator
-    std::variant<JointAngleSensor, PotentiometerSensor> sensor;
-    Sampled<std::int32_t> readings;
-    std::int32_t counts;
-  };
-  using Effects = std::span<const effects::Placed>;
-  void add_channels(const erp::Robot& robot, Effects acting, std::uint64_t& seed);
-  void add_analogs(const erp::Robot& robot, Effects acting, std::uint64_t& seed);
+  void keep_measured(double time_s);
   void obey(const erp::EcuCommand& command);
   void report(erp::EcuFrame& frame) const;
-  void look(const World& world, bool all);
-  Channel* find(int ecu, int channel);
+  ecu_channel* find(int ecu, int channel);
 
-  VirtualEcuOptions options_;
-  std::vector<Channel> channels_;
-  std::vector<Analog> analogs_;
+  Converters converters_;
+  std::vector<ecu_channel> firmware_;  ///< one a channel of the converters
   std::vector<ecu_channel*> channel_pointers_;
   std::vector<double> voltage_V_;
   BusEffects bus_;
   bool measured_ = false;
+
+  struct Making;
+  explicit VirtualEcus(Making&& making);
 };
 
 }  // namespace sim

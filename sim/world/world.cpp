@@ -218,9 +218,11 @@ void World::pass_time(double dt_s) {
 }
 
 WorldState World::save() const {
-  WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}, {}};
+  WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}, {},
+                   {}};
   for (const Chain& chain : chains_) {
     state.motors.push_back(chain.state);
+    state.snapped.push_back(chain.snapped);
     state.around_rad.push_back(chain.shape.around_rad);
     if (chain.rope) state.ropes.push_back(chain.rope->state());
     chain.effects.save(state.effects);
@@ -235,7 +237,8 @@ WorldState World::save() const {
 
 void World::restore(const WorldState& state) {
   if (state.joints.size() != tree_.joints.size() || state.motors.size() != chains_.size() ||
-      state.tension_N.size() != chains_.size() || state.around_rad.size() != chains_.size() ||
+      state.tension_N.size() != chains_.size() || state.snapped.size() != chains_.size() ||
+      state.around_rad.size() != chains_.size() ||
       std::ssize(state.ropes) != std::ranges::count_if(chains_, &Chain::has_rope) ||
       state.effects.size() != save().effects.size())
     throw std::invalid_argument("this state is of another robot");
@@ -244,6 +247,7 @@ void World::restore(const WorldState& state) {
   std::span<const effects::Memory> memories = state.effects;
   for (std::size_t k = 0; k < chains_.size(); ++k) {
     chains_[k].state = state.motors[k];
+    chains_[k].snapped = state.snapped[k];
     chains_[k].shape.around_rad = state.around_rad[k];
     if (chains_[k].rope) chains_[k].rope->restore(*rope++);
     readings_[k].tension_N = state.tension_N[k];

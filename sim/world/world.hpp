@@ -65,6 +65,7 @@ struct WorldState {
   std::vector<std::array<double, max_path_elements>> around_rad;  ///< how far round its pulleys
   std::vector<RopeState> ropes;                                   ///< of the tendons that are ropes
   std::vector<effects::Memory> effects;                           ///< what they remember
+  std::vector<bool> snapped;                                      ///< tendons that pull no more
 };
 
 class World {
@@ -83,6 +84,8 @@ class World {
   /// A world of the same robot and options goes on from there bit by bit as the one that was saved.
   WorldState save() const;
   void restore(const WorldState& state);
+  /// Breaks a tendon: it pulls no more, until `reset`. Not for ropes.
+  void snap(std::size_t actuator) { chains_[actuator].snapped = true; }
   /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are. Ropes are laid
   /// anew.
   void set_joint(int joint, const JointReading& reading);
@@ -123,6 +126,7 @@ class World {
     effects::Sloped wound;  ///< line on the spindle, m and m/rad
     double start_m = 0;     ///< length of the path
     double cold_ohm = 0;    ///< the winding's resistance at the start
+    bool snapped = false;
     bool has_rope() const { return rope != nullptr; }
   };
   struct JointEffects {

@@ -24,6 +24,8 @@ effects::ChainSample World::sample(std::size_t k, double dt_s) const {
 
 World::Line World::line_of(std::size_t k, double dt_s) {
   Chain& chain = chains_[k];
+  constexpr double slack_m = -1;
+  if (chain.snapped) return {slack_m, 1, {}};
   if (chain.effects.empty())
     return {chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad), 1, {}};
   effects::ChainSample s = sample(k, dt_s);

@@ -19,7 +19,10 @@ struct Rule {
 // The longest matching room decides.
 const std::vector<Rule> rules{
     {"interfaces/", {}},
-    {"firmware/", {}},
+    {"firmware/core/", {}},
+    // What runs a firmware on this machine: a program of the host, on the host's buses.
+    {"firmware/board/host/", {"interfaces/", "hal/can/", "firmware/"}},
+    {"firmware/board/", {"firmware/core/"}},
     {"components/node/", {"interfaces/"}},
     {"components/follow/", {"interfaces/", "components/node/", "firmware/core/", "sim/actuator/"}},
     {"components/length_control/",
@@ -40,7 +43,7 @@ const std::vector<Rule> rules{
     {"sim/effects/", {"interfaces/"}},
     {"sim/skeleton/", {"interfaces/"}},
     {"sim/formats/", {"interfaces/", "sim/skeleton/", "sim/actuator/"}},
-    {"sim/world/", {"interfaces/", "components/node/", "firmware/core/", "sim/", "hal/can/"}},
+    {"sim/world/", {"interfaces/", "components/node/", "firmware/", "sim/", "hal/can/"}},
     {"sim/rehearsal/", {"interfaces/", "sim/"}},
     {"hal/", {"interfaces/", "components/node/", "firmware/core/"}},
     {"launch/text/", {}},
@@ -48,7 +51,7 @@ const std::vector<Rule> rules{
      {"interfaces/", "launch/text/", "sim/formats/", "sim/blind/", "sim/diagnosis/",
       "sim/rehearsal/", "sim/residuals/", "sim/effects/"}},
     {"launch/erp/",
-     {"interfaces/", "components/node/", "launch/text/", "launch/gap/", "sim/formats/",
+     {"interfaces/", "components/node/", "launch/text/", "launch/gap/", "hal/can/", "sim/formats/",
       "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
 };
 

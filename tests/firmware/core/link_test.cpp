@@ -178,7 +178,7 @@ TEST_CASE("every channel's health is said whole once in 200 ms") {
         ++pages[frame_function_of(&frame) == FRAME_HEALTH_1][health.page];
     }
   for (auto& channel : pages) CHECK((channel[0] == 1 && channel[1] == 1));
-  CHECK(ecu.say(true).size() == 8);
+  CHECK(ecu.say(true).size() == 9);
 }
 
 TEST_CASE("a fault is said once in an emergency frame, and again when it is a new one") {
@@ -226,4 +226,60 @@ TEST_CASE("an ECU with one channel takes a frame for two") {
   frame_pack_command(&frame, 12, &said);
   CHECK(ecu_link_hear(&link, &frame));
   CHECK(only.setpoint == 2);
+}
+
+TEST_CASE("an ECU that is asked says what it is, and every HEALTH page, once") {
+  Ecu ecu;
+  ecu.link.serial = 0x123456;
+  for (const std::uint8_t to : {std::uint8_t{12}, std::uint8_t{FRAME_EVERYONE}}) {
+    bus_frame discover;
+    frame_pack_discover(&discover, to);
+    CHECK(ecu.hear(discover));
+    const auto said = ecu.say();
+    REQUIRE(count(said, FRAME_HELLO) == 1);
+    CHECK(count(said, FRAME_HEALTH_0) + count(said, FRAME_HEALTH_1) == 4);
+    frame_hello hello;
+    REQUIRE(frame_unpack_hello(&said[0], &hello));
+    CHECK(hello.version == FRAME_VERSION);
+    CHECK(hello.channels == 3);
+    CHECK(hello.analog_inputs == 0b0101);
+    CHECK(hello.serial == 0x123456);
+    CHECK(count(ecu.say(), FRAME_HELLO) == 0);
+  }
+}
+
+TEST_CASE("a question to another ECU, or a corrupt one, is not answered") {
+  Ecu ecu;
+  bus_frame discover;
+  frame_pack_discover(&discover, 13);
+  CHECK_FALSE(ecu.hear(discover));
+  frame_pack_discover(&discover, 12);
+  discover.data[0] ^= 1;
+  CHECK_FALSE(ecu.hear(discover));
+  bus_frame command = Ecu::packed(1, 2000);
+  command.id = frame_identifier(FRAME_COMMAND, FRAME_EVERYONE);
+  CHECK_FALSE(ecu.hear(command));
+  CHECK(count(ecu.say(), FRAME_HELLO) == 0);
+}
+
+TEST_CASE("HELLO says why the ECU was reset, as its boot did") {
+  Ecu ecu;
+  bus_frame boot;
+  ecu_link_say_boot(&ecu.link, FRAME_RESET_BROWN_OUT, &boot);
+  const auto said = ecu.say(true);
+  frame_hello hello;
+  REQUIRE(frame_unpack_hello(&said[0], &hello));
+  CHECK(hello.reset_cause == FRAME_RESET_BROWN_OUT);
+}
+
+TEST_CASE("off the bus both channels trip, in the same tick") {
+  Ecu ecu;
+  ecu_link_bus(&ecu.link, false);
+  CHECK(ecu.channel[0].state == ECU_STATE_RUNNING);
+  ecu_link_bus(&ecu.link, true);
+  for (const ecu_channel& channel : ecu.channel) {
+    CHECK(channel.state == ECU_STATE_FAULT);
+    CHECK(channel.fault == ECU_FAULT_BUS_OFF);
+    CHECK(channel.duty == 0);
+  }
 }

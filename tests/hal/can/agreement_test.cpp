@@ -122,7 +122,7 @@ TEST_CASE("neither end touches the heap once it is built") {
     for (const auto& frame : pair.ecus.report(pair.robotics.frame)) pair.gateway.hear(frame);
     for (const auto& frame : pair.gateway.parameters(gains)) pair.ecus.hear(frame);
     for (const auto& frame : pair.gateway.commands(command)) pair.ecus.hear(frame);
-    pair.gateway.clear_emergencies();
+    pair.gateway.clear_news();
   }
   CHECK(allocations() == before);
 }

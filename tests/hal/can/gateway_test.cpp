@@ -25,9 +25,46 @@ TEST_CASE("a gateway that comes late is told the whole encoder count") {
   CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
 }
 
+TEST_CASE("a gateway that asks is told everything in the next tick") {
+  Pair pair;
+  for (int tick = 0; tick < 777; ++tick) pair.report();
+  pair.send(pair.gateway.discover());
+  CHECK(pair.hear(pair.report()) == 1);
+  CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
+  REQUIRE(pair.gateway.hellos().size() == 3);
+  CHECK(pair.gateway.hellos()[0].named);
+  CHECK(pair.gateway.hellos()[0].said.channels == 3);
+  CHECK(pair.gateway.hellos()[2].said.channels == 1);
+  CHECK(pair.gateway.understands(3));
+  CHECK_FALSE(pair.gateway.understands(9));
+}
+
+TEST_CASE("an ECU that has not said what it is is not listened to") {
+  Pair pair;
+  pair.report();
+  for (int tick = 0; tick < 200; ++tick) CHECK(pair.hear(pair.report()) == 0);
+  CHECK_FALSE(pair.gateway.understands(3));
+}
+
+TEST_CASE("an ECU that robot.xml does not name is told of, and changes nothing") {
+  Pair pair(5);
+  Pair larger(7);
+  const auto frames = larger.report();
+  CHECK(pair.hear(frames) == 1);
+  const auto& hellos = pair.gateway.hellos();
+  CHECK(std::count_if(hellos.begin(), hellos.end(), [](const auto& h) { return !h.named; }) == 1);
+  CHECK_FALSE(pair.gateway.understands(6));
+}
+
 TEST_CASE("without lockstep a late gateway knows every encoder within 200 ms, and guesses none") {
   Pair pair;
   for (int tick = 0; tick < 777; ++tick) pair.report();
+  const frame_hello known{FRAME_VERSION, 3, 0, 0, 0};
+  for (const std::uint8_t ecu : {3, 4, 5}) {  // of an earlier life of its: no HEALTH comes with it
+    erp::CanFrame hello;
+    frame_pack_hello(&hello, ecu, &known);
+    pair.gateway.hear(hello);
+  }
   for (int tick = 0; tick < 100; ++tick) {
     pair.hear(pair.report());
     for (int i = 0; i < 5; ++i) {  // a tick closed early may be the one before
@@ -138,12 +175,18 @@ TEST_CASE("after a boot an encoder is unknown until it is said whole") {
 }
 
 TEST_CASE("an ECU that speaks another version of the layout is not listened to") {
-  Pair pair(1);
-  const frame_emergency said{true, 0, 0, FRAME_RESET_POWER, FRAME_VERSION + 1, 0};
-  erp::CanFrame boot;
-  frame_pack_emergency(&boot, 3, &said);
-  pair.gateway.hear(boot);
-  CHECK(pair.hear(pair.report()) == 0);
+  const frame_emergency emergency{true, 0, 0, FRAME_RESET_POWER, FRAME_VERSION + 1, 0};
+  const frame_hello hello{FRAME_VERSION + 1, 1, 0, 0, 0};
+  erp::CanFrame boot, answer;
+  frame_pack_emergency(&boot, 3, &emergency);
+  frame_pack_hello(&answer, 3, &hello);
+  for (const auto& said : {boot, answer}) {
+    Pair pair(1);
+    CHECK(pair.hear(pair.report()) == 1);
+    pair.gateway.hear(said);
+    CHECK_FALSE(pair.gateway.understands(3));
+    CHECK(pair.hear(pair.report()) == 0);
+  }
 }
 
 TEST_CASE("commands and parameters for channels that are not there are counted, not sent") {

@@ -22,6 +22,7 @@ TEST_CASE("more actuators than the bus carries are refused") {
   erp::Robot robot = rig();
   const erp::Actuator flexor = robot.actuators[0];
   robot.actuators.clear();
+  robot.can_buses.clear();
   for (int i = 0; i < 64; ++i) {
     robot.actuators.push_back(flexor);
     robot.actuators.back().name = "a" + std::to_string(i);

@@ -1,0 +1,24 @@
+#pragma once
+#include <netinet/in.h>
+
+#include <string>
+
+#include "firmware/board/board.h"
+#include "hal/can/bus.hpp"
+
+/// The firmware's main loop as a process of this machine: a real bus, a timer for a clock, and
+/// converters at the other end of a datagram (firmware/board/wire.h).
+namespace board {
+
+struct Place {
+  std::string bus;  ///< as erp::open_bus
+  erp::BusOptions bus_options;
+  sockaddr_in converters{};  ///< where the simulated robot listens
+};
+
+/// Runs until the process is ended; never returns but by an exception (no bus). Each period it
+/// writes a byte to `kick`: who reads it is the watchdog.
+[[noreturn]] void run(const board_fitted& fitted, const Place& place, frame_reset_cause cause,
+                      int kick);
+
+}  // namespace board

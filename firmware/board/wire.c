@@ -1,0 +1,124 @@
+#include "firmware/board/wire.h"
+
+#define SYNC 0xA5u
+#define READINGS_BYTES (1u + 2u * 12u + 4u * ECU_ANALOG_INPUTS)
+#define DRIVE_BYTES 5u
+#define MISHAP_BYTES 4u
+
+/* ---- packing ---- */
+
+typedef struct {
+  uint8_t* bytes;
+  unsigned at;
+} cursor;
+
+static void put(cursor* c, unsigned count, uint32_t value) {
+  for (unsigned i = 0; i < count; ++i) c->bytes[c->at++] = (uint8_t)(value >> (8u * i));
+}
+
+static cursor begin(uint8_t* bytes, wire_kind kind, unsigned size, uint8_t ecu) {
+  cursor c = {bytes, 0};
+  put(&c, 1, SYNC);
+  put(&c, 1, (uint32_t)kind);
+  put(&c, 1, size);
+  put(&c, 1, ecu);
+  return c;
+}
+
+static unsigned end(cursor* c) {
+  put(c, 1, frame_crc8(c->bytes + 1, c->at - 1u));
+  return c->at;
+}
+
+unsigned wire_pack_readings(uint8_t* bytes, uint8_t ecu, const board_readings* readings) {
+  cursor c = begin(bytes, WIRE_READINGS, READINGS_BYTES, ecu);
+  for (unsigned k = 0; k < 2; ++k) {
+    const ecu_inputs* in = &readings->channel[k];
+    put(&c, 4, (uint32_t)in->encoder_counts);
+    put(&c, 2, (uint16_t)in->current_counts);
+    put(&c, 2, in->tension_counts);
+    put(&c, 2, in->temperature_counts);
+    put(&c, 2, in->supply_counts);
+  }
+  for (unsigned k = 0; k < ECU_ANALOG_INPUTS; ++k) put(&c, 4, (uint32_t)readings->analog[k]);
+  return end(&c);
+}
+
+unsigned wire_pack_drive(uint8_t* bytes, uint8_t ecu, const int16_t* duty) {
+  cursor c = begin(bytes, WIRE_DRIVE, DRIVE_BYTES, ecu);
+  for (unsigned k = 0; k < 2; ++k) put(&c, 2, (uint16_t)duty[k]);
+  return end(&c);
+}
+
+unsigned wire_pack_mishap(uint8_t* bytes, uint8_t ecu, const wire_mishap* mishap) {
+  cursor c = begin(bytes, WIRE_MISHAP, MISHAP_BYTES, ecu);
+  put(&c, 1, mishap->kind);
+  put(&c, 2, mishap->periods);
+  return end(&c);
+}
+
+/* ---- reading ---- */
+
+static unsigned size_of(uint8_t kind) {
+  switch (kind) {
+    case WIRE_READINGS:
+      return READINGS_BYTES;
+    case WIRE_DRIVE:
+      return DRIVE_BYTES;
+    case WIRE_MISHAP:
+      return MISHAP_BYTES;
+    default:
+      return 0;
+  }
+}
+
+static wire_kind forget(wire_reader* reader) {
+  ++reader->unreadable;
+  reader->have = 0;
+  return (wire_kind)0;
+}
+
+wire_kind wire_take(wire_reader* reader, uint8_t byte) {
+  if (reader->have == 0 && byte != SYNC) return (wire_kind)0;
+  reader->bytes[reader->have++] = byte;
+  if (reader->have < 3) return (wire_kind)0;
+  const unsigned size = size_of(reader->bytes[1]);
+  if (size == 0 || reader->bytes[2] != size) return forget(reader);
+  if (reader->have < size + 4u) return (wire_kind)0;
+  if (frame_crc8(reader->bytes + 1, size + 2u) != byte) return forget(reader);
+  reader->have = 0;
+  return (wire_kind)reader->bytes[1];
+}
+
+static uint32_t get(const uint8_t** at, unsigned count) {
+  uint32_t value = 0;
+  for (unsigned i = 0; i < count; ++i) value |= (uint32_t) * (*at)++ << (8u * i);
+  return value;
+}
+
+uint8_t wire_ecu(const wire_reader* reader) { return reader->bytes[3]; }
+
+void wire_unpack_readings(const wire_reader* reader, board_readings* readings) {
+  const uint8_t* at = reader->bytes + 4;
+  *readings = (board_readings){0};
+  for (unsigned k = 0; k < 2; ++k) {
+    ecu_inputs* in = &readings->channel[k];
+    in->encoder_counts = (int32_t)get(&at, 4);
+    in->current_counts = (int16_t)get(&at, 2);
+    in->tension_counts = (uint16_t)get(&at, 2);
+    in->temperature_counts = (uint16_t)get(&at, 2);
+    in->supply_counts = (uint16_t)get(&at, 2);
+  }
+  for (unsigned k = 0; k < ECU_ANALOG_INPUTS; ++k) readings->analog[k] = (int32_t)get(&at, 4);
+}
+
+void wire_unpack_drive(const wire_reader* reader, int16_t* duty) {
+  const uint8_t* at = reader->bytes + 4;
+  for (unsigned k = 0; k < 2; ++k) duty[k] = (int16_t)get(&at, 2);
+}
+
+void wire_unpack_mishap(const wire_reader* reader, wire_mishap* mishap) {
+  const uint8_t* at = reader->bytes + 4;
+  mishap->kind = (uint8_t)get(&at, 1);
+  mishap->periods = (uint16_t)get(&at, 2);
+}

@@ -1,0 +1,76 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/can/bus.hpp"
+#include "hal/can/bus_recovery.hpp"
+#include "hal/can/outbox.hpp"
+#include "hal/can/trace.hpp"
+#include "interfaces/values.hpp"
+
+namespace erp {
+
+/// Something worth saying about a bus.
+struct BusNotice {
+  Severity severity;
+  std::string code, text;
+};
+
+/// One bus as the gateway keeps it: what waits for it, how it is, and what brings it back.
+///
+///   error-warning, -passive   said
+///   bus-off                   what waits is dropped, nothing is sent; restarted as
+///   bus_recovery.hpp nothing leaves for 20 ms  said (cable open, no ECU powered); what waits is
+///   dropped down                      said; used again when somebody brings it up
+///
+/// No clock: time is an argument.
+class BusKeeper {
+ public:
+  static constexpr std::int64_t stuck_ns = 20'000'000;
+
+  BusKeeper(std::string name, std::unique_ptr<CanBus> bus)
+      : name_(std::move(name)), bus_(std::move(bus)) {}
+
+  const std::string& name() const { return name_; }
+  CanBus& bus() { return *bus_; }
+  const Outbox& outbox() const { return outbox_; }
+  BusCounters counters() const { return bus_->counters(); }
+  int restarts() const { return recovery_.restarts(); }
+  bool given_up() const { return recovery_.given_up(); }
+
+  /// Writes every frame to `file` from now on. Throws as TraceWriter.
+  void record(const std::string& file);
+  /// Sends frames, now or as soon as there is room.
+  void post(std::span<const CanFrame> frames, std::int64_t now_ns);
+  /// Sends what waits; call when the bus was readable.
+  void flush(std::int64_t now_ns) { post({}, now_ns); }
+  /// Looks after the bus; call every millisecond or so. Valid until the next call.
+  std::span<const BusNotice> mind(std::int64_t now_ns);
+
+ private:
+  void notice_state(BusState state);
+  bool is_stuck(const BusCounters& now, std::int64_t now_ns);
+  void notice_stuck(bool stuck);
+  void recover(std::int64_t now_ns);
+  void say(Severity severity, std::string code, std::string text) {
+    notices_.push_back({severity, std::move(code), std::move(text)});
+  }
+
+  std::string name_;
+  std::unique_ptr<CanBus> bus_;
+  std::unique_ptr<TraceWriter> trace_;
+  Outbox outbox_;
+  BusRecovery recovery_;
+  BusState state_ = BusState::active;
+  std::uint64_t left_ = 0;                      ///< frames that have left
+  std::int64_t left_ns_ = 0;                    ///< when the last did, or none was in flight
+  std::optional<std::int64_t> alone_since_ns_;  ///< of a first frame without acknowledgement
+  BusCounters last_;
+  bool stuck_ = false;
+  std::vector<BusNotice> notices_;
+};
+
+}  // namespace erp

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+
+namespace erp {
+
+/// When to restart a bus that is off: at once, then 100 ms after the last attempt, three times in
+/// all; then it stays off, for what fails three times is to be looked at. Ten seconds on the bus
+/// (chosen) earn the attempts back. Pure.
+class BusRecovery {
+ public:
+  enum class Do { nothing, restart, give_up };
+  static constexpr int most_restarts = 3;
+  static constexpr std::int64_t apart_ns = 100'000'000, well_ns = 10'000'000'000;
+
+  /// Call every millisecond or so. `give_up` is said once.
+  Do step(bool off, std::int64_t now_ns) {
+    if (!off) {
+      if (restarts_ > 0 && now_ns - last_ns_ > well_ns) restarts_ = 0;
+      return Do::nothing;
+    }
+    if (given_up_ || (restarts_ > 0 && now_ns - last_ns_ < apart_ns)) return Do::nothing;
+    if (restarts_ == most_restarts) return given_up_ = true, Do::give_up;
+    ++restarts_;
+    last_ns_ = now_ns;
+    return Do::restart;
+  }
+  bool given_up() const { return given_up_; }
+  int restarts() const { return restarts_; }
+
+ private:
+  int restarts_ = 0;
+  std::int64_t last_ns_ = 0;
+  bool given_up_ = false;
+};
+
+}  // namespace erp

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+
+namespace erp::can {
+
+/// Puts a CAN controller's own clock on the system's, by the smallest delay seen:
+///
+///   t = t_hw + min (t_kernel − t_hw)   over the last one to two spans
+///
+/// The kernel stamps a frame when the driver hands it over, never before it was on the wire; the
+/// least late of many frames tells the offset. Spans of 10 s (chosen) keep up with clocks that
+/// drift: 50 ppm are 0.5 ms a span.
+class StampClock {
+ public:
+  /// When a frame was on the wire; without a hardware stamp (0) it is the kernel's.
+  std::int64_t stamp_ns(std::int64_t kernel_ns, std::int64_t hardware_ns) {
+    if (hardware_ns == 0) return kernel_ns;
+    const std::int64_t offset_ns = kernel_ns - hardware_ns;
+    if (began_ns_ == none || kernel_ns - began_ns_ > span_ns)
+      last_min_ns_ = min_ns_, min_ns_ = none, began_ns_ = kernel_ns;
+    if (offset_ns < min_ns_) min_ns_ = offset_ns;
+    return hardware_ns + (last_min_ns_ < min_ns_ ? last_min_ns_ : min_ns_);
+  }
+
+  static constexpr std::int64_t span_ns = 10'000'000'000;
+
+ private:
+  static constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  std::int64_t began_ns_ = none, min_ns_ = none, last_min_ns_ = none;
+};
+
+}  // namespace erp::can

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <map>
+
+#include "interfaces/robot/check.hpp"
+#include "interfaces/xml/values.hpp"
+
+namespace erp::robot_check {
+namespace {
+
+constexpr std::size_t longest_bus_name = 16;
+
+std::string ecu_words(int ecu) { return "ECU " + std::to_string(ecu); }
+
+/// Every ECU of a plan is in use, and hangs on one bus.
+void check_members(const BusPlan& bus, const std::vector<int>& used,
+                   std::map<int, const BusPlan*>& place_of, Findings& findings) {
+  for (const int ecu : bus.ecus) {
+    const auto [first, is_free] = place_of.emplace(ecu, &bus);
+    if (!is_free)
+      findings.add(bus,
+                   ecu_words(ecu) + " is on bus " + xml::quote(first->second->name) + " already",
+                   "keep it on one; the first stands at " + place_words(first->second->place));
+    if (std::ranges::find(used, ecu) == used.end())
+      findings.add(bus, ecu_words(ecu) + " drives no actuator and reads no sensor",
+                   "take it off the bus; in use are " + xml::Codec<std::vector<int>>::write(used));
+  }
+}
+
+void check_bus(const BusPlan& bus, Findings& findings) {
+  if (bus.name.size() > longest_bus_name)
+    findings.add(
+        bus,
+        "name=" + xml::quote(bus.name) + " has " + std::to_string(bus.name.size()) + " characters",
+        "its figures are named after it: give at most " + std::to_string(longest_bus_name));
+  if (bus.data_bitrate_per_s && *bus.data_bitrate_per_s < bus.bitrate_per_s)
+    findings.add(bus,
+                 "data_bitrate_per_s=\"" + xml::write_number(*bus.data_bitrate_per_s) +
+                     "\" is below bitrate_per_s=\"" + xml::write_number(bus.bitrate_per_s) + "\"",
+                 "CAN FD sends data at least as fast as identifiers; leave it out for classic CAN");
+}
+
+}  // namespace
+
+void check_buses(const Robot& robot, Findings& findings) {
+  const std::vector<int> used = robot.ecus();
+  std::map<int, const BusPlan*> place_of;
+  for (const BusPlan& bus : robot.can_buses) {
+    check_members(bus, used, place_of, findings);
+    check_bus(bus, findings);
+  }
+  if (robot.can_buses.empty()) return;
+  for (const int ecu : used)
+    if (!place_of.contains(ecu))
+      findings.add(robot, ecu_words(ecu) + " hangs on no CAN bus",
+                   "name it in the ecus of a <can_bus>");
+}
+
+}  // namespace erp::robot_check

@@ -1,0 +1,202 @@
+#include "firmware/board/board.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "firmware/board/wire.h"
+#include "tests/firmware/core/channel.hpp"
+
+using namespace firmware;
+
+namespace {
+
+constexpr board_fitted both{5, 0b11, 0b0001, 42};
+
+/// A board and the host's words to it.
+struct Board {
+  ecu_board board;
+  board_period period{};
+  std::array<std::int16_t, 2> duty{};
+  std::uint8_t count = 0;
+
+  explicit Board(const board_fitted& fitted = both, frame_reset_cause cause = FRAME_RESET_POWER) {
+    ecu_board_init(&board, &fitted, cause, &boot);
+    period.readings.channel[0].tension_counts = period.readings.channel[1].tension_counts = 500;
+  }
+  bus_frame boot;
+
+  std::vector<bus_frame> pass() {
+    std::vector<bus_frame> frames(ECU_LINK_FRAMES_MAX);
+    frames.resize(ecu_board_period(&board, &period, duty.data(), frames.data()));
+    return frames;
+  }
+  void gains() {
+    const auto gains = rig_gains();
+    for (std::uint8_t k = 0; k < 2; ++k)
+      for (std::uint8_t i = 0; i < ECU_PARAMETER_COUNT; ++i) {
+        const frame_parameter said{k, i, i + 1 == ECU_PARAMETER_COUNT, i, gains[i]};
+        bus_frame frame;
+        frame_pack_parameter(&frame, 5, &said);
+        ecu_board_hear(&board, &frame);
+      }
+  }
+  void command(std::uint8_t request, std::int32_t setpoint) {
+    const frame_command said{{{request, setpoint}, {request, setpoint}}, 0, count++};
+    bus_frame frame;
+    frame_pack_command(&frame, 5, &said);
+    ecu_board_hear(&board, &frame);
+  }
+  void run() {
+    gains();
+    command(ECU_REQUEST_ARM, 0);
+    pass();
+    command(ECU_REQUEST_VOLTAGE, 1500);
+    pass();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a board boots disarmed and says why it was reset") {
+  Board board(both, FRAME_RESET_WATCHDOG);
+  frame_emergency said;
+  REQUIRE(frame_unpack_emergency(&board.boot, &said));
+  CHECK(said.boot);
+  CHECK(said.reset_cause == FRAME_RESET_WATCHDOG);
+  CHECK(board.board.channel[0].state == ECU_STATE_BOOT);
+  board.command(ECU_REQUEST_VOLTAGE, 3000);
+  board.pass();
+  CHECK(board.duty == std::array<std::int16_t, 2>{0, 0});
+}
+
+TEST_CASE("a board drives both channels, and says each period what it did") {
+  Board board;
+  board.run();
+  const auto frames = board.pass();
+  CHECK(board.duty[0] == Approx(1023 * 1.5 / 12).margin(1));
+  CHECK(board.duty[1] == board.duty[0]);
+  frame_status said;
+  REQUIRE(frame_unpack_status(&frames.back(), &said));
+  CHECK(said.duty == board.duty[1]);
+}
+
+TEST_CASE("a channel that is not fitted is never driven or spoken of") {
+  Board board({5, 0b10, 0, 0});
+  board.run();
+  CHECK(board.duty[0] == 0);
+  CHECK(board.duty[1] != 0);
+  for (const bus_frame& frame : board.pass()) CHECK(frame_function_of(&frame) != FRAME_STATUS_0);
+}
+
+TEST_CASE("three periods overrun in a row trip both channels, two do not") {
+  Board board;
+  board.run();
+  for (int k = 0; k < 2; ++k) board.period.overran = true, board.pass();
+  board.period.overran = false, board.pass();
+  CHECK(board.board.channel[0].state == ECU_STATE_RUNNING);
+  for (int k = 0; k < 3; ++k) board.period.overran = true, board.pass();
+  CHECK(board.board.channel[0].fault == ECU_FAULT_OVERRUN);
+  CHECK(board.duty == std::array<std::int16_t, 2>{0, 0});
+  CHECK(board.board.channel[0].overruns == 5);
+}
+
+TEST_CASE("off the bus a board is silent in force in the same period, and rejoins disarmed") {
+  Board board;
+  board.run();
+  board.period.bus_off = true;
+  board.pass();
+  CHECK(board.duty == std::array<std::int16_t, 2>{0, 0});
+  CHECK(board.board.channel[1].fault == ECU_FAULT_BUS_OFF);
+  board.period.bus_off = false;
+  board.command(ECU_REQUEST_VOLTAGE, 3000);
+  board.pass();
+  CHECK(board.duty == std::array<std::int16_t, 2>{0, 0});
+}
+
+TEST_CASE("the potentiometer is read on the input that the gains name") {
+  Board board;
+  board.run();
+  board.period.readings.analog[2] = 777;
+  board.board.channel[1].gains[ECU_PARAMETER_WIPER_INPUT] = 2;
+  board.pass();
+  CHECK(board.board.channel[1].sensed.inputs.potentiometer_counts == 777);
+  CHECK(board.board.channel[0].sensed.inputs.potentiometer_counts == 0);
+  board.board.channel[1].gains[ECU_PARAMETER_WIPER_INPUT] = -1;
+  board.pass();
+  CHECK(board.board.channel[1].sensed.inputs.potentiometer_counts == 0);
+}
+
+// ---- the wire to converters elsewhere ----
+
+namespace {
+
+wire_kind feed(wire_reader& reader, const std::uint8_t* bytes, unsigned size) {
+  wire_kind kind{};
+  for (unsigned i = 0; i < size; ++i) kind = wire_take(&reader, bytes[i]);
+  return kind;
+}
+
+board_readings some_readings() {
+  board_readings r{};
+  r.channel[0] = {-123456, -2048, 4095, 0, 1, 65535};
+  r.channel[1] = {INT32_MIN, 2047, 0, 0, 300, 2};
+  r.analog[0] = -8388608, r.analog[3] = 77;
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("readings, duties and mishaps come over the wire as they were") {
+  wire_reader reader{};
+  std::uint8_t bytes[WIRE_MESSAGE_MAX];
+  const board_readings sent = some_readings();
+  REQUIRE(feed(reader, bytes, wire_pack_readings(bytes, 9, &sent)) == WIRE_READINGS);
+  CHECK(wire_ecu(&reader) == 9);
+  board_readings got;
+  wire_unpack_readings(&reader, &got);
+  for (int k = 0; k < 2; ++k) {
+    CHECK(got.channel[k].encoder_counts == sent.channel[k].encoder_counts);
+    CHECK(got.channel[k].current_counts == sent.channel[k].current_counts);
+    CHECK(got.channel[k].tension_counts == sent.channel[k].tension_counts);
+    CHECK(got.channel[k].temperature_counts == sent.channel[k].temperature_counts);
+    CHECK(got.channel[k].supply_counts == sent.channel[k].supply_counts);
+  }
+  for (int k = 0; k < 4; ++k) CHECK(got.analog[k] == sent.analog[k]);
+
+  const std::int16_t duty[2] = {-1023, 7};
+  REQUIRE(feed(reader, bytes, wire_pack_drive(bytes, 3, duty)) == WIRE_DRIVE);
+  std::int16_t back[2];
+  wire_unpack_drive(&reader, back);
+  CHECK((back[0] == -1023 && back[1] == 7));
+
+  const wire_mishap mishap{WIRE_MISHAP_BUSY, 300};
+  REQUIRE(feed(reader, bytes, wire_pack_mishap(bytes, 3, &mishap)) == WIRE_MISHAP);
+  wire_mishap heard;
+  wire_unpack_mishap(&reader, &heard);
+  CHECK((heard.kind == WIRE_MISHAP_BUSY && heard.periods == 300));
+}
+
+TEST_CASE("a wire that garbles bytes loses messages, believes none, and finds its feet again") {
+  std::mt19937 random(4);
+  wire_reader reader{};
+  const board_readings sent = some_readings();
+  int sound = 0;
+  for (int k = 0; k < 2000; ++k) {
+    std::uint8_t bytes[WIRE_MESSAGE_MAX];
+    const unsigned size = wire_pack_readings(bytes, 9, &sent);
+    if (k % 2) bytes[random() % size] ^= std::uint8_t(1 + random() % 255);
+    for (unsigned i = 0; i < size; ++i)
+      if (wire_take(&reader, bytes[i]) == WIRE_READINGS) {
+        board_readings got;
+        wire_unpack_readings(&reader, &got);
+        CHECK(std::memcmp(&got, &sent, sizeof got) == 0);
+        ++sound;
+      }
+  }
+  CHECK(sound >= 600);  // a garbled message may take the next with it
+  CHECK(sound <= 1000);
+  CHECK(reader.unreadable > 300);
+}

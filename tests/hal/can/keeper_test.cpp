@@ -1,0 +1,158 @@
+// What the gateway does about a bus: pure, on a bus that says what the test tells it. The same with
+// a real controller's error frames: slcan_test.
+#include "hal/can/bus_keeper.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "hal/can/ecu_watch.hpp"
+#include "tests/hal/can/narrow_bus.hpp"
+
+using namespace can_test;
+using erp::BusRecovery;
+using erp::BusState;
+
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+struct Kept {
+  NarrowBus* bus = new NarrowBus;
+  erp::BusKeeper keeper{"left", std::unique_ptr<erp::CanBus>(bus)};
+  std::int64_t now_ns = ms;
+
+  /// Minds the bus every millisecond; the codes of what is said.
+  std::vector<std::string> pass(int milliseconds) {
+    std::vector<std::string> codes;
+    for (int k = 0; k < milliseconds; ++k, now_ns += ms)
+      for (const auto& notice : keeper.mind(now_ns)) codes.push_back(notice.code);
+    return codes;
+  }
+  void command() {
+    const frame_command said{{{3, 7}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+    erp::CanFrame frame;
+    frame_pack_command(&frame, 3, &said);
+    keeper.post({&frame, 1}, now_ns);
+  }
+};
+using Codes = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("a bus that is off is restarted three times, 100 ms apart, then left alone") {
+  BusRecovery recovery;
+  std::vector<std::int64_t> at;
+  bool gave_up = false;
+  for (std::int64_t now = 0; now < 2000 * ms; now += ms) switch (recovery.step(true, now)) {
+      case BusRecovery::Do::restart:
+        REQUIRE_FALSE(gave_up);
+        at.push_back(now / ms);
+        break;
+      case BusRecovery::Do::give_up:
+        REQUIRE_FALSE(gave_up);
+        gave_up = true;
+        break;
+      case BusRecovery::Do::nothing:
+        break;
+    }
+  CHECK(at == std::vector<std::int64_t>{0, 100, 200});
+  CHECK(gave_up);
+}
+
+TEST_CASE("ten seconds on the bus earn the restarts back") {
+  BusRecovery recovery;
+  const auto restarts_again = [&](std::int64_t now) {
+    return recovery.step(true, now) == BusRecovery::Do::restart;
+  };
+  for (int k = 0; k < 3; ++k) CHECK(restarts_again(k * 100 * ms));
+  CHECK(recovery.step(false, 9000 * ms) == BusRecovery::Do::nothing);
+  CHECK(recovery.restarts() == 3);
+  recovery.step(false, 10'201 * ms);
+  CHECK(recovery.restarts() == 0);
+  CHECK(restarts_again(10'300 * ms));
+}
+
+TEST_CASE("bus-off is said, what waits is dropped, and nothing is sent until it is over") {
+  Kept kept;
+  kept.pass(1);
+  kept.bus->counted.state = BusState::off;
+  kept.command();
+  kept.bus->room = 10;
+  CHECK(kept.pass(1) == Codes{"bus_off", "bus_restarted"});
+  kept.command();
+  CHECK(kept.pass(250) == Codes{"bus_restarted", "bus_restarted"});
+  CHECK(kept.bus->taken.empty());
+  CHECK(kept.keeper.outbox().expired() == 2);
+  CHECK(kept.pass(200) == Codes{"bus_off_latched"});
+  CHECK(kept.pass(1000).empty());
+  CHECK(kept.bus->restarts == 3);
+  CHECK(kept.keeper.given_up());
+}
+
+TEST_CASE("warning, passive and well again are said once each") {
+  Kept kept;
+  for (const auto& [state, code] : {std::pair{BusState::warning, "bus_warning"},
+                                    {BusState::passive, "bus_passive"},
+                                    {BusState::active, "bus_active"},
+                                    {BusState::down, "bus_down"}}) {
+    kept.bus->counted.state = state;
+    CHECK(kept.pass(50) == Codes{code});
+  }
+}
+
+TEST_CASE("frames that never leave are noticed after 20 ms, and no burst follows") {
+  Kept kept;
+  kept.bus->room = 2;
+  kept.bus->flying = 0;
+  kept.command();
+  kept.pass(1);
+  kept.bus->flying = 1;  // taken, and not seen on the wire
+  CHECK(kept.pass(19).empty());
+  CHECK(kept.pass(2) == Codes{"not_acknowledged"});
+  for (int k = 0; k < 50; ++k) kept.command(), kept.pass(2);
+  CHECK(kept.bus->taken.size() == 1);
+  kept.bus->flying = 0;  // somebody has acknowledged
+  kept.bus->room = 100;
+  CHECK(kept.pass(2) == Codes{"acknowledged"});
+  CHECK(kept.bus->taken.size() == 1);
+  kept.command();
+  CHECK(kept.bus->taken.size() == 2);
+}
+
+TEST_CASE("a controller that says it is alone is believed when nothing is heard") {
+  Kept kept;
+  kept.pass(5);
+  kept.bus->counted.unacknowledged = 1;
+  CHECK(kept.pass(10).empty());
+  kept.bus->counted.received = 1;  // so it is not
+  CHECK(kept.pass(100).empty());
+  kept.bus->counted.unacknowledged = 2;
+  CHECK(kept.pass(30) == Codes{"not_acknowledged"});
+  kept.bus->counted.received = 2;
+  CHECK(kept.pass(30) == Codes{"acknowledged"});
+}
+
+TEST_CASE("an ECU that falls silent is told of after 10 and 50 ms, and when it is back") {
+  erp::EcuWatch watch;
+  std::vector<std::pair<std::int64_t, erp::EcuWatch::News>> news;
+  const auto pass_until = [&](std::int64_t from_ms, std::int64_t to_ms) {
+    for (std::int64_t t = from_ms; t <= to_ms; ++t)
+      watch.step(t * ms, [&](int ecu, erp::EcuWatch::News what) {
+        CHECK(ecu == 5);
+        news.emplace_back(t, what);
+      });
+  };
+  pass_until(0, 100);
+  CHECK(news.empty());  // never heard
+  watch.heard(5, 100 * ms);
+  pass_until(100, 200);
+  using enum erp::EcuWatch::News;
+  CHECK(news == decltype(news){{110, silent}, {150, lost}});
+  watch.heard(5, 200 * ms);
+  pass_until(200, 205);
+  CHECK(news.back() == std::pair{std::int64_t{200}, back});
+  watch.heard(5, 205 * ms);
+  pass_until(206, 216);
+  watch.heard(5, 216 * ms);
+  pass_until(217, 220);
+  CHECK(news.size() == 4);  // silent once more; nothing said of its end
+}

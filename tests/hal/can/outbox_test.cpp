@@ -1,0 +1,117 @@
+#include "hal/can/outbox.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/hal/can/allocations.hpp"
+#include "tests/hal/can/narrow_bus.hpp"
+
+using namespace can_test;
+
+namespace {
+
+erp::CanFrame command(std::uint8_t ecu, std::int32_t setpoint) {
+  const frame_command said{{{3, setpoint}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+  erp::CanFrame frame;
+  frame_pack_command(&frame, ecu, &said);
+  return frame;
+}
+std::int32_t setpoint_of(const erp::CanFrame& frame) {
+  frame_command said;
+  REQUIRE(frame_unpack_command(&frame, &said));
+  return said.channel[0].setpoint;
+}
+erp::CanFrame parameter(std::uint8_t position) {
+  const frame_parameter said{0, 1, false, position, 1.5f};
+  erp::CanFrame frame;
+  frame_pack_parameter(&frame, 3, &said);
+  return frame;
+}
+constexpr std::int64_t ms = 1'000'000;
+
+}  // namespace
+
+TEST_CASE("of the commands to an ECU that wait only the newest goes out") {
+  erp::Outbox outbox;
+  NarrowBus bus;
+  for (int k = 0; k < 5; ++k) {
+    const auto frame = command(3, k);
+    outbox.put({&frame, 1}, 0);
+    outbox.flush(bus, 0);
+  }
+  CHECK(bus.taken.empty());
+  CHECK(outbox.replaced() == 4);
+  bus.room = 10;
+  outbox.flush(bus, ms);
+  REQUIRE(bus.taken.size() == 1);
+  CHECK(setpoint_of(bus.taken[0]) == 4);
+  CHECK(outbox.empty());
+}
+
+TEST_CASE("a command that could not leave within a tick never leaves") {
+  erp::Outbox outbox;
+  NarrowBus bus;
+  const auto frame = command(3, 1);
+  outbox.put({&frame, 1}, 0);
+  bus.room = 10;
+  outbox.flush(bus, 2 * ms + 1);
+  CHECK(bus.taken.empty());
+  CHECK(outbox.expired() == 1);
+}
+
+TEST_CASE("commands pass gains by; gains wait in order, and none is lost") {
+  erp::Outbox outbox;
+  NarrowBus bus;
+  for (std::uint8_t position = 0; position < 30; ++position) {
+    const auto frame = parameter(position);
+    outbox.put({&frame, 1}, 0);
+  }
+  for (int tick = 0; !outbox.empty(); ++tick) {
+    const auto frame = command(3, tick);
+    outbox.put({&frame, 1}, tick * 2 * ms);
+    bus.room = 4;
+    outbox.flush(bus, tick * 2 * ms);
+    REQUIRE(tick < 20);
+  }
+  REQUIRE(bus.taken.size() == 40);  // 10 ticks of a command and three gains
+  std::uint8_t expected = 0;
+  for (std::size_t i = 0; i < bus.taken.size(); ++i) {
+    frame_parameter said;
+    const bool is_gain = frame_unpack_parameter(&bus.taken[i], &said);
+    CHECK(is_gain == (i % 4 != 0));
+    if (is_gain) CHECK(said.position == expected++);
+  }
+}
+
+TEST_CASE("what is dropped is counted and does not come back") {
+  erp::Outbox outbox;
+  NarrowBus bus;
+  const erp::CanFrame frames[] = {command(3, 1), command(4, 1), parameter(0)};
+  outbox.put(frames, 0);
+  outbox.drop();
+  bus.room = 10;
+  outbox.flush(bus, 0);
+  CHECK(bus.taken.empty());
+  CHECK(outbox.expired() == 2);
+  CHECK(outbox.dropped() == 1);
+}
+
+TEST_CASE("gains beyond what can wait are counted as dropped") {
+  erp::Outbox outbox;
+  const std::vector<erp::CanFrame> many(erp::Outbox::most_others + 7, parameter(3));
+  outbox.put(many, 0);
+  CHECK(outbox.dropped() == 7);
+}
+
+TEST_CASE("an outbox touches no heap") {
+  erp::Outbox outbox;
+  NarrowBus bus;
+  bus.taken.reserve(1000);
+  const erp::CanFrame frames[] = {command(3, 1), command(4, 1), parameter(0)};
+  const auto before = allocations();
+  for (int tick = 0; tick < 50; ++tick) {
+    outbox.put(frames, tick * ms);
+    bus.room = std::size_t(tick % 5);
+    outbox.flush(bus, tick * ms);
+  }
+  CHECK(allocations() == before);
+}
