@@ -67,8 +67,10 @@ class CanBus {
 };
 
 struct BusOptions {
-  bool fd = false;           ///< CAN FD: frames travel in bundles (firmware/core/bundle.h)
-  std::size_t window = 256;  ///< frames on the wire that may be in flight; more are not taken
+  bool fd = false;  ///< CAN FD: frames travel in bundles (firmware/core/bundle.h)
+  /// Frames that may be in flight; more are not taken until these are seen on the wire, which takes
+  /// a `receive`. 0: no bound but the kernel's.
+  std::size_t window = 0;
 };
 
 /// Opens a bus: `socketcan:IFACE` (a CAN interface of this machine), `udp:GROUP:PORT` (frames in

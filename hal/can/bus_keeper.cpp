@@ -49,12 +49,12 @@ void BusKeeper::notice_state(BusState state) {
 /// nothing is heard.
 bool BusKeeper::is_stuck(const BusCounters& now, std::int64_t now_ns) {
   const std::uint64_t left = now.sent - bus_->in_flight();
-  if (left != left_ || bus_->in_flight() == 0) left_ns_ = now_ns;
+  if (!left_ns_ || left != left_ || bus_->in_flight() == 0) left_ns_ = now_ns;
   left_ = left;
   if (now.received != last_.received) alone_since_ns_.reset();
   else if (now.unacknowledged != last_.unacknowledged && !alone_since_ns_) alone_since_ns_ = now_ns;
   last_ = now;
-  return !now.off() && (now_ns - left_ns_ >= stuck_ns ||
+  return !now.off() && (now_ns - *left_ns_ >= stuck_ns ||
                         (alone_since_ns_ && now_ns - *alone_since_ns_ >= stuck_ns));
 }
 

@@ -66,7 +66,7 @@ class BusKeeper {
   BusRecovery recovery_;
   BusState state_ = BusState::active;
   std::uint64_t left_ = 0;                      ///< frames that have left
-  std::int64_t left_ns_ = 0;                    ///< when the last did, or none was in flight
+  std::optional<std::int64_t> left_ns_;  ///< when the last did, or none was in flight
   std::optional<std::int64_t> alone_since_ns_;  ///< of a first frame without acknowledgement
   BusCounters last_;
   bool stuck_ = false;

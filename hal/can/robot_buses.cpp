@@ -84,7 +84,7 @@ std::vector<std::unique_ptr<CanBus>> open_buses(const Robot& robot, const std::s
   for (std::size_t k = 0; k < words.size(); ++k) {
     BusOptions options;
     options.fd = plans[k].data_bitrate_per_s.has_value();
-    if (window > 0) options.window = window * plans[k].ecus.size();
+    options.window = window * plans[k].ecus.size();
     buses.push_back(open_bus(words[k], options));
     check_rate(plans[k], words[k]);
   }

@@ -57,7 +57,7 @@ class SocketCanBus final : public CanBus {
 
   std::size_t send_batch(std::span<const CanFrame> frames) {
     std::array<std::size_t, Batch::size> parts;  // classic frames in each message
-    const std::size_t room = options_.window - std::min(options_.window, in_flight_);
+    const std::size_t room = room_in_flight();
     std::size_t count = 0, packed = 0;
     for (; count < std::min(room, Batch::size) && packed < frames.size(); ++count) {
       parts[count] = pack(frames.subspan(packed), count);
@@ -72,6 +72,11 @@ class SocketCanBus final : public CanBus {
     std::size_t taken = 0;
     for (int i = 0; i < sent; ++i) taken += parts[static_cast<std::size_t>(i)];
     return taken;
+  }
+
+  std::size_t room_in_flight() const {
+    if (options_.window == 0) return Batch::size;
+    return options_.window - std::min(options_.window, in_flight_);
   }
 
   /// Fills message `i`; returns how many frames went into it.

@@ -58,6 +58,13 @@ void require_fd(const Descriptor& socket, const std::string& interface) {
                              "data_bitrate_per_s out of robot.xml's can_bus");
 }
 
+/// Own frames come back as well: room for both, beyond the usual bound where we may.
+void make_room(const Descriptor& socket) {
+  const int bytes = 4 << 20;
+  if (::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
+    set(socket, SOL_SOCKET, SO_RCVBUF, bytes);
+}
+
 void choose_what_comes(const Descriptor& socket, const BusOptions& options) {
   set(socket, SOL_CAN_RAW, CAN_RAW_FILTER, can_filter{0, CAN_EFF_FLAG | CAN_RTR_FLAG});
   set(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER,
@@ -79,8 +86,10 @@ Descriptor open_raw(const std::string& interface, const BusOptions& options) {
   where.can_family = AF_CAN;
   where.can_ifindex = static_cast<int>(index_of(interface));
   choose_what_comes(socket, options);
+  make_room(socket);
   // A driver that confirms at once still fills the kernel's queue: this bounds our share of it.
-  set(socket, SOL_SOCKET, SO_SNDBUF, static_cast<int>(options.window * kernel_bytes_a_frame / 2));
+  if (options.window > 0)
+    set(socket, SOL_SOCKET, SO_SNDBUF, static_cast<int>(options.window * kernel_bytes_a_frame / 2));
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0)
     throw std::invalid_argument("\"" + interface + "\" is no CAN interface (" +
                                 std::strerror(errno) + "); `ip -br link show type can` lists them");

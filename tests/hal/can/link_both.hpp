@@ -96,12 +96,14 @@ inline void keeps_the_rest(const std::string& specification) {
 }
 
 /// 500 ticks of a robot of 11 actuators, both ends in this thread, against the run without a bus.
-inline void runs_in_lockstep(const std::string& specification) {
+inline void runs_in_lockstep(const std::string& specification,
+                             const erp::BusOptions& options = {}) {
   const auto robot = robot_of(11);
   Robotics robotics(robot, 1), direct(robot, 1);
   erp::RobotEcus ecus(robot, robotics.lent);
   erp::Gateway gateway(robot);
-  const auto robot_side = erp::open_bus(specification), host_side = erp::open_bus(specification);
+  const auto robot_side = erp::open_bus(specification, options),
+             host_side = erp::open_bus(specification, options);
   std::array<erp::CanFrame, 32> frames;
   std::mt19937 random(9);
 

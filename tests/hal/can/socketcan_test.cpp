@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hal/can/bus.hpp"
+#include "hal/can/trace.hpp"
 #include "tests/hal/can/link_both.hpp"
 
 using namespace can_test;
@@ -90,4 +91,70 @@ TEST_CASE("an interface that is missing, down or no CAN is refused with the reme
   CHECK_THROWS_WITH(erp::open_bus("socketcan:lo"), Contains("\"lo\" is no CAN interface"));
   CHECK_THROWS_WITH(erp::open_bus("socketcan:vcan2"),
                     Contains("interface \"vcan2\" is down; `ip link set vcan2 up"));
+}
+
+// ---- CAN FD: vcan3, vcan4 ----
+
+TEST_CASE("a robot runs in lockstep over CAN FD, its frames in bundles") {
+  runs_in_lockstep("socketcan:vcan3", {.fd = true});
+}
+
+TEST_CASE("over CAN FD six commands are one frame on the wire") {
+  const auto host = erp::open_bus("socketcan:vcan3", {.fd = true}),
+             robot = erp::open_bus("socketcan:vcan3", {.fd = true});
+  std::vector<erp::CanFrame> commands(6);
+  for (std::uint8_t ecu = 0; ecu < 6; ++ecu) {
+    const frame_command said{{{3, ecu}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+    frame_pack_command(&commands[ecu], ecu, &said);
+  }
+  REQUIRE(host->send(commands) == 6);
+  CHECK(host->in_flight() == 1);
+  const auto heard = collect(*robot, 6);
+  for (std::size_t i = 0; i < 6; ++i) CHECK(same(heard[i], commands[i]));
+  erp::CanFrame none;
+  CHECK(host->receive({&none, 1}, 10) == 0);
+  CHECK(host->in_flight() == 0);
+}
+
+TEST_CASE("an interface without CAN FD is refused for a bus that is planned with it") {
+  CHECK_THROWS_WITH(erp::open_bus(vcan0, {.fd = true}),
+                    Catch::Contains("interface \"vcan0\" does not carry CAN FD; `ip link set"));
+}
+
+// ---- what the kernel tells besides ----
+
+TEST_CASE("no more frames fly than the window allows, until they were seen on the wire") {
+  const auto bus = erp::open_bus(vcan0, {.window = 4});
+  std::vector<erp::CanFrame> frames;
+  for (unsigned n = 0; n < 6; ++n) frames.push_back(numbered(n));
+  CHECK(bus->send(frames) == 4);
+  CHECK(bus->in_flight() == 4);
+  CHECK(bus->send(frames) == 0);
+  CHECK(bus->counters().refused == 8);
+  erp::CanFrame none;
+  CHECK(bus->receive({&none, 1}, 10) == 0);
+  CHECK(bus->in_flight() == 0);
+  CHECK(bus->send(frames) == 4);
+}
+
+TEST_CASE("our trace and candump's are the same, line by line") {
+  REQUIRE(std::system("candump -L vcan1 > /run/candump.log & echo $! > /run/candump.pid; sleep 1") ==
+          0);
+  const auto a = erp::open_bus("socketcan:vcan1"), b = erp::open_bus("socketcan:vcan1");
+  {
+    erp::TraceWriter trace("/run/ours.log", "vcan1");
+    a->record(&trace);
+    std::vector<erp::CanFrame> frames;
+    for (unsigned n = 0; n < 40; ++n) frames.push_back(numbered(n));
+    a->send(frames);
+    collect(*b, 40);
+    b->send(frames);
+    collect(*a, 40);
+    erp::CanFrame none;
+    a->receive({&none, 1}, 0);
+    a->record(nullptr);
+  }
+  REQUIRE(std::system("sleep 1; kill $(cat /run/candump.pid); sleep 1") == 0);
+  CHECK(std::system("test $(wc -l < /run/ours.log) = 80") == 0);
+  CHECK(std::system("diff /run/ours.log /run/candump.log") == 0);
 }

@@ -3,7 +3,8 @@
 #
 # Most build machines and all containers lack AF_CAN. User-mode Linux is a kernel in a process; it
 # needs no rights. The program sees this machine's files read-only, is root there, and finds the
-# virtual CAN interfaces vcan0 and vcan1 up and vcan2 down. Its exit status is passed on.
+# virtual CAN interfaces vcan0 and vcan1 (classic), vcan3 and vcan4 (CAN FD) up and vcan2 down; the
+# kernel's slcan, can-gw, tbf and netem are there as well. Its exit status is passed on.
 # Debian: user-mode-linux kmod iproute2 can-utils. Sanitizers other than UBSan do not run in it.
 set -u
 [ $# -ge 1 ] || { echo "usage: run_in_uml.sh PROGRAM [ARGUMENT…]" >&2; exit 2; }
@@ -25,18 +26,24 @@ exchange=$(dirname "$0")
 mount -t proc proc /proc
 mount -t sysfs sys /sys
 mount -t tmpfs tmpfs /run
+mkdir -p /dev/pts /dev/shm
+mount -t devpts -o ptmxmode=666 devpts /dev/pts
+mount -t tmpfs tmpfs /dev/shm
+[ -e /dev/ptmx ] || ln -s pts/ptmx /dev/ptmx
 mount -t hostfs none "$exchange" -o "$exchange"
 modules=/usr/lib/uml/modules/$(uname -r)/kernel
-for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/net/can/vcan; do
-  insmod "$modules/$module.ko" || echo "run_in_uml.sh: no kernel module $module"
+for module in net/can/can net/can/can-raw net/can/can-gw drivers/net/can/dev/can-dev \
+  "drivers/net/can/vcan echo=1" drivers/net/can/slcan/slcan net/sched/sch_tbf net/sched/sch_netem; do
+  set -- $module
+  insmod "$modules/$1.ko" $2 || echo "run_in_uml.sh: no kernel module $1"
 done
 ip link set lo up
-for interface in vcan0 vcan1 vcan2; do
+for interface in vcan0 vcan1 vcan2 vcan3 vcan4; do
   ip link add "$interface" type vcan
   ip link set "$interface" txqueuelen 1000
 done
-ip link set vcan0 up
-ip link set vcan1 up
+for interface in vcan0 vcan1 vcan2; do ip link set "$interface" mtu 16; done
+for interface in vcan0 vcan1 vcan3 vcan4; do ip link set "$interface" up; done
 bash -c "TMPDIR=/run exec $(cat "$exchange/command")" < /dev/null
 echo $? > "$exchange/status"
 sync

@@ -1,0 +1,188 @@
+// Run by tests/hal/uml/run_in_uml.sh. The gateway's end of a bus that goes wrong, on a real CAN
+// device behind an adapter that says so.
+#include <catch2/catch.hpp>
+#include <chrono>
+
+#include "hal/can/bus_keeper.hpp"
+#include "hal/can/robot_buses.hpp"
+#include "tests/hal/can/link_both.hpp"
+#include "tests/hal/can/slcan_adapter.hpp"
+
+using namespace can_test;
+using erp::BusState;
+
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+std::int64_t now_ns() {
+  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
+
+/// The adapter, and the gateway's keeper of its bus.
+struct Line {
+  SlcanAdapter adapter;
+  erp::BusKeeper keeper{"left", erp::open_bus(adapter.where(), {.window = 2})};
+  std::vector<std::pair<std::string, std::int64_t>> said;  ///< code, and when
+
+  /// What the gateway's process does, for so long: reads, minds, and commands each 2 ms if asked.
+  void pass(std::int64_t for_ns, bool commanding = false) {
+    std::int64_t next_command = now_ns();
+    for (const auto end = now_ns() + for_ns; now_ns() < end;) {
+      std::array<erp::CanFrame, 16> frames;
+      keeper.bus().receive(frames, 0.001);
+      if (commanding && now_ns() >= next_command) command(), next_command += 2 * ms;
+      for (const auto& notice : keeper.mind(now_ns())) said.emplace_back(notice.code, now_ns());
+    }
+  }
+  void command() {
+    const frame_command said_now{{{3, ++setpoint}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+    erp::CanFrame frame;
+    frame_pack_command(&frame, 3, &said_now);
+    keeper.post({&frame, 1}, now_ns());
+  }
+  bool has_said(const std::string& code) const { return when(code) != 0; }
+  std::int64_t when(const std::string& code) const {
+    for (const auto& [what, at] : said)
+      if (what == code) return at;
+    return 0;
+  }
+  int times(const std::string& code) const {
+    return int(std::count_if(said.begin(), said.end(),
+                             [&](const auto& one) { return one.first == code; }));
+  }
+  /// The set-points that the adapter was given since `from` frames.
+  std::vector<int> setpoints(std::size_t from) {
+    std::vector<int> found;
+    const auto sent = adapter.sent();
+    for (std::size_t i = from; i < sent.size(); ++i) {
+      erp::CanFrame frame{0, 8, {}};
+      frame.id = std::uint16_t(std::stoi(sent[i].substr(1, 3), nullptr, 16));
+      for (std::size_t k = 0; k < 8; ++k)
+        frame.data[k] = std::uint8_t(std::stoi(sent[i].substr(5 + 2 * k, 2), nullptr, 16));
+      frame_command command;
+      REQUIRE(frame_unpack_command(&frame, &command));
+      found.push_back(command.channel[0].setpoint);
+    }
+    return found;
+  }
+  int setpoint = 0;
+};
+
+}  // namespace
+
+TEST_CASE("frames go through the adapter both ways") {
+  Line line;
+  line.command();
+  line.pass(20 * ms);
+  CHECK(line.setpoints(0) == std::vector<int>{1});
+  line.adapter.says("t1808DEADBEEF01020304");
+  line.pass(20 * ms);
+  CHECK(line.keeper.counters().received == 1);
+}
+
+TEST_CASE("error-warning, -passive and -active are told, in this order") {
+  Line line;
+  for (const char* counters : {"sw100020", "sp020130", "sa010010"}) {
+    line.adapter.says(counters);
+    line.pass(20 * ms);
+  }
+  REQUIRE(line.said.size() == 3);
+  CHECK(line.said[0].first == "bus_warning");
+  CHECK(line.said[1].first == "bus_passive");
+  CHECK(line.said[2].first == "bus_active");
+}
+
+TEST_CASE("bus-off is noticed within 5 ms, restarted, and works again") {
+  Line line;
+  line.pass(20 * ms, true);
+  const auto before = now_ns();
+  line.adapter.says("sb256256");
+  line.pass(60 * ms, true);
+  REQUIRE(line.has_said("bus_off"));
+  CHECK(line.has_said("bus_restarted"));
+  WARN("bus-off noticed after " << 1e-6 * double(line.when("bus_off") - before) << " ms");
+  CHECK(line.when("bus_off") - before < 5 * ms);
+  CHECK(line.adapter.opened() == 2);
+  const auto sent = line.adapter.sent().size();
+  const int newest = line.setpoint;
+  line.pass(20 * ms, true);
+  const auto after = line.setpoints(sent);
+  REQUIRE(after.size() > 3);
+  CHECK(after[0] > newest - 2);
+}
+
+TEST_CASE("a bus that goes off again and again is restarted three times, then stays off") {
+  Line line;
+  for (int k = 0; k < 60; ++k) {
+    line.adapter.says("sb256256");
+    line.pass(20 * ms, true);
+  }
+  CHECK(line.times("bus_restarted") == 3);
+  CHECK(line.times("bus_off_latched") == 1);
+  CHECK(line.keeper.given_up());
+  std::vector<std::int64_t> at;
+  for (const auto& [code, when] : line.said)
+    if (code == "bus_restarted") at.push_back(when);
+  for (std::size_t k = 1; k < at.size(); ++k) CHECK(at[k] - at[k - 1] >= 100 * ms);
+  const auto sent = line.adapter.sent().size();
+  line.pass(50 * ms, true);
+  CHECK(line.adapter.sent().size() == sent);
+}
+
+TEST_CASE("an open cable is noticed within 25 ms, and no burst follows when it is closed") {
+  Line line;
+  line.pass(20 * ms, true);
+  line.adapter.says("t1808DEADBEEF01020304");
+  line.pass(10 * ms, true);
+  const auto opened = now_ns();
+  for (int k = 0; k < 30; ++k) {
+    line.adapter.says("e1a");
+    line.pass(2 * ms, true);
+  }
+  REQUIRE(line.has_said("not_acknowledged"));
+  WARN("open cable noticed after " << 1e-6 * double(line.when("not_acknowledged") - opened)
+                                   << " ms");
+  CHECK(line.when("not_acknowledged") - opened >= 20 * ms);
+  CHECK(line.when("not_acknowledged") - opened < 25 * ms);
+  const auto sent = line.adapter.sent().size();
+  line.pass(100 * ms, true);
+  CHECK(line.adapter.sent().size() == sent);
+  const int newest = line.setpoint;
+  line.adapter.says("t1808DEADBEEF01020304");
+  line.pass(20 * ms, true);
+  CHECK(line.has_said("acknowledged"));
+  const auto after = line.setpoints(sent);
+  REQUIRE_FALSE(after.empty());
+  CHECK(after[0] > newest - 2);
+}
+
+TEST_CASE("when an adapter stalls only new set-points come out of it after what it had") {
+  Line line;
+  line.pass(20 * ms, true);
+  line.adapter.stall(true);
+  line.pass(20 * ms, true);
+  const int stalled_at = line.setpoint;
+  line.pass(2000 * ms, true);
+  const auto sent = line.adapter.sent().size();
+  const int newest = line.setpoint;
+  line.adapter.stall(false);
+  line.pass(100 * ms, true);
+  int stale = 0;
+  for (const int setpoint : line.setpoints(sent)) stale += setpoint <= newest - 2;
+  WARN("1000 set-points while it was stalled; " << stale << " old ones came out, from "
+                                                << stalled_at << " on");
+  CHECK(line.keeper.outbox().expired() + line.keeper.outbox().replaced() > 800);
+  CHECK(stale < 170);  // what fits into the line itself: 4 kB of 22 bytes each
+  CHECK(line.setpoints(sent).back() >= line.setpoint - 3);
+}
+
+TEST_CASE("an interface that does not run at the planned bit rate is refused") {
+  SlcanAdapter adapter;
+  erp::Robot robot = robot_of(2);
+  robot.can_buses = robot.buses();
+  CHECK_NOTHROW(erp::open_buses(robot, adapter.where()));
+  robot.can_buses[0].bitrate_per_s = 500'000;
+  CHECK_THROWS_WITH(erp::open_buses(robot, adapter.where()),
+                    Catch::Contains("runs at 1000000 bit/s, robot.xml plans 500000 for bus"));
+}
