@@ -74,7 +74,7 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s, bo
   priority_ = offer ? offer->priority : 0;
   const bool wants_off = offer && offer->mode == erp::Mode::off;
   if (limb_broken && !wants_off) offer = nullptr;
-  if (!offer) slewed_mode_ = erp::Mode::off;
+  if (!offer) slewed_mode_ = erp::Mode::off, approaching_ = true;
   if (state_ != ECU_STATE_RUNNING || offer) safe_now_ = erp::SafeAction::none;
   if (wants_off) watch_.forget();
   if (state_ != ECU_STATE_RUNNING) watch_.rest();
@@ -99,8 +99,8 @@ Demand Drive::decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s, bo
   return {};
 }
 
-/// After arming, a length reference is approached at half the motor's top speed; once reached it
-/// is followed as it comes.
+/// After arming, and after a safe action, a length reference is approached at half the motor's top
+/// speed; once reached it is followed as it comes.
 double Drive::rate_per_s(erp::Mode mode) const {
   if (mode == erp::Mode::force) return max_tension_rate_N_per_s_;
   if (mode != erp::Mode::length) return Slew::free;

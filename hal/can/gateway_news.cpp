@@ -109,6 +109,7 @@ void GatewayNode::show_counters() {
   node_.show("lost", static_cast<double>(now.lost));
   node_.show("late", static_cast<double>(now.late));
   node_.show("foreign", static_cast<double>(now.foreign));
+  node_.show("ticks_left_out", static_cast<double>(ticks_left_out_));
   node_.show("incomplete_ticks", static_cast<double>(now.incomplete_ticks));
   const std::int64_t now_ns = node::monotonic_ns();
   const double elapsed_s = 1e-9 * static_cast<double>(now_ns - counted_ns_);

@@ -102,7 +102,7 @@ void GatewayNode::receive(erp::BusKeeper& bus) {
       if (gateway_.understands(ecu)) watch_.heard(ecu, now_ns());
       switch (gateway_.hear(frame)) {
         case erp::Heard::tick:
-          publish_tick();
+          take_tick();
           break;
         case erp::Heard::tick_repeated:
           send(gateway_.again());
@@ -112,8 +112,17 @@ void GatewayNode::receive(erp::BusKeeper& bus) {
           break;
       }
     }
+  if (tick_waits_) publish_tick();
   bus.flush(now_ns());
   say_news();
+}
+
+/// Of several ticks that waited together, for want of a processor, only the newest is worth an
+/// answer; in lockstep there is never more than one.
+void GatewayNode::take_tick() {
+  ticks_left_out_ += tick_waits_;
+  tick_waits_ = true;
+  if (node_.clock().lockstep()) publish_tick();
 }
 
 void GatewayNode::mind() {
@@ -138,6 +147,7 @@ void GatewayNode::close_late_tick() {
 }
 
 void GatewayNode::publish_tick() {
+  tick_waits_ = false;
   open_since_ns_.reset();
   auto& frame = gateway_.frame();
   // Simulated time begins at the first tick, as it does in the simulator itself.

@@ -29,6 +29,7 @@ class GatewayNode {
   void receive(erp::BusKeeper& bus);
   /// A silent ECU must not hold back what the others said.
   void close_late_tick();
+  void take_tick();
   void publish_tick();
   void publish_clock();
   void on_command(const erp::EcuCommand& command);
@@ -64,6 +65,8 @@ class GatewayNode {
   std::vector<std::uint64_t> refused_said_, frames_before_;
   std::optional<std::int64_t> open_since_ns_;  ///< when the tick at hand began to be heard
   std::int64_t counted_ns_ = 0;
+  bool tick_waits_ = false;  ///< heard whole, not yet published
+  std::uint64_t ticks_left_out_ = 0;
   int asked_ = 0;  ///< DISCOVERs sent
 };
 

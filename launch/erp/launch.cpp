@@ -89,7 +89,8 @@ int launch_graph(const LaunchOptions& options) {
   ask_components(make_plan(graph, wishes, find));  // refuses bad input before a folder is made
   wishes.folder = make_run_folder(options.folder, graph.name, node::wall_ns());
   const FolderClaim claim(wishes.folder);
-  const Plan plan = make_plan(graph, wishes, find);
+  Plan plan = make_plan(graph, wishes, find);
+  plan.most_restarts = options.most_restarts;
   const auto since = fs::file_time_type::clock::now();
   Run run(graph, robot.name, plan, wishes.folder);
   const int exit_code = run.execute();

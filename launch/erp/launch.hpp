@@ -14,6 +14,7 @@ struct LaunchOptions {
   std::optional<erp::Time> time;      ///< absent: the graph's
   std::string duration;               ///< "20s"; empty: the graph's
   std::vector<std::string> settings;  ///< component.key=value
+  std::size_t most_restarts = 5;      ///< of one component within 30 s; then it is given up
   std::string folder;                 ///< of the run; empty: erp_runs/<graph>/<UTC time>
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interfaces/graph/graph.hpp"
+#include "launch/erp/back_off.hpp"
 
 /// From a graph to the processes that make it up. Pure: no file, no process.
 namespace launch {
@@ -41,6 +42,7 @@ struct PlannedProcess {
 struct Plan {
   std::vector<PlannedProcess> processes;
   std::string recording;  ///< what the first logger writes; empty: no logger
+  std::size_t most_restarts = BackOff::Tuning{}.most;  ///< of one component within 30 s
 };
 
 /// The program of a component type, or "".

@@ -41,6 +41,12 @@ std::string rival_text(const std::string& component, const std::string& robot, l
          std::to_string(pid) + "; end its graph, or set ERP_DOMAIN to a number of your own";
 }
 
+Tuning tuning_of(const Plan& plan) {
+  Tuning tuning;
+  tuning.restart.most = plan.most_restarts;
+  return tuning;
+}
+
 }  // namespace
 
 Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std::string& folder)
@@ -49,7 +55,7 @@ Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std
       folder_(folder),
       log_(folder + "/erp.log", std::ios::trunc),
       bus_(robot),
-      supervisor_(charges_of(plan_)),
+      supervisor_(charges_of(plan_), tuning_of(plan_)),
       time_(graph.duration_s, graph.time == erp::Time::lockstep),
       screen_(stdout),
       members_(plan_.processes.size()) {

@@ -32,6 +32,9 @@ void add_launch(CLI::App& app, Chosen& chosen) {
   verb->add_option("--set", options->settings,
                    "component.key=value: one parameter of one component; repeatable")
       ->allow_extra_args(false);
+  verb->add_option("--restarts", options->most_restarts,
+                   "how often within 30 s a component is started again before it is given up")
+      ->capture_default_str();
   verb->add_option("--out", options->folder,
                    "folder for logs and recording (default: erp_runs/<graph>/<UTC time>)");
   verb->footer("Ctrl-C stops the graph in order; a second one kills it.");

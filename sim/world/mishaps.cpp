@@ -77,14 +77,19 @@ void Mishaps::befall(World& world) const {
       world.snap(one.actuator);
 }
 
+std::vector<const Mishap*> Mishaps::beginning(double time_s, double tick_s) const {
+  std::vector<const Mishap*> found;
+  for (const Placed& one : list_)
+    if (begins(one.what, time_s, tick_s)) found.push_back(&one.what);
+  return found;
+}
+
 std::vector<Mishaps::OfEcu> Mishaps::of_ecus(double time_s, double tick_s) const {
   std::vector<OfEcu> due;
-  for (const Placed& one : list_) {
-    const bool begins = one.what.at_s >= time_s && one.what.at_s < time_s + tick_s;
-    if (begins && of_program(one.what.kind))
+  for (const Placed& one : list_)
+    if (begins(one.what, time_s, tick_s) && of_program(one.what.kind))
       due.push_back({one.what.kind, one.ecu,
                      static_cast<int>(std::min(std::lround(one.what.for_s / tick_s), 65535L))});
-  }
   return due;
 }
 

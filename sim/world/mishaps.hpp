@@ -65,6 +65,8 @@ class Mishaps {
   };
   /// What befalls programs in the tick that begins at `time_s`.
   std::vector<OfEcu> of_ecus(double time_s, double tick_s) const;
+  /// Those that begin in the tick at `time_s`.
+  std::vector<const Mishap*> beginning(double time_s, double tick_s) const;
   bool empty() const { return list_.empty(); }
   /// One that befalls a program, which only a separate ECU has.
   bool needs_separate_ecus() const;
@@ -75,6 +77,9 @@ class Mishaps {
     std::size_t actuator;
     int ecu;
   };
+  static bool begins(const Mishap& m, double time_s, double tick_s) {
+    return m.at_s >= time_s && m.at_s < time_s + tick_s;
+  }
   static bool is_on(const Mishap& m, double time_s) {
     return time_s >= m.at_s && time_s < m.at_s + m.for_s;
   }

@@ -131,6 +131,9 @@ void SimNode::on_command(const erp::EcuCommand& command) {
 
 void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
+  for (const Mishap* begun : mishaps_.beginning(world_.time_s(), tick_s))
+    node_.report(erp::Severity::info, begun->on, "mishap",
+                 xml::Codec<MishapKind>::write(begun->kind));
   if (outside_) outside_->tick(world_), say_outside();
   else ecus_.tick(world_);
   watch_world();

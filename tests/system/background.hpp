@@ -26,17 +26,19 @@ bool wait_until(Happened&& happened) {
   return false;
 }
 
-/// `erp launch …` in the background, ended by its process id.
+/// `erp launch …`, or another of our programs, in the background; ended by its process id.
 class Background {
  public:
-  Background(const std::vector<std::string>& arguments, std::string output)
+  Background(const std::vector<std::string>& arguments, std::string output,
+             const std::string& program = "erp")
       : output_(std::move(output)) {
     pid_ = fork();
     if (pid_ != 0) return;
     const int file = open(output_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
     dup2(file, 1), dup2(file, 2);
     if (chdir(ERP_SOURCE_DIR) != 0) _exit(126);
-    std::vector<char*> argv{const_cast<char*>(ERP_BIN_DIR "/erp")};
+    const std::string path = std::string(ERP_BIN_DIR "/") + program;
+    std::vector<char*> argv{const_cast<char*>(path.c_str())};
     for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
     execv(argv[0], argv.data());

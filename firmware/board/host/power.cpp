@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
@@ -22,7 +23,7 @@ namespace board {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000, watchdog_ns = 10 * ms, restart_ns = 20 * ms;
-constexpr int could_not_run = 1;
+constexpr int could_not_run = 1, unplugged = 3;  // exit codes of an ECU's process
 
 std::int64_t read_clock_ns(clockid_t clock) {
   timespec time{};
@@ -30,6 +31,13 @@ std::int64_t read_clock_ns(clockid_t clock) {
   return 1000 * ms * time.tv_sec + time.tv_nsec;
 }
 std::int64_t now_ns() { return read_clock_ns(CLOCK_MONOTONIC); }
+
+/// An ECU has a processor to itself: ahead of others here, where that is allowed.
+void go_ahead(int priority) {
+  const sched_param wanted{priority};
+  (void)::sched_setscheduler(0, SCHED_FIFO, &wanted);
+}
+constexpr int program_priority = 10, circuit_priority = 20;
 
 /// One ECU: its process while it has power.
 class Ecu {
@@ -78,13 +86,14 @@ class Ecu {
     pid_ = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == could_not_run) return;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    const bool unplugged = !hung_ && (signal == SIGKILL || signal == SIGTERM);
-    due_cause_ = unplugged ? FRAME_RESET_BROWN_OUT : FRAME_RESET_WATCHDOG;
+    const bool without_supply = !hung_ && (signal == SIGKILL || signal == SIGTERM ||
+                                           (WIFEXITED(status) && WEXITSTATUS(status) == unplugged));
+    due_cause_ = without_supply ? FRAME_RESET_BROWN_OUT : FRAME_RESET_WATCHDOG;
     due_ns_ = now_ns() + restart_ns;
     std::printf("ecu %d: %s\n", slot_.fitted.ecu,
-                hung_       ? "hung, reset by its watchdog"
-                : unplugged ? "lost its supply"
-                            : "crashed, reset by its watchdog");
+                hung_            ? "hung, reset by its watchdog"
+                : without_supply ? "lost its supply"
+                                 : "crashed, reset by its watchdog");
     hung_ = false;
   }
 
@@ -95,11 +104,13 @@ class Ecu {
  private:
   [[noreturn]] void become_program(frame_reset_cause cause, int kick) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    go_ahead(program_priority);
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     try {
       run(slot_.fitted, slot_.place, cause, kick);
+      ::_exit(unplugged);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "ecu %d: %s\n", slot_.fitted.ecu, error.what());
     }
@@ -139,6 +150,7 @@ void collect(std::vector<Ecu>& ecus) {
 
 int run_rack(const Rack& rack) {
   const int signals = ending_signals();
+  go_ahead(circuit_priority);
   std::vector<Ecu> ecus(rack.slots.begin(), rack.slots.end());
   for (Ecu& ecu : ecus) ecu.start(FRAME_RESET_POWER);
   const auto wanted = [](const Ecu& ecu) { return ecu.wanted(); };

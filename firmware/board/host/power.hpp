@@ -9,6 +9,7 @@
 /// What surrounds the microcontrollers: supply, reset circuit, watchdog and PWM stage of each.
 ///
 ///   ended by SIGKILL, SIGTERM   its supply broke down: PWM off, restarted after 20 ms, says so
+///   the robot is gone           the same
 ///   ended otherwise, or it worked 10 ms without a kick   its watchdog: PWM off, restarted, says so
 ///   ended by an error it told   stays off
 namespace board {

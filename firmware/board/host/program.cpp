@@ -47,25 +47,41 @@ class Program {
         bus_(erp::open_bus(place.bus, place.bus_options)),
         converters_(converter_socket(place.converters)),
         timer_(period_timer()) {
+    wait_for_power();
     erp::CanFrame boot;
     ecu_board_init(&board_, &fitted, cause, &boot);
     bus_->send({&boot, 1});
   }
 
-  void wait_and_serve() {
+  /// False: the robot is gone.
+  bool wait_and_serve() {
     std::array<pollfd, 3> ready{
         {{bus_->fd(), POLLIN, 0}, {converters_, POLLIN, 0}, {timer_, POLLIN, 0}}};
     ::poll(ready.data(), ready.size(), -1);
     if (ready[0].revents) hear();
     if (ready[1].revents) read_converters();
     std::uint64_t periods = 0;
-    if (::read(timer_, &periods, sizeof periods) <= 0) return;
+    if (::read(timer_, &periods, sizeof periods) <= 0) return true;
     // Periods that this machine kept from us count for the timeouts; what they said is said once.
     for (periods = std::min<std::uint64_t>(periods, ECU_TIMEOUT_TICKS); periods > 0; --periods)
       pass_period(periods == 1);
+    return ++unread_periods_ < unplugged_periods;
   }
 
  private:
+  static constexpr int unplugged_periods = 50;  ///< 100 ms without a reading; chosen
+
+  /// Calls for the robot until it answers: before that there is nothing to run on.
+  void wait_for_power() {
+    while (unread_periods_ > 0) {
+      say({});
+      pollfd answer{converters_, POLLIN, 0};
+      if (::poll(&answer, 1, 5) > 0) read_converters();
+    }
+    std::uint64_t passed = 0;
+    (void)!::read(timer_, &passed, sizeof passed);
+  }
+
   void hear() {
     std::array<erp::CanFrame, 64> frames;
     while (const auto count = bus_->receive(frames, 0))
@@ -80,7 +96,8 @@ class Program {
   }
 
   void take(wire_kind kind) {
-    if (kind == WIRE_READINGS) wire_unpack_readings(&reader_, &period_.readings);
+    if (kind == WIRE_READINGS)
+      wire_unpack_readings(&reader_, &period_.readings), unread_periods_ = 0;
     if (kind != WIRE_MISHAP) return;
     wire_mishap mishap;
     wire_unpack_mishap(&reader_, &mishap);
@@ -96,18 +113,21 @@ class Program {
     std::array<std::int16_t, 2> duty;
     period_.bus_off = bus_off_periods_ > 0;
     const unsigned count = ecu_board_period(&board_, &period_, duty.data(), frames.data());
-    if (aloud) say(duty, std::span(frames).first(count));
+    if (aloud) {
+      say(duty);
+      if (bus_off_periods_ == 0) bus_->send(std::span(frames).first(count));
+    }
     while (busy_periods_ > 0 && worked_ns() - began_ns < period_ns) continue;
     if (busy_periods_ > 0) --busy_periods_;
     if (bus_off_periods_ > 0) --bus_off_periods_;
     period_.overran = worked_ns() - began_ns >= period_ns;
   }
 
-  void say(const std::array<std::int16_t, 2>& duty, std::span<const erp::CanFrame> frames) {
+  /// Both PWM outputs to the robot, and a kick to the watchdog.
+  void say(const std::array<std::int16_t, 2>& duty) {
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_drive(bytes.data(), fitted_.ecu, duty.data());
     (void)::send(converters_, bytes.data(), size, 0);  // no robot there yet: it is said again
-    if (bus_off_periods_ == 0) bus_->send(frames);
     (void)!::write(kick_, "", 1);
   }
 
@@ -118,6 +138,7 @@ class Program {
   std::unique_ptr<erp::CanBus> bus_;
   int converters_, timer_;
   wire_reader reader_{};
+  int unread_periods_ = 1;
   unsigned busy_periods_ = 0, bus_off_periods_ = 0;
 };
 
@@ -125,7 +146,7 @@ class Program {
 
 void run(const board_fitted& fitted, const Place& place, frame_reset_cause cause, int kick) {
   Program program(fitted, place, cause, kick);
-  while (true) program.wait_and_serve();
+  while (program.wait_and_serve()) continue;
 }
 
 }  // namespace board

@@ -16,9 +16,9 @@ struct Place {
   sockaddr_in converters{};  ///< where the simulated robot listens
 };
 
-/// Runs until the process is ended; never returns but by an exception (no bus). Each period it
-/// writes a byte to `kick`: who reads it is the watchdog.
-[[noreturn]] void run(const board_fitted& fitted, const Place& place, frame_reset_cause cause,
-                      int kick);
+/// Waits for the robot, runs, and returns when the robot is gone: no reading for 100 ms. Each
+/// period it writes a byte to `kick`: who reads it is the watchdog. Throws std::runtime_error
+/// without a bus.
+void run(const board_fitted& fitted, const Place& place, frame_reset_cause cause, int kick);
 
 }  // namespace board

@@ -138,8 +138,8 @@ TEST_CASE("no more frames fly than the window allows, until they were seen on th
 }
 
 TEST_CASE("our trace and candump's are the same, line by line") {
-  REQUIRE(std::system("candump -L vcan1 > /run/candump.log & echo $! > /run/candump.pid; sleep 1") ==
-          0);
+  REQUIRE(std::system(
+              "candump -L vcan1 > /run/candump.log & echo $! > /run/candump.pid; sleep 1") == 0);
   const auto a = erp::open_bus("socketcan:vcan1"), b = erp::open_bus("socketcan:vcan1");
   {
     erp::TraceWriter trace("/run/ours.log", "vcan1");

@@ -1,0 +1,106 @@
+// What comes from the host's side: words that no sane controller says, frames that nobody sent.
+#include <cmath>
+
+#include "tests/faults/bench.hpp"
+
+using namespace faults;
+
+namespace {
+
+/// A controller above the rig's own, that asks for what it is told to, once each 5 ms.
+void asks(Bench& bench, double reference, int times) {
+  node::Writer<erp::ActuatorCommand> commands(bench.participant());
+  erp::ActuatorCommand command;
+  erp::assign(command.robot, bench.robot().name);
+  erp::assign(command.controller, "mad");
+  command.priority = 50;
+  erp::ActuatorReference r{};
+  erp::assign(r.name, "flexor");
+  r.mode = static_cast<std::uint8_t>(erp::Mode::force);
+  r.reference = reference;
+  erp::append(command.actuators, r);
+  tests::wait_until([&] { return commands.matched() > 0; });
+  for (int k = 0; k < times; ++k) {
+    command.stamp_ns = node::wall_ns();
+    commands.write(command);
+    std::this_thread::sleep_for(5ms);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("set-points that are no number, or far out of range, are refused with the reason") {
+  Bench bench;
+  for (const double reference : {std::nan(""), double{INFINITY}, 1e6, -50.0}) {
+    bench.settle();
+    const auto from = node::wall_ns();
+    asks(bench, reference, 40);
+    int forces = 0;
+    for (const auto& heard : bench.bus_ear().since(from)) {
+      frame_command said;
+      forces +=
+          frame_unpack_command(&heard.frame, &said) && said.channel[0].request == ECU_REQUEST_FORCE;
+    }
+    CHECK(forces == 0);  // length_control drives on
+  }
+  CHECK(bench.events().first(1, "reference", "flexor") != 0);
+}
+
+TEST_CASE("five corrupt commands in a row trip, four do not; bad lengths count as well") {
+  Bench bench;
+  const auto corrupt = [](std::size_t count) {
+    std::vector<erp::CanFrame> frames;
+    for (std::size_t k = 0; k < count; ++k) {
+      const frame_command said{{{3, 9000}, {3, 9000}}, 0, std::uint8_t(k & 7)};
+      erp::CanFrame frame;
+      frame_pack_command(&frame, 0, &said);
+      if (k % 2) frame.data[3] ^= 0x10;
+      else frame.size = 5;
+      frames.push_back(frame);
+    }
+    return frames;
+  };
+  const auto tripped = [&](std::int64_t from) {
+    return bench.await([&] { return bench.emergency(from, ECU_FAULT_CORRUPT); }, 100);
+  };
+  for (int k = 0; k < 20; ++k) {
+    auto from = node::wall_ns();
+    bench.bus_ear().send(corrupt(4));
+    CHECK(tripped(from) == 0);
+  }
+  Row row("five corrupt frames in a row", "ECU's emergency frame", 4);
+  for (int k = 0; k < 20; ++k) {
+    bench.settle();
+    const auto from = node::wall_ns();
+    bench.bus_ear().send(corrupt(5));
+    row.add(from, tripped(from));
+  }
+  row.check();
+}
+
+TEST_CASE("a tendon that snaps is let go, and nothing runs away") {
+  tests::Folder folder;
+  write_rig(folder);
+  std::ofstream(folder / "sim.xml")
+      << "<sim><mishap kind=\"tendon_snaps\" on=\"flexor\" at_s=\"4\"/></sim>\n";
+  std::ofstream(folder / "force.csv") << "time_s,flexor.mode,flexor.reference,extensor.mode,"
+                                         "extensor.reference\n0,force,20,force,20\n60,force,20,"
+                                         "force,20\n";
+  std::ofstream(folder / "target.xml") << "<target file=\"force.csv\"/>\n";
+  std::ofstream(folder / "force_control.xml") << "<force_control where=\"ecu\"/>\n";
+  std::ofstream(folder / "graph.xml")
+      << "<graph name=\"rig\" robot=\"robot.xml\" device=\"can\">\n"
+         "  <component name=\"sim\" config=\"sim.xml\"/>\n"
+         "  <component name=\"target\" config=\"target.xml\"/>\n"
+         "  <component name=\"force_control\" config=\"force_control.xml\"/>\n"
+         "</graph>\n";
+  Bench bench(folder / "robot.xml", folder / "graph.xml");
+  const auto broke = bench.await([&] { return bench.events().first(1, "mishap", "flexor"); }, 8000);
+  REQUIRE(broke != 0);
+  Row slack("tendon snapped", "noticed by the plant", 22);
+  slack.add(broke, bench.await([&] { return bench.events().first(broke, "tendon_slack"); }));
+  slack.check();
+  CHECK(bench.await([&] { return bench.events().first(broke, "tendon_snapped"); }, 8000) != 0);
+  const auto off = bench.await([&] { return bench.pwm_off(broke, 0, 0); });
+  CHECK(off != 0);
+}

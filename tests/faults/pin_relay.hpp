@@ -1,0 +1,149 @@
+#pragma once
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "components/node/clock.hpp"
+#include "firmware/board/wire.h"
+
+namespace faults {
+
+/// The hand on the ECUs' pins: everything between their converters and the simulated robot passes
+/// here, is written down with the time, and can be changed on its way.
+class PinRelay {
+ public:
+  struct Drive {
+    std::int64_t at_ns;  ///< since 1970
+    int ecu;
+    std::array<std::int16_t, 2> duty;
+  };
+  using Alter = std::function<void(int ecu, board_readings&)>;
+
+  /// Listens for ECUs on `port`; the robot listens on `robot_port`.
+  PinRelay(int port, int robot_port) : down_(listening(port)), up_(connected(robot_port)) {
+    thread_ = std::thread([this] { relay(); });
+  }
+  ~PinRelay() {
+    done_ = true;
+    thread_.join();
+    ::close(down_), ::close(up_);
+  }
+
+  /// From now on readings go through `alter`. Returns when that began.
+  std::int64_t alter(Alter alter) {
+    const std::lock_guard lock(guard_);
+    alter_ = std::move(alter);
+    return node::wall_ns();
+  }
+  void leave_alone() { alter(nullptr); }
+
+  /// Does something to an ECU's program. Returns when.
+  std::int64_t befall(int ecu, wire_mishap_kind kind, int periods = 1) {
+    const wire_mishap mishap{std::uint8_t(kind), std::uint16_t(periods)};
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    const unsigned size = wire_pack_mishap(bytes.data(), std::uint8_t(ecu), &mishap);
+    const std::lock_guard lock(guard_);
+    send_down(ecu, bytes.data(), size);
+    return node::wall_ns();
+  }
+
+  std::vector<Drive> drives_since(std::int64_t from_ns) {
+    const std::lock_guard lock(guard_);
+    std::vector<Drive> found;
+    for (const Drive& drive : drives_)
+      if (drive.at_ns >= from_ns) found.push_back(drive);
+    return found;
+  }
+  void forget() {
+    const std::lock_guard lock(guard_);
+    drives_.clear();
+  }
+
+ private:
+  static sockaddr_in here(int port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(std::uint16_t(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return address;
+  }
+  static int listening(int port) {
+    const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    const auto address = here(port);
+    REQUIRE(::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    return fd;
+  }
+  static int connected(int port) {
+    const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    const auto address = here(port);
+    REQUIRE(::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    return fd;
+  }
+
+  void relay() {
+    while (!done_) {
+      std::array<pollfd, 2> ready{{{down_, POLLIN, 0}, {up_, POLLIN, 0}}};
+      if (::poll(ready.data(), 2, 20) <= 0) continue;
+      if (ready[0].revents) from_ecu();
+      if (ready[1].revents) from_robot();
+    }
+  }
+  void from_ecu() {
+    std::array<std::uint8_t, 512> bytes;
+    sockaddr_in from{};
+    socklen_t size = sizeof from;
+    const ssize_t n =
+        ::recvfrom(down_, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
+    const std::lock_guard lock(guard_);
+    wire_reader reader{};
+    for (ssize_t i = 0; i < n; ++i) {
+      if (wire_take(&reader, bytes[std::size_t(i)]) != WIRE_DRIVE) continue;
+      Drive drive{node::wall_ns(), wire_ecu(&reader), {}};
+      wire_unpack_drive(&reader, drive.duty.data());
+      drives_.push_back(drive);
+      where_[drive.ecu] = from;
+    }
+    (void)::send(up_, bytes.data(), std::size_t(n), 0);
+  }
+  void from_robot() {
+    std::array<std::uint8_t, 512> bytes;
+    const ssize_t n = ::recv(up_, bytes.data(), bytes.size(), 0);
+    const std::lock_guard lock(guard_);
+    for (ssize_t i = 0; i < n; ++i)
+      if (wire_take(&from_robot_, bytes[std::size_t(i)]) == WIRE_READINGS) pass_on();
+  }
+  void pass_on() {
+    board_readings readings;
+    wire_unpack_readings(&from_robot_, &readings);
+    const int ecu = wire_ecu(&from_robot_);
+    if (alter_) alter_(ecu, readings);
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    send_down(ecu, bytes.data(), wire_pack_readings(bytes.data(), std::uint8_t(ecu), &readings));
+  }
+  void send_down(int ecu, const std::uint8_t* bytes, unsigned size) {
+    const auto& to = where_[ecu];
+    (void)::sendto(down_, bytes, size, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  }
+
+  int down_, up_;
+  std::mutex guard_;
+  Alter alter_;
+  std::map<int, sockaddr_in> where_;
+  wire_reader from_robot_{};
+  std::vector<Drive> drives_;
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace faults

@@ -1,0 +1,55 @@
+#pragma once
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace faults {
+
+/// What one row of the table measured, injection by injection.
+class Row {
+ public:
+  static constexpr double scheduling_ms = 10;  ///< what a busy machine may add to a wake-up; chosen
+
+  Row(std::string fault, std::string what, double limit_ms)
+      : fault_(std::move(fault)), what_(std::move(what)), limit_ms_(limit_ms) {}
+
+  /// One injection: when it was done, and when that was noticed or safe (0: never).
+  void add(std::int64_t from_ns, std::int64_t to_ns) {
+    if (to_ns == 0) ++missed_;
+    else ms_.push_back(1e-6 * double(to_ns - from_ns));
+  }
+  /// Prints the row, and checks it: none missed, half of them within the limit, all within the
+  /// limit and what scheduling adds.
+  void check() {
+    std::ranges::sort(ms_);
+    std::printf("| %-34s | %-34s | %2zu | %6.1f | %6.1f | %6.1f | %5.0f |\n", fault_.c_str(),
+                what_.c_str(), ms_.size(), at(0.5), at(0.95), at(1), limit_ms_);
+    std::fflush(stdout);
+    INFO(fault_ << ": " << what_);
+    CHECK(missed_ == 0);
+    CHECK(at(0.5) <= limit_ms_);
+    CHECK(at(1) <= limit_ms_ + scheduling_ms);
+  }
+  static void head() {
+    static const bool once = [] {
+      std::printf("| %-34s | %-34s |  n |    p50 |    p95 |    max | limit |\n", "fault",
+                  "measured, ms");
+      return true;
+    }();
+    (void)once;
+  }
+
+ private:
+  double at(double share) const {
+    if (ms_.empty()) return 1e9;
+    return ms_[std::size_t(share * double(ms_.size() - 1) + 0.5)];
+  }
+  std::string fault_, what_;
+  double limit_ms_;
+  std::vector<double> ms_;
+  int missed_ = 0;
+};
+
+}  // namespace faults

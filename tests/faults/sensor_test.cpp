@@ -1,0 +1,141 @@
+// Sensors that lie, seen and answered by the firmware alone.
+#include "tests/faults/bench.hpp"
+
+using namespace faults;
+
+namespace {
+
+constexpr int injections = 20;
+
+/// Injects `alter`, waits for that fault and for PWM 0 of the flexor's channel, clears.
+void inject(Bench& bench, Row& safe, int fault, const PinRelay::Alter& alter,
+            std::int64_t began_ns = 0) {
+  bench.settle();
+  const auto from = began_ns ? began_ns : bench.pins().alter(alter);
+  const auto said = bench.await([&] { return bench.emergency(from, fault); });
+  CHECK(said != 0);
+  safe.add(from, bench.await([&] { return bench.pwm_off(from, 0, 0); }));
+  bench.pins().leave_alone();
+  bench.say_off();
+}
+
+}  // namespace
+
+TEST_CASE("force sensor open, short") {
+  Bench bench;
+  Row open("force sensor open", "PWM 0", 8), shorted("force sensor short", "PWM 0", 8);
+  for (int k = 0; k < injections; ++k) {
+    inject(bench, open, ECU_FAULT_SENSOR_RANGE,
+           [](int, board_readings& r) { r.channel[0].tension_counts = 4095; });
+    inject(bench, shorted, ECU_FAULT_SENSOR_RANGE,
+           [](int, board_readings& r) { r.channel[0].tension_counts = 0; });
+  }
+  open.check(), shorted.check();
+}
+
+TEST_CASE("sensor stuck") {
+  tests::Folder folder;
+  write_rig(folder, 0.008);
+  Bench bench(folder / "robot.xml", folder / "graph.xml");
+  for (const bool tension : {true, false}) {
+    Row safe(tension ? "force sensor stuck" : "current sensor stuck", "PWM 0, turning at once",
+             102);
+    for (int k = 0; k < injections; ++k) {
+      bench.settle();
+      // From a stretch of the triangle on in which the shaft turns for longer than 100 ms.
+      std::optional<ecu_inputs> kept;
+      std::int32_t last = 0;
+      std::int64_t from = 0;
+      int turning = 0;
+      std::mutex guard;
+      bench.pins().alter([&](int, board_readings& r) {
+        const std::lock_guard lock(guard);
+        ecu_inputs& in = r.channel[0];
+        const int moved = std::abs(in.encoder_counts - last);
+        last = in.encoder_counts;
+        turning = moved > 150 ? turning + 1 : 0;  // of 41721 counts a turn: 1.8 rad/s
+        if (!kept && turning > 20 && turning < 40) kept = in, from = node::wall_ns();
+        if (!kept) return;
+        if (tension) in.tension_counts = kept->tension_counts;
+        else in.current_counts = kept->current_counts;
+      });
+      const auto said = bench.await([&] { return bench.emergency(1, ECU_FAULT_SENSOR_STUCK); });
+      CHECK(said != 0);
+      safe.add(from, bench.await([&] { return bench.pwm_off(from, 0, 0); }));
+      bench.say_off();
+    }
+    safe.check();
+  }
+}
+
+TEST_CASE("encoder that slips") {
+  Bench bench;
+  Row safe("encoder phase lost (slips)", "PWM 0", 52);
+  for (int k = 0; k < 5; ++k) {
+    // What the potentiometer says against an encoder survives a clear: only a reset ends it.
+    inject(bench, safe, ECU_FAULT_POTENTIOMETER,
+           [](int, board_readings& r) { r.channel[0].encoder_counts += 41721 / 4; });
+    kill(bench.ecu(0), SIGKILL);
+  }
+  safe.check();
+}
+
+TEST_CASE("over-current") {
+  Bench bench;
+  Row safe("over-current", "PWM 0", 4);
+  for (int k = 0; k < injections; ++k)
+    inject(bench, safe, ECU_FAULT_OVER_CURRENT,
+           [](int, board_readings& r) { r.channel[0].current_counts = 1900; });
+  safe.check();
+}
+
+TEST_CASE("over-temperature") {
+  Bench bench;
+  node::Writer<erp::GainCommand> gains(bench.participant());
+  erp::GainCommand command;
+  erp::assign(command.robot, bench.robot().name);
+  erp::assign(command.controller, "hand");
+  for (const auto& [name, value] : {std::pair{"temperature_C_per_count", 0.1},
+                                    {"temperature_derate_C", 70.0},
+                                    {"temperature_trip_C", 90.0}}) {
+    erp::GainValue gain{};
+    erp::assign(gain.name, "flexor");
+    erp::assign(gain.parameter, name);
+    gain.value = value;
+    erp::append(command.gains, gain);
+  }
+  tests::wait_until([&] { return gains.matched() > 0; });
+  gains.write(command);
+  std::this_thread::sleep_for(300ms);
+  Row safe("over-temperature", "PWM 0", 100 + 2);
+  for (int k = 0; k < 5; ++k)
+    inject(bench, safe, ECU_FAULT_OVER_TEMPERATURE,
+           [](int, board_readings& r) { r.channel[0].temperature_counts = 950; });
+  safe.check();
+}
+
+TEST_CASE("loop overrun, and bus-off at an ECU") {
+  Bench bench;
+  Row overrun("loop overrun", "PWM 0, of three in a row", 8);
+  Row off("bus-off at an ECU", "PWM 0", 4),
+      rejoined("bus-off at an ECU", "rejoined, disarmed", 100);
+  for (int k = 0; k < injections; ++k) {
+    bench.settle();
+    auto from = bench.pins().befall(0, WIRE_MISHAP_BUSY, 6);
+    CHECK(bench.await([&] { return bench.emergency(from, ECU_FAULT_OVERRUN); }) != 0);
+    overrun.add(from, bench.await([&] { return bench.pwm_off(from); }));
+    bench.say_off();
+
+    bench.settle();
+    from = bench.pins().befall(0, WIRE_MISHAP_BUS_OFF, 10);
+    off.add(from, bench.await([&] { return bench.pwm_off(from); }));
+    const auto back = bench.await([&] {
+      return bench.bus_ear().first(from + 15 * ms, [](const erp::CanFrame& frame) {
+        frame_status said;
+        return frame_unpack_status(&frame, &said) && said.state != ECU_STATE_RUNNING;
+      });
+    });
+    rejoined.add(from, back);
+  }
+  overrun.check(), off.check(), rejoined.check();
+}
