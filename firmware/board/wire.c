@@ -4,6 +4,7 @@
 #define READINGS_BYTES (1u + 2u * 12u + 4u * ECU_ANALOG_INPUTS)
 #define DRIVE_BYTES 5u
 #define MISHAP_BYTES 4u
+#define SAMPLE_BYTES 1u
 
 /* ---- packing ---- */
 
@@ -50,6 +51,11 @@ unsigned wire_pack_drive(uint8_t* bytes, uint8_t ecu, const int16_t* duty) {
   return end(&c);
 }
 
+unsigned wire_pack_sample(uint8_t* bytes, uint8_t ecu) {
+  cursor c = begin(bytes, WIRE_SAMPLE, SAMPLE_BYTES, ecu);
+  return end(&c);
+}
+
 unsigned wire_pack_mishap(uint8_t* bytes, uint8_t ecu, const wire_mishap* mishap) {
   cursor c = begin(bytes, WIRE_MISHAP, MISHAP_BYTES, ecu);
   put(&c, 1, mishap->kind);
@@ -67,6 +73,8 @@ static unsigned size_of(uint8_t kind) {
       return DRIVE_BYTES;
     case WIRE_MISHAP:
       return MISHAP_BYTES;
+    case WIRE_SAMPLE:
+      return SAMPLE_BYTES;
     default:
       return 0;
   }

@@ -7,6 +7,7 @@
  *                              temperature 16, supply 16; four analog inputs of 32
  *   DRIVE     2  ECU -> robot  ecu 8; duty 16, duty 16: both PWM outputs
  *   MISHAP    3  robot -> ECU  ecu 8, kind 8, periods 16: what tests do to it
+ *   SAMPLE    4  ECU -> robot  ecu 8: answered by READINGS of now
  *
  * A byte that makes no sense is passed over; the next 0xA5 begins again.
  */
@@ -21,7 +22,7 @@ extern "C" {
 #define WIRE_PAYLOAD_MAX 48u
 #define WIRE_MESSAGE_MAX (WIRE_PAYLOAD_MAX + 4u)
 
-typedef enum { WIRE_READINGS = 1, WIRE_DRIVE = 2, WIRE_MISHAP = 3 } wire_kind;
+typedef enum { WIRE_READINGS = 1, WIRE_DRIVE = 2, WIRE_MISHAP = 3, WIRE_SAMPLE = 4 } wire_kind;
 
 /* What can befall a program; the board brings it about. */
 typedef enum {
@@ -38,6 +39,7 @@ typedef struct {
 /* Packing returns how many bytes were written, at most WIRE_MESSAGE_MAX. */
 unsigned wire_pack_readings(uint8_t* bytes, uint8_t ecu, const board_readings* readings);
 unsigned wire_pack_drive(uint8_t* bytes, uint8_t ecu, const int16_t* duty);
+unsigned wire_pack_sample(uint8_t* bytes, uint8_t ecu);
 unsigned wire_pack_mishap(uint8_t* bytes, uint8_t ecu, const wire_mishap* mishap);
 
 /* What has been read of a message so far. Zero it first. */

@@ -96,10 +96,14 @@ void Converters::measure(const World& world) {
 }
 
 void Converters::pass_period(World& world, std::span<const double> voltage_V) {
+  pass(world, voltage_V, tick_s);
+}
+
+void Converters::pass(World& world, std::span<const double> voltage_V, double duration_s) {
   if (mishaps_) mishaps_->befall(world);
   for (int k = 0; k < substeps_; ++k) {
     if (k > 0) look(world, false);
-    world.step(voltage_V, tick_s / substeps_);
+    world.step(voltage_V, duration_s / substeps_);
   }
   measure(world);
 }

@@ -49,6 +49,8 @@ class Converters {
   void measure(const World& world);
   /// One period of 2 ms under these voltages, one an actuator; then a new measurement.
   void pass_period(World& world, std::span<const double> voltage_V);
+  /// The same for another time.
+  void pass(World& world, std::span<const double> voltage_V, double duration_s);
 
   std::span<const Channel> channels() const { return channels_; }
   std::span<const Analog> analogs() const { return analogs_; }

@@ -15,8 +15,6 @@
 namespace sim {
 namespace {
 
-constexpr double tick_s = 0.002;
-
 int listen_on(int port) {
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   sockaddr_in here{};
@@ -39,11 +37,11 @@ wire_mishap_kind wire_kind_of(MishapKind kind) {
 
 }  // namespace
 
-OutsideEcus::OutsideEcus(const erp::Robot& nominal, int port, int substeps, std::uint64_t seed)
+OutsideEcus::OutsideEcus(const erp::Robot& nominal, int port, std::uint64_t seed)
     : socket_(listen_on(port)) {
   const auto [robot, acting] = effects::equip(nominal);
   std::uint64_t from = seed << 16;
-  converters_ = std::make_unique<Converters>(robot, acting, substeps, from);
+  converters_ = std::make_unique<Converters>(robot, acting, 1, from);
   voltage_V_.resize(converters_->channels().size());
   for (const int address : robot.ecus()) ecus_[address] = {};
 }
@@ -69,18 +67,20 @@ void OutsideEcus::hear() {
 void OutsideEcus::take(const sockaddr_in& from, std::span<const std::uint8_t> bytes) {
   wire_reader& reader = open_[{from.sin_addr.s_addr, from.sin_port}];
   for (const std::uint8_t byte : bytes) {
-    if (wire_take(&reader, byte) != WIRE_DRIVE) continue;
+    const wire_kind kind = wire_take(&reader, byte);
+    if (kind != WIRE_DRIVE && kind != WIRE_SAMPLE) continue;
     const auto ecu = ecus_.find(wire_ecu(&reader));
     if (ecu == ecus_.end()) continue;
-    wire_unpack_drive(&reader, ecu->second.duty.data());
     ecu->second.where = from;
     ecu->second.silent = 0;
+    if (kind == WIRE_DRIVE) wire_unpack_drive(&reader, ecu->second.duty.data());
+    else answer(ecu->first, ecu->second);
   }
 }
 
 int OutsideEcus::alive() const {
   return static_cast<int>(std::ranges::count_if(
-      ecus_, [](const auto& one) { return one.second.silent < silent_ticks; }));
+      ecus_, [](const auto& one) { return one.second.silent < silent_steps; }));
 }
 
 std::uint64_t OutsideEcus::unreadable() const {
@@ -93,36 +93,33 @@ std::uint64_t OutsideEcus::unreadable() const {
 
 double OutsideEcus::voltage_V(const Converters::Channel& channel) const {
   const Ecu& ecu = ecus_.at(channel.ecu);
-  if (ecu.silent >= silent_ticks) return 0;
+  if (ecu.silent >= silent_steps) return 0;
   const int duty = ecu.duty[static_cast<std::size_t>(channel.number)];
   return channel.supply_V * std::clamp(duty, -ECU_DUTY_MAX, ECU_DUTY_MAX) / ECU_DUTY_MAX;
 }
 
-void OutsideEcus::tick(World& world) {
+void OutsideEcus::step(World& world) {
   const auto channels = converters_->channels();
   for (std::size_t k = 0; k < channels.size(); ++k) voltage_V_[k] = voltage_V(channels[k]);
-  for (auto& [address, ecu] : ecus_) ecu.silent = std::min(ecu.silent + 1, silent_ticks);
+  for (auto& [address, ecu] : ecus_) ecu.silent = std::min(ecu.silent + 1, silent_steps);
   if (mishaps_) send_mishaps(world.time_s());
-  converters_->pass_period(world, voltage_V_);
-  send_readings();
+  converters_->pass(world, voltage_V_, step_s);
 }
 
-void OutsideEcus::send_readings() {
-  std::map<int, board_readings> readings;
+void OutsideEcus::answer(int address, Ecu& to) {
+  board_readings readings{};
   for (const Converters::Channel& c : converters_->channels())
-    readings[c.ecu].channel[c.number] = c.inputs;
+    if (c.ecu == address) readings.channel[c.number] = c.inputs;
   for (const Converters::Analog& a : converters_->analogs())
-    readings[a.ecu].analog[a.input] = a.counts;
-  for (const auto& [address, ecu] : ecus_) {
-    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
-    const unsigned size =
-        wire_pack_readings(bytes.data(), static_cast<std::uint8_t>(address), &readings[address]);
-    send(ecu, std::span(bytes).first(size));
-  }
+    if (a.ecu == address) readings.analog[a.input] = a.counts;
+  std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+  const unsigned size =
+      wire_pack_readings(bytes.data(), static_cast<std::uint8_t>(address), &readings);
+  send(to, std::span(bytes).first(size));
 }
 
 void OutsideEcus::send_mishaps(double time_s) {
-  for (const Mishaps::OfEcu& one : mishaps_->of_ecus(time_s, tick_s)) {
+  for (const Mishaps::OfEcu& one : mishaps_->of_ecus(time_s, step_s)) {
     const wire_mishap said{static_cast<std::uint8_t>(wire_kind_of(one.kind)),
                            static_cast<std::uint16_t>(one.periods)};
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;

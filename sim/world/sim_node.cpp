@@ -69,6 +69,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
   node.on_activate([this] {
     began_ns_ = node::monotonic_ns();
     ecus_.measure(world_);
+    if (outside_) outside_->measure(world_);
     if (bus_) bus_->say_boot();
     measure_and_say();
   });
@@ -79,7 +80,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     });
   else
     node.every(
-        tick_ns, [this] { tick(); }, make_up_ns);
+        tick_ns / steps_a_tick(), [this] { step(); }, outside_ ? 0 : make_up_ns);
 }
 
 void SimNode::join_bus_as_device() {
@@ -103,7 +104,7 @@ void SimNode::serve_outside(const Params& params, const erp::Robot& robot) {
     throw std::invalid_argument(
         "converter_port: ECUs that run elsewhere keep their own time; leave "
         "lockstep out");
-  outside_ = std::make_unique<OutsideEcus>(robot, params.converter_port, substeps_of(params),
+  outside_ = std::make_unique<OutsideEcus>(robot, params.converter_port,
                                            static_cast<std::uint64_t>(params.seed));
   if (!mishaps_.empty()) outside_->suffer(&mishaps_);
   node_.watch(outside_->descriptor(), [this] { outside_->hear(); });
@@ -129,12 +130,21 @@ void SimNode::on_command(const erp::EcuCommand& command) {
   tick();
 }
 
+/// ECUs outside have the world move in steps between their periods. They cannot run faster to make
+/// up for lost time with it: what they miss, it misses.
+int SimNode::steps_a_tick() const { return outside_ ? OutsideEcus::steps_a_tick : 1; }
+
+void SimNode::step() {
+  if (outside_) outside_->step(world_);
+  if (++steps_ % steps_a_tick() == 0) tick();
+}
+
 void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
   for (const Mishap* begun : mishaps_.beginning(world_.time_s(), tick_s))
     node_.report(erp::Severity::info, begun->on, "mishap",
                  xml::Codec<MishapKind>::write(begun->kind));
-  if (outside_) outside_->tick(world_), say_outside();
+  if (outside_) say_outside();
   else ecus_.tick(world_);
   watch_world();
   ++ticks_;

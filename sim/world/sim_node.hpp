@@ -58,6 +58,8 @@ class SimNode {
   void stand_behind(const std::string& bus, const erp::Robot& robot);
   void serve_outside(const Params& params, const erp::Robot& robot);
   void say_outside();
+  int steps_a_tick() const;
+  void step();
   void tick();
   bool at_end() const { return end_ticks_ && ticks_ >= end_ticks_; }
   void measure_and_say();
@@ -90,6 +92,7 @@ class SimNode {
   erp::BodyPose bodies_;
   erp::ImuFrame imu_frame_;
   std::uint64_t ticks_ = 0, end_ticks_;
+  int steps_ = 0;
   std::int64_t began_ns_ = 0, said_ns_ = 0;
 };
 

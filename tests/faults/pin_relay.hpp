@@ -2,6 +2,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <pthread.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -33,6 +34,8 @@ class PinRelay {
   /// Listens for ECUs on `port`; the robot listens on `robot_port`.
   PinRelay(int port, int robot_port) : down_(listening(port)), up_(connected(robot_port)) {
     thread_ = std::thread([this] { relay(); });
+    const sched_param ahead{15};  // where that is allowed: it stands for wires, which do not wait
+    (void)pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &ahead);
   }
   ~PinRelay() {
     done_ = true;

@@ -55,13 +55,12 @@ class Program {
 
   /// False: the robot is gone.
   bool wait_and_serve() {
-    std::array<pollfd, 3> ready{
-        {{bus_->fd(), POLLIN, 0}, {converters_, POLLIN, 0}, {timer_, POLLIN, 0}}};
+    std::array<pollfd, 2> ready{{{bus_->fd(), POLLIN, 0}, {timer_, POLLIN, 0}}};
     ::poll(ready.data(), ready.size(), -1);
     if (ready[0].revents) hear();
-    if (ready[1].revents) read_converters();
     std::uint64_t periods = 0;
     if (::read(timer_, &periods, sizeof periods) <= 0) return true;
+    convert();
     // Periods that this machine kept from us count for the timeouts; what they said is said once.
     for (periods = std::min<std::uint64_t>(periods, ECU_TIMEOUT_TICKS); periods > 0; --periods)
       pass_period(periods == 1);
@@ -71,15 +70,30 @@ class Program {
  private:
   static constexpr int unplugged_periods = 50;  ///< 100 ms without a reading; chosen
 
+  static constexpr int conversion_ms = 1;  ///< after that the last readings serve again
+
   /// Calls for the robot until it answers: before that there is nothing to run on.
   void wait_for_power() {
     while (unread_periods_ > 0) {
       say({});
-      pollfd answer{converters_, POLLIN, 0};
-      if (::poll(&answer, 1, 5) > 0) read_converters();
+      convert();
     }
     std::uint64_t passed = 0;
     (void)!::read(timer_, &passed, sizeof passed);
+  }
+
+  /// Has all converters read, and waits for what they say.
+  void convert() {
+    read_converters();
+    const int unread = unread_periods_;
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    (void)::send(converters_, bytes.data(), wire_pack_sample(bytes.data(), fitted_.ecu), 0);
+    pollfd answer{converters_, POLLIN, 0};
+    unread_periods_ = unread + 1;
+    for (int tries = 0; tries < 4 && unread_periods_ > 0; ++tries)
+      if (::poll(&answer, 1, conversion_ms) > 0) read_converters();
+      else break;
+    if (unread_periods_ > 0) unread_periods_ = unread;
   }
 
   void hear() {
