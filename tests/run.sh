@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
 # The test command: installs what is missing, builds, runs every test.
 #   tests/run.sh           everything, on the release build
+#   tests/run.sh faults    every fault injected twenty times into running graphs, and timed
 #   tests/run.sh asan      the same under address and undefined-behaviour sanitizers
 #   tests/run.sh tsan      the same under the thread sanitizer
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
+[ "$preset" = faults ] && preset=release
 
 launch/dependencies.sh test
 cmake --preset "$preset" -DERP_TESTS=ON >/dev/null
 cmake --build --preset "$preset"
+if [ "${1:-}" = faults ]; then
+  build/release/tests/erp_faults
+  exec tests/hal/uml/run_in_uml.sh "$PWD/build/release/tests/socketcan_test"
+fi
 ctest --preset "$preset" --output-on-failure -j2

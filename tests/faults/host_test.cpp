@@ -63,13 +63,13 @@ TEST_CASE("five corrupt commands in a row trip, four do not; bad lengths count a
   const auto tripped = [&](std::int64_t from) {
     return bench.await([&] { return bench.emergency(from, ECU_FAULT_CORRUPT); }, 100);
   };
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < injections(); ++k) {
     auto from = node::wall_ns();
     bench.bus_ear().send(corrupt(4));
     CHECK(tripped(from) == 0);
   }
   Row row("five corrupt frames in a row", "ECU's emergency frame", 4);
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < injections(); ++k) {
     bench.settle();
     const auto from = node::wall_ns();
     bench.bus_ear().send(corrupt(5));

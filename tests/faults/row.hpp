@@ -2,10 +2,17 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 namespace faults {
+
+/// How often each fault is injected: ERP_INJECTIONS, or 20.
+inline int injections() {
+  const char* wanted = std::getenv("ERP_INJECTIONS");
+  return wanted ? std::atoi(wanted) : 20;
+}
 
 /// What one row of the table measured, injection by injection.
 class Row {
@@ -20,8 +27,8 @@ class Row {
     if (to_ns == 0) ++missed_;
     else ms_.push_back(1e-6 * double(to_ns - from_ns));
   }
-  /// Prints the row, and checks it: none missed, half of them within the limit, all within the
-  /// limit and what scheduling adds.
+  /// Prints the row, and checks it: none missed, all within the limit and what scheduling adds, and
+  /// of twenty injections half within the limit itself.
   void check() {
     std::ranges::sort(ms_);
     std::printf("| %-34s | %-34s | %2zu | %6.1f | %6.1f | %6.1f | %5.0f |\n", fault_.c_str(),
@@ -29,7 +36,7 @@ class Row {
     std::fflush(stdout);
     INFO(fault_ << ": " << what_);
     CHECK(missed_ == 0);
-    CHECK(at(0.5) <= limit_ms_);
+    CHECK((ms_.size() < 20 || at(0.5) <= limit_ms_));
     CHECK(at(1) <= limit_ms_ + scheduling_ms);
   }
   static void head() {

@@ -22,7 +22,9 @@
 namespace board {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000, watchdog_ns = 10 * ms, restart_ns = 20 * ms;
+constexpr std::int64_t ms = 1'000'000, restart_ns = 20 * ms;
+/// Of work: the watchdog bites 10 ms after the last kick, of which up to a period was rest.
+constexpr std::int64_t watchdog_ns = 8 * ms;
 constexpr int could_not_run = 1, unplugged = 3;  // exit codes of an ECU's process
 
 std::int64_t read_clock_ns(clockid_t clock) {
@@ -69,19 +71,11 @@ class Ecu {
     bool kicked = false;
     while (::read(kicks_, kicks.data(), kicks.size()) > 0) kicked = true;
     if (kicked || !kicked_) worked_ns_ = worked(), kicked_ = kicked_ || kicked;
-    if (kicked_ && worked() - worked_ns_ >= watchdog_ns) hung_ = true, ::kill(pid_, SIGKILL);
+    if (kicked_ && worked() - worked_ns_ >= watchdog_ns) reset_by_watchdog();
   }
 
-  /// Its process has ended: the PWM pins fall to 0 by hardware.
   void has_ended(int status) {
-    const std::array<std::int16_t, 2> off{};
-    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
-    const unsigned size = wire_pack_drive(bytes.data(), slot_.fitted.ecu, off.data());
-    const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    (void)::sendto(fd, bytes.data(), size, 0,
-                   reinterpret_cast<const sockaddr*>(&slot_.place.converters),
-                   sizeof slot_.place.converters);
-    ::close(fd);
+    release_pwm();
     ::close(kicks_);
     pid_ = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == could_not_run) return;
@@ -102,6 +96,27 @@ class Ecu {
   }
 
  private:
+  /// The PWM pins fall to 0 by hardware, whatever the program does.
+  void release_pwm() const {
+    const std::array<std::int16_t, 2> off{};
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    const unsigned size = wire_pack_drive(bytes.data(), slot_.fitted.ecu, off.data());
+    const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    (void)::sendto(fd, bytes.data(), size, 0,
+                   reinterpret_cast<const sockaddr*>(&slot_.place.converters),
+                   sizeof slot_.place.converters);
+    ::close(fd);
+  }
+
+  void reset_by_watchdog() {
+    hung_ = true;
+    release_pwm();
+    ::kill(pid_, SIGKILL);
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    has_ended(status);
+  }
+
   [[noreturn]] void become_program(frame_reset_cause cause, int kick) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     go_ahead(program_priority);
@@ -155,7 +170,8 @@ int run_rack(const Rack& rack) {
   for (Ecu& ecu : ecus) ecu.start(FRAME_RESET_POWER);
   const auto wanted = [](const Ecu& ecu) { return ecu.wanted(); };
   pollfd ended{signals, POLLIN, 0};
-  while (::poll(&ended, 1, 1) == 0 && std::ranges::any_of(ecus, wanted)) {
+  const timespec often{0, 500'000};
+  while (::ppoll(&ended, 1, &often, nullptr) == 0 && std::ranges::any_of(ecus, wanted)) {
     for (Ecu& ecu : ecus) ecu.mind();
     collect(ecus);
   }
