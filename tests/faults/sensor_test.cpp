@@ -11,6 +11,7 @@ void inject(Bench& bench, Row& safe, int fault, const PinRelay::Alter& alter,
   bench.settle();
   const auto from = began_ns ? began_ns : bench.pins().alter(alter);
   const auto said = bench.await([&] { return bench.emergency(from, fault); });
+  INFO("last fault said: " << bench.last_fault());
   CHECK(said != 0);
   safe.add(from, bench.await([&] { return bench.pwm_off(from, 0, 0); }));
   bench.pins().leave_alone();
@@ -74,7 +75,9 @@ TEST_CASE("encoder that slips") {
     // What the potentiometer says against an encoder survives a clear: only a reset ends it.
     inject(bench, safe, ECU_FAULT_POTENTIOMETER,
            [](int, board_readings& r) { r.channel[0].encoder_counts += 41721 / 4; });
+    const auto from = node::wall_ns();
     kill(bench.ecu(0), SIGKILL);
+    REQUIRE(bench.await([&] { return bench.boot(from, FRAME_RESET_BROWN_OUT); }) != 0);
   }
   safe.check();
 }
