@@ -22,16 +22,26 @@ static float tension_of(const float* gains, const ecu_inputs* inputs) {
   return counts > 0.0f ? counts * GAIN(TENSION_SCALE) : 0.0f;
 }
 
-static void convert(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
+/* No motor turns at twice the speed that its supply gives it without load. */
+static bool speed_at_rail(const float* gains, float speed_rad_per_s) {
+  return GAIN(BACK_EMF) * magnitude(speed_rad_per_s) > 2.0f * GAIN(SUPPLY);
+}
+
+static float speed_of(const ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
   const uint32_t now = (uint32_t)inputs->encoder_counts, last = (uint32_t)s->inputs.encoder_counts;
-  const float counts_per_period = s->has_inputs ? (float)(int32_t)(now - last) : 0.0f;
+  return s->has_inputs ? (float)(int32_t)(now - last) * GAIN(SHAFT_SCALE) / ECU_PERIOD_S : 0.0f;
+}
+
+static void convert(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
+  const float speed_rad_per_s = speed_of(s, gains, inputs);
   const bool current_lost = current_at_rail(gains, inputs),
-             tension_lost = tension_at_rail(gains, inputs);
+             tension_lost = tension_at_rail(gains, inputs),
+             speed_lost = speed_at_rail(gains, speed_rad_per_s);
   s->shaft_rad = (float)inputs->encoder_counts * GAIN(SHAFT_SCALE);
-  s->speed_rad_per_s = counts_per_period * GAIN(SHAFT_SCALE) / ECU_PERIOD_S;
+  if (!speed_lost) s->speed_rad_per_s = speed_rad_per_s;
   if (!current_lost) s->current_A = (float)inputs->current_counts * GAIN(CURRENT_SCALE);
   if (!tension_lost) s->tension_N = tension_of(gains, inputs);
-  s->rail_ticks = count_if(current_lost || tension_lost, s->rail_ticks);
+  s->rail_ticks = count_if(current_lost || tension_lost || speed_lost, s->rail_ticks);
 }
 
 /* ---- evidence ---- */

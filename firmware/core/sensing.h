@@ -1,7 +1,8 @@
 /* What a channel's converters say, in SI, and whether it can be believed.
  *
  *   rail           a reading at a converter's end says nothing: the last good one stays for two
- *                  samples, the third is a fault
+ *                  samples, the third is a fault. So with a speed that no supply drives the motor
+ *                  to: an encoder that slips must not open the current limit, V = R i + K_E N w
  *   stuck          not one count of change for 100 ms in which the shaft turned: a converter that
  *                  lives is noisy. Looked for from the speed on that the gains say; 0: never
  *   encoder        the motor's equation says that it turns, V = R i + K_E N w, and the encoder that

@@ -52,7 +52,7 @@ TEST_CASE("sensor stuck") {
         ecu_inputs& in = r.channel[0];
         const int moved = std::abs(in.encoder_counts - last);
         last = in.encoder_counts;
-        turning = moved > 150 ? turning + 1 : 0;  // of 41721 counts a turn: 1.8 rad/s
+        turning = moved > 150 ? turning + 1 : 0;  // of 41721 counts a radian: 1.8 rad/s
         if (!kept && turning > 20 && turning < 40) kept = in, from = node::wall_ns();
         if (!kept) return;
         if (tension) in.tension_counts = kept->tension_counts;
@@ -74,7 +74,7 @@ TEST_CASE("encoder that slips") {
   for (int k = 0; k < std::min(5, injections()); ++k) {
     // What the potentiometer says against an encoder survives a clear: only a reset ends it.
     inject(bench, safe, ECU_FAULT_POTENTIOMETER,
-           [](int, board_readings& r) { r.channel[0].encoder_counts += 41721 / 4; });
+           [](int, board_readings& r) { r.channel[0].encoder_counts += 41721 / 6; });
     const auto from = node::wall_ns();
     kill(bench.ecu(0), SIGKILL);
     REQUIRE(bench.await([&] { return bench.boot(from, FRAME_RESET_BROWN_OUT); }) != 0);

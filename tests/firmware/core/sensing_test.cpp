@@ -155,6 +155,27 @@ TEST_CASE("an encoder that slips comes apart from the potentiometer") {
   CHECK(motor.trips_within(100, slipped) == 25);  // it has not gone away
 }
 
+TEST_CASE("an encoder that slips does not open the current limit") {
+  Turning motor;
+  motor.runs_on(100);
+  const float before_rad_per_s = motor.channel.sensed.speed_rad_per_s;
+  ecu_inputs in = motor.read();
+  in.encoder_counts -= 41721 / 6;  // 0.167 rad in 2 ms; without load the motor reaches 8.2 rad/s
+  ecu_command(&motor.channel, ECU_REQUEST_LENGTH, in.encoder_counts + 41721);
+  tick(motor.channel, in);
+  CHECK(motor.channel.sensed.speed_rad_per_s == before_rad_per_s);
+  const float drop_V = 12.0f * float(motor.channel.duty) / ECU_DUTY_MAX - 1.472f * before_rad_per_s;
+  CHECK(drop_V / 0.516f == Approx(4).margin(0.05));  // the limit
+}
+
+TEST_CASE("a speed that no motor has trips at the third sample") {
+  Turning motor;
+  motor.runs_on(100);
+  int k = 0;
+  CHECK(motor.trips_within(10, [&](ecu_inputs& in) { in.encoder_counts += ++k * 5000; }) == 3);
+  CHECK(motor.channel.fault == ECU_FAULT_SENSOR_RANGE);
+}
+
 TEST_CASE("beyond its range a potentiometer says nothing") {
   Turning motor;
   CHECK(motor.trips_within(300, [](ecu_inputs& in) { in.potentiometer_counts = 4095; }) == 0);
