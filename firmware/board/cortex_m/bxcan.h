@@ -1,0 +1,57 @@
+/* The CAN controller of STM32F4 (bxCAN), polled. Source: ST RM0090 rev 19, section 32.
+ *
+ * Not yet run on silicon: its register accesses are tested on a memory that stands for them.
+ */
+#ifndef ERP_FIRMWARE_BXCAN_H
+#define ERP_FIRMWARE_BXCAN_H
+#include "firmware/core/frame.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef volatile uint32_t bxcan_register;
+
+/* RM0090 32.9.5: the register map. */
+typedef struct {
+  bxcan_register MCR, MSR, TSR, RFR[2], IER, ESR, BTR;
+  bxcan_register reserved_0[88];
+  struct {
+    bxcan_register TIR, TDTR, TDLR, TDHR;
+  } mailbox[3];
+  struct {
+    bxcan_register RIR, RDTR, RDLR, RDHR;
+  } fifo[2];
+  bxcan_register reserved_1[12];
+  bxcan_register FMR, FM1R, reserved_2, FS1R, reserved_3, FFA1R, reserved_4, FA1R;
+  bxcan_register reserved_5[8];
+  struct {
+    bxcan_register FR1, FR2;
+  } filter[28];
+} bxcan_registers;
+
+/* 1 Mbit/s of a 42 MHz clock: 3 MHz prescaled to 14 quanta a bit, 1 + 10 + 3, sampled at 79 %.
+ * BTR = SJW 0, TS2 - 1 = 2, TS1 - 1 = 9, prescaler - 1 = 2. */
+#define BXCAN_BTR_1_MBIT_42_MHZ (2u << 20 | 9u << 16 | 2u)
+
+/* Leaves reset and joins the bus, hearing what is for `ecu` or for everyone. Returns false when
+ * the controller does not answer within some thousand tries: then it stays off the bus.
+ * Its clock and pins have to be on. */
+bool bxcan_open(bxcan_registers* can, uint32_t btr, uint8_t ecu);
+
+/* Takes a frame that was heard. Frames of a kind that no ECU speaks (extended, remote) are passed
+ * over. */
+bool bxcan_receive(bxcan_registers* can, bus_frame* frame);
+
+/* Hands over a frame to be sent. Returns false while no mailbox is free. Mailboxes are sent by
+ * identifier, the most urgent first. */
+bool bxcan_send(bxcan_registers* can, const bus_frame* frame);
+
+/* Bus-off. The controller comes back by itself after 128 times 11 recessive bits, 1.4 ms of a
+ * quiet bus at 1 Mbit/s. */
+bool bxcan_is_off(const bxcan_registers* can);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

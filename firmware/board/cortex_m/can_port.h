@@ -1,0 +1,21 @@
+/* The bus as this board's main loop sees it. Two controllers fit; which, is chosen at link time:
+ *
+ *   can_port_bxcan.c  the microcontroller's own (STM32F4)
+ *   can_port_slcan.c  frames as text on a serial line, for a host whose kernel has slcan; the only
+ *                     one that an emulator can run
+ */
+#ifndef ERP_FIRMWARE_CAN_PORT_H
+#define ERP_FIRMWARE_CAN_PORT_H
+#include "firmware/core/frame.h"
+
+/* Joins the bus as ECU `ecu`. */
+void can_port_open(uint8_t ecu);
+
+/* Off the bus: by errors, or because nobody has opened it. */
+bool can_port_is_off(void);
+
+bool can_port_receive(bus_frame* frame);
+
+/* Returns false while there is no room; then try again. */
+bool can_port_send(const bus_frame* frame);
+#endif

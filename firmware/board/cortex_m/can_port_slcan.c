@@ -1,0 +1,28 @@
+#include "firmware/board/cortex_m/can_port.h"
+#include "firmware/board/cortex_m/usart.h"
+#include "firmware/board/slcan.h"
+
+static slcan_reader reader;
+static bool open;
+
+void can_port_open(uint8_t ecu) {
+  (void)ecu; /* everything is heard; the link picks what is its own */
+  usart_open(USART_HOST);
+}
+
+bool can_port_is_off(void) { return !open; }
+
+bool can_port_receive(bus_frame* frame) {
+  for (uint8_t byte; usart_take(USART_HOST, &byte);) {
+    const slcan_event event = slcan_take(&reader, byte, frame);
+    if (event == SLCAN_FRAME) return open;
+    if (event == SLCAN_OPEN) open = true;
+    if (event == SLCAN_CLOSE) open = false;
+  }
+  return false;
+}
+
+bool can_port_send(const bus_frame* frame) {
+  char text[SLCAN_LINE_MAX];
+  return open && usart_send(USART_HOST, (const uint8_t*)text, slcan_write(text, frame));
+}

@@ -1,0 +1,44 @@
+#include "firmware/board/cortex_m/converters.h"
+#include "firmware/board/cortex_m/usart.h"
+
+static wire_reader reader;
+static wire_mishap mishap;
+static uint8_t own;
+
+static void send(const uint8_t* bytes, unsigned count) {
+  (void)usart_send(USART_ROBOT, bytes, count); /* no room: it is said again next period */
+}
+
+void converters_open(uint8_t ecu) {
+  own = ecu;
+  usart_open(USART_ROBOT);
+}
+
+void converters_start(void) {
+  board_readings late; /* an answer to the question before */
+  (void)converters_done(&late);
+  uint8_t bytes[WIRE_MESSAGE_MAX];
+  send(bytes, wire_pack_sample(bytes, own));
+}
+
+bool converters_done(board_readings* readings) {
+  bool done = false;
+  for (uint8_t byte; usart_take(USART_ROBOT, &byte);) {
+    const wire_kind kind = wire_take(&reader, byte);
+    if (kind == WIRE_MISHAP) wire_unpack_mishap(&reader, &mishap);
+    if (kind == WIRE_READINGS) wire_unpack_readings(&reader, readings);
+    done = done || kind == WIRE_READINGS;
+  }
+  return done;
+}
+
+wire_mishap converters_mishap(void) {
+  const wire_mishap befell = mishap;
+  mishap.kind = 0;
+  return befell;
+}
+
+void pwm_set(const int16_t* duty) {
+  uint8_t bytes[WIRE_MESSAGE_MAX];
+  send(bytes, wire_pack_drive(bytes, own, duty));
+}

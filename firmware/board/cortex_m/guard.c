@@ -1,0 +1,55 @@
+#include "firmware/board/cortex_m/guard.h"
+
+#include "firmware/board/cortex_m/converters.h"
+#include "firmware/board/cortex_m/stm32f405.h"
+#include "firmware/board/cortex_m/usart.h"
+
+enum { CSR_BOR = 1 << 25, CSR_POR = 1 << 27, CSR_SFT = 1 << 28, CSR_IWDG = 1 << 29 };
+#define CSR_FORGET (1u << 24)
+#define BITTEN 0x0B17E4EDu
+
+static volatile uint32_t now_ms, kicked_ms;
+/* Survives a reset: no start-up code touches it. */
+static volatile uint32_t testament __attribute__((section(".noinit")));
+
+void guard_start(void) {
+  REGISTER(IWDG_KR) = IWDG_KEY_WRITE;
+  REGISTER(IWDG_PR) = 0;
+  REGISTER(IWDG_RLR) = GUARD_PATIENCE_MS * 8u; /* of 8 kHz */
+  REGISTER(IWDG_KR) = IWDG_KEY_START;
+  REGISTER(SYST_RVR) = CORE_HZ / 1000u - 1u;
+  REGISTER(SYST_CVR) = 0;
+  REGISTER(SYST_CSR) = 7; /* core clock, interrupt, on */
+}
+
+void guard_kick(void) {
+  kicked_ms = now_ms;
+  REGISTER(IWDG_KR) = IWDG_KEY_KICK;
+}
+
+uint32_t guard_ms(void) { return now_ms; }
+
+void guard_reset(void) {
+  static const int16_t off[2];
+  pwm_set(off);
+  usart_pump();
+  testament = BITTEN;
+  REGISTER(SCB_AIRCR) = SCB_AIRCR_RESET;
+  for (;;) continue;
+}
+
+void SysTick_Handler(void) {
+  ++now_ms;
+  if (now_ms - kicked_ms > GUARD_PATIENCE_MS) guard_reset();
+}
+
+frame_reset_cause guard_reset_cause(void) {
+  const uint32_t flags = REGISTER(RCC_CSR);
+  const bool bitten = testament == BITTEN;
+  testament = 0;
+  REGISTER(RCC_CSR) = flags | CSR_FORGET;
+  if (flags & CSR_IWDG || bitten) return FRAME_RESET_WATCHDOG;
+  if (flags & CSR_SFT) return FRAME_RESET_SOFTWARE;
+  if (flags & CSR_BOR && !(flags & CSR_POR)) return FRAME_RESET_BROWN_OUT;
+  return FRAME_RESET_POWER;
+}
