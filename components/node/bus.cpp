@@ -5,6 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "components/node/security.hpp"
+
 namespace node {
 namespace {
 
@@ -30,10 +32,23 @@ dds_domainid_t domain_id() {
 }
 
 /// The domain lives as long as the process: created once, with our configuration unless the
-/// person brings one.
+/// person brings one, and protected if the person wants it so.
 void open_domain(dds_domainid_t id) {
-  if (std::getenv("CYCLONEDDS_URI")) return;
-  static const Entity domain(dds_create_domain(id, loopback), "open DDS domain on loopback");
+  const char* brought = std::getenv("CYCLONEDDS_URI");
+  const std::string security = security_config();
+  if (brought && security.empty()) return;
+  std::string config = brought ? brought : loopback;
+  if (!security.empty()) config += "," + security;
+  static const Entity domain(dds_create_domain(id, config.c_str()), "open DDS domain");
+}
+
+/// DDS refuses to join when it cannot protect: a certificate or document that it does not accept.
+dds_entity_t protected_or_refused(dds_entity_t participant) {
+  const std::string folder = security_folder();
+  if (participant >= 0 || folder.empty()) return participant;
+  throw std::invalid_argument("ERP_SECURITY=" + folder + ": DDS refuses it (" +
+                              dds_strretcode(-participant) +
+                              "); write a new folder with erp security make");
 }
 
 /// A listener sees what was written before it was attached, and who deletes its reader sees what it
@@ -69,7 +84,7 @@ Entity join(const Peer& self) {
   const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), dds_delete_qos);
   const std::string data = to_user_data(self);
   dds_qset_userdata(qos.get(), data.data(), data.size());
-  return {dds_create_participant(id, qos.get(), nullptr), "join the bus"};
+  return {protected_or_refused(dds_create_participant(id, qos.get(), nullptr)), "join the bus"};
 }
 
 Qos::Qos(int depth) : qos(dds_create_qos()) {

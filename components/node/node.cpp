@@ -49,7 +49,7 @@ Node::Node(Options options, std::string robot_name)
       participant_(join(self_)),
       peers_(participant_, wake_, self_),
       polled_{{wake_.descriptor(), POLLIN, 0}, {signals_, POLLIN, 0}} {
-  if (!options_.managed) start_due_ns_ = monotonic_ns() + discovery_ns;
+  if (!options_.managed) start_due_ns_ = monotonic_ns() + discovery_ns();
   state_out_ = &advertise<erp::ComponentState>();
   event_out_ = &advertise<erp::Event>();
   lifecycle_in_ = &subscribe<erp::LifecycleCommand>(

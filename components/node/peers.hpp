@@ -8,10 +8,12 @@
 
 namespace node {
 
-/// Measured: within this time all who are on the machine are found.
-inline constexpr std::int64_t discovery_ns = 300'000'000;
+/// Within this time all who are on the machine are found: measured, and longer where they have to
+/// prove who they are.
+std::int64_t discovery_ns();
 
-/// The other participants on the bus.
+/// The other participants on the bus. Where it is protected, only those that have proved who they
+/// are: anybody can say that he is the plant, and was here first.
 class Peers {
  public:
   Peers(const Entity& participant, Wake& wake, Peer own);
@@ -25,9 +27,15 @@ class Peers {
   void look();
 
  private:
+  void look_who_is_proved();
+  bool is_proved(const dds_guid_t& participant) const;
+
   Peer own_;
   Arrival arrival_;
+  dds_guid_t own_key_{};
   Entity reader_;
+  std::vector<Entity> endpoints_;  ///< readers of DDS's topics of them; none on an open bus
+  std::vector<dds_guid_t> proved_;
   std::uint32_t count_ = 0;
   std::vector<Peer> known_;
   std::optional<Peer> predecessor_;

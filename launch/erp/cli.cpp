@@ -22,6 +22,7 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
   add_model(app, chosen);
   add_gap(app, chosen);
   add_new(app, chosen);
+  add_security(app, chosen);
 }
 
 /// A first word that is no verb, with the nearest one; CLI11 would only say it was not expected.
@@ -66,7 +67,7 @@ int run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string("erp ") + version() + " (" + revision() + ")");
   app.footer(
       "Exit codes: 0 done, 1 failed, 2 bad usage or input. ERP_DOMAIN=0…230 keeps graphs "
-      "apart.");
+      "apart. ERP_SECURITY=DIR: only who holds a certificate of erp security make is heard.");
   add_verbs(app, chosen);
   if (is_unknown_verb(app, argc, argv)) return 2;
   try {

@@ -1,10 +1,12 @@
 #include "launch/erp/launch.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <set>
 
 #include "components/node/clock.hpp"
+#include "components/node/security.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "launch/erp/ask.hpp"
 #include "launch/erp/duration.hpp"
@@ -72,9 +74,17 @@ std::vector<std::string> parts_of(const std::string& recording, fs::file_time_ty
   return parts;
 }
 
+/// The bus of this process and of its children. Refuses a folder that will not do before anything
+/// is started.
+void protect(const std::optional<std::string>& folder) {
+  if (folder) setenv("ERP_SECURITY", folder->empty() ? "" : fs::absolute(*folder).c_str(), 1);
+  node::security_config();
+}
+
 }  // namespace
 
 int launch_graph(const LaunchOptions& options) {
+  protect(options.security);
   const erp::Graph graph = graph_of(options);
   const erp::Robot robot = erp::read_robot(graph.robot);
   if (!robot.drives.empty())

@@ -10,12 +10,13 @@ namespace launch {
 
 struct LaunchOptions {
   std::string graph_file;
-  std::string device;                 ///< sim, can, replay:FILE; empty: the graph's
-  std::optional<erp::Time> time;      ///< absent: the graph's
-  std::string duration;               ///< "20s"; empty: the graph's
-  std::vector<std::string> settings;  ///< component.key=value
-  std::size_t most_restarts = 5;      ///< of one component within 30 s; then it is given up
-  std::string folder;                 ///< of the run; empty: erp_runs/<graph>/<UTC time>
+  std::string device;                   ///< sim, can, replay:FILE; empty: the graph's
+  std::optional<erp::Time> time;        ///< absent: the graph's
+  std::string duration;                 ///< "20s"; empty: the graph's
+  std::vector<std::string> settings;    ///< component.key=value
+  std::size_t most_restarts = 5;        ///< of one component within 30 s; then it is given up
+  std::string folder;                   ///< of the run; empty: erp_runs/<graph>/<UTC time>
+  std::optional<std::string> security;  ///< folder of erp security make; absent: ERP_SECURITY's
 };
 
 /// Starts the graph, looks after it, ends it. Returns the exit code of Run::execute.

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "components/node/clock.hpp"
+#include "components/node/security.hpp"
 #include "launch/erp/duration.hpp"
 #include "launch/erp/run_folder.hpp"
 
@@ -69,6 +70,8 @@ int Run::execute() {
   time_.start(node::monotonic_ns());
   if (finds_rival()) return 2;
   say(graph_.name + ": " + std::to_string(members_.size()) + " processes, logs in " + folder_);
+  if (const auto security = node::security_folder(); !security.empty())
+    say("only who holds a certificate of " + security + " takes part");
   supervisor_.start(time_.now_ns());
   carry_out();
   while (!supervisor_.done()) {
@@ -120,7 +123,7 @@ void Run::hear(const erp::ComponentState& state) {
 
 /// Two graphs cannot drive one robot: the one that comes second starts nothing.
 bool Run::finds_rival() {
-  for (const auto until_ns = time_.now_ns() + node::discovery_ns; time_.now_ns() < until_ns;
+  for (const auto until_ns = time_.now_ns() + node::discovery_ns(); time_.now_ns() < until_ns;
        time_.tick(node::monotonic_ns())) {
     wait();
     for (const auto& peer : bus_.peers()) {

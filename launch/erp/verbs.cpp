@@ -11,6 +11,7 @@
 #include "launch/erp/look.hpp"
 #include "launch/erp/new_controller.hpp"
 #include "launch/erp/program.hpp"
+#include "launch/erp/security.hpp"
 
 namespace launch {
 
@@ -37,6 +38,8 @@ void add_launch(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   verb->add_option("--out", options->folder,
                    "folder for logs and recording (default: erp_runs/<graph>/<UTC time>)");
+  verb->add_option("--security", options->security,
+                   "folder of erp security make: nobody else is heard, or hears (ERP_SECURITY)");
   verb->footer("Ctrl-C stops the graph in order; a second one kills it.");
   verb->callback([options, &chosen] { chosen = [options] { return launch_graph(*options); }; });
 }
@@ -110,6 +113,27 @@ void add_new(CLI::App& app, Chosen& chosen) {
       std::cout << "next: cd " << *folder
                 << " && cmake -B build -DCMAKE_PREFIX_PATH=<where erp is installed>"
                    " && cmake --build build && ctest --test-dir build\n";
+      return 0;
+    };
+  });
+}
+
+void add_security(CLI::App& app, Chosen& chosen) {
+  auto* verb = app.add_subcommand("security", "Who may drive a robot, and listen to it");
+  verb->require_subcommand(1);
+  auto* make = verb->add_subcommand("make", "An authority of your own, and an identity of its");
+  auto folder = std::make_shared<std::string>();
+  auto days = std::make_shared<int>(730);
+  make->add_option("dir", *folder, "a folder that is not there yet")->required();
+  make->add_option("--days", *days, "how long its certificates are valid")
+      ->check(CLI::Range(1, 36500))
+      ->capture_default_str();
+  make->callback([folder, days, &chosen] {
+    chosen = [folder, days] {
+      for (const auto& file : make_security(*folder, valid_for_days(*days)))
+        std::cout << file.string() << '\n';
+      std::cout << "next: erp launch GRAPH.xml --security " << *folder
+                << "; in other terminals: export ERP_SECURITY=" << *folder << '\n';
       return 0;
     };
   });

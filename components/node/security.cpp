@@ -1,0 +1,146 @@
+#include "components/node/security.hpp"
+
+#include <dds/dds.h>
+#include <dlfcn.h>
+#include <openssl/pem.h>
+#include <openssl/x509.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+namespace node {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = SecurityFiles;
+using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
+using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
+using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
+
+constexpr auto anew = "write a new folder with erp security make, for all of this robot's machines";
+
+[[noreturn]] void refuse(const fs::path& place, const std::string& what,
+                         const std::string& remedy) {
+  throw std::invalid_argument(place.string() + ": " + what + "; " + remedy);
+}
+
+void check_there(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    refuse("ERP_SECURITY=" + folder.string(), "no such folder",
+           "erp security make " + folder.string() + " writes one");
+  for (const auto* name : {Files::authority, Files::identity, Files::identity_key,
+                           Files::governance, Files::permissions}) {
+    const fs::path file = folder / name;
+    if (!fs::exists(file)) refuse(file, "is missing", anew);
+    if (!std::ifstream(file)) refuse(file, "cannot be read", "run as its owner");
+  }
+}
+
+/// Who can read a key is whom it names.
+void check_secret(const fs::path& key) {
+  struct stat found {};
+  if (stat(key.c_str(), &found) != 0 || !(found.st_mode & 077)) return;
+  std::ostringstream mode;
+  mode << "may be used by others, mode 0" << std::oct << (found.st_mode & 0777);
+  refuse(key, mode.str(), "chmod 600 " + key.string());
+}
+
+Certificate certificate_of(const fs::path& file) {
+  const Bio text(BIO_new_file(file.c_str(), "r"), BIO_free);
+  Certificate read(PEM_read_bio_X509(text.get(), nullptr, nullptr, nullptr), X509_free);
+  if (!read) refuse(file, "holds no certificate", anew);
+  return read;
+}
+
+std::string text_of(const ASN1_TIME* time) {
+  const Bio out(BIO_new(BIO_s_mem()), BIO_free);
+  ASN1_TIME_print(out.get(), time);
+  char* text = nullptr;
+  const long size = BIO_get_mem_data(out.get(), &text);
+  return {text, static_cast<std::size_t>(size)};
+}
+
+void check_in_time(const fs::path& file, const X509* certificate) {
+  const ASN1_TIME *from = X509_get0_notBefore(certificate),
+                  *until = X509_get0_notAfter(certificate);
+  if (X509_cmp_current_time(until) <= 0) refuse(file, "expired on " + text_of(until), anew);
+  if (X509_cmp_current_time(from) > 0)
+    refuse(file, "is not valid before " + text_of(from), "set this machine's clock");
+}
+
+void check_certificates(const fs::path& folder) {
+  const auto authority = certificate_of(folder / Files::authority);
+  const auto identity = certificate_of(folder / Files::identity);
+  check_in_time(folder / Files::authority, authority.get());
+  check_in_time(folder / Files::identity, identity.get());
+  if (X509_verify(identity.get(), X509_get0_pubkey(authority.get())) != 1)
+    refuse(folder / Files::identity, "is not of the authority beside it", anew);
+  const fs::path key_file = folder / Files::identity_key;
+  const Bio text(BIO_new_file(key_file.c_str(), "r"), BIO_free);
+  const Key key(PEM_read_bio_PrivateKey(text.get(), nullptr, nullptr, nullptr), EVP_PKEY_free);
+  if (!key || X509_check_private_key(identity.get(), key.get()) != 1)
+    refuse(key_file, "is not the key of " + std::string(Files::identity), anew);
+}
+
+/// Cyclone's plugins lie beside its library, or, in Debian, in a folder beside it.
+std::string plugin(const std::string& name) {
+  Dl_info library{};
+  dladdr(reinterpret_cast<const void*>(&dds_create_domain), &library);
+  const fs::path beside = fs::path(library.dli_fname ? library.dli_fname : "").parent_path();
+  const std::string file = "libdds_security_" + name + ".so";
+  for (const auto& folder : {beside / "libddsc0debian", beside})
+    if (fs::exists(folder / file)) return folder / file;
+  refuse(beside / file, "Cyclone DDS's security plugin is missing",
+         "install Debian's libddsc0debian");
+}
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&') safe += "&amp;";
+    else if (c == '<') safe += "&lt;";
+    else if (c == '"') safe += "&quot;";
+    else safe += c;
+  }
+  return safe;
+}
+
+std::string library(const std::string& name, const std::string& function) {
+  return "<Library path=\"" + escaped(plugin(name)) + "\" initFunction=\"init_" + function +
+         "\" finalizeFunction=\"finalize_" + function + "\"/>";
+}
+
+}  // namespace
+
+std::string security_folder() {
+  const char* named = std::getenv("ERP_SECURITY");
+  if (!named) return "";
+  if (!*named) throw std::invalid_argument("ERP_SECURITY is empty; name a folder, or unset it");
+  return fs::absolute(named).lexically_normal();
+}
+
+std::string security_config() {
+  const fs::path folder = security_folder();
+  if (folder.empty()) return "";
+  check_there(folder);
+  for (const auto* key : {Files::identity_key, Files::authority_key}) check_secret(folder / key);
+  check_certificates(folder);
+  const auto file = [&](const std::string& element, const char* name) {
+    return "<" + element + ">file:" + escaped(folder / name) + "</" + element + ">";
+  };
+  return "<CycloneDDS><Domain Id=\"any\"><Security><Authentication>" +
+         library("auth", "authentication") + file("IdentityCertificate", Files::identity) +
+         file("IdentityCA", Files::authority) + file("PrivateKey", Files::identity_key) +
+         "</Authentication><Cryptographic>" + library("crypto", "crypto") +
+         "</Cryptographic><AccessControl>" + library("ac", "access_control") +
+         file("PermissionsCA", Files::authority) + file("Governance", Files::governance) +
+         file("Permissions", Files::permissions) +
+         "</AccessControl></Security></Domain></CycloneDDS>";
+}
+
+}  // namespace node
