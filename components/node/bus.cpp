@@ -38,7 +38,8 @@ void open_domain(dds_domainid_t id) {
   const std::string security = security_config();
   if (brought && security.empty()) return;
   std::string config = brought ? brought : loopback;
-  if (!security.empty()) config += "," + security;
+  // Of two that protect, Cyclone takes the first: what a person brings cannot undo ours.
+  if (!security.empty()) config = security + "," + config;
   static const Entity domain(dds_create_domain(id, config.c_str()), "open DDS domain");
 }
 

@@ -29,13 +29,16 @@ Peers::Peers(const Entity& participant, Wake& wake, Peer own)
 }
 
 /// Participants announce themselves in the clear; what they write and read they tell only those
-/// whose certificate they have accepted, and who have accepted theirs.
-void Peers::look_who_is_proved() {
-  proved_.clear();
+/// whose certificate they have accepted, and who have accepted theirs. Who has proved himself once
+/// has done so for good: keys are not used again.
+void Peers::hear_who_is_proved() {
   for (const auto& reader : endpoints_)
-    for_each_alive<dds_builtintopic_endpoint_t>(reader, [&](const auto& endpoint, const auto&) {
-      if (!is_proved(endpoint.participant_key)) proved_.push_back(endpoint.participant_key);
-    });
+    for_each_alive<dds_builtintopic_endpoint_t>(
+        reader,
+        [&](const auto& endpoint, const auto&) {
+          if (!is_proved(endpoint.participant_key)) proved_.push_back(endpoint.participant_key);
+        },
+        only_new);
 }
 
 bool Peers::is_proved(const dds_guid_t& participant) const {
@@ -43,7 +46,7 @@ bool Peers::is_proved(const dds_guid_t& participant) const {
 }
 
 void Peers::look() {
-  look_who_is_proved();
+  hear_who_is_proved();
   count_ = 0;
   predecessor_.reset();
   known_.clear();

@@ -27,7 +27,7 @@ class Peers {
   void look();
 
  private:
-  void look_who_is_proved();
+  void hear_who_is_proved();
   bool is_proved(const dds_guid_t& participant) const;
 
   Peer own_;

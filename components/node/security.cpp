@@ -143,4 +143,10 @@ std::string security_config() {
          "</AccessControl></Security></Domain></CycloneDDS>";
 }
 
+std::string security_expires() {
+  const fs::path folder = security_folder();
+  if (folder.empty()) return "";
+  return text_of(X509_get0_notAfter(certificate_of(folder / Files::identity).get()));
+}
+
 }  // namespace node

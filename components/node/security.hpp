@@ -25,4 +25,8 @@ std::string security_folder();
 /// others: who asks for protection never runs without it.
 std::string security_config();
 
+/// When its identity expires, in words; "" without one. DDS then ends all that the process says
+/// and hears, also in mid-run.
+std::string security_expires();
+
 }  // namespace node

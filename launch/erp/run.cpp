@@ -71,7 +71,8 @@ int Run::execute() {
   if (finds_rival()) return 2;
   say(graph_.name + ": " + std::to_string(members_.size()) + " processes, logs in " + folder_);
   if (const auto security = node::security_folder(); !security.empty())
-    say("only who holds a certificate of " + security + " takes part");
+    say("only who holds a certificate of " + security + " takes part, until " +
+        node::security_expires());
   supervisor_.start(time_.now_ns());
   carry_out();
   while (!supervisor_.done()) {

@@ -13,7 +13,7 @@ namespace {
 
 /// What an intruder got in two seconds: a partner with a certificate needs a third of one.
 struct Loot {
-  int readers = -1, writers = -1, heard = -1;
+  int readers = -1, writers = -1, heard = -1, after_ms = 0;
   bool nothing() const { return readers == 0 && writers == 0 && heard == 0; }
   bool driven() const { return readers > 0; }
   bool listened() const { return writers > 0 && heard > 100; }
@@ -27,7 +27,8 @@ Loot intrude(const std::string& security, const std::string& claims_to_be = "") 
   Loot loot;
   std::istringstream words(said.output.substr(said.output.rfind("readers ")));
   std::string word;
-  words >> word >> loot.readers >> word >> loot.writers >> word >> loot.heard;
+  words >> word >> loot.readers >> word >> loot.writers >> word >> loot.heard >> word >>
+      loot.after_ms;
   return loot;
 }
 

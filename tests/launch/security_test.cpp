@@ -63,15 +63,33 @@ TEST_CASE("the authority's own key is not needed to join") {
   CHECK(look(two.own).exit_code == 0);
 }
 
-TEST_CASE("a configuration that a person brings is protected as well") {
+namespace {
+
+/// Security of its own, which nobody could join with.
+constexpr auto own_security =
+    "<Security><Authentication><Library path=\"none\"/><IdentityCertificate>file:none"
+    "</IdentityCertificate><IdentityCA>file:none</IdentityCA><PrivateKey>file:none</PrivateKey>"
+    "</Authentication></Security>";
+
+std::string brought(const std::string& file, const std::string& more) {
+  std::ofstream(file) << "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface "
+                         "name=\"lo\"/></Interfaces></General>"
+                      << more << "</Domain></CycloneDDS>";
+  return "CYCLONEDDS_URI=file://" + file + " ";
+}
+
+}  // namespace
+
+TEST_CASE("a configuration that a person brings is protected as well, and cannot undo that") {
   const Two two;
-  const std::string brought = two.folder / "mine.xml";
-  std::ofstream(brought) << "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface "
-                            "name=\"lo\"/></Interfaces></General></Domain></CycloneDDS>";
-  const auto with = "CYCLONEDDS_URI=file://" + brought + " ERP_SECURITY=" + two.own.string();
-  CHECK(run(with + " erp ps").exit_code == 0);
+  const auto open = brought(two.folder / "open.xml", ""),
+             closed = brought(two.folder / "closed.xml", own_security);
+  const auto ours = "ERP_SECURITY=" + two.own.string() + " erp ps";
+  CHECK(run(open + ours).exit_code == 0);
+  CHECK(run(closed + ours).exit_code == 0);
+  CHECK(run(closed + "erp ps").exit_code != 0);
   two.take_from_other("permissions.p7s");
-  CHECK(run(with + " erp ps").exit_code == 2);
+  CHECK(run(open + ours).exit_code == 2);
 }
 
 TEST_CASE("what is missing is named") {
