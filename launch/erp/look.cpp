@@ -6,6 +6,7 @@
 #include <set>
 
 #include "components/node/clock.hpp"
+#include "components/node/peers.hpp"
 #include "interfaces/xml/words.hpp"
 #include "launch/erp/component_row.hpp"
 #include "launch/erp/meaning.hpp"
@@ -20,7 +21,7 @@ using Names = std::set<std::string>;
 
 constexpr auto empty_hint = ": is a graph running, and in this ERP_DOMAIN?\n";
 
-constexpr std::int64_t heartbeats_ns = 1'000'000'000;  // ten of them
+constexpr std::int64_t heartbeats_ns = 700'000'000;  // seven of them, once they are found
 
 std::string name_of(const node::Endpoint& endpoint) {
   return endpoint.component.empty() ? "?" : endpoint.component;
@@ -94,7 +95,7 @@ int show_components(std::ostream& out) {
     });
     return false;
   };
-  if (!onlooker.watch(heartbeats_ns, listen)) return 1;
+  if (!onlooker.watch(node::discovery_ns() + heartbeats_ns, listen)) return 1;
   if (robots.empty()) out << "no component is on the bus" << empty_hint;
   for (const auto& [robot, components] : robots) {
     out << "robot " << (robot.empty() ? "-" : robot) << '\n';

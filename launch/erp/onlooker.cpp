@@ -7,13 +7,14 @@
 #include <set>
 
 #include "components/node/clock.hpp"
+#include "components/node/peers.hpp"
 #include "interfaces/xml/words.hpp"
 
 namespace launch {
 namespace {
 
-// Chosen: participants on one machine find each other within 0.3 s, 20 of them within 0.6 s.
-constexpr std::int64_t quiet_ns = 700'000'000, patience_ns = 5'000'000'000;
+// Chosen: 20 participants on one machine need 0.3 s more than two to find each other.
+constexpr std::int64_t more_ns = 400'000'000, patience_ns = 5'000'000'000;
 constexpr int longest_sleep_ms = 50;
 
 }  // namespace
@@ -37,6 +38,7 @@ bool Onlooker::watch(std::int64_t duration_ns, const std::function<bool()>& act)
 bool Onlooker::settle() {
   std::size_t known = 0;
   std::int64_t since_ns = node::monotonic_ns();
+  const std::int64_t quiet_ns = node::discovery_ns() + more_ns;
   return watch(patience_ns, [&] {
     const std::size_t now_known = endpoints().size();
     if (now_known != known) known = now_known, since_ns = node::monotonic_ns();

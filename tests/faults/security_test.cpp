@@ -11,7 +11,7 @@ using namespace tests;
 
 namespace {
 
-/// What an intruder got in two seconds: a partner with a certificate needs a third of one.
+/// What an intruder got in three seconds: a partner with a certificate needs half of one.
 struct Loot {
   int readers = -1, writers = -1, heard = -1, after_ms = 0;
   bool nothing() const { return readers == 0 && writers == 0 && heard == 0; }
@@ -21,7 +21,7 @@ struct Loot {
 
 Loot intrude(const std::string& security, const std::string& claims_to_be = "") {
   const auto said = run((security.empty() ? "" : "ERP_SECURITY=" + security + " ") +
-                        ERP_INTRUDER " configs/hinge_rig/robot.xml 2 " + claims_to_be);
+                        ERP_INTRUDER " configs/hinge_rig/robot.xml 3 " + claims_to_be);
   INFO(said.output);
   REQUIRE(said.exit_code == 0);
   Loot loot;
