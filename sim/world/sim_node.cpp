@@ -55,12 +55,12 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
       bodies_out_(node.advertise<erp::BodyPose>()),
       clock_out_(node.advertise<erp::Clock>()),
       end_ticks_(ticks_in(node.options().duration_s)) {
-  if (mishaps_.needs_separate_ecus() && params.converter_port == 0)
+  if (mishaps_.needs_separate_ecus() && !params.ecus_outside())
     throw std::invalid_argument(
         "hang, busy and bus_off befall ECUs that are programs of their own: give converter_port, "
         "and start `ecu`");
   if (!mishaps_.empty()) ecus_.suffer(&mishaps_);
-  if (params.converter_port > 0) serve_outside(params, robot);
+  if (params.ecus_outside()) serve_outside(params, robot);
   else if (params.bus.empty()) join_bus_as_device();
   else stand_behind(params.bus, robot);
   if (!robot.imus.empty()) imus_out_ = &node.advertise<erp::ImuFrame>();
@@ -76,7 +76,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
   node.on_deactivate([this] { publish_clock(at_end()); });
   if (node.clock().lockstep())
     node.every(repeat_ns, [this] {
-      if (node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
+      if (!outside_ && node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
     });
   else
     node.every(
@@ -100,14 +100,20 @@ void SimNode::stand_behind(const std::string& bus, const erp::Robot& robot) {
 }
 
 void SimNode::serve_outside(const Params& params, const erp::Robot& robot) {
-  if (node_.clock().lockstep())
-    throw std::invalid_argument(
-        "converter_port: ECUs that run elsewhere keep their own time; leave "
-        "lockstep out");
-  outside_ = std::make_unique<OutsideEcus>(robot, params.converter_port,
-                                           static_cast<std::uint64_t>(params.seed));
+  OutsideEcus::Options options{params.converter_port, params.converter_lines};
+  options.seed = static_cast<std::uint64_t>(params.seed);
+  options.lockstep = node_.clock().lockstep();
+  outside_ = std::make_unique<OutsideEcus>(robot, options);
   if (!mishaps_.empty()) outside_->suffer(&mishaps_);
-  node_.watch(outside_->descriptor(), [this] { outside_->hear(); });
+  for (const int descriptor : outside_->descriptors())
+    node_.watch(descriptor, [this] { hear_outside(); });
+}
+
+/// In lockstep the world moves on when every ECU wants it to.
+void SimNode::hear_outside() {
+  if (!outside_->hear()) return;
+  for (int k = 0; k < steps_a_tick(); ++k) step();
+  if (!at_end()) outside_->begin_turn();
 }
 
 /// Who has come and who has gone, of the ECUs outside.

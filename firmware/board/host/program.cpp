@@ -60,10 +60,11 @@ class Program {
     if (ready[0].revents) hear();
     std::uint64_t periods = 0;
     if (::read(timer_, &periods, sizeof periods) <= 0) return true;
-    convert();
+    if (!may_pass()) return unread_periods_ < unplugged_periods;
     // Periods that this machine kept from us count for the timeouts; what they said is said once.
-    for (periods = std::min<std::uint64_t>(periods, ECU_TIMEOUT_TICKS); periods > 0; --periods)
-      pass_period(periods == 1);
+    const bool lockstep = period_.readings.turn != 0;
+    periods = lockstep ? 1 : std::min<std::uint64_t>(periods, ECU_TIMEOUT_TICKS);
+    for (; periods > 0; --periods) pass_period(periods == 1);
     return ++unread_periods_ < unplugged_periods;
   }
 
@@ -82,18 +83,40 @@ class Program {
     (void)!::read(timer_, &passed, sizeof passed);
   }
 
-  /// Has all converters read, and waits for what they say.
+  /// Has all converters read, and waits for what they say; unless an answer to the question before
+  /// is as good: in lockstep none is too late.
   void convert() {
     read_converters();
     const int unread = unread_periods_;
+    if (period_.readings.turn != board_.turn) return;
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
-    (void)::send(converters_, bytes.data(), wire_pack_sample(bytes.data(), fitted_.ecu), 0);
+    const unsigned size = wire_pack_sample(bytes.data(), fitted_.ecu, period_.readings.turn);
+    (void)::send(converters_, bytes.data(), size, 0);
     pollfd answer{converters_, POLLIN, 0};
     unread_periods_ = unread + 1;
     for (int tries = 0; tries < 4 && unread_periods_ > 0; ++tries)
       if (::poll(&answer, 1, conversion_ms) > 0) read_converters();
       else break;
     if (unread_periods_ > 0) unread_periods_ = unread;
+  }
+
+  /// Has the converters read. False while, in lockstep, a period has to wait.
+  bool may_pass() {
+    kick();
+    if (ecu_board_awaits_host(&board_, &period_.readings)) {
+      if (++for_host_ % ECU_BOARD_REPEAT_PERIODS == 0) repeat();
+      return false;
+    }
+    for_host_ = 0;
+    if (for_robot_++ % ECU_BOARD_ASK_PERIODS == 0) convert();
+    else read_converters();
+    if (ecu_board_awaits_robot(&board_, &period_.readings)) return false;
+    for_robot_ = 0;
+    return true;
+  }
+  void repeat() {
+    std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
+    bus_->send(std::span(frames).first(ecu_board_repeat(&board_, frames.data())));
   }
 
   void hear() {
@@ -142,17 +165,19 @@ class Program {
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_drive(bytes.data(), fitted_.ecu, duty.data());
     (void)::send(converters_, bytes.data(), size, 0);  // no robot there yet: it is said again
-    (void)!::write(kick_, "", 1);
+    kick();
   }
+  void kick() { (void)!::write(kick_, "", 1); }
 
   board_fitted fitted_;
   int kick_;
-  ecu_board board_;
+  ecu_board board_{};
   board_period period_{};
   std::unique_ptr<erp::CanBus> bus_;
   int converters_, timer_;
   wire_reader reader_{};
   int unread_periods_ = 1;
+  unsigned for_host_ = 0, for_robot_ = 0;  ///< periods waited for them, in a row
   unsigned busy_periods_ = 0, bus_off_periods_ = 0;
 };
 

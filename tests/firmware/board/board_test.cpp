@@ -172,8 +172,9 @@ TEST_CASE("readings, duties and mishaps come over the wire as they were") {
   wire_unpack_drive(&reader, back);
   CHECK((back[0] == -1023 && back[1] == 7));
 
-  REQUIRE(feed(reader, bytes, wire_pack_sample(bytes, 77)) == WIRE_SAMPLE);
+  REQUIRE(feed(reader, bytes, wire_pack_sample(bytes, 77, 200)) == WIRE_SAMPLE);
   CHECK(wire_ecu(&reader) == 77);
+  CHECK(wire_sample_turn(&reader) == 200);
 
   const wire_mishap mishap{WIRE_MISHAP_BUSY, 300};
   REQUIRE(feed(reader, bytes, wire_pack_mishap(bytes, 3, &mishap)) == WIRE_MISHAP);
