@@ -132,10 +132,10 @@ void GatewayNode::mind() {
   watch_.step(now_ns(), [this](int ecu, erp::EcuWatch::News news) { say_ecu(ecu, news); });
 }
 
-/// Calls for the ECUs until all have answered.
+/// Calls for the ECUs until all have said what they are.
 void GatewayNode::discover() {
-  const auto understood = [this](int ecu) { return gateway_.understands(ecu); };
-  if (std::ranges::all_of(ecus_, understood)) return;
+  const auto introduced = [this](int ecu) { return gateway_.introduced(ecu); };
+  if (std::ranges::all_of(ecus_, introduced)) return;
   send(gateway_.discover());
   if (++asked_ == 11) say_unanswered();
 }
