@@ -71,12 +71,20 @@ double OutsideEcus::voltage_V(const Converters::Channel& channel) const {
   return channel.supply_V * std::clamp(duty, -ECU_DUTY_MAX, ECU_DUTY_MAX) / ECU_DUTY_MAX;
 }
 
-void OutsideEcus::step(World& world) {
+bool OutsideEcus::waits_for_one() const {
+  return turn_ == 0 && std::ranges::any_of(ecus_, [](const auto& one) {
+           return one.second.silent > late_steps && one.second.silent < silent_steps;
+         });
+}
+
+bool OutsideEcus::step(World& world) {
+  for (auto& [address, ecu] : ecus_) ecu.silent = std::min(ecu.silent + 1, silent_steps);
+  if (waits_for_one()) return false;
   const auto channels = converters_->channels();
   for (std::size_t k = 0; k < channels.size(); ++k) voltage_V_[k] = voltage_V(channels[k]);
-  for (auto& [address, ecu] : ecus_) ecu.silent = std::min(ecu.silent + 1, silent_steps);
   if (mishaps_) send_mishaps(world.time_s());
   converters_->pass(world, voltage_V_, step_s);
+  return true;
 }
 
 void OutsideEcus::answer(int address, const Ecu& to) {

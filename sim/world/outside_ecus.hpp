@@ -18,14 +18,16 @@
 /// In lockstep the world waits for all of them: each is given a reading, asks for the next when its
 /// host has answered, and the last one's asking moves the world on by a period.
 ///
-/// A PWM stage that hears nothing for 10 ms is off: whoever fed it has no power.
+/// In real time it waits as well, for one that was heard and is late by half a period: a board has its
+/// processor to itself, and what keeps a process from working here must not look like a motor
+/// driven blindly. A PWM stage that hears nothing for 10 ms is off: whoever fed it has no power.
 namespace sim {
 
 class OutsideEcus {
  public:
   static constexpr int steps_a_tick = 4;
   static constexpr double step_s = 0.002 / steps_a_tick;
-  static constexpr int silent_steps = 5 * steps_a_tick;
+  static constexpr int late_steps = 3 * steps_a_tick / 2, silent_steps = 5 * steps_a_tick;
 
   struct Options {
     int port = 0;       ///< for datagrams
@@ -44,8 +46,8 @@ class OutsideEcus {
   /// Hands that out.
   void begin_turn();
   void measure(const World& world) { converters_->measure(world); }
-  /// One step under the duties last heard, then a new measurement.
-  void step(World& world);
+  /// One step under the duties last heard, then a new measurement. False: the world waits.
+  bool step(World& world);
   /// ECUs heard within the last 10 ms.
   int alive() const;
   std::uint64_t unreadable() const { return wires_.unreadable(); }
@@ -59,6 +61,7 @@ class OutsideEcus {
     bool waits = false;         ///< in lockstep, for the next ones
   };
   void take(const PinWires::Peer& from, wire_kind kind, const wire_reader& said);
+  bool waits_for_one() const;
   double voltage_V(const Converters::Channel& channel) const;
   void answer(int ecu, const Ecu& to);
   void send_mishaps(double time_s);

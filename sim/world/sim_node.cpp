@@ -141,7 +141,7 @@ void SimNode::on_command(const erp::EcuCommand& command) {
 int SimNode::steps_a_tick() const { return outside_ ? OutsideEcus::steps_a_tick : 1; }
 
 void SimNode::step() {
-  if (outside_) outside_->step(world_);
+  if (outside_ && !outside_->step(world_)) return;
   if (++steps_ % steps_a_tick() == 0) tick();
 }
 
