@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "firmware/core/bundle.h"
 #include "hal/can/load.hpp"
 
 namespace can {
@@ -34,6 +35,13 @@ std::string trace_name(const std::string& file, const std::string& bus, std::siz
   if (buses == 1) return file;
   std::filesystem::path path(file);
   return path.replace_filename(path.stem().string() + "." + bus + path.extension().string());
+}
+
+/// Of its bus's time, worst case. On CAN FD they are taken to go four to a bundle.
+double time_of_a_frame_s(const erp::BusPlan& plan) {
+  if (!plan.data_bitrate_per_s) return erp::frame_time_s(8, plan.bitrate_per_s);
+  const std::size_t bytes = bundle_size(4);
+  return erp::fd_frame_time_s(bytes, plan.bitrate_per_s, *plan.data_bitrate_per_s) / 4;
 }
 
 }  // namespace
@@ -69,8 +77,7 @@ void GatewayNode::open(const Params& params, const erp::Robot& robot) {
     if (!params.trace.empty())
       buses_[k].record(trace_name(params.trace, routes_.name(k), opened.size()));
   }
-  for (const erp::BusPlan& plan : robot.buses())
-    frame_time_s_.push_back(erp::frame_time_s(8, plan.bitrate_per_s));
+  for (const erp::BusPlan& plan : robot.buses()) frame_time_s_.push_back(time_of_a_frame_s(plan));
   refused_said_.assign(buses_.size(), 0);
   frames_before_.assign(buses_.size(), 0);
 }

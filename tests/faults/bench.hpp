@@ -130,10 +130,11 @@ class Bench {
     return well;
   }
   /// Begins a new injection: all is well, and what was heard so far is forgotten. What latched, and
-  /// was not the last injection's, is cleared by a person's word, counted and told.
-  void settle() {
+  /// was not the last injection's, is cleared by a person's word and told. Returns how often.
+  int settle() {
     pins().leave_alone();
-    for (int tries = 0; !recovers(); ++tries) {
+    int tries = 0;
+    for (; !recovers(); ++tries) {
       if (tries == 3)
         FAIL("the graph does not come back:\n" << graph_->output() << rack_->output());
       std::printf("  (cleared by hand: %s)\n", last_fault().c_str());
@@ -141,6 +142,7 @@ class Bench {
     }
     pins().forget();
     ear_->forget();
+    return tries;
   }
   std::string last_fault() {
     std::string text = "no fault said";
