@@ -60,7 +60,10 @@ GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::No
       [this](const auto& m) { send(gateway_.parameters(m)); }, 8);
   node.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
   for (erp::BusKeeper& bus : buses_) node.watch(bus.bus().fd(), [this, &bus] { receive(bus); });
-  node.on_activate([this] { discover(); });
+  node.on_activate([this] {
+    began_ns_ = node::monotonic_ns();
+    discover();
+  });
   node.on_deactivate([this] { publish_clock(); });
   node.every(say_ns, [this] { say_counters(); });
   node.every(discover_ns, [this] { discover(); });
@@ -168,6 +171,9 @@ void GatewayNode::publish_clock() {
   erp::Clock clock;
   const auto sequence = gateway_.frame().sequence;
   clock.stamp_ns = sequence ? static_cast<std::int64_t>(sequence - 1) * tick_ns : 0;
+  const auto elapsed_ns = node::monotonic_ns() - began_ns_;
+  clock.real_time_factor =
+      elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
   clock_out_.publish(clock);
 }
 

@@ -53,7 +53,6 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
       imus_(world_, static_cast<std::uint64_t>(params.seed), tick_s),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
-      clock_out_(node.advertise<erp::Clock>()),
       end_ticks_(ticks_in(node.options().duration_s)) {
   if (mishaps_.needs_separate_ecus() && !params.ecus_outside())
     throw std::invalid_argument(
@@ -63,6 +62,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
   if (params.ecus_outside()) serve_outside(params, robot);
   else if (params.bus.empty()) join_bus_as_device();
   else stand_behind(params.bus, robot);
+  if (!bus_ && !outside_) clock_out_ = &node.advertise<erp::Clock>();
   if (!robot.imus.empty()) imus_out_ = &node.advertise<erp::ImuFrame>();
   erp::assign(imu_frame_.robot, robot.name);
   erp::assign(imu_frame_.source, "sim");
@@ -226,14 +226,16 @@ void SimNode::watch_world() {
   node_.finish(1);
 }
 
+/// Behind a bus the gateway is the device, whose time counts.
 void SimNode::publish_clock(bool finished) {
+  if (!clock_out_) return;
   erp::Clock clock;
   clock.stamp_ns = static_cast<std::int64_t>(ticks_) * tick_ns;
   const auto elapsed_ns = node::monotonic_ns() - began_ns_;
   clock.real_time_factor =
       elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
   clock.finished = finished;
-  clock_out_.publish(clock);
+  clock_out_->publish(clock);
 }
 
 }  // namespace sim

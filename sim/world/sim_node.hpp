@@ -88,7 +88,7 @@ class SimNode {
   node::Publisher<erp::EcuFrame>* frame_out_ = nullptr;
   node::Publisher<erp::JointState>& joints_out_;
   node::Publisher<erp::BodyPose>& bodies_out_;
-  node::Publisher<erp::Clock>& clock_out_;
+  node::Publisher<erp::Clock>* clock_out_ = nullptr;    ///< null: another is the device
   node::Publisher<erp::ImuFrame>* imus_out_ = nullptr;  ///< null: the robot has none
   node::Subscription<erp::EcuParameter>* parameter_in_ = nullptr;
   erp::EcuFrame frame_;
