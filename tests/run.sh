@@ -2,12 +2,13 @@
 # The test command: installs what is missing, builds, runs every test.
 #   tests/run.sh           everything, on the release build
 #   tests/run.sh faults    every fault injected twenty times into running graphs, and timed
+#   tests/run.sh soak      half an hour of a graph of which processes are killed at random
 #   tests/run.sh asan      the same under address and undefined-behaviour sanitizers
 #   tests/run.sh tsan      the same under the thread sanitizer
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
-[ "$preset" = faults ] && preset=release
+case $preset in faults | soak) preset=release ;; esac
 
 launch/dependencies.sh test
 cmake --preset "$preset" -DERP_TESTS=ON >/dev/null
@@ -16,4 +17,5 @@ if [ "${1:-}" = faults ]; then
   build/release/tests/erp_faults
   exec tests/hal/uml/run_in_uml.sh "$PWD/build/release/tests/socketcan_test"
 fi
+[ "${1:-}" = soak ] && exec build/release/tests/erp_soak
 ctest --preset "$preset" --output-on-failure -j2

@@ -10,6 +10,7 @@ void ecu_board_init(ecu_board* board, const board_fitted* fitted, frame_reset_ca
   ecu_link_init(&board->link, fitted->ecu, fitted_channel(board, fitted, 0),
                 fitted_channel(board, fitted, 1), fitted->analog_inputs);
   board->link.serial = fitted->serial;
+  board->turn = 0;
   ecu_link_say_boot(&board->link, cause, boot);
 }
 
@@ -42,6 +43,19 @@ unsigned ecu_board_period(ecu_board* board, const board_period* period, int16_t*
   }
   for (unsigned k = 0; k < ECU_ANALOG_INPUTS; ++k)
     board->report.analog_counts[k] = period->readings.analog[k];
+  board->turn = period->readings.turn;
   ecu_link_tick(&board->link);
   return ecu_link_say(&board->link, &board->report, false, frames);
+}
+
+bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last) {
+  return last->turn != 0u && last->turn == board->turn;
+}
+
+bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last) {
+  return ecu_board_awaits_robot(board, last) && !board->link.answered;
+}
+
+unsigned ecu_board_repeat(ecu_board* board, bus_frame* frames) {
+  return ecu_link_say(&board->link, &board->report, true, frames);
 }

@@ -5,6 +5,12 @@
  *   on a frame:       ecu_board_hear(&board, &frame)
  *   every 2 ms:       count = ecu_board_period(&board, &period, duty, frames); send them; kick
  *   watchdog, 10 ms:  PWM off by hardware, reset
+ *
+ * A simulated robot may run in lockstep: it waits for its ECUs, and they wait for their host. Then
+ * a period passes only once the last one has been answered and there are new readings:
+ *
+ *   every 2 ms:       if ecu_board_awaits_host: now and then ecu_board_repeat; kick
+ *                     else read converters; if not ecu_board_awaits_robot: a period as above
  */
 #ifndef ERP_FIRMWARE_BOARD_H
 #define ERP_FIRMWARE_BOARD_H
@@ -26,6 +32,8 @@ typedef struct {
 typedef struct {
   ecu_inputs channel[2]; /* potentiometer_counts are taken from `analog` instead */
   int32_t analog[ECU_ANALOG_INPUTS];
+  uint8_t
+      turn; /* of a robot in lockstep, 1 .. 255, another with each reading; 0: it does not wait */
 } board_readings;
 
 typedef struct {
@@ -38,6 +46,7 @@ typedef struct {
   ecu_channel channel[2];
   ecu_link link;
   ecu_report report; /* of the period at hand */
+  uint8_t turn;      /* of the readings it was computed from */
 } ecu_board;
 
 /* Both channels in boot, PWM 0. `boot` is the frame to send first. */
@@ -50,6 +59,16 @@ void ecu_board_hear(ecu_board* board, const bus_frame* frame);
  * ECU_LINK_FRAMES_MAX frames; returns how many. */
 unsigned ecu_board_period(ecu_board* board, const board_period* period, int16_t* duty,
                           bus_frame* frames);
+
+/* In lockstep: whether the last period's answer has not come, and whether there is nothing new to
+ * compute from. */
+bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last);
+bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last);
+
+/* The last period once more, whole, for an answer that got lost. Returns how many frames. */
+unsigned ecu_board_repeat(ecu_board* board, bus_frame* frames);
+#define ECU_BOARD_REPEAT_PERIODS 50u /* 100 ms of waiting for the host; chosen */
+#define ECU_BOARD_ASK_PERIODS 10u    /* 20 ms of waiting for the robot; chosen */
 
 #ifdef __cplusplus
 }

@@ -1,10 +1,10 @@
 #include "firmware/board/wire.h"
 
 #define SYNC 0xA5u
-#define READINGS_BYTES (1u + 2u * 12u + 4u * ECU_ANALOG_INPUTS)
+#define READINGS_BYTES (2u + 2u * 12u + 4u * ECU_ANALOG_INPUTS)
 #define DRIVE_BYTES 5u
 #define MISHAP_BYTES 4u
-#define SAMPLE_BYTES 1u
+#define SAMPLE_BYTES 2u
 
 /* ---- packing ---- */
 
@@ -33,6 +33,7 @@ static unsigned end(cursor* c) {
 
 unsigned wire_pack_readings(uint8_t* bytes, uint8_t ecu, const board_readings* readings) {
   cursor c = begin(bytes, WIRE_READINGS, READINGS_BYTES, ecu);
+  put(&c, 1, readings->turn);
   for (unsigned k = 0; k < 2; ++k) {
     const ecu_inputs* in = &readings->channel[k];
     put(&c, 4, (uint32_t)in->encoder_counts);
@@ -51,8 +52,9 @@ unsigned wire_pack_drive(uint8_t* bytes, uint8_t ecu, const int16_t* duty) {
   return end(&c);
 }
 
-unsigned wire_pack_sample(uint8_t* bytes, uint8_t ecu) {
+unsigned wire_pack_sample(uint8_t* bytes, uint8_t ecu, uint8_t turn) {
   cursor c = begin(bytes, WIRE_SAMPLE, SAMPLE_BYTES, ecu);
+  put(&c, 1, turn);
   return end(&c);
 }
 
@@ -109,6 +111,7 @@ uint8_t wire_ecu(const wire_reader* reader) { return reader->bytes[3]; }
 void wire_unpack_readings(const wire_reader* reader, board_readings* readings) {
   const uint8_t* at = reader->bytes + 4;
   *readings = (board_readings){0};
+  readings->turn = (uint8_t)get(&at, 1);
   for (unsigned k = 0; k < 2; ++k) {
     ecu_inputs* in = &readings->channel[k];
     in->encoder_counts = (int32_t)get(&at, 4);
@@ -124,6 +127,8 @@ void wire_unpack_drive(const wire_reader* reader, int16_t* duty) {
   const uint8_t* at = reader->bytes + 4;
   for (unsigned k = 0; k < 2; ++k) duty[k] = (int16_t)get(&at, 2);
 }
+
+uint8_t wire_sample_turn(const wire_reader* reader) { return reader->bytes[4]; }
 
 void wire_unpack_mishap(const wire_reader* reader, wire_mishap* mishap) {
   const uint8_t* at = reader->bytes + 4;

@@ -3,11 +3,12 @@
  *
  *   0xA5, kind 8, size 8, payload, CRC-8 over kind, size and payload; numbers little endian
  *
- *   READINGS  1  robot -> ECU  ecu 8; per channel: encoder 32, current 16, tension 16,
- *                              temperature 16, supply 16; four analog inputs of 32
+ *   READINGS  1  robot -> ECU  ecu 8, turn 8; per channel: encoder 32, current 16,
+ *                              tension 16, temperature 16, supply 16; four analog inputs of 32
  *   DRIVE     2  ECU -> robot  ecu 8; duty 16, duty 16: both PWM outputs
  *   MISHAP    3  robot -> ECU  ecu 8, kind 8, periods 16: what tests do to it
- *   SAMPLE    4  ECU -> robot  ecu 8: answered by READINGS of now
+ *   SAMPLE    4  ECU -> robot  ecu 8, turn 8 of the readings it has: answered by READINGS of now;
+ *                              in lockstep, if it has those, by the next ones when all have asked
  *
  * A byte that makes no sense is passed over; the next 0xA5 begins again.
  */
@@ -39,7 +40,7 @@ typedef struct {
 /* Packing returns how many bytes were written, at most WIRE_MESSAGE_MAX. */
 unsigned wire_pack_readings(uint8_t* bytes, uint8_t ecu, const board_readings* readings);
 unsigned wire_pack_drive(uint8_t* bytes, uint8_t ecu, const int16_t* duty);
-unsigned wire_pack_sample(uint8_t* bytes, uint8_t ecu);
+unsigned wire_pack_sample(uint8_t* bytes, uint8_t ecu, uint8_t turn);
 unsigned wire_pack_mishap(uint8_t* bytes, uint8_t ecu, const wire_mishap* mishap);
 
 /* What has been read of a message so far. Zero it first. */
@@ -56,6 +57,7 @@ wire_kind wire_take(wire_reader* reader, uint8_t byte);
 uint8_t wire_ecu(const wire_reader* reader);
 void wire_unpack_readings(const wire_reader* reader, board_readings* readings);
 void wire_unpack_drive(const wire_reader* reader, int16_t* duty);
+uint8_t wire_sample_turn(const wire_reader* reader);
 void wire_unpack_mishap(const wire_reader* reader, wire_mishap* mishap);
 
 #ifdef __cplusplus

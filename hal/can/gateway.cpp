@@ -70,6 +70,11 @@ bool Gateway::understands(int ecu) const {
          ecus_[static_cast<std::size_t>(ecu)].speaks_ours;
 }
 
+bool Gateway::introduced(int ecu) const {
+  return ecu >= 0 && ecu < static_cast<int>(FRAME_ECUS) &&
+         ecus_[static_cast<std::size_t>(ecu)].hello.has_value();
+}
+
 // ---- to the ECUs ----
 
 std::span<const CanFrame> Gateway::commands(const EcuCommand& message) {

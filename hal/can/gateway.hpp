@@ -38,6 +38,7 @@ struct EcuHello {
   std::uint8_t ecu = 0;
   bool named = false;  ///< by robot.xml
   frame_hello said{};
+  std::uint8_t lacks_channels = 0, lacks_inputs = 0;  ///< bit k: robot.xml uses it, it has none
 };
 
 /// Translates between the plant's messages and the ECUs' frames. Pure: no DDS, no clock, no heap
@@ -92,6 +93,8 @@ class Gateway {
 
   /// Whether an ECU of robot.xml has said that it speaks this version; false for any other.
   bool understands(int ecu) const;
+  /// Whether it has said what it is since it last booted.
+  bool introduced(int ecu) const;
 
   /// What an ECU last said of itself about a channel, in the order of robot.xml's actuators.
   const frame_health& position_page(std::size_t actuator) const {

@@ -141,6 +141,15 @@ Heard Gateway::hear_health(Ecu& ecu, const CanFrame& frame) {
   return Heard::nothing;
 }
 
+/// Bit k: used by robot.xml, at `index[k]`, and not fitted.
+template <std::size_t n>
+static std::uint8_t lacking(const std::array<int, n>& index, unsigned fitted) {
+  unsigned missing = 0;
+  for (std::size_t k = 0; k < n; ++k)
+    if (index[k] >= 0 && !(fitted >> k & 1u)) missing |= 1u << k;
+  return static_cast<std::uint8_t>(missing);
+}
+
 Heard Gateway::hear_hello(Ecu& ecu, const CanFrame& frame) {
   frame_hello said;
   if (!frame_unpack_hello(&frame, &said)) return hear_corrupt();
@@ -150,7 +159,9 @@ Heard Gateway::hear_hello(Ecu& ecu, const CanFrame& frame) {
   const bool is_news = !ecu.hello || key(*ecu.hello) != key(said);
   ecu.hello = said;
   ecu.speaks_ours = ecu.in_use && said.version == FRAME_VERSION;
-  if (is_news && hellos_.size() < hellos_kept) hellos_.push_back({ecu.address, ecu.in_use, said});
+  if (is_news && hellos_.size() < hellos_kept)
+    hellos_.push_back({ecu.address, ecu.in_use, said, lacking(ecu.channel, said.channels),
+                       lacking(ecu.analog, said.analog_inputs)});
   return Heard::nothing;
 }
 
@@ -160,6 +171,7 @@ Heard Gateway::hear_emergency(Ecu& ecu, const CanFrame& frame) {
   if (emergencies_.size() < emergencies_kept) emergencies_.push_back(emergency);
   if (!emergency.said.boot) return Heard::nothing;
   ecu.speaks_ours = emergency.said.version == FRAME_VERSION;
+  ecu.hello.reset();
   forget(ecu);
   return Heard::nothing;
 }

@@ -22,6 +22,14 @@ const char* reset_words(std::uint8_t cause) {
 
 std::string ecu_name(int ecu) { return "ecu " + std::to_string(ecu); }
 
+/// "channel 1", or "analog input 0, 2".
+std::string listed(const std::string& what, unsigned bits) {
+  std::string text;
+  for (int k = 0; bits >> k; ++k)
+    if (bits >> k & 1u) text += (text.empty() ? what + " " : ", ") + std::to_string(k);
+  return text;
+}
+
 std::string version_words(std::uint8_t version) {
   return "speaks version " + std::to_string(version) + " of the frames, this gateway " +
          std::to_string(FRAME_VERSION) + ": it is not listened to; bring both to one release";
@@ -42,6 +50,12 @@ void GatewayNode::say_hello(const erp::EcuHello& hello) {
   else if (hello.said.version != FRAME_VERSION)
     node_.report(erp::Severity::fault, ecu_name(hello.ecu), "ecu_version",
                  version_words(hello.said.version));
+  else if (hello.lacks_channels || hello.lacks_inputs)
+    node_.report(erp::Severity::fault, ecu_name(hello.ecu), "ecu_lacks",
+                 "has no " + listed("channel", hello.lacks_channels) +
+                     (hello.lacks_channels && hello.lacks_inputs ? " and no " : "") +
+                     listed("analog input", hello.lacks_inputs) +
+                     ", which robot.xml uses; mend robot.xml, or fit the board");
 }
 
 void GatewayNode::say_boot_or_fault(const erp::EcuEmergency& emergency) {

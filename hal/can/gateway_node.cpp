@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "firmware/core/bundle.h"
 #include "hal/can/load.hpp"
 
 namespace can {
@@ -36,6 +37,13 @@ std::string trace_name(const std::string& file, const std::string& bus, std::siz
   return path.replace_filename(path.stem().string() + "." + bus + path.extension().string());
 }
 
+/// Of its bus's time, worst case. On CAN FD they are taken to go four to a bundle.
+double time_of_a_frame_s(const erp::BusPlan& plan) {
+  if (!plan.data_bitrate_per_s) return erp::frame_time_s(8, plan.bitrate_per_s);
+  const std::size_t bytes = bundle_size(4);
+  return erp::fd_frame_time_s(bytes, plan.bitrate_per_s, *plan.data_bitrate_per_s) / 4;
+}
+
 }  // namespace
 
 GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::Node& node)
@@ -52,7 +60,10 @@ GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::No
       [this](const auto& m) { send(gateway_.parameters(m)); }, 8);
   node.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
   for (erp::BusKeeper& bus : buses_) node.watch(bus.bus().fd(), [this, &bus] { receive(bus); });
-  node.on_activate([this] { discover(); });
+  node.on_activate([this] {
+    began_ns_ = node::monotonic_ns();
+    discover();
+  });
   node.on_deactivate([this] { publish_clock(); });
   node.every(say_ns, [this] { say_counters(); });
   node.every(discover_ns, [this] { discover(); });
@@ -69,8 +80,7 @@ void GatewayNode::open(const Params& params, const erp::Robot& robot) {
     if (!params.trace.empty())
       buses_[k].record(trace_name(params.trace, routes_.name(k), opened.size()));
   }
-  for (const erp::BusPlan& plan : robot.buses())
-    frame_time_s_.push_back(erp::frame_time_s(8, plan.bitrate_per_s));
+  for (const erp::BusPlan& plan : robot.buses()) frame_time_s_.push_back(time_of_a_frame_s(plan));
   refused_said_.assign(buses_.size(), 0);
   frames_before_.assign(buses_.size(), 0);
 }
@@ -132,10 +142,10 @@ void GatewayNode::mind() {
   watch_.step(now_ns(), [this](int ecu, erp::EcuWatch::News news) { say_ecu(ecu, news); });
 }
 
-/// Calls for the ECUs until all have answered.
+/// Calls for the ECUs until all have said what they are.
 void GatewayNode::discover() {
-  const auto understood = [this](int ecu) { return gateway_.understands(ecu); };
-  if (std::ranges::all_of(ecus_, understood)) return;
+  const auto introduced = [this](int ecu) { return gateway_.introduced(ecu); };
+  if (std::ranges::all_of(ecus_, introduced)) return;
   send(gateway_.discover());
   if (++asked_ == 11) say_unanswered();
 }
@@ -161,6 +171,9 @@ void GatewayNode::publish_clock() {
   erp::Clock clock;
   const auto sequence = gateway_.frame().sequence;
   clock.stamp_ns = sequence ? static_cast<std::int64_t>(sequence - 1) * tick_ns : 0;
+  const auto elapsed_ns = node::monotonic_ns() - began_ns_;
+  clock.real_time_factor =
+      elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
   clock_out_.publish(clock);
 }
 

@@ -63,6 +63,7 @@ class GatewayNode {
   std::uint64_t end_sequence_;
   erp::GatewayCounters said_;
   std::vector<std::uint64_t> refused_said_, frames_before_;
+  std::int64_t began_ns_ = 0;
   std::optional<std::int64_t> open_since_ns_;  ///< when the tick at hand began to be heard
   std::int64_t counted_ns_ = 0;
   bool tick_waits_ = false;  ///< heard whole, not yet published

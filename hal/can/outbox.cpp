@@ -12,7 +12,8 @@ Outbox::Outbox() {
 
 void Outbox::put(std::span<const CanFrame> frames, std::int64_t now_ns) {
   for (const CanFrame& frame : frames) {
-    if (frame_function_of(&frame) == FRAME_COMMAND) put_command(frame, now_ns);
+    const bool may_overtake = now_ns != 0 && frame_function_of(&frame) == FRAME_COMMAND;
+    if (may_overtake) put_command(frame, now_ns);
     else if (others_.size() < most_others) others_.push_back(frame);
     else ++dropped_;
   }

@@ -11,7 +11,8 @@ namespace erp {
 /// longer than a tick: a set-point must never come out late. Everything else waits in order, after
 /// them. So a bus that is slow, full or cut off costs age, not a burst of stale commands.
 ///
-/// Pure: time is an argument, in nanoseconds of any clock; where it stands still nothing ages.
+/// Pure: time is an argument, in nanoseconds of any clock. At time 0, which is lockstep's, nothing
+/// ages and nothing overtakes: all runs are alike, however slow the bus.
 class Outbox {
  public:
   static constexpr std::int64_t max_age_ns = 2'000'000;  ///< of a COMMAND: a tick

@@ -53,16 +53,16 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
       imus_(world_, static_cast<std::uint64_t>(params.seed), tick_s),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
-      clock_out_(node.advertise<erp::Clock>()),
       end_ticks_(ticks_in(node.options().duration_s)) {
-  if (mishaps_.needs_separate_ecus() && params.converter_port == 0)
+  if (mishaps_.needs_separate_ecus() && !params.ecus_outside())
     throw std::invalid_argument(
         "hang, busy and bus_off befall ECUs that are programs of their own: give converter_port, "
         "and start `ecu`");
   if (!mishaps_.empty()) ecus_.suffer(&mishaps_);
-  if (params.converter_port > 0) serve_outside(params, robot);
+  if (params.ecus_outside()) serve_outside(params, robot);
   else if (params.bus.empty()) join_bus_as_device();
   else stand_behind(params.bus, robot);
+  if (!bus_ && !outside_) clock_out_ = &node.advertise<erp::Clock>();
   if (!robot.imus.empty()) imus_out_ = &node.advertise<erp::ImuFrame>();
   erp::assign(imu_frame_.robot, robot.name);
   erp::assign(imu_frame_.source, "sim");
@@ -76,7 +76,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
   node.on_deactivate([this] { publish_clock(at_end()); });
   if (node.clock().lockstep())
     node.every(repeat_ns, [this] {
-      if (node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
+      if (!outside_ && node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
     });
   else
     node.every(
@@ -100,14 +100,20 @@ void SimNode::stand_behind(const std::string& bus, const erp::Robot& robot) {
 }
 
 void SimNode::serve_outside(const Params& params, const erp::Robot& robot) {
-  if (node_.clock().lockstep())
-    throw std::invalid_argument(
-        "converter_port: ECUs that run elsewhere keep their own time; leave "
-        "lockstep out");
-  outside_ = std::make_unique<OutsideEcus>(robot, params.converter_port,
-                                           static_cast<std::uint64_t>(params.seed));
+  OutsideEcus::Options options{params.converter_port, params.converter_lines};
+  options.seed = static_cast<std::uint64_t>(params.seed);
+  options.lockstep = node_.clock().lockstep();
+  outside_ = std::make_unique<OutsideEcus>(robot, options);
   if (!mishaps_.empty()) outside_->suffer(&mishaps_);
-  node_.watch(outside_->descriptor(), [this] { outside_->hear(); });
+  for (const int descriptor : outside_->descriptors())
+    node_.watch(descriptor, [this] { hear_outside(); });
+}
+
+/// In lockstep the world moves on when every ECU wants it to.
+void SimNode::hear_outside() {
+  if (!outside_->hear()) return;
+  for (int k = 0; k < steps_a_tick(); ++k) step();
+  if (!at_end()) outside_->begin_turn();
 }
 
 /// Who has come and who has gone, of the ECUs outside.
@@ -135,7 +141,7 @@ void SimNode::on_command(const erp::EcuCommand& command) {
 int SimNode::steps_a_tick() const { return outside_ ? OutsideEcus::steps_a_tick : 1; }
 
 void SimNode::step() {
-  if (outside_) outside_->step(world_);
+  if (outside_ && !outside_->step(world_)) return;
   if (++steps_ % steps_a_tick() == 0) tick();
 }
 
@@ -220,14 +226,16 @@ void SimNode::watch_world() {
   node_.finish(1);
 }
 
+/// Behind a bus the gateway is the device, whose time counts.
 void SimNode::publish_clock(bool finished) {
+  if (!clock_out_) return;
   erp::Clock clock;
   clock.stamp_ns = static_cast<std::int64_t>(ticks_) * tick_ns;
   const auto elapsed_ns = node::monotonic_ns() - began_ns_;
   clock.real_time_factor =
       elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
   clock.finished = finished;
-  clock_out_.publish(clock);
+  clock_out_->publish(clock);
 }
 
 }  // namespace sim

@@ -22,8 +22,8 @@
 ///   lockstep   a tick follows the command that answers the last frame, as fast as that comes
 ///
 /// With `bus` set it is the robot behind its CAN buses instead, and a gateway is the device. With
-/// `converter_port` set its ECUs are other programs, on those buses (outside_ecus.hpp); in real
-/// time only, for nobody can hold their clocks.
+/// `converter_port` or `converter_lines` set its ECUs are other programs, on those buses
+/// (outside_ecus.hpp).
 namespace sim {
 
 class SimNode {
@@ -38,14 +38,17 @@ class SimNode {
     double physics_Hz = 1000;  ///< a multiple of the ECUs' 500 Hz, or std::invalid_argument
     int seed = 1;              ///< of the sensors' noise
     std::string bus;  ///< "": ECUs speak DDS; otherwise CAN frames, on erp::open_buses of this
-    int converter_port = 0;   ///< 0: the ECUs are in here; else others, to which this is the robot
-    std::vector<Lock> locks;  ///< joints held still
+    int converter_port = 0;  ///< ECUs outside come by datagrams to this port of loopback; 0: none
+    std::string converter_lines;  ///< and over these serial devices; with neither they are in here
+    std::vector<Lock> locks;      ///< joints held still
     std::vector<Mishap> mishaps;  ///< what breaks, and when
+    bool ecus_outside() const { return converter_port > 0 || !converter_lines.empty(); }
     void visit(auto& v) {
       v("physics_Hz", physics_Hz, xml::Range{500, 20000});
       v("seed", seed, xml::Range{0, 1e9});
       v("bus", bus);
       v("converter_port", converter_port, xml::Range{0, 65535});
+      v("converter_lines", converter_lines);
       v.list(locks);
       v.list(mishaps);
     }
@@ -57,6 +60,7 @@ class SimNode {
   void join_bus_as_device();
   void stand_behind(const std::string& bus, const erp::Robot& robot);
   void serve_outside(const Params& params, const erp::Robot& robot);
+  void hear_outside();
   void say_outside();
   int steps_a_tick() const;
   void step();
@@ -84,7 +88,7 @@ class SimNode {
   node::Publisher<erp::EcuFrame>* frame_out_ = nullptr;
   node::Publisher<erp::JointState>& joints_out_;
   node::Publisher<erp::BodyPose>& bodies_out_;
-  node::Publisher<erp::Clock>& clock_out_;
+  node::Publisher<erp::Clock>* clock_out_ = nullptr;    ///< null: another is the device
   node::Publisher<erp::ImuFrame>* imus_out_ = nullptr;  ///< null: the robot has none
   node::Subscription<erp::EcuParameter>* parameter_in_ = nullptr;
   erp::EcuFrame frame_;

@@ -53,9 +53,10 @@ inline void write_rig(const tests::Folder& folder, double amplitude_m = 0) {
 
 class Bench {
  public:
-  /// `robot` and `graph`: files; without them the rig above.
+  /// `robot` and `graph`: files; without them the rig above. `host_bus`: the gateway's, if it is
+  /// not the ECUs'.
   explicit Bench(const std::string& robot = "", const std::string& graph = "",
-                 std::vector<std::string> more = {})
+                 std::vector<std::string> more = {}, const std::string& host_bus = bus())
       : robot_file_(robot.empty() ? folder_ / "robot.xml" : robot) {
     if (robot.empty()) write_rig(folder_);
     robot_ = erp::read_robot(robot_file_);
@@ -70,7 +71,7 @@ class Bench {
         "--device",   "can",
         "--restarts", "100",
         "--out",      folder_ / "run",
-        "--set",      "gateway.bus=" + bus(),
+        "--set",      "gateway.bus=" + host_bus,
         "--set",      "sim.bus=" + bus(),
         "--set",      "sim.converter_port=" + std::to_string(robot_port)};
     words.insert(words.end(), more.begin(), more.end());
@@ -83,6 +84,11 @@ class Bench {
     rack_->stop(SIGTERM);
   }
 
+  /// The ECUs' bus, and one for a gateway at the other end of a cable.
+  static std::string bus() { return "udp:239.255.42.9:" + std::to_string(26000 + 16 * own_domain); }
+  static std::string far_bus() {
+    return "udp:239.255.42.10:" + std::to_string(26000 + 16 * own_domain);
+  }
   const erp::Robot& robot() const { return robot_; }
   PinRelay& pins() { return *relay_; }
   BusEar& bus_ear() { return *ear_; }
@@ -124,10 +130,11 @@ class Bench {
     return well;
   }
   /// Begins a new injection: all is well, and what was heard so far is forgotten. What latched, and
-  /// was not the last injection's, is cleared by a person's word, counted and told.
-  void settle() {
+  /// was not the last injection's, is cleared by a person's word and told. Returns how often.
+  int settle() {
     pins().leave_alone();
-    for (int tries = 0; !recovers(); ++tries) {
+    int tries = 0;
+    for (; !recovers(); ++tries) {
       if (tries == 3)
         FAIL("the graph does not come back:\n" << graph_->output() << rack_->output());
       std::printf("  (cleared by hand: %s)\n", last_fault().c_str());
@@ -135,6 +142,7 @@ class Bench {
     }
     pins().forget();
     ear_->forget();
+    return tries;
   }
   std::string last_fault() {
     std::string text = "no fault said";
@@ -191,7 +199,6 @@ class Bench {
   void say_off();
 
  private:
-  static std::string bus() { return "udp:239.255.42.9:" + std::to_string(26000 + 16 * own_domain); }
   static inline const int relay_port = 31000 + 2 * own_domain, robot_port = relay_port + 1;
 
   tests::Folder folder_;

@@ -54,6 +54,7 @@ class Background {
     return wait_until([&] { return content(output_).find(words) != std::string::npos; });
   }
   std::string output() const { return content(output_); }
+  pid_t pid() const { return pid_; }
 
   /// The live child of that program name; 0 when there is none.
   pid_t child(const std::string& program) const {

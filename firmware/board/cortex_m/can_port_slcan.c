@@ -3,7 +3,7 @@
 #include "firmware/board/slcan.h"
 
 static slcan_reader reader;
-static bool open;
+static bool open = true; /* a reset does not make the host open it again */
 
 void can_port_open(uint8_t ecu) {
   (void)ecu; /* everything is heard; the link picks what is its own */

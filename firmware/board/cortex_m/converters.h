@@ -6,8 +6,8 @@
 
 void converters_open(uint8_t ecu);
 
-/* Has all converters read once. */
-void converters_start(void);
+/* Has all converters read once; `turn` as of the readings at hand (board.h). */
+void converters_start(uint8_t turn);
 
 /* Returns true when that is done, and fills `readings`. */
 bool converters_done(board_readings* readings);

@@ -14,11 +14,9 @@ void converters_open(uint8_t ecu) {
   usart_open(USART_ROBOT);
 }
 
-void converters_start(void) {
-  board_readings late; /* an answer to the question before */
-  (void)converters_done(&late);
+void converters_start(uint8_t turn) {
   uint8_t bytes[WIRE_MESSAGE_MAX];
-  send(bytes, wire_pack_sample(bytes, own));
+  send(bytes, wire_pack_sample(bytes, own, turn));
 }
 
 bool converters_done(board_readings* readings) {

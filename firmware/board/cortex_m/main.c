@@ -40,14 +40,17 @@ static void rest_until(uint32_t ms) {
   }
 }
 
-/* Has the converters read. Returns false when they do not answer in time. Waits awake: a conversion
- * takes microseconds, and to fall asleep and wake costs an emulator more than that. */
-static bool convert(void) {
+/* Has the converters read, unless an answer to the question before is as good: in lockstep none is
+ * too late. Returns false when none comes in time. Waits awake: a conversion takes microseconds,
+ * and to fall asleep and wake costs an emulator more than that. */
+static bool convert(bool ask) {
   const uint32_t began_ms = guard_ms();
-  converters_start();
+  const bool late = converters_done(&period.readings);
+  if (!ask || (late && period.readings.turn != board.turn)) return late;
+  converters_start(period.readings.turn);
   usart_pump();
   while (!converters_done(&period.readings))
-    if (guard_ms() - began_ms > CONVERSION_MS) return false;
+    if (guard_ms() - began_ms > CONVERSION_MS) return late;
   return true;
 }
 
@@ -60,10 +63,29 @@ static void suffer(void) {
   else --mishap.periods;
 }
 
+static void repeat_now_and_then(unsigned waited) {
+  bus_frame frames[ECU_LINK_FRAMES_MAX];
+  if (waited % ECU_BOARD_REPEAT_PERIODS == 0u)
+    outbox_put(&outbox, frames, ecu_board_repeat(&board, frames));
+}
+
+/* Has the converters read. Returns false while, in lockstep, a period has to wait. */
+static bool may_pass(void) {
+  static unsigned for_host, for_robot;
+  if (ecu_board_awaits_host(&board, &period.readings)) {
+    repeat_now_and_then(++for_host);
+    return false;
+  }
+  for_host = 0;
+  (void)convert(for_robot++ % ECU_BOARD_ASK_PERIODS == 0u);
+  if (ecu_board_awaits_robot(&board, &period.readings)) return false;
+  for_robot = 0;
+  return true;
+}
+
 static void pass_period(uint32_t began_ms) {
   bus_frame frames[ECU_LINK_FRAMES_MAX];
   int16_t duty[2];
-  (void)convert();
   suffer();
   period.bus_off = is_off();
   const unsigned count = ecu_board_period(&board, &period, duty, frames);
@@ -71,14 +93,16 @@ static void pass_period(uint32_t began_ms) {
   outbox_put(&outbox, frames, count);
   while (suffers(WIRE_MISHAP_BUSY) && guard_ms() - began_ms < PERIOD_MS) continue;
   period.overran = guard_ms() - began_ms >= PERIOD_MS;
-  guard_kick();
 }
 
 /* Without a robot there is nothing to run on. */
 static void wait_for_power(void) {
-  while (!convert()) {
-    guard_kick();
-    rest_until(guard_ms() + PERIOD_MS);
+  while (!convert(true)) {
+    const uint32_t asked_ms = guard_ms();
+    while (guard_ms() - asked_ms < ECU_BOARD_ASK_PERIODS * PERIOD_MS) {
+      guard_kick();
+      rest_until(guard_ms() + 1u);
+    }
   }
 }
 
@@ -95,7 +119,8 @@ int main(void) {
   outbox_put(&outbox, &boot, 1);
   for (uint32_t due_ms = guard_ms();; due_ms += PERIOD_MS) {
     rest_until(due_ms);
-    pass_period(due_ms);
+    if (may_pass()) pass_period(due_ms);
+    guard_kick();
     if (guard_ms() - due_ms >= 2u * PERIOD_MS) due_ms = guard_ms(); /* what is missed is missed */
   }
 }

@@ -60,17 +60,15 @@ class Program {
     if (ready[0].revents) hear();
     std::uint64_t periods = 0;
     if (::read(timer_, &periods, sizeof periods) <= 0) return true;
-    convert();
-    // Periods that this machine kept from us count for the timeouts; what they said is said once.
-    for (periods = std::min<std::uint64_t>(periods, ECU_TIMEOUT_TICKS); periods > 0; --periods)
-      pass_period(periods == 1);
+    if (!may_pass()) return unread_periods_ < unplugged_periods;
+    pass_periods(period_.readings.turn != 0 ? 1
+                                            : std::min<std::uint64_t>(periods, ECU_TIMEOUT_TICKS));
     return ++unread_periods_ < unplugged_periods;
   }
 
  private:
-  static constexpr int unplugged_periods = 50;  ///< 100 ms without a reading; chosen
-
-  static constexpr int conversion_ms = 1;  ///< after that the last readings serve again
+  static constexpr int conversion_ms = 8;       ///< after that the last readings serve again
+  static constexpr int unplugged_periods = 12;  ///< without a reading: 100 ms; chosen
 
   /// Calls for the robot until it answers: before that there is nothing to run on.
   void wait_for_power() {
@@ -82,18 +80,38 @@ class Program {
     (void)!::read(timer_, &passed, sizeof passed);
   }
 
-  /// Has all converters read, and waits for what they say.
+  /// Has all converters read, and waits for what they say; unless an answer to the question before
+  /// is as good: in lockstep none is too late.
   void convert() {
     read_converters();
     const int unread = unread_periods_;
+    if (period_.readings.turn != board_.turn) return;
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
-    (void)::send(converters_, bytes.data(), wire_pack_sample(bytes.data(), fitted_.ecu), 0);
+    const unsigned size = wire_pack_sample(bytes.data(), fitted_.ecu, period_.readings.turn);
+    (void)::send(converters_, bytes.data(), size, 0);
     pollfd answer{converters_, POLLIN, 0};
     unread_periods_ = unread + 1;
-    for (int tries = 0; tries < 4 && unread_periods_ > 0; ++tries)
-      if (::poll(&answer, 1, conversion_ms) > 0) read_converters();
-      else break;
+    while (unread_periods_ > 0 && ::poll(&answer, 1, conversion_ms) > 0) read_converters();
     if (unread_periods_ > 0) unread_periods_ = unread;
+  }
+
+  /// Has the converters read. False while, in lockstep, a period has to wait.
+  bool may_pass() {
+    kick();
+    if (ecu_board_awaits_host(&board_, &period_.readings)) {
+      if (++for_host_ % ECU_BOARD_REPEAT_PERIODS == 0) repeat();
+      return false;
+    }
+    for_host_ = 0;
+    if (for_robot_++ % ECU_BOARD_ASK_PERIODS == 0) convert();
+    else read_converters();
+    if (ecu_board_awaits_robot(&board_, &period_.readings)) return false;
+    for_robot_ = 0;
+    return true;
+  }
+  void repeat() {
+    std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
+    bus_->send(std::span(frames).first(ecu_board_repeat(&board_, frames.data())));
   }
 
   void hear() {
@@ -121,6 +139,22 @@ class Program {
     if (mishap.kind == WIRE_MISHAP_BUS_OFF) bus_off_periods_ = mishap.periods;
   }
 
+  /// Periods that this machine kept from us count for the timeouts; what they said is said once.
+  /// The shaft turned evenly through them, or the firmware would see it leap.
+  void pass_periods(std::uint64_t count) {
+    const board_readings now = period_.readings;
+    for (std::uint64_t k = 1; k <= count; ++k) {
+      for (std::size_t channel = 0; channel < 2; ++channel) {
+        const std::int64_t from = last_encoder_[channel], to = now.channel[channel].encoder_counts;
+        period_.readings.channel[channel].encoder_counts =
+            static_cast<std::int32_t>(from + (to - from) * std::int64_t(k) / std::int64_t(count));
+      }
+      pass_period(k == count);
+    }
+    for (std::size_t channel = 0; channel < 2; ++channel)
+      last_encoder_[channel] = now.channel[channel].encoder_counts;
+  }
+
   void pass_period(bool aloud) {
     const std::int64_t began_ns = worked_ns();
     std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
@@ -142,17 +176,20 @@ class Program {
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_drive(bytes.data(), fitted_.ecu, duty.data());
     (void)::send(converters_, bytes.data(), size, 0);  // no robot there yet: it is said again
-    (void)!::write(kick_, "", 1);
+    kick();
   }
+  void kick() { (void)!::write(kick_, "", 1); }
 
   board_fitted fitted_;
   int kick_;
-  ecu_board board_;
+  ecu_board board_{};
   board_period period_{};
   std::unique_ptr<erp::CanBus> bus_;
   int converters_, timer_;
   wire_reader reader_{};
+  std::array<std::int32_t, 2> last_encoder_{};
   int unread_periods_ = 1;
+  unsigned for_host_ = 0, for_robot_ = 0;  ///< periods waited for them, in a row
   unsigned busy_periods_ = 0, bus_off_periods_ = 0;
 };
 

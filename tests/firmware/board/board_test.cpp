@@ -141,6 +141,7 @@ wire_kind feed(wire_reader& reader, const std::uint8_t* bytes, unsigned size) {
 
 board_readings some_readings() {
   board_readings r{};
+  r.turn = 255;
   r.channel[0] = {-123456, -2048, 4095, 0, 1, 65535};
   r.channel[1] = {INT32_MIN, 2047, 0, 0, 300, 2};
   r.analog[0] = -8388608, r.analog[3] = 77;
@@ -148,6 +149,29 @@ board_readings some_readings() {
 }
 
 }  // namespace
+
+TEST_CASE("in lockstep a period waits for its answer, and for new readings") {
+  Board board;
+  board.gains();
+  auto& readings = board.period.readings;
+  CHECK_FALSE(ecu_board_awaits_host(&board.board, &readings));  // turn 0: time does not wait
+  readings.turn = 1;
+  CHECK_FALSE(ecu_board_awaits_robot(&board.board, &readings));
+  const auto said = board.pass();
+  CHECK(ecu_board_awaits_host(&board.board, &readings));
+  std::vector<bus_frame> again(ECU_LINK_FRAMES_MAX);
+  CHECK(ecu_board_repeat(&board.board, again.data()) > said.size());  // whole
+  frame_status status;
+  REQUIRE(frame_unpack_status(&said.back(), &status));
+  const frame_command answer{{{ECU_REQUEST_ARM, 0}, {ECU_REQUEST_ARM, 0}}, status.counter, 1};
+  bus_frame frame;
+  frame_pack_command(&frame, 5, &answer);
+  ecu_board_hear(&board.board, &frame);
+  CHECK_FALSE(ecu_board_awaits_host(&board.board, &readings));
+  CHECK(ecu_board_awaits_robot(&board.board, &readings));
+  readings.turn = 2;
+  CHECK_FALSE(ecu_board_awaits_robot(&board.board, &readings));
+}
 
 TEST_CASE("readings, duties and mishaps come over the wire as they were") {
   wire_reader reader{};
@@ -172,8 +196,9 @@ TEST_CASE("readings, duties and mishaps come over the wire as they were") {
   wire_unpack_drive(&reader, back);
   CHECK((back[0] == -1023 && back[1] == 7));
 
-  REQUIRE(feed(reader, bytes, wire_pack_sample(bytes, 77)) == WIRE_SAMPLE);
+  REQUIRE(feed(reader, bytes, wire_pack_sample(bytes, 77, 200)) == WIRE_SAMPLE);
   CHECK(wire_ecu(&reader) == 77);
+  CHECK(wire_sample_turn(&reader) == 200);
 
   const wire_mishap mishap{WIRE_MISHAP_BUSY, 300};
   REQUIRE(feed(reader, bytes, wire_pack_mishap(bytes, 3, &mishap)) == WIRE_MISHAP);

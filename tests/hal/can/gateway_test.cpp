@@ -39,6 +39,24 @@ TEST_CASE("a gateway that asks is told everything in the next tick") {
   CHECK_FALSE(pair.gateway.understands(9));
 }
 
+TEST_CASE("what an ECU lacks of robot.xml is told, again after each boot") {
+  Pair pair;
+  const frame_hello poor{FRAME_VERSION, 0b01, 0, 0, 0};
+  const frame_emergency boot{true, 0, 0, FRAME_RESET_POWER, FRAME_VERSION, 0};
+  erp::CanFrame hello, booted;
+  frame_pack_hello(&hello, 3, &poor);
+  frame_pack_emergency(&booted, 3, &boot);
+  for (int k = 0; k < 2; ++k) {
+    for (int repeated = 0; repeated < 3; ++repeated) pair.gateway.hear(hello);
+    REQUIRE(pair.gateway.hellos().size() == 1);
+    CHECK(pair.gateway.hellos()[0].lacks_channels == 0b10);
+    CHECK(pair.gateway.introduced(3));
+    pair.gateway.clear_news();
+    pair.gateway.hear(booted);
+    CHECK_FALSE(pair.gateway.introduced(3));
+  }
+}
+
 TEST_CASE("an ECU that has not said what it is is not listened to") {
   Pair pair;
   pair.report();

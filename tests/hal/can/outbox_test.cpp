@@ -26,7 +26,7 @@ erp::CanFrame parameter(std::uint8_t position) {
   frame_pack_parameter(&frame, 3, &said);
   return frame;
 }
-constexpr std::int64_t ms = 1'000'000;
+constexpr std::int64_t ms = 1'000'000, start = 1000 * ms;
 
 }  // namespace
 
@@ -35,13 +35,13 @@ TEST_CASE("of the commands to an ECU that wait only the newest goes out") {
   NarrowBus bus;
   for (int k = 0; k < 5; ++k) {
     const auto frame = command(3, k);
-    outbox.put({&frame, 1}, 0);
-    outbox.flush(bus, 0);
+    outbox.put({&frame, 1}, start);
+    outbox.flush(bus, start);
   }
   CHECK(bus.taken.empty());
   CHECK(outbox.replaced() == 4);
   bus.room = 10;
-  outbox.flush(bus, ms);
+  outbox.flush(bus, start + ms);
   REQUIRE(bus.taken.size() == 1);
   CHECK(setpoint_of(bus.taken[0]) == 4);
   CHECK(outbox.empty());
@@ -51,9 +51,9 @@ TEST_CASE("a command that could not leave within a tick never leaves") {
   erp::Outbox outbox;
   NarrowBus bus;
   const auto frame = command(3, 1);
-  outbox.put({&frame, 1}, 0);
+  outbox.put({&frame, 1}, start);
   bus.room = 10;
-  outbox.flush(bus, 2 * ms + 1);
+  outbox.flush(bus, start + 2 * ms + 1);
   CHECK(bus.taken.empty());
   CHECK(outbox.expired() == 1);
 }
@@ -67,9 +67,9 @@ TEST_CASE("commands pass gains by; gains wait in order, and none is lost") {
   }
   for (int tick = 0; !outbox.empty(); ++tick) {
     const auto frame = command(3, tick);
-    outbox.put({&frame, 1}, tick * 2 * ms);
+    outbox.put({&frame, 1}, start + tick * 2 * ms);
     bus.room = 4;
-    outbox.flush(bus, tick * 2 * ms);
+    outbox.flush(bus, start + tick * 2 * ms);
     REQUIRE(tick < 20);
   }
   REQUIRE(bus.taken.size() == 40);  // 10 ticks of a command and three gains
@@ -82,14 +82,30 @@ TEST_CASE("commands pass gains by; gains wait in order, and none is lost") {
   }
 }
 
+TEST_CASE("in lockstep, at time 0, no command passes a gain by, and none is replaced") {
+  erp::Outbox outbox;
+  NarrowBus bus;
+  const erp::CanFrame frames[] = {parameter(0), parameter(1), command(3, 1), command(3, 2)};
+  for (const auto& frame : frames) {
+    outbox.put({&frame, 1}, 0);
+    bus.room = 1;
+    outbox.flush(bus, 0);
+  }
+  bus.room = 10;
+  outbox.flush(bus, 0);
+  REQUIRE(bus.taken.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(bus.taken[i].id == frames[i].id);
+  CHECK(setpoint_of(bus.taken[3]) == 2);
+}
+
 TEST_CASE("what is dropped is counted and does not come back") {
   erp::Outbox outbox;
   NarrowBus bus;
   const erp::CanFrame frames[] = {command(3, 1), command(4, 1), parameter(0)};
-  outbox.put(frames, 0);
+  outbox.put(frames, start);
   outbox.drop();
   bus.room = 10;
-  outbox.flush(bus, 0);
+  outbox.flush(bus, start);
   CHECK(bus.taken.empty());
   CHECK(outbox.expired() == 2);
   CHECK(outbox.dropped() == 1);
@@ -109,9 +125,9 @@ TEST_CASE("an outbox touches no heap") {
   const erp::CanFrame frames[] = {command(3, 1), command(4, 1), parameter(0)};
   const auto before = allocations();
   for (int tick = 0; tick < 50; ++tick) {
-    outbox.put(frames, tick * ms);
+    outbox.put(frames, start + tick * ms);
     bus.room = std::size_t(tick % 5);
-    outbox.flush(bus, tick * ms);
+    outbox.flush(bus, start + tick * ms);
   }
   CHECK(allocations() == before);
 }

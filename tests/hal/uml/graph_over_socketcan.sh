@@ -1,12 +1,12 @@
 #!/bin/bash
-# graph_over_socketcan.sh BIN_DIR SOURCE_DIR: a whole graph, closed over the kernel's CAN.
+# graph_over_socketcan.sh BIN_DIR SOURCE_DIR GRAPH: a whole graph, closed over the kernel's CAN.
 #
-# In user-mode Linux the gateway and the simulated robot behind it speak over vcan0; outside, the
-# same graph runs without a bus. In lockstep every row they record must be the same, bit by bit.
+# In user-mode Linux the gateway and the simulated robot behind it speak over vcan0, and vcan1 if the
+# robot has a second bus; outside, the same graph runs without a bus. In lockstep every row they record must be the same, bit by bit.
 # That kernel is so slow that its logger may miss messages (it counts them): rows that are missing
 # there are no difference, but a hundred must be there, and the last one.
 set -u
-bin=$1 source=$2
+bin=$1 source=$2 graph=$3
 here=$(dirname "$(realpath "$0")")
 exchange=$(mktemp -d)
 trap 'rm -rf "$exchange"' EXIT
@@ -16,9 +16,9 @@ export ERP_DOMAIN=$((1 + $$ % 200))
 cat > "$exchange/run" << RUN
 #!/bin/bash
 cd "$source"
-"$bin/erp" launch launch/force_step.xml --lockstep --for 1s --out "\$TMPDIR/out" "\$@" \
+"$bin/erp" launch launch/$graph.xml --lockstep --for 1s --out "\$TMPDIR/out" "\$@" \
   < /dev/null > "\$TMPDIR/said" 2>&1 || { cat "\$TMPDIR/said"; exit 1; }
-"$bin/erp" log export "\$TMPDIR/out/force_step.mcap"
+"$bin/erp" log export "\$TMPDIR/out/$graph.mcap"
 RUN
 chmod +x "$exchange/run"
 
@@ -33,7 +33,7 @@ for go in 1 2 3; do
   tr -d '\r' < "$exchange/guest" | grep -a '^[0-9]' > "$exchange/within"
   rows=$(wc -l < "$exchange/within")
   different=$(grep -Fxvcf "$exchange/without" "$exchange/within")
-  echo "over vcan0, go $go: $rows of 500 rows recorded, $different differ from the run without a bus"
+  echo "$graph over vcan, go $go: $rows of 500 rows recorded, $different differ from the run without a bus"
   [ "$different" = 0 ] || break
   [ "$rows" -ge 100 ] &&
     [ "$(tail -n 1 "$exchange/within")" = "$(tail -n 1 "$exchange/without")" ] && exit 0

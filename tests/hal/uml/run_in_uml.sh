@@ -5,7 +5,7 @@
 # needs no rights. The program sees this machine's files read-only, is root there, and finds the
 # virtual CAN interfaces vcan0 and vcan1 (classic), vcan3 and vcan4 (CAN FD) up and vcan2 down; the
 # kernel's slcan, can-gw, tbf and netem are there as well. Its exit status is passed on.
-# With ERP_UML_SERIAL=/dev/pts/N that terminal is the guest's serial line /run/ttyS0.
+# With ERP_UML_SERIAL="/dev/pts/N /dev/pts/M" these terminals are its serial lines /run/ttyS0, ttyS1.
 # Debian: user-mode-linux kmod iproute2 can-utils. Sanitizers other than UBSan do not run in it.
 set -u
 [ $# -ge 1 ] || { echo "usage: run_in_uml.sh PROGRAM [ARGUMENT…]" >&2; exit 2; }
@@ -28,6 +28,7 @@ mount -t proc proc /proc
 mount -t sysfs sys /sys
 mount -t tmpfs tmpfs /run
 mknod /run/ttyS0 c 4 64
+mknod /run/ttyS1 c 4 65
 mkdir -p /dev/pts /dev/shm
 mount -t devpts -o ptmxmode=666 devpts /dev/pts
 mount -t tmpfs tmpfs /dev/shm
@@ -54,9 +55,11 @@ sleep 60
 INIT
 chmod +x "$exchange/init"
 
+lines=() && for terminal in ${ERP_UML_SERIAL:-}; do lines+=("ssl${#lines[@]}=tty:$terminal"); done
+
 PATH=$PATH:/usr/sbin:/sbin linux.uml mem=256M root=/dev/root rootfstype=hostfs rootflags=/ ro \
   quiet loglevel=3 uml_dir="$exchange" umid=guest con=null con0=null,fd:1 ssl=null \
-  ${ERP_UML_SERIAL:+ssl0=tty:$ERP_UML_SERIAL} \
+  "${lines[@]}" \
   init="$exchange/init" < /dev/null
 status=$(cat "$exchange/status" 2> /dev/null)
 [ -n "$status" ] || { echo "run_in_uml.sh: the guest did not reach the end" >&2; exit 1; }

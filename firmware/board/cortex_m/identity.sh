@@ -1,0 +1,9 @@
+#!/bin/bash
+# identity.sh ECU CHANNELS ANALOG_INPUTS SERIAL > identity.bin
+# What identity.h describes, to be written to 0x080E0000. CHANNELS and ANALOG_INPUTS: bit k, the k-th is fitted.
+set -eu
+[ $# -eq 4 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
+byte() { printf "\\x$(printf %02x $(($1 & 255)))"; }
+printf ECU1
+byte "$1" && byte "$2" && byte "$3" && byte 0
+for shift in 0 8 16 24; do byte $(($4 >> shift)); done

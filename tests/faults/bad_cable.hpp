@@ -1,0 +1,112 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <random>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "components/node/clock.hpp"
+#include "hal/can/bus.hpp"
+#include "hal/can/load.hpp"
+
+namespace faults {
+
+/// What a cable does to frames; shares of them, and milliseconds.
+struct Harm {
+  double lost = 0, doubled = 0, delay_ms = 0, jitter_ms = 0;
+};
+
+/// A cable of 1 Mbit/s between the gateway's bus and the ECUs': one frame at a time, the lower
+/// identifier first, worst-case stuffing; and what goes wrong on it.
+class BadCable {
+ public:
+  BadCable(const std::string& host, const std::string& ecus)
+      : ends_{erp::open_bus(host), erp::open_bus(ecus)}, thread_([this] { carry(); }) {}
+  ~BadCable() {
+    done_ = true;
+    thread_.join();
+  }
+
+  void suffer(const Harm& harm) {
+    const std::lock_guard lock(guard_);
+    harm_ = harm;
+    gap_ns_ = 0;
+  }
+  int lost() const { return lost_; }
+  int doubled() const { return doubled_; }
+  int carried() const { return carried_; }
+  /// How long this machine has kept it from working at most since the last `suffer`.
+  double stood_still_ms() const { return 1e-6 * double(gap_ns_); }
+
+ private:
+  struct Frame {
+    erp::CanFrame frame;
+    std::size_t to;
+    std::int64_t at_ns = 0;  ///< when it arrives
+  };
+
+  void carry() {
+    for (auto last_ns = node::monotonic_ns(); !done_;) {
+      const auto now_ns = node::monotonic_ns();
+      gap_ns_ = std::max(gap_ns_.load(), now_ns - std::exchange(last_ns, now_ns));
+      for (std::size_t end : {0u, 1u}) take(end);
+      transmit(now_ns);
+      deliver(now_ns);
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  }
+  void take(std::size_t from) {
+    std::array<erp::CanFrame, 64> frames;
+    while (const auto n = ends_[from]->receive(frames, 0))
+      for (const auto& frame : std::span(frames).first(n)) waiting_.push_back({frame, 1 - from});
+  }
+  /// What the bus has had the time for, by priority.
+  void transmit(std::int64_t now_ns) {
+    static const auto frame_ns = std::int64_t(1e9 * erp::frame_time_s(8, 1e6));
+    while (!waiting_.empty() && free_ns_ <= now_ns) {
+      const auto next =
+          std::ranges::min_element(waiting_, {}, [](const Frame& waits) { return waits.frame.id; });
+      free_ns_ = std::max(free_ns_, now_ns - 1'000'000) + frame_ns;
+      arrive(*next, free_ns_);
+      waiting_.erase(next);
+      ++carried_;
+    }
+  }
+  void arrive(Frame frame, std::int64_t now_ns) {
+    const std::lock_guard lock(guard_);
+    std::uniform_real_distribution<double> share(0, 1);
+    if (share(random_) < harm_.lost) return void(++lost_);
+    const int copies = share(random_) < harm_.doubled ? 2 : 1;
+    doubled_ += copies - 1;
+    for (int k = 0; k < copies; ++k) {
+      const double late_ms = harm_.delay_ms + harm_.jitter_ms * (2 * share(random_) - 1);
+      frame.at_ns = now_ns + std::int64_t(1e6 * late_ms);
+      on_the_way_.push_back(frame);
+    }
+  }
+  void deliver(std::int64_t now_ns) {
+    std::ranges::stable_sort(on_the_way_, {}, &Frame::at_ns);
+    const auto later =
+        std::ranges::find_if(on_the_way_, [&](const Frame& frame) { return frame.at_ns > now_ns; });
+    for (auto it = on_the_way_.begin(); it != later; ++it) ends_[it->to]->send({&it->frame, 1});
+    on_the_way_.erase(on_the_way_.begin(), later);
+  }
+
+  std::array<std::unique_ptr<erp::CanBus>, 2> ends_;
+  std::mutex guard_;
+  Harm harm_;
+  std::mt19937 random_{1};
+  std::vector<Frame> waiting_, on_the_way_;
+  std::int64_t free_ns_ = 0;
+  std::atomic<int> lost_ = 0, doubled_ = 0, carried_ = 0;
+  std::atomic<std::int64_t> gap_ns_ = 0;
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace faults

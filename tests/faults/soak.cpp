@@ -1,0 +1,83 @@
+// A graph for half an hour, of which a process is killed every few seconds: it always comes back to
+// what it was doing, and what is not killed does not grow. ERP_SOAK_MINUTES says how long (30).
+#include <filesystem>
+#include <map>
+#include <random>
+
+#include "tests/faults/bench.hpp"
+
+using namespace faults;
+
+namespace {
+
+double resident_MB(pid_t pid) {
+  std::ifstream statm("/proc/" + std::to_string(pid) + "/statm");
+  double pages = 0, resident = 0;
+  statm >> pages >> resident;
+  return resident * double(::sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// A process that nobody kills.
+struct Survivor {
+  pid_t pid;
+  double early_MB = 0, late_MB = 0;
+};
+
+double soak_minutes() {
+  const char* wanted = std::getenv("ERP_SOAK_MINUTES");
+  return wanted ? std::atof(wanted) : 30;
+}
+
+void print(const std::map<std::string, std::vector<double>>& back_s) {
+  std::printf("| killed | times | back to tracking after, s: p50 | p95 | max |\n");
+  for (auto [victim, times] : back_s) {
+    std::ranges::sort(times);
+    const auto at = [&](double share) {
+      return times[std::size_t(share * double(times.size() - 1))];
+    };
+    std::printf("| %-14s | %4zu | %.2f | %.2f | %.2f |\n", victim.c_str(), times.size(), at(0.5),
+                at(0.95), at(1));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("killed at random, it always comes back, and nothing grows") {
+  const std::vector<std::string> victims{"gateway", "plant", "length_control", "sim", "ecu"};
+  tests::Folder folder;
+  write_rig(folder, 0.008);
+  Bench bench(folder / "robot.xml", folder / "graph.xml");
+  std::map<std::string, Survivor> survivors{{"erp", {bench.graph().pid()}},
+                                            {"ecu", {bench.rack().pid()}},
+                                            {"target", {bench.process("target")}}};
+  std::map<std::string, std::vector<double>> back_s;
+  int cleared = 0;
+  std::mt19937 random(1);
+  const auto began_ns = node::monotonic_ns();
+  const auto minutes = [&] { return 1e-9 * double(node::monotonic_ns() - began_ns) / 60; };
+  const double end = soak_minutes();
+  for (double told = 0; minutes() < end;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2000 + random() % 3000));
+    const std::string victim = victims[random() % victims.size()];
+    const auto killed_ns = node::monotonic_ns();
+    ::kill(victim == "ecu" ? bench.ecu(0) : bench.process(victim), SIGKILL);
+    std::this_thread::sleep_for(100ms);
+    cleared += bench.settle();
+    back_s[victim].push_back(1e-9 * double(node::monotonic_ns() - killed_ns));
+    for (auto& [name, survivor] : survivors)
+      (minutes() < end / 5 ? survivor.early_MB : survivor.late_MB) = resident_MB(survivor.pid);
+    if (minutes() - told < 1) continue;
+    told = minutes();
+    std::printf("  %.0f of %.0f min\n", told, end);
+    std::fflush(stdout);
+  }
+  print(back_s);
+  std::printf("cleared by a person's word: %d\n", cleared);
+  for (const auto& [name, survivor] : survivors) {
+    std::printf("| %-8s | resident after a fifth %.2f MB | at the end %.2f MB |\n", name.c_str(),
+                survivor.early_MB, survivor.late_MB);
+    INFO(name);
+    CHECK(survivor.late_MB < 1.05 * survivor.early_MB + 0.5);
+  }
+  for (const auto& [victim, times] : back_s) CHECK(std::ranges::max(times) < 10);
+}

@@ -1,0 +1,54 @@
+#include "firmware/board/outbox.h"
+
+#include <catch2/catch.hpp>
+#include <vector>
+
+namespace {
+
+bus_frame frame_of(frame_function function, std::uint8_t mark) {
+  return {frame_identifier(function, 5), 8, {mark}};
+}
+std::vector<int> marks(ecu_outbox& outbox) {
+  std::vector<int> all;
+  while (const bus_frame* next = outbox_next(&outbox)) {
+    all.push_back(next->data[0]);
+    outbox_sent(&outbox);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("frames leave in the order of their period") {
+  ecu_outbox outbox{};
+  const bus_frame period[] = {frame_of(FRAME_EMERGENCY, 1), frame_of(FRAME_STATUS_0, 2),
+                              frame_of(FRAME_STATUS_1, 3)};
+  outbox_put(&outbox, period, 3);
+  CHECK(marks(outbox) == std::vector<int>{1, 2, 3});
+  CHECK(outbox.dropped == 0);
+}
+
+TEST_CASE("what a slow bus left of a period gives way to the next, but an emergency") {
+  ecu_outbox outbox{};
+  const bus_frame first[] = {frame_of(FRAME_EMERGENCY, 1), frame_of(FRAME_STATUS_0, 2)};
+  const bus_frame second[] = {frame_of(FRAME_STATUS_0, 3), frame_of(FRAME_STATUS_1, 4)};
+  outbox_put(&outbox, first, 2);
+  outbox_put(&outbox, second, 2);
+  CHECK(marks(outbox) == std::vector<int>{1, 3, 4});
+  CHECK(outbox.dropped == 1);
+}
+
+TEST_CASE("a bus that is cut off for long keeps the first emergencies and a whole period") {
+  ecu_outbox outbox{};
+  for (int k = 0; k < 100; ++k) {
+    std::vector<bus_frame> period{frame_of(FRAME_EMERGENCY, std::uint8_t(k))};
+    period.resize(ECU_LINK_FRAMES_MAX, frame_of(FRAME_STATUS_0, std::uint8_t(k)));
+    outbox_put(&outbox, period.data(), unsigned(period.size()));
+  }
+  const auto left = marks(outbox);
+  REQUIRE(left.size() == OUTBOX_EMERGENCIES_MAX + ECU_LINK_FRAMES_MAX);
+  for (int k = 0; k < int(OUTBOX_EMERGENCIES_MAX); ++k) CHECK(left[std::size_t(k)] == k);
+  CHECK(left.back() == 99);
+  outbox_sent(&outbox);  // of nothing: nothing
+  CHECK(outbox.count == 0);
+}

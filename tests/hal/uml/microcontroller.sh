@@ -1,0 +1,76 @@
+#!/bin/bash
+# microcontroller.sh BIN_DIR ECU_ELF SOURCE_DIR: a whole graph around a microcontroller.
+#
+# The ECU's bare-metal program runs in QEMU. One of its serial lines speaks slcan to a kernel in
+# user-mode Linux, where it is a real CAN device; the other has its converters. In that kernel runs
+# the graph: gateway, plant, controllers, logger, and the robot's simulator. In lockstep every row it
+# records must be what it is when the ECU is a process of this machine, bit by bit.
+# Rows that the slow kernel's logger missed (it counts them) are no difference.
+set -u
+bin=$1 elf=$2 source=$3
+here=$(dirname "$(realpath "$0")")
+exchange=$(mktemp -d)
+started=()
+trap 'kill "${started[@]}" 2> /dev/null; wait; rm -rf "$exchange"' EXIT
+export ERP_DOMAIN=$((1 + $$ % 200))
+bus=udp:239.255.42.1:$((20000 + 16 * ERP_DOMAIN)) converters=$((24000 + ERP_DOMAIN))
+
+# run OUT SETTING…: the graph, and its export.
+cat > "$exchange/run" << RUN
+#!/bin/bash
+cd "$source"
+out=\$1 && shift
+"$bin/erp" launch launch/force_step.xml --device can --lockstep --for 1s --out "\$out" "\$@" \
+  < /dev/null > "\$out.txt" 2>&1 || { cat "\$out.txt"; exit 1; }
+"$bin/erp" log export "\$out/force_step.mcap"
+RUN
+cat > "$exchange/guest" << GUEST
+#!/bin/bash
+slcand -F -o -c -s8 ../run/ttyS0 slcan0 > /run/slcand.txt 2>&1 &
+for try in {1..50}; do ip link show slcan0 > /run/link.txt 2>&1 && break; sleep 0.1; done
+ip link set slcan0 txqueuelen 100 up || { cat /run/slcand.txt; exit 1; }
+"$exchange/run" /run/out --set gateway.bus=socketcan:slcan0 --set sim.converter_lines=/run/ttyS1
+GUEST
+chmod +x "$exchange/run" "$exchange/guest"
+
+with_process() {
+  "$bin/ecu" --robot "$source/configs/hinge_rig/robot.xml" --bus "$bus" \
+    --converters 127.0.0.1:$converters > "$exchange/ecu.txt" 2>&1 &
+  started+=($!)
+  "$exchange/run" "$exchange/out" --set gateway.bus="$bus" --set sim.converter_port=$converters \
+    > "$exchange/process"
+  kill "${started[0]}"
+  [ "$(wc -l < "$exchange/process")" = 501 ] || { cat "$exchange/process"; return 1; }
+}
+
+# Instructions are counted for time: a machine that stands still does not look like one that hangs.
+with_microcontroller() {
+  "$source/firmware/board/cortex_m/identity.sh" 0 3 1 7 > "$exchange/identity.bin"
+  qemu-system-arm -M netduinoplus2 -icount shift=3 -display none -monitor none -kernel "$elf" \
+    -device loader,file="$exchange/identity.bin",addr=0x080E0000,force-raw=on \
+    -chardev pty,id=bus -serial chardev:bus -chardev pty,id=converters -serial chardev:converters \
+    > "$exchange/qemu.txt" 2>&1 < /dev/null &
+  local qemu=$!
+  started+=($qemu)
+  for try in {1..50}; do
+    [ "$(grep -c /dev/pts "$exchange/qemu.txt")" = 2 ] && break
+    sleep 0.1
+  done
+  ERP_UML_SERIAL=$(grep -o '/dev/pts/[0-9]*' "$exchange/qemu.txt" | xargs) \
+    timeout -k 5 150 "$here/run_in_uml.sh" "$exchange/guest" > "$exchange/guest.txt" 2>&1
+  kill $qemu
+}
+
+with_process || exit 1
+# On a busy machine the kernel may come to nothing within its time: it gets two goes.
+for go in 1 2; do
+  with_microcontroller
+  tr -d '\r' < "$exchange/guest.txt" | grep -a '^[0-9]' > "$exchange/microcontroller"
+  rows=$(wc -l < "$exchange/microcontroller")
+  different=$(grep -Fxvcf "$exchange/process" "$exchange/microcontroller")
+  echo "go $go: $rows of 500 rows recorded around the microcontroller, $different differ"
+  [ "$different" = 0 ] || break
+  [ "$rows" -ge 100 ] && exit 0
+done
+cat "$exchange/guest.txt"
+exit 1
