@@ -40,6 +40,7 @@ for module in net/can/can net/can/can-raw net/can/can-gw drivers/net/can/dev/can
   set -- $module
   insmod "$modules/$1.ko" $2 || echo "run_in_uml.sh: no kernel module $1"
 done
+echo 8388608 | tee /proc/sys/net/core/rmem_max > /proc/sys/net/core/rmem_default  # it is slow
 ip link set lo up
 for interface in vcan0 vcan1 vcan2 vcan3 vcan4; do
   ip link add "$interface" type vcan
