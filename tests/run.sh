@@ -3,6 +3,7 @@
 #   tests/run.sh           everything, on the release build
 #   tests/run.sh faults    every fault injected twenty times into running graphs, and timed
 #   tests/run.sh soak      half an hour of a graph of which processes are killed at random
+#   tests/run.sh fuzz      every fuzzer for 600 s, or for the seconds given next; ctest gives all of them 60
 #   tests/run.sh asan      the same under address and undefined-behaviour sanitizers
 #   tests/run.sh tsan      the same under the thread sanitizer
 set -euo pipefail
@@ -11,6 +12,10 @@ preset=${1:-release}
 case $preset in faults | soak) preset=release ;; esac
 
 launch/dependencies.sh test
+if [ "$preset" = fuzz ]; then
+  tests/fuzz/run.sh build
+  exec tests/fuzz/run.sh "${2:-600}"
+fi
 cmake --preset "$preset" -DERP_TESTS=ON >/dev/null
 cmake --build --preset "$preset"
 if [ "${1:-}" = faults ]; then

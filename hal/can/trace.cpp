@@ -28,6 +28,9 @@ std::optional<CanFrame> parse_frame(const std::string& text) {
   return frame;
 }
 
+/// Since 1970, and within 64 bits of ns: `nan` and `inf` are numbers to scanf, and no times.
+bool is_stamp(double time_s) { return time_s >= 0 && time_s < 9.2e9; }
+
 using Line = std::array<char, 96>;
 
 int print_line(Line& line, const CanFrame& frame, std::int64_t stamp_ns, const char* interface) {
@@ -51,7 +54,7 @@ std::optional<TraceLine> parse_trace_line(const std::string& line) {
   int end = 0;
   const int read = std::sscanf(line.c_str(), "(%lf) %31s %31s%n", &found.time_s, interface.data(),
                                frame.data(), &end);
-  if (read != 3) return {};
+  if (read != 3 || !is_stamp(found.time_s)) return {};
   const auto parsed = parse_frame(frame.data());
   if (!parsed) return {};
   found.interface = interface.data();

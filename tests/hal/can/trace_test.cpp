@@ -34,7 +34,8 @@ TEST_CASE("what is no frame of ours is no line") {
        {"", "# comment", "(1.0) can0", "(x) can0 123#00", "(1.0) can0 1F334455#1122",
         "(1.0) can0 123#R", "(1.0) can0 123##1AABB", "(1.0) can0 123#1",
         "(1.0) can0 123#001122334455667788", "(1.0) can0 FFF#00", "(1.0) can0 12#00",
-        "(1.0) can0 123#GG", "(1.0) can0 20000040#00"})
+        "(1.0) can0 123#GG", "(1.0) can0 20000040#00", "(nan) can0 123#00", "(inf) can0 123#00",
+        "(-1.0) can0 123#00", "(1e10) can0 123#00"})
     CHECK_FALSE(erp::parse_trace_line(line));
 }
 

@@ -1,0 +1,106 @@
+// Any frames, bundles and readings into a whole ECU: firmware/core's link, states and laws.
+#include <array>
+#include <vector>
+
+#include "firmware/board/board.h"
+#include "firmware/core/bundle.h"
+#include "tests/firmware/core/channel.hpp"
+#include "tests/fuzz/frames.hpp"
+
+namespace {
+
+constexpr std::uint8_t address = 3;
+
+class Ecu {
+ public:
+  /// Bits of `fitted`: two channels, four inputs, gains in force.
+  explicit Ecu(std::uint8_t fitted) {
+    const board_fitted what{address, static_cast<std::uint8_t>(fitted & 3),
+                            static_cast<std::uint8_t>(fitted >> 2 & 15), 0xC0FFEE};
+    bus_frame boot;
+    ecu_board_init(&board_, &what, FRAME_RESET_POWER, &boot);
+    if (fitted & 64)
+      for (ecu_channel& channel : board_.channel) firmware::load(channel, firmware::fitted_gains());
+  }
+
+  void step(fuzz::Input& in) {
+    switch (in.take<std::uint8_t>() % 4) {
+      case 0:
+        return hear(fuzz::take_frame(in));
+      case 1:
+        return hear_bundle(in);
+      case 2:
+        return period(in);
+      default:
+        said(ecu_board_repeat(&board_, frames_.data()));
+    }
+  }
+
+ private:
+  void hear(const bus_frame& frame) { ecu_board_hear(&board_, &frame); }
+
+  void hear_bundle(fuzz::Input& in) {
+    const auto bundle = in.take<bus_bundle>();
+    std::vector<bus_frame> frames(BUNDLE_FRAMES_MAX);
+    const unsigned count = bundle_unpack(&bundle, frames.data());
+    fuzz::require(count <= frames.size(), "a bundle holds six frames at most");
+    for (unsigned i = 0; i < count; ++i) hear(frames[i]);
+  }
+
+  static ecu_inputs take_inputs(fuzz::Input& in) {
+    ecu_inputs inputs{};
+    inputs.encoder_counts = in.take<std::int32_t>();
+    inputs.current_counts = in.take<std::int16_t>();
+    inputs.tension_counts = in.take<std::uint16_t>();
+    inputs.temperature_counts = in.take<std::uint16_t>();
+    inputs.supply_counts = in.take<std::uint16_t>();
+    return inputs;
+  }
+
+  void period(fuzz::Input& in) {
+    board_period now{};
+    const auto flags = in.take<std::uint8_t>();
+    now.overran = flags & 1, now.bus_off = flags & 2;
+    for (ecu_inputs& inputs : now.readings.channel) inputs = take_inputs(in);
+    for (std::int32_t& counts : now.readings.analog) counts = in.take<std::int32_t>();
+    std::array<std::int16_t, 2> duty{};
+    for (int times = 1 + (flags >> 2); times > 0; --times)  // some faults take many periods
+      said(ecu_board_period(&board_, &now, duty.data(), frames_.data()));
+    for (int k = 0; k < 2; ++k) {
+      fuzz::require(std::abs(duty[k]) <= ECU_DUTY_MAX, "a duty is within full supply");
+      fuzz::require(duty[k] == 0 || board_.channel[k].state == ECU_STATE_RUNNING,
+                    "PWM is 0 in every state but running");
+    }
+  }
+
+  /// What it says is whole, and the same after a journey in bundles.
+  void said(unsigned count) {
+    fuzz::require(count <= frames_.size(), "an ECU says eleven frames at most");
+    for (unsigned i = 0; i < count; ++i)
+      fuzz::require(frame_is_intact(&frames_[i]) && frame_ecu_of(&frames_[i]) == address,
+                    "an ECU says intact frames of its own");
+    for (unsigned done = 0; done < count;) {
+      bus_bundle bundle;
+      const unsigned packed = bundle_pack(&bundle, &frames_[done], count - done);
+      std::array<bus_frame, BUNDLE_FRAMES_MAX> again;
+      fuzz::require(bundle_unpack(&bundle, again.data()) == packed, "a bundle is unpacked whole");
+      for (unsigned i = 0; i < packed; ++i)
+        fuzz::require(again[i].id == frames_[done + i].id &&
+                          std::memcmp(again[i].data, frames_[done + i].data, 8) == 0,
+                      "a frame comes out of a bundle as it went in");
+      done += packed;
+    }
+  }
+
+  ecu_board board_{};
+  std::vector<bus_frame> frames_ = std::vector<bus_frame>(ECU_LINK_FRAMES_MAX);
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Input in(data, size);
+  Ecu ecu(in.take<std::uint8_t>());
+  while (!in.empty()) ecu.step(in);
+  return 0;
+}

@@ -1,0 +1,86 @@
+// Any frames from the bus and any messages from the plant into hal/can's gateway.
+#include "hal/can/gateway.hpp"
+
+#include "tests/fuzz/frames.hpp"
+#include "tests/hal/can/rig.hpp"
+
+namespace {
+
+/// Two ECUs, three channels, two analog inputs.
+const erp::Robot robot = can_test::robot_of(3);
+
+class Bus {
+ public:
+  void step(fuzz::Input& in) {
+    switch (in.take<std::uint8_t>() % 8) {
+      case 0:
+        return command(in);
+      case 1:
+        return parameter(in);
+      case 2:
+        return gateway_.close_tick();
+      case 3:
+        return gateway_.clear_news();
+      default:
+        return hear(fuzz::take_frame(in));
+    }
+  }
+
+  void check() {
+    fuzz::require(gateway_.frame().channels._length == robot.actuators.size() &&
+                      gateway_.frame().analogs._length == robot.joint_sensors.size(),
+                  "a tick has every channel and input of robot.xml");
+    fuzz::require(gateway_.emergencies().size() <= erp::Gateway::emergencies_kept &&
+                      gateway_.hellos().size() <= erp::Gateway::hellos_kept,
+                  "news are bounded");
+  }
+
+ private:
+  void hear(const erp::CanFrame& frame) {
+    const auto before = gateway_.frame().sequence;
+    const erp::Heard heard = gateway_.hear(frame);
+    fuzz::require((heard == erp::Heard::tick) == (gateway_.frame().sequence != before),
+                  "a new frame is told of");
+  }
+
+  void command(fuzz::Input& in) {
+    erp::EcuCommand message;
+    message.answers = in.take<std::uint8_t>();
+    for (int n = in.take<std::uint8_t>() % 65; n > 0; --n)
+      erp::append(message.channels, in.take<erp::EcuChannelCommand>());
+    for (const erp::CanFrame& frame : gateway_.commands(message)) sent(frame, FRAME_COMMAND);
+    for (const erp::CanFrame& frame : gateway_.again()) sent(frame, FRAME_COMMAND);
+  }
+
+  void parameter(fuzz::Input& in) {
+    erp::EcuParameter message;
+    for (int n = in.take<std::uint8_t>(); n > 0; --n) {
+      erp::EcuParameterValue value{};
+      value.ecu = in.take<std::uint8_t>();
+      value.channel = in.take<std::uint8_t>();
+      value.index = in.take<std::uint8_t>();
+      value.commit = in.take<std::uint8_t>() & 1;
+      value.value = in.take<float>();
+      erp::append(message.values, value);
+    }
+    for (const erp::CanFrame& frame : gateway_.parameters(message)) sent(frame, FRAME_PARAMETER);
+  }
+
+  static void sent(const erp::CanFrame& frame, frame_function function) {
+    const auto ecu = frame_ecu_of(&frame);
+    fuzz::require(frame_is_intact(&frame) && frame_function_of(&frame) == function,
+                  "what is sent is whole");
+    fuzz::require(ecu == 3 || ecu == 4, "only ECUs of robot.xml are spoken to");
+  }
+
+  erp::Gateway gateway_{robot};
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Input in(data, size);
+  Bus bus;
+  while (!in.empty()) bus.step(in), bus.check();
+  return 0;
+}

@@ -1,0 +1,27 @@
+// Any text as a launch graph, beside a robot and configs that it may name.
+#include "interfaces/graph/graph.hpp"
+
+#include "interfaces/xml/errors.hpp"
+#include "tests/fuzz/input.hpp"
+
+namespace {
+
+fuzz::Folder make_folder() {
+  const fuzz::Folder folder;
+  folder.write("robot.xml", "<robot name=\"rig\"/>");
+  folder.write("target.xml", "<target/>");
+  folder.write("run.mcap", "");
+  return folder;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fuzz::Folder folder = make_folder();
+  try {
+    const erp::Graph graph = erp::read_graph(folder.write("graph.xml", data, size));
+    fuzz::require(std::filesystem::is_regular_file(graph.robot), "a graph's robot is a file");
+  } catch (const xml::Errors&) {
+  }
+  return 0;
+}

@@ -1,0 +1,70 @@
+#pragma once
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <span>
+#include <string>
+#include <string_view>
+
+/// What the targets share: libFuzzer's bytes as values, a file with them, and what must hold.
+namespace fuzz {
+
+/// Takes values from the front of the bytes; where they end, zeros.
+class Input {
+ public:
+  Input(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
+  bool empty() const { return rest_.empty(); }
+
+  template <class T>
+  T take() {
+    T value{};
+    const auto from = bytes(sizeof value);
+    if (!from.empty()) std::memcpy(&value, from.data(), from.size());
+    return value;
+  }
+  std::span<const std::uint8_t> bytes(std::size_t most) {
+    const auto taken = rest_.first(std::min(most, rest_.size()));
+    rest_ = rest_.subspan(taken.size());
+    return taken;
+  }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+};
+
+/// A find that is no crash by itself: says what does not hold, and stops as a crash does.
+inline void require(bool holds, const char* sentence) {
+  if (holds) return;
+  std::cerr << "does not hold: " << sentence << std::endl;
+  std::abort();
+}
+
+/// A folder of this process alone, in memory where there is such a place. libFuzzer leaves without
+/// destructors: run.sh gives a TMPDIR and removes it.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "erp_fuzz_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+  std::string write(const std::string& name, std::string_view bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return *this / name;
+  }
+  std::string write(const std::string& name, const std::uint8_t* data, std::size_t size) const {
+    return write(name, {reinterpret_cast<const char*>(data), size});
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace fuzz

@@ -1,0 +1,29 @@
+// Any text as robot.xml, with parts that it may include and mirror beside it.
+#include "interfaces/robot/robot.hpp"
+
+#include "interfaces/xml/errors.hpp"
+#include "tests/fuzz/input.hpp"
+
+namespace {
+
+fuzz::Folder make_folder() {
+  fuzz::Folder folder;
+  for (const auto* part : {"part.xml", "types.xml"})
+    std::filesystem::copy_file(std::filesystem::path(ERP_PARTS_DIR) / part, folder / part);
+  return folder;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fuzz::Folder folder = make_folder();
+  std::string flat;
+  try {
+    flat = erp::write_robot(erp::read_robot(folder.write("robot.xml", data, size)));
+  } catch (const xml::Errors&) {
+    return 0;
+  }
+  const erp::Robot again = erp::read_robot(folder.write("flat.xml", flat));
+  fuzz::require(erp::write_robot(again) == flat, "a robot reads back as it was written");
+  return 0;
+}

@@ -1,0 +1,260 @@
+// Writes the seeds that are no text: what ECUs, hosts and the logger say, in the targets' own
+// bytes.
+//   fuzz_seeds CORPUS_DIRECTORY
+#include <cstdio>
+
+#include "firmware/board/wire.h"
+#include "firmware/core/bundle.h"
+#include "interfaces/recording/compression.hpp"
+#include "interfaces/recording/mcap_writer.hpp"
+#include "interfaces/topics.hpp"
+#include "tests/firmware/core/channel.hpp"
+#include "tests/fuzz/input.hpp"
+#include "tests/interfaces/recording/tables.hpp"
+
+namespace {
+
+std::string corpus;
+
+void write(const std::string& target, const std::string& name, const std::string& bytes) {
+  std::filesystem::create_directories(corpus + "/" + target);
+  std::ofstream(corpus + "/" + target + "/" + name, std::ios::binary) << bytes;
+}
+
+template <class T>
+std::string raw(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+std::string raw(const bus_frame& frame) {
+  return raw(frame.id) + raw(frame.size) +
+         std::string(reinterpret_cast<const char*>(frame.data), 8);
+}
+
+/// A step of the targets `ecu` and `gateway`: what to do, and with what.
+std::string step(char what, const std::string& with) { return what + with; }
+
+bus_frame command(std::uint8_t count, std::uint8_t request, std::int32_t setpoint) {
+  const frame_command said{{{request, setpoint}, {request, -setpoint}}, 0, count};
+  bus_frame frame;
+  frame_pack_command(&frame, 3, &said);
+  return frame;
+}
+
+std::string readings(std::uint8_t flags, std::int32_t encoder, std::int16_t current) {
+  std::string bytes = raw(flags);
+  for (int k = 0; k < 2; ++k)
+    bytes += raw(encoder) + raw(current) + raw(std::uint16_t{900}) + raw(std::uint16_t{650}) +
+             raw(std::uint16_t{2400});
+  return bytes + std::string(16, '\1');
+}
+
+// ---- ecu ----
+
+void write_commands() {
+  for (std::uint8_t mode = ECU_REQUEST_OFF; mode <= ECU_REQUEST_FORCE; ++mode) {
+    std::string bytes = "\x5F" + step(0, raw(command(0, ECU_REQUEST_ARM, 0)));
+    for (std::uint8_t i = 1; i < 6; ++i)
+      bytes += step(0, raw(command(i, mode, 300 * i))) + step(2, readings(0, 20 * i, 10));
+    write("ecu", "mode_" + std::to_string(mode), bytes + step(3, ""));
+  }
+}
+
+void write_gains() {
+  std::string bytes = "\x3F";
+  const auto gains = firmware::fitted_gains();
+  for (std::uint8_t i = 0; i < ECU_PARAMETER_COUNT; ++i) {
+    const frame_parameter said{0, i, i + 1 == ECU_PARAMETER_COUNT, i, gains[i]};
+    bus_frame frame;
+    frame_pack_parameter(&frame, 3, &said);
+    bytes += step(0, raw(frame));
+  }
+  write("ecu", "gains", bytes + step(2, readings(0, 5, 5)));
+}
+
+void write_bundles_and_faults() {
+  bus_frame frames[3] = {command(0, ECU_REQUEST_ARM, 0), command(1, ECU_REQUEST_VOLTAGE, 900), {}};
+  frame_pack_discover(&frames[2], FRAME_EVERYONE);
+  bus_bundle bundle;
+  bundle_pack(&bundle, frames, 2);
+  write("ecu", "bundle", "\x5F" + step(1, raw(bundle)) + step(2, readings(0, 1, 1)));
+  write("ecu", "discover", "\x5F" + step(0, raw(frames[2])) + step(2, readings(0, 1, 1)));
+  write("ecu", "bus_off", "\x5F" + step(2, readings(2, 1, 1)) + step(3, ""));
+  write("ecu", "overrun", "\x5F" + step(2, readings(1 + 60, 1, 2000)));
+}
+
+// ---- gateway ----
+
+std::string hello(std::uint8_t ecu) {
+  const frame_hello said{FRAME_VERSION, 3, 9, 0, 77};
+  bus_frame frame;
+  frame_pack_hello(&frame, ecu, &said);
+  return step(7, raw(frame));
+}
+
+std::string health(std::uint8_t ecu, std::uint8_t channel, std::uint8_t page) {
+  frame_health said{};
+  said.page = page, said.encoder_counts = 70000, said.request = ECU_REQUEST_FORCE,
+  said.setpoint = 9;
+  bus_frame frame;
+  frame_pack_health(&frame, ecu, channel, &said);
+  return step(7, raw(frame));
+}
+
+std::string status(std::uint8_t ecu, std::uint8_t channel, std::uint8_t counter,
+                   std::uint8_t state) {
+  frame_status said{};
+  said.encoder_low = 4000, said.current_counts = -5, said.tension_counts = 900;
+  said.state = state, said.counter = counter, said.follows = true;
+  said.request = state == ECU_STATE_RUNNING ? FRAME_REQUEST_NONE : ECU_REQUEST_ARM;
+  bus_frame frame;
+  frame_pack_status(&frame, ecu, channel, &said);
+  return step(7, raw(frame));
+}
+
+std::string analog(std::uint8_t page, std::uint8_t counter) {
+  const frame_analog said{page, 3, {-4000, 4000}, counter};
+  bus_frame frame;
+  frame_pack_analog(&frame, 3, &said);
+  return step(7, raw(frame));
+}
+
+std::string emergency(bool boot) {
+  frame_emergency said{};
+  said.boot = boot, said.version = FRAME_VERSION, said.tick = 12, said.fault = !boot;
+  bus_frame frame;
+  frame_pack_emergency(&frame, 3, &said);
+  return step(7, raw(frame));
+}
+
+void write_gateway() {
+  std::string heard = hello(3) + hello(4) + hello(9);
+  for (std::uint8_t page = 0; page < 2; ++page)
+    heard += health(3, 0, page) + health(3, 1, page) + health(4, 0, page);
+  write("gateway", "heard", heard);
+  for (std::uint8_t state = ECU_STATE_BOOT; state < ECU_STATE_COUNT; ++state) {
+    std::string ticks = heard;
+    for (std::uint8_t i = 0; i < 2; ++i)
+      ticks += status(3, 0, i, state) + status(3, 1, i, state) + analog(0, i) + analog(1, i) +
+               status(4, 0, i, state) + step(2, "");
+    write("gateway", "state_" + std::to_string(state), ticks);
+  }
+  write("gateway", "emergencies", heard + emergency(false) + emergency(true) + step(3, ""));
+  const std::string asked = raw(erp::EcuChannelCommand{3, 0, ECU_REQUEST_FORCE, 4000}) +
+                            raw(erp::EcuChannelCommand{4, 0, 200, 1 << 30});
+  write("gateway", "command", heard + step(0, std::string("\1\2") + asked));
+  write("gateway", "parameter",
+        step(1, std::string("\2\3\0\5\0", 5) + raw(1.5f) + std::string("\4\0\6\1", 4) + raw(2.5f)));
+}
+
+// ---- wire ----
+
+void write_wire() {
+  std::uint8_t bytes[WIRE_MESSAGE_MAX];
+  const auto text = [&](unsigned size) { return std::string(bytes, bytes + size); };
+  board_readings readings{};
+  readings.channel[0].encoder_counts = -70000, readings.analog[3] = 8000, readings.turn = 7;
+  const std::int16_t duty[2] = {-1023, 512};
+  const wire_mishap mishap{WIRE_MISHAP_BUSY, 40};
+  write("wire", "readings", text(wire_pack_readings(bytes, 3, &readings)));
+  write("wire", "drive", text(wire_pack_drive(bytes, 3, duty)));
+  write("wire", "sample", text(wire_pack_sample(bytes, 3, 9)));
+  write("wire", "mishap", "\xA5\xA5" + text(wire_pack_mishap(bytes, 3, &mishap)));
+}
+
+// ---- recording ----
+
+using recording::Bytes;
+
+/// MCAP's first bytes.
+Bytes begun() {
+  Bytes out;
+  recording::put(out, std::as_bytes(std::span(recording::magic)));
+  const auto header = recording::begin_record(out, recording::Op::header);
+  recording::put(out, std::uint64_t{0});
+  recording::end_record(out, header);
+  return out;
+}
+
+void put_topic(Bytes& out, std::uint16_t id, const std::string& topic, const std::string& schema) {
+  recording::put_schema(out, {id, "erp/msg/Any", "ros2msg", schema});
+  recording::put_channel(out, {id, id, topic, "cdr", {}});
+}
+
+struct Recorded {
+  std::string topic, schema;
+  std::vector<Bytes> messages;
+};
+
+/// Messages without chunk and checksums: what a fuzzer changes is looked at.
+std::string plain(const std::vector<Recorded>& topics) {
+  Bytes out = begun();
+  std::uint16_t id = 0;
+  for (const Recorded& one : topics) {
+    put_topic(out, ++id, one.topic, one.schema);
+    std::uint32_t n = 0;
+    for (const Bytes& message : one.messages) {
+      recording::put_message(out, {id, n, 10 + n, 10 + n}, message);
+      ++n;
+    }
+  }
+  return std::string(recording::text(out));
+}
+
+/// Two chunks that overlap in time, one of them compressed, without checksums.
+std::string chunks() {
+  Bytes out = begun();
+  put_topic(out, 1, "a", "string data\nb[<=2] bs\n===\nMSG: erp/b\nfloat64[2] x\n");
+  for (const bool packed : {false, true}) {
+    Bytes records;
+    for (std::uint64_t i = 0; i < 3; ++i)
+      recording::put_message(records, {1, static_cast<std::uint32_t>(i), 10 * i + packed, i},
+                             test::CdrWriter().string("hi").put(1u).put(.5).put(1.5).bytes);
+    recording::put_chunk(out, {0, 30, records.size(), 0, packed ? "zstd" : ""},
+                         packed ? recording::compress_zstd(records) : records);
+  }
+  return std::string(recording::text(out));
+}
+
+std::string written(recording::Compression compression) {
+  const fuzz::Folder folder;
+  const std::string path = folder / "run.mcap";
+  recording::McapWriter writer(path, {.compression = compression, .chunk_bytes = 64});
+  writer.attach("robot.xml", "text/xml", "<robot name=\"rig\"/>");
+  writer.add_metadata({"who", {{"name", "nobody"}}});
+  const auto schema = writer.add_schema("a/msg/B", "ros2msg", "string data\nuint8[3] b\n");
+  const auto channel = writer.add_channel("a", "cdr", schema, {{"writer", "x"}});
+  for (std::uint32_t i = 0; i < 4; ++i)
+    writer.write(channel, i, 100 + i, 99 + i, test::CdrWriter().string("hi").put(i).bytes);
+  writer.close();
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_recording() {
+  const test::ActuatorRow row{.name = "flexor", .reference = 4, .tension_N = 5};
+  const Recorded frames{
+      "sensor_frame",
+      test::frame_schema,
+      {test::frame(1000, 1, {row}, {{"elbow"}}), test::frame(2000, 2, {row}, {})}};
+  const Recorded joints{"joint_state", test::joint_schema, {test::ball(1000, "shoulder", 1)}};
+  const Recorded targets{
+      "actuator_target", test::target_schema, {test::target(1, "flexor", 4, 2.5)}};
+  write("recording", "frames", plain({frames}));
+  write("recording", "joined", plain({frames, joints, targets}));
+  write("recording", "chunks", chunks());
+  const std::string whole = written(recording::Compression::none);
+  write("recording", "whole", whole);
+  write("recording", "cut", whole.substr(0, whole.size() / 2));
+  write("recording", "zstd", written(recording::Compression::zstd));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return std::fprintf(stderr, "fuzz_seeds CORPUS_DIRECTORY\n"), 1;
+  corpus = argv[1];
+  write_commands(), write_gains(), write_bundles_and_faults();
+  write_gateway(), write_wire(), write_recording();
+  return 0;
+}

@@ -1,0 +1,44 @@
+// Any bytes on the line between an ECU and its simulated robot.
+#include "firmware/board/wire.h"
+
+#include "tests/fuzz/input.hpp"
+
+namespace {
+
+/// Packs again what was understood; returns how many bytes.
+unsigned said_again(wire_kind kind, const wire_reader& reader, std::uint8_t* bytes) {
+  const std::uint8_t ecu = wire_ecu(&reader);
+  board_readings readings;
+  wire_mishap mishap;
+  std::int16_t duty[2];
+  switch (kind) {
+    case WIRE_READINGS:
+      wire_unpack_readings(&reader, &readings);
+      return wire_pack_readings(bytes, ecu, &readings);
+    case WIRE_DRIVE:
+      wire_unpack_drive(&reader, duty);
+      return wire_pack_drive(bytes, ecu, duty);
+    case WIRE_MISHAP:
+      wire_unpack_mishap(&reader, &mishap);
+      return wire_pack_mishap(bytes, ecu, &mishap);
+    case WIRE_SAMPLE:
+      return wire_pack_sample(bytes, ecu, wire_sample_turn(&reader));
+  }
+  fuzz::require(false, "a message is of a known kind");
+  return 0;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  wire_reader reader{};
+  std::uint8_t again[WIRE_MESSAGE_MAX];
+  for (std::size_t i = 0; i < size; ++i) {
+    const wire_kind kind = wire_take(&reader, data[i]);
+    if (kind == wire_kind{}) continue;
+    const unsigned length = said_again(kind, reader, again);
+    fuzz::require(length <= i + 1 && std::memcmp(again, data + i + 1 - length, length) == 0,
+                  "what was understood reads as what was said");
+  }
+  return 0;
+}
