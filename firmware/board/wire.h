@@ -7,8 +7,9 @@
  *                              tension 16, temperature 16, supply 16; four analog inputs of 32
  *   DRIVE     2  ECU -> robot  ecu 8; duty 16, duty 16: both PWM outputs
  *   MISHAP    3  robot -> ECU  ecu 8, kind 8, periods 16: what tests do to it
- *   SAMPLE    4  ECU -> robot  ecu 8, turn 8 of the readings it has: answered by READINGS of now;
- *                              in lockstep, if it has those, by the next ones when all have asked
+ *   SAMPLE    4  ECU -> robot  ecu 8, turn 8 of the readings it has: answered by READINGS of each
+ *                              period since those, the next one at least; by those of now if there
+ *                              are none or they are too old; in lockstep when all have asked
  *
  * A byte that makes no sense is passed over; the next 0xA5 begins again.
  */

@@ -12,6 +12,11 @@ inline double number_in(const Members& members, std::string_view field) {
   const Value* value = members.find(field);
   return value ? value->number().value_or(not_taken) : not_taken;
 }
+/// Flags; none where the field is no number of 32 bits.
+inline std::uint32_t flags_in(const Members& members, std::string_view field) {
+  const double number = number_in(members, field);
+  return number >= 0 && number <= 0xFFFF'FFFF ? static_cast<std::uint32_t>(number) : 0;
+}
 inline std::string text_in(const Members& members, std::string_view field) {
   const Value* value = members.find(field);
   return value && value->text() ? *value->text() : std::string();

@@ -102,7 +102,7 @@ class Builder {
                      integer_in<std::uint64_t>(frame, "sequence"), log_time_ns});
     each_in(frame, "actuators", [&](const Members& sample) {
       const std::string name = text_in(sample, "name");
-      const auto valid = static_cast<unsigned>(number_in(sample, "valid"));
+      const auto valid = flags_in(sample, "valid");
       const bool driven = number_in(sample, "mode") != 0;
       for (const Source& source : actuator_sources)
         set(actuators_, name, source, row, sample, source.valid ? valid & source.valid : driven);
@@ -112,7 +112,7 @@ class Builder {
         set(actuators_, name, line_source, row, sample, valid & line_source.valid);
     });
     each_in(frame, "joints", [&](const Members& sample) {
-      const auto valid = static_cast<unsigned>(number_in(sample, "valid"));
+      const auto valid = flags_in(sample, "valid");
       set(joints_, text_in(sample, "name"), joint_source, row, sample, valid & joint_source.valid);
     });
   }

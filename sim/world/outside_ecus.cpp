@@ -1,7 +1,6 @@
 #include "sim/world/outside_ecus.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "firmware/core/ecu.h"
 #include "sim/effects/library.hpp"
@@ -36,9 +35,7 @@ bool OutsideEcus::hear() {
   wires_.hear([this](const auto& from, wire_kind kind, const wire_reader& said) {
     take(from, kind, said);
   });
-  // What asked several times is answered once.
-  for (auto& [address, ecu] : ecus_)
-    if (std::exchange(ecu.asks, false)) answer(address, ecu);
+  answer_all();
   return turn_ != 0 && std::ranges::all_of(ecus_, [](const auto& one) { return one.second.waits; });
 }
 
@@ -54,7 +51,8 @@ void OutsideEcus::take(const PinWires::Peer& from, wire_kind kind, const wire_re
 
 void OutsideEcus::begin_turn() {
   turn_ = turn_ == 255 ? 1 : static_cast<std::uint8_t>(turn_ + 1);
-  for (auto& [address, ecu] : ecus_) ecu.waits = false, answer(address, ecu);
+  for (auto& [address, ecu] : ecus_) ecu.waits = false, ecu.asks = true;
+  answer_all();
 }
 
 int OutsideEcus::alive() const {
@@ -84,20 +82,48 @@ bool OutsideEcus::step(World& world) {
   for (std::size_t k = 0; k < channels.size(); ++k) voltage_V_[k] = voltage_V(channels[k]);
   if (mishaps_) send_mishaps(world.time_s());
   converters_->pass(world, voltage_V_, step_s);
+  ++steps_;
+  remember();
+  answer_all();
   return true;
 }
 
-void OutsideEcus::answer(int address, const Ecu& to) {
-  board_readings readings{};
-  readings.turn = turn_;
+void OutsideEcus::measure(const World& world) {
+  converters_->measure(world);
+  remember();
+}
+
+// ---- to the ECUs ----
+
+void OutsideEcus::remember() {
+  const auto readings_of = [this](int ecu) -> board_readings& {
+    return ecus_.at(ecu).seen[static_cast<std::size_t>(steps_ % kept_steps)];
+  };
   for (const Converters::Channel& c : converters_->channels())
-    if (c.ecu == address) readings.channel[c.number] = c.inputs;
+    readings_of(c.ecu).channel[c.number] = c.inputs;
   for (const Converters::Analog& a : converters_->analogs())
-    if (a.ecu == address) readings.analog[a.input] = a.counts;
-  std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
-  const unsigned size =
-      wire_pack_readings(bytes.data(), static_cast<std::uint8_t>(address), &readings);
-  send(to, std::span(bytes).first(size));
+    readings_of(a.ecu).analog[a.input] = a.counts;
+}
+
+void OutsideEcus::answer_all() {
+  for (auto& [address, ecu] : ecus_)
+    if (ecu.asks) answer(address, ecu);
+}
+
+/// Those of each period since it was shown some. In lockstep, and for one that has been away, those
+/// of now.
+void OutsideEcus::answer(int address, Ecu& ecu) {
+  if (turn_ != 0 || steps_ - ecu.shown_step >= kept_steps) ecu.shown_step = steps_ - steps_a_tick;
+  std::array<std::uint8_t, WIRE_MESSAGE_MAX * kept_steps / steps_a_tick> bytes;
+  unsigned size = 0;
+  for (std::int64_t due = 0; (due = ecu.shown_step + steps_a_tick) <= steps_;) {
+    ecu.shown_step = due;
+    board_readings& readings = ecu.seen[static_cast<std::size_t>(due % kept_steps)];
+    readings.turn = turn_;
+    size += wire_pack_readings(&bytes[size], static_cast<std::uint8_t>(address), &readings);
+  }
+  ecu.asks = size == 0;
+  if (size > 0) send(ecu, std::span(bytes).first(size));
 }
 
 void OutsideEcus::send_mishaps(double time_s) {

@@ -55,59 +55,50 @@ class Program {
 
   /// False: the robot is gone.
   bool wait_and_serve() {
-    std::array<pollfd, 2> ready{{{bus_->fd(), POLLIN, 0}, {timer_, POLLIN, 0}}};
+    std::array<pollfd, 3> ready{
+        {{bus_->fd(), POLLIN, 0}, {converters_, POLLIN, 0}, {timer_, POLLIN, 0}}};
     ::poll(ready.data(), ready.size(), -1);
     if (ready[0].revents) hear();
+    if (ready[1].revents) read_converters();
     std::uint64_t periods = 0;
-    if (::read(timer_, &periods, sizeof periods) <= 0) return true;
-    if (!may_pass()) return unread_periods_ < unplugged_periods;
-    pass_periods(period_.readings.turn != 0 ? 1
-                                            : std::min<std::uint64_t>(periods, ECU_TIMEOUT_TICKS));
-    return ++unread_periods_ < unplugged_periods;
+    if (::read(timer_, &periods, sizeof periods) > 0) mind_the_time();
+    return silent_periods_ < (period_.readings.turn ? lockstep_periods : unplugged_periods);
   }
 
  private:
-  static constexpr int conversion_ms = 8;       ///< after that the last readings serve again
-  static constexpr int unplugged_periods = 12;  ///< without a reading: 100 ms; chosen
+  static constexpr int unplugged_periods = 50;    ///< without a reading: 100 ms; chosen
+  static constexpr int lockstep_periods = 5'000;  ///< where partners may take their time
 
   /// Calls for the robot until it answers: before that there is nothing to run on.
   void wait_for_power() {
-    while (unread_periods_ > 0) {
+    pollfd answer{converters_, POLLIN, 0};
+    do {
       say({});
-      convert();
-    }
-    std::uint64_t passed = 0;
-    (void)!::read(timer_, &passed, sizeof passed);
+      asked_ = false;
+      ask();
+    } while (::poll(&answer, 1, 8) <= 0);
   }
 
-  /// Has all converters read, and waits for what they say; unless an answer to the question before
-  /// is as good: in lockstep none is too late.
-  void convert() {
-    read_converters();
-    const int unread = unread_periods_;
-    if (period_.readings.turn != board_.turn) return;
+  /// Asks for the readings of the next period; in lockstep once the host has answered this one.
+  void ask() {
+    if (asked_ || ecu_board_awaits_host(&board_, &period_.readings)) return;
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_sample(bytes.data(), fitted_.ecu, period_.readings.turn);
     (void)::send(converters_, bytes.data(), size, 0);
-    pollfd answer{converters_, POLLIN, 0};
-    unread_periods_ = unread + 1;
-    while (unread_periods_ > 0 && ::poll(&answer, 1, conversion_ms) > 0) read_converters();
-    if (unread_periods_ > 0) unread_periods_ = unread;
+    asked_ = true;
   }
 
-  /// Has the converters read. False while, in lockstep, a period has to wait.
-  bool may_pass() {
+  /// What may have got lost is said again.
+  void mind_the_time() {
     kick();
     if (ecu_board_awaits_host(&board_, &period_.readings)) {
+      silent_periods_ = 0;
       if (++for_host_ % ECU_BOARD_REPEAT_PERIODS == 0) repeat();
-      return false;
+      return;
     }
     for_host_ = 0;
-    if (for_robot_++ % ECU_BOARD_ASK_PERIODS == 0) convert();
-    else read_converters();
-    if (ecu_board_awaits_robot(&board_, &period_.readings)) return false;
-    for_robot_ = 0;
-    return true;
+    if (++silent_periods_ % ECU_BOARD_ASK_PERIODS == 0) asked_ = false;
+    ask();
   }
   void repeat() {
     std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
@@ -119,6 +110,7 @@ class Program {
     while (const auto count = bus_->receive(frames, 0))
       for (std::size_t i = 0; i < count && bus_off_periods_ == 0; ++i)
         ecu_board_hear(&board_, &frames[i]);
+    ask();
   }
 
   void read_converters() {
@@ -128,8 +120,7 @@ class Program {
   }
 
   void take(wire_kind kind) {
-    if (kind == WIRE_READINGS)
-      wire_unpack_readings(&reader_, &period_.readings), unread_periods_ = 0;
+    if (kind == WIRE_READINGS) wire_unpack_readings(&reader_, &period_.readings), pass_period();
     if (kind != WIRE_MISHAP) return;
     wire_mishap mishap;
     wire_unpack_mishap(&reader_, &mishap);
@@ -139,36 +130,23 @@ class Program {
     if (mishap.kind == WIRE_MISHAP_BUS_OFF) bus_off_periods_ = mishap.periods;
   }
 
-  /// Periods that this machine kept from us count for the timeouts; what they said is said once.
-  /// The shaft turned evenly through them, or the firmware would see it leap.
-  void pass_periods(std::uint64_t count) {
-    const board_readings now = period_.readings;
-    for (std::uint64_t k = 1; k <= count; ++k) {
-      for (std::size_t channel = 0; channel < 2; ++channel) {
-        const std::int64_t from = last_encoder_[channel], to = now.channel[channel].encoder_counts;
-        period_.readings.channel[channel].encoder_counts =
-            static_cast<std::int32_t>(from + (to - from) * std::int64_t(k) / std::int64_t(count));
-      }
-      pass_period(k == count);
-    }
-    for (std::size_t channel = 0; channel < 2; ++channel)
-      last_encoder_[channel] = now.channel[channel].encoder_counts;
-  }
-
-  void pass_period(bool aloud) {
+  /// The simulated robot gives readings each 2 ms of its own time: that is this ECU's clock.
+  void pass_period() {
+    silent_periods_ = 0;
+    asked_ = false;
+    if (ecu_board_awaits_robot(&board_, &period_.readings)) return;  // said again
     const std::int64_t began_ns = worked_ns();
     std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
     std::array<std::int16_t, 2> duty;
     period_.bus_off = bus_off_periods_ > 0;
     const unsigned count = ecu_board_period(&board_, &period_, duty.data(), frames.data());
-    if (aloud) {
-      say(duty);
-      if (bus_off_periods_ == 0) bus_->send(std::span(frames).first(count));
-    }
+    say(duty);
+    if (bus_off_periods_ == 0) bus_->send(std::span(frames).first(count));
     while (busy_periods_ > 0 && worked_ns() - began_ns < period_ns) continue;
     if (busy_periods_ > 0) --busy_periods_;
     if (bus_off_periods_ > 0) --bus_off_periods_;
     period_.overran = worked_ns() - began_ns >= period_ns;
+    ask();
   }
 
   /// Both PWM outputs to the robot, and a kick to the watchdog.
@@ -187,9 +165,9 @@ class Program {
   std::unique_ptr<erp::CanBus> bus_;
   int converters_, timer_;
   wire_reader reader_{};
-  std::array<std::int32_t, 2> last_encoder_{};
-  int unread_periods_ = 1;
-  unsigned for_host_ = 0, for_robot_ = 0;  ///< periods waited for them, in a row
+  bool asked_ = false;      ///< for readings
+  int silent_periods_ = 0;  ///< since the robot gave some
+  unsigned for_host_ = 0;   ///< periods waited for it, in lockstep
   unsigned busy_periods_ = 0, bus_off_periods_ = 0;
 };
 

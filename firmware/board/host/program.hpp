@@ -6,8 +6,9 @@
 #include "firmware/board/board.h"
 #include "hal/can/bus.hpp"
 
-/// The firmware's main loop as a process of this machine: a real bus, a timer for a clock, and
-/// converters at the other end of a datagram (firmware/board/wire.h).
+/// The firmware's main loop as a process of this machine: a real bus, and converters at the other end
+/// of a datagram (firmware/board/wire.h). Their readings, each 2 ms of the simulated robot's time,
+/// are its clock.
 namespace board {
 
 struct Place {

@@ -1,0 +1,153 @@
+#include "sim/world/outside_ecus.hpp"
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+constexpr int port = 21700;
+
+/// A socket where an ECU would be.
+class Pins {
+ public:
+  Pins() {
+    sockaddr_in robot{};
+    robot.sin_family = AF_INET;
+    robot.sin_port = htons(port);
+    robot.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    REQUIRE(::connect(fd_, reinterpret_cast<const sockaddr*>(&robot), sizeof robot) == 0);
+  }
+  ~Pins() { ::close(fd_); }
+
+  void ask(std::uint8_t turn = 0) {
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    REQUIRE(::send(fd_, bytes.data(), wire_pack_sample(bytes.data(), 0, turn), 0) > 0);
+  }
+  void drive(std::int16_t flexor, std::int16_t extensor) {
+    const std::array duty{flexor, extensor};
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    REQUIRE(::send(fd_, bytes.data(), wire_pack_drive(bytes.data(), 0, duty.data()), 0) > 0);
+  }
+  std::vector<board_readings> given() {
+    std::vector<board_readings> all;
+    std::array<std::uint8_t, 512> bytes;
+    const ssize_t n = ::recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT);
+    for (ssize_t i = 0; i < n; ++i)
+      if (wire_take(&reader_, bytes[std::size_t(i)]) == WIRE_READINGS)
+        wire_unpack_readings(&reader_, &all.emplace_back());
+    return all;
+  }
+
+ private:
+  int fd_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  wire_reader reader_{};
+};
+
+/// The rig with its only ECU outside.
+struct Rig {
+  explicit Rig(bool lockstep = false)
+      : robot(erp::read_robot(rigs::config("hinge_rig/robot.xml"))),
+        world(robot),
+        ecus(robot, options(lockstep)) {
+    ecus.measure(world);
+  }
+  static sim::OutsideEcus::Options options(bool lockstep) {
+    sim::OutsideEcus::Options chosen{port, ""};
+    chosen.lockstep = lockstep;
+    return chosen;
+  }
+  bool hear() {
+    pollfd ready{ecus.descriptors().at(0), POLLIN, 0};
+    REQUIRE(::poll(&ready, 1, 1000) == 1);
+    return ecus.hear();
+  }
+  /// Steps that the world made of so many.
+  int step(int times) {
+    int made = 0;
+    for (int k = 0; k < times; ++k) made += ecus.step(world);
+    return made;
+  }
+  std::vector<board_readings> ask(Pins& pins) {
+    pins.ask(), hear();
+    return pins.given();
+  }
+
+  erp::Robot robot;
+  sim::World world;
+  sim::OutsideEcus ecus;
+};
+
+int counts(const board_readings& readings) { return readings.channel[0].encoder_counts; }
+
+}  // namespace
+
+TEST_CASE("who asks early is given the next period's readings when they are there") {
+  Rig rig;
+  Pins pins;
+  REQUIRE(rig.ask(pins).size() == 1);  // those of now
+  CHECK(rig.ask(pins).empty());
+  rig.step(3);
+  CHECK(pins.given().empty());
+  rig.step(1);
+  CHECK(pins.given().size() == 1);
+}
+
+TEST_CASE("who asks late is given every period's readings, evenly spaced") {
+  Rig rig;
+  Pins pins;
+  REQUIRE(rig.ask(pins).size() == 1);
+  pins.drive(1023, 0), rig.hear();
+  // It speaks, or the world would wait for it, but does not ask.
+  const auto turn_for = [&](int steps) {
+    for (int k = 0; k < steps; ++k) rig.step(1), pins.drive(1023, 0), rig.hear();
+  };
+  turn_for(80);  // up to speed; away for longer than is known
+  const auto first = rig.ask(pins);
+  REQUIRE(first.size() == 1);
+  turn_for(13);
+  const auto late = rig.ask(pins);
+  REQUIRE(late.size() == 3);
+  CHECK(rig.ask(pins).empty());
+  rig.step(3);  // the world is now where the fourth is due
+  const auto next = pins.given();
+  REQUIRE(next.size() == 1);
+  const std::array seen{counts(first[0]), counts(late[0]), counts(late[1]), counts(late[2]),
+                        counts(next[0])};
+  const int turned = seen[1] - seen[0];
+  REQUIRE(turned > 20);
+  for (std::size_t k = 2; k < seen.size(); ++k)
+    CHECK(seen[k] - seen[k - 1] == Approx(turned).epsilon(0.05));
+}
+
+TEST_CASE("the world waits for an ECU that is late, not for one that is gone") {
+  Rig rig;
+  Pins pins;
+  REQUIRE(rig.ask(pins).size() == 1);
+  const int late = sim::OutsideEcus::late_steps, silent = sim::OutsideEcus::silent_steps;
+  CHECK(rig.step(silent - 1) == late);
+  CHECK(rig.step(10) == 10);
+  CHECK(rig.ecus.alive() == 0);
+}
+
+TEST_CASE("in lockstep the next turn's readings come when all have asked for them") {
+  Rig rig(true);
+  Pins pins;
+  pins.ask(0);
+  CHECK_FALSE(rig.hear());
+  const auto now = pins.given();
+  REQUIRE(now.size() == 1);
+  pins.ask(now[0].turn);
+  CHECK(rig.hear());
+  CHECK(pins.given().empty());
+  rig.step(sim::OutsideEcus::steps_a_tick);
+  rig.ecus.begin_turn();
+  const auto next = pins.given();
+  REQUIRE(next.size() == 1);
+  CHECK(next[0].turn == now[0].turn + 1);
+}
