@@ -35,7 +35,8 @@ struct Bench {
   Plant plant;
   std::int64_t now_ns = 1000 * ms;
   std::uint64_t sequence = 0;
-  explicit Bench(erp::SafeAction safe = erp::SafeAction::relax) : plant({}, one_muscle(safe)) {}
+  explicit Bench(erp::SafeAction safe = erp::SafeAction::relax) : Bench(one_muscle(safe)) {}
+  explicit Bench(const erp::Robot& robot) : plant({}, robot) {}
 
   void ecu_says(ecu_state state, std::uint8_t fault = 0, std::int32_t encoder = 0,
                 std::uint16_t tension = 819) {
