@@ -78,7 +78,7 @@ TEST_CASE("without lockstep a late gateway knows every encoder within 200 ms, an
   Pair pair;
   for (int tick = 0; tick < 777; ++tick) pair.report();
   const frame_hello known{FRAME_VERSION, 3, 0, 0, 0};
-  for (const std::uint8_t ecu : {3, 4, 5}) {  // of an earlier life of its: no HEALTH comes with it
+  for (std::uint8_t ecu = 3; ecu < 6; ++ecu) {  // of an earlier life of its: no HEALTH comes with it
     erp::CanFrame hello;
     frame_pack_hello(&hello, ecu, &known);
     pair.gateway.hear(hello);
