@@ -21,10 +21,10 @@ struct BusNotice {
 
 /// One bus as the gateway keeps it: what waits for it, how it is, and what brings it back.
 ///
-///   error-warning, -passive   said
-///   bus-off                   what waits is dropped, nothing is sent; restarted as
-///   bus_recovery.hpp nothing leaves for 20 ms  said (cable open, no ECU powered); what waits is
-///   dropped down                      said; used again when somebody brings it up
+///  - error-warning, error-passive: said.
+///  - bus-off: what waits is dropped, nothing is sent; restarted as `bus_recovery.hpp` has it.
+///  - nothing leaves for 20 ms: said (cable open, no ECU powered); what waits is dropped.
+///  - down: said; used again when somebody brings it up.
 ///
 /// No clock: time is an argument.
 class BusKeeper {
@@ -66,7 +66,7 @@ class BusKeeper {
   BusRecovery recovery_;
   BusState state_ = BusState::active;
   std::uint64_t left_ = 0;                      ///< frames that have left
-  std::optional<std::int64_t> left_ns_;  ///< when the last did, or none was in flight
+  std::optional<std::int64_t> left_ns_;         ///< when the last did, or none was in flight
   std::optional<std::int64_t> alone_since_ns_;  ///< of a first frame without acknowledgement
   BusCounters last_;
   bool stuck_ = false;
