@@ -37,7 +37,7 @@ void Plant::notice_tendon(const Drive& drive, Said& said) {
                         "nothing pulls back however much is wound: off until the driver says off"});
   if (said.tendon == Tautness::slack && !std::exchange(said.slack, true))
     notices_.push_back({erp::Severity::warning, drive.name(), "tendon_slack",
-                        "no tension for 20 ms: the slack is wound up slowly"});
+                        "no tension for 16 ms: the slack is wound up slowly"});
 }
 
 void Plant::notice_limb(std::size_t actuator) {

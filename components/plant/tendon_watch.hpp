@@ -3,7 +3,7 @@
 
 /// Whether a tendon is taut, from its tension and its line alone.
 ///
-///   slack     below `slack_N` for 20 ms while it should pull
+///   slack     below `slack_N` for 16 ms while it should pull
 ///   snapped   slack, and `take_up_m` of line wound since without coming taut; stays so until
 ///             `forget`
 ///
@@ -29,7 +29,8 @@ class TendonWatch {
   }
   void forget() { now_ = Tautness::taut, loose_ = false; }
 
-  static constexpr std::int64_t patience_ns = 20'000'000;  ///< of tension that fails
+  /// Of tension that fails: said within 20 ms, as readings are up to 4 ms old.
+  static constexpr std::int64_t patience_ns = 16'000'000;
 
  private:
   Params params_;

@@ -23,7 +23,8 @@
 ///
 /// In real time it waits as well, for one that was heard and is late by half a period: a board has
 /// its processor to itself, and what keeps a process from working here must not look like a motor
-/// driven blindly. A PWM stage that hears nothing for 10 ms is off: whoever fed it has no power.
+/// driven blindly. A PWM stage that hears nothing for 8 ms is off: whoever fed it has no power. While
+/// the world waits nobody is given readings, so it ends before the other ECUs would look silent.
 namespace sim {
 
 class OutsideEcus {
@@ -31,7 +32,7 @@ class OutsideEcus {
   static constexpr int steps_a_tick = 4;
   static constexpr double step_s = 0.002 / steps_a_tick;
   static constexpr int kept_steps = 16;  ///< whose readings are known
-  static constexpr int late_steps = 3 * steps_a_tick / 2, silent_steps = 5 * steps_a_tick;
+  static constexpr int late_steps = 3 * steps_a_tick / 2, silent_steps = 4 * steps_a_tick;
 
   struct Options {
     int port = 0;       ///< for datagrams
@@ -52,7 +53,7 @@ class OutsideEcus {
   void measure(const World& world);
   /// One step under the duties last heard, then a new measurement. False: the world waits.
   bool step(World& world);
-  /// ECUs heard within the last 10 ms.
+  /// ECUs heard within the last 8 ms.
   int alive() const;
   std::uint64_t unreadable() const { return wires_.unreadable(); }
 

@@ -78,8 +78,8 @@ TEST_CASE("five corrupt commands in a row trip, four do not; bad lengths count a
   row.check();
 }
 
-TEST_CASE("a tendon that snaps is let go, and nothing runs away") {
-  tests::Folder folder;
+/// The rig, both tendons pulled with 20 N; the flexor's snaps after 4 s.
+void write_rig_that_snaps(const tests::Folder& folder) {
   write_rig(folder);
   std::ofstream(folder / "sim.xml")
       << "<sim><mishap kind=\"tendon_snaps\" on=\"flexor\" at_s=\"4\"/></sim>\n";
@@ -94,13 +94,20 @@ TEST_CASE("a tendon that snaps is let go, and nothing runs away") {
          "  <component name=\"target\" config=\"target.xml\"/>\n"
          "  <component name=\"force_control\" config=\"force_control.xml\"/>\n"
          "</graph>\n";
-  Bench bench(folder / "robot.xml", folder / "graph.xml");
-  const auto broke = bench.await([&] { return bench.events().first(1, "mishap", "flexor"); }, 8000);
-  REQUIRE(broke != 0);
+}
+
+TEST_CASE("a tendon that snaps is let go, and nothing runs away") {
+  tests::Folder folder;
+  write_rig_that_snaps(folder);
   Row slack("tendon snapped", "noticed by the plant", 22);
-  slack.add(broke, bench.await([&] { return bench.events().first(broke, "tendon_slack"); }));
+  for (int k = 0; k < 1 + injections() / 5; ++k) {
+    Bench bench(folder / "robot.xml", folder / "graph.xml");
+    const auto broke =
+        bench.await([&] { return bench.events().first(1, "mishap", "flexor"); }, 8000);
+    REQUIRE(broke != 0);
+    slack.add(broke, bench.await([&] { return bench.events().first(broke, "tendon_slack"); }));
+    CHECK(bench.await([&] { return bench.events().first(broke, "tendon_snapped"); }, 8000) != 0);
+    CHECK(bench.await([&] { return bench.pwm_off(broke, 0, 0); }) != 0);
+  }
   slack.check();
-  CHECK(bench.await([&] { return bench.events().first(broke, "tendon_snapped"); }, 8000) != 0);
-  const auto off = bench.await([&] { return bench.pwm_off(broke, 0, 0); });
-  CHECK(off != 0);
 }

@@ -86,6 +86,7 @@ TEST_CASE("ECU silent") {
   Row warned("ECU silent", "gateway's warning", 10 + 2),
       lost("ECU silent", "gateway: lost", 50 + 2),
       safe("ECU silent", "its limb in the safe action", 60);
+  int others = 0;  // of which the same was said
   for (int k = 0; k < injections(); ++k) {
     if (k % 6 == 0 && k > 0) std::this_thread::sleep_for(5s);  // said thrice in 10 s at most
     bench.settle();
@@ -103,8 +104,11 @@ TEST_CASE("ECU silent") {
                said.channel[0].request == ECU_REQUEST_FORCE;
       });
     }));
+    for (const auto& said : bench.events().since(from))
+      others += said.code == "ecu_silent" && said.subject != name;
     kill(ecu, SIGCONT);
   }
+  CHECK(others <= 1 + injections() / 4);  // a busy machine may keep one from speaking
   warned.check(), lost.check(), safe.check();
   bench.settle();
 }

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "hal/can/ecu_watch.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace {
@@ -133,6 +134,13 @@ TEST_CASE("the world waits for an ECU that is late, not for one that is gone") {
   CHECK(rig.step(silent - 1) == late);
   CHECK(rig.step(10) == 10);
   CHECK(rig.ecus.alive() == 0);
+}
+
+TEST_CASE("while the world waits for one, the others do not look silent to a gateway") {
+  using sim::OutsideEcus;
+  const int wait = OutsideEcus::silent_steps - OutsideEcus::late_steps;
+  const double usual_s = 2 * OutsideEcus::steps_a_tick * OutsideEcus::step_s;  // between two words
+  CHECK(wait * OutsideEcus::step_s + usual_s < 1e-9 * double(erp::EcuWatch::silent_ns));
 }
 
 TEST_CASE("in lockstep the next turn's readings come when all have asked for them") {
