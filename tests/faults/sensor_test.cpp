@@ -41,19 +41,21 @@ TEST_CASE("sensor stuck") {
              102);
     for (int k = 0; k < injections(); ++k) {
       bench.settle();
-      // From a stretch of the triangle on in which the shaft turns for longer than 100 ms.
+      // From where the triangle has just turned back: the shaft then turns for longer than 100 ms.
       std::optional<ecu_inputs> kept;
-      std::int32_t last = 0;
+      std::optional<std::int32_t> last;
       std::int64_t from = 0;
       int turning = 0;
+      bool turned_back = false;
       std::mutex guard;
       bench.pins().alter([&](int, board_readings& r) {
         const std::lock_guard lock(guard);
         ecu_inputs& in = r.channel[0];
-        const int moved = std::abs(in.encoder_counts - last);
+        const int moved = std::abs(in.encoder_counts - last.value_or(in.encoder_counts - 1000));
         last = in.encoder_counts;
         turning = moved > 150 ? turning + 1 : 0;  // of 41721 counts a radian: 1.8 rad/s
-        if (!kept && turning > 20 && turning < 40) kept = in, from = node::wall_ns();
+        turned_back = turned_back || turning == 0;
+        if (!kept && turned_back && turning == 20) kept = in, from = node::wall_ns();
         if (!kept) return;
         if (tension) in.tension_counts = kept->tension_counts;
         else in.current_counts = kept->current_counts;
