@@ -1,9 +1,8 @@
 #pragma once
-#include <array>
 #include <memory>
 #include <vector>
 
-#include "interfaces/robot/robot.hpp"
+#include "sim/skeleton/joint_path.hpp"
 
 /// Statics: which tensions hold a pose, and how long the lines are then.
 ///
@@ -12,11 +11,8 @@
 ///
 /// q0, f0: the robot's starting pose and pretensions. With the lines at these lengths the tendons
 /// pull with f at q, so the pose is an equilibrium of length control.
-/// Solved on the dual: f = max(f_min, f_rest + J λ), by damped Newton steps in λ.
+/// Where no tensions hold it, those that miss it least: `tension_share.hpp`.
 namespace sim {
-
-/// One position a joint, as JointReading has it.
-using Pose = std::vector<std::array<double, 4>>;
 
 struct HoldingOptions {
   double rest_N = 10;  ///< what each muscle would like to pull; chosen
@@ -45,8 +41,5 @@ class PoseHolder {
 
 /// One pose. Throws as PoseHolder does.
 Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options = {});
-
-/// The pose a robot starts in.
-Pose starting_pose(const erp::Robot& robot);
 
 }  // namespace sim

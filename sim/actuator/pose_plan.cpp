@@ -1,6 +1,5 @@
 #include "sim/actuator/pose_plan.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -100,23 +99,6 @@ std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot&
 
 namespace {
 
-/// On the way from one pose to another: angles evenly, ball joints about one axis.
-Pose between(const Pose& from, const Pose& to, double share,
-             const std::vector<erp::Joint>& joints) {
-  Pose pose = from;
-  for (std::size_t j = 0; j < pose.size(); ++j) {
-    const auto &a = from[j], &b = to[j];
-    if (joints[j].type == erp::JointType::spherical) {
-      const Eigen::Quaterniond p(a[0], a[1], a[2], a[3]), q(b[0], b[1], b[2], b[3]);
-      const Eigen::Quaterniond turned = p.normalized().slerp(share, q.normalized());
-      pose[j] = {turned.w(), turned.x(), turned.y(), turned.z()};
-    } else {
-      pose[j][0] += share * (b[0] - a[0]);
-    }
-  }
-  return pose;
-}
-
 class Planner {
  public:
   Planner(const erp::Robot& robot, const PlanOptions& options)
@@ -134,11 +116,16 @@ class Planner {
       plan_.unbalanced_Nm = holding.unbalanced_Nm, plan_.at_s = time_s;
     add(time_s, holding.line_m);
   }
+  /// Both poses, and between them as often as is asked for.
   void move(const TimedPose& from, const TimedPose& to) {
-    const double way_s = to.time_s - from.time_s;
-    for (int k = 1; k * options_.sample_s < way_s - 1e-9; ++k) {
-      const double done = least_jerk(k * options_.sample_s / way_s);
-      hold(from.time_s + k * options_.sample_s, between(from.pose, to.pose, done, joints_));
+    const JointPath path(joints_, {from, to});
+    std::vector<JointMotion> on_the_way;
+    for (int k = 1; from.time_s + k * options_.sample_s < to.time_s - 1e-9; ++k) {
+      const double time_s = from.time_s + k * options_.sample_s;
+      path.at(time_s, on_the_way);
+      Pose pose;
+      for (const JointMotion& motion : on_the_way) pose.push_back(motion.now.position);
+      hold(time_s, pose);
     }
     hold(to.time_s, to.pose);
   }

@@ -5,15 +5,6 @@
 /// From where the joints shall be to how long the lines shall be.
 namespace sim {
 
-/// How much of a way is done at the share s of its time, with the least jerk (Flash and Hogan
-/// 1985).
-inline double least_jerk(double s) { return s >= 1 ? 1 : s * s * s * (10 + s * (6 * s - 15)); }
-
-struct TimedPose {
-  double time_s = 0;
-  Pose pose;
-};
-
 /// The poses of a table, a row each: columns <j>.angle_rad, or <j>.qw … <j>.qz of a spherical
 /// joint; joints without a column stay where they start. Throws std::invalid_argument, naming the
 /// column that belongs to no joint, the row and joint out of range; or a table without rows.
