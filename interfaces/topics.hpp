@@ -15,6 +15,7 @@
 #include "interfaces/idl/gain_command.h"
 #include "interfaces/idl/imu_frame.h"
 #include "interfaces/idl/joint_state.h"
+#include "interfaces/idl/joint_target.h"
 #include "interfaces/idl/lifecycle_command.h"
 #include "interfaces/idl/sensor_frame.h"
 #include "interfaces/idl/stage_residual.h"
@@ -31,6 +32,7 @@ using EcuAnalogSample = erp_EcuAnalogSample;
 using EcuParameterValue = erp_EcuParameterValue;
 using GainValue = erp_GainValue;
 using JointStateSample = erp_JointStateSample;
+using JointTargetSample = erp_JointTargetSample;
 using BodyPoseSample = erp_BodyPoseSample;
 using ActuatorOwnerSample = erp_ActuatorOwnerSample;
 using ImuSample = erp_ImuSample;
@@ -43,6 +45,8 @@ template <>
 inline constexpr std::size_t capacity_of<EcuAnalogSample> = 128;
 template <>
 inline constexpr std::size_t capacity_of<JointStateSample> = 128;
+template <>
+inline constexpr std::size_t capacity_of<JointTargetSample> = 128;
 template <>
 inline constexpr std::size_t capacity_of<BodyPoseSample> = 128;
 template <>
@@ -64,6 +68,7 @@ using EcuFrame = Message<erp_EcuFrame, &erp_EcuFrame::channels, &erp_EcuFrame::a
 using EcuParameter = Message<erp_EcuParameter, &erp_EcuParameter::values>;
 using GainCommand = Message<erp_GainCommand, &erp_GainCommand::gains>;
 using JointState = Message<erp_JointState, &erp_JointState::joints>;
+using JointTarget = Message<erp_JointTarget, &erp_JointTarget::joints>;
 using BodyPose = Message<erp_BodyPose, &erp_BodyPose::bodies>;
 using ImuFrame = Message<erp_ImuFrame, &erp_ImuFrame::imus>;
 using StageResidual = Message<erp_StageResidual, &erp_StageResidual::stages>;
@@ -90,6 +95,7 @@ ERP_TOPIC(EcuFrame, "ecu_frame")                  // device -> plant
 ERP_TOPIC(EcuParameter, "ecu_parameter")          // plant -> device
 ERP_TOPIC(GainCommand, "gain_command")            // controllers -> plant
 ERP_TOPIC(JointState, "joint_state")              // sim (truth), pose_estimator, motion_capture
+ERP_TOPIC(JointTarget, "joint_target")            // joint_target, planners -> controllers
 ERP_TOPIC(BodyPose, "body_pose")                  // sim, motion_capture
 ERP_TOPIC(ImuFrame, "imu_frame")                  // sim, or a driver
 ERP_TOPIC(StageResidual, "stage_residual")        // gap_monitor -> all
@@ -103,7 +109,7 @@ ERP_TOPIC(Event, "event")                         // all
 /// Every message, for those who look at the bus as a whole.
 using Messages =
     std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame, EcuParameter,
-               GainCommand, JointState, BodyPose, ImuFrame, StageResidual, ActuatorOwner,
+               GainCommand, JointState, JointTarget, BodyPose, ImuFrame, StageResidual, ActuatorOwner,
                ComponentState, LifecycleCommand, Clock, Event>;
 
 }  // namespace erp

@@ -15,7 +15,8 @@
 /// A component is a class with `Params`, a constructor (Params) or (Params, const erp::Robot&) and
 ///   Out step(const In& in, double dt_s, const node::Latest<More>&… more)
 /// It is stepped once for each In; Out is a message or std::optional of one. In lockstep the step
-/// waits for the `More` that answer the same frame, so a repeated run is identical.
+/// waits for the `More` that answer the same frame, so a repeated run is identical. Of messages that
+/// several may send, `bool wants(const More&) const` says which count.
 /// A class with a constructor (Params, const erp::Robot&, node::Node&) makes its own ports instead.
 namespace node {
 
@@ -60,6 +61,8 @@ class Stepper {
  private:
   template <class M>
   void hear(const M& message) {
+    if constexpr (requires { component_.wants(message); })
+      if (!component_.wants(message)) return;
     auto& latest = std::get<Latest<M>>(more_);
     latest.message = message;
     latest.received = true;
@@ -67,15 +70,15 @@ class Stepper {
     try_step();
   }
 
-  /// In lockstep: every other input that somebody writes must answer the frame at hand.
+  /// In lockstep: every other input that somebody writes must be of the frame at hand.
   template <class M>
   bool answered() const {
-    if constexpr (requires(M m) { m.answers; }) {
-      const auto& latest = std::get<Latest<M>>(more_);
-      return std::get<Subscription<M>*>(more_ports_)->matched() == 0 ||
-             (latest.received && latest->answers >= pending_.sequence);
-    }
-    return true;
+    const auto& latest = std::get<Latest<M>>(more_);
+    std::uint64_t of_frame = pending_.sequence;
+    if constexpr (requires(M m) { m.answers; }) of_frame = latest->answers;
+    else if constexpr (std::same_as<M, erp::JointState>) of_frame = latest->sequence;
+    return std::get<Subscription<M>*>(more_ports_)->matched() == 0 ||
+           (latest.received && of_frame >= pending_.sequence);
   }
 
   void try_step() {

@@ -87,6 +87,16 @@ inline void fill(erp::JointState& m, std::uint64_t n) {
   erp::assign(j.name, "elbow"), j.dof = 1;
   erp::append(m.joints, j);
 }
+inline void fill(erp::JointTarget& m, std::uint64_t n) {
+  head(m, n);
+  erp::assign(m.controller, "joint_target"), m.answers = n + 12;
+  erp::JointTargetSample j{};
+  erp::assign(j.name, "shoulder"), j.dof = 3;
+  for (int i = 0; i < 4; ++i) j.position[i] = 0.125 + i;
+  for (int i = 0; i < 3; ++i)
+    j.velocity_rad_per_s[i] = 2 * i, j.acceleration_rad_per_s2[i] = -9 * i;
+  erp::append(m.joints, j);
+}
 inline void fill(erp::BodyPose& m, std::uint64_t n) {
   head(m, n);
   erp::assign(m.source, "motion_capture");
@@ -143,7 +153,7 @@ void each_example(std::uint64_t n, Use&& use) {
   };
   one(erp::ActuatorCommand()), one(erp::ActuatorTarget()), one(erp::SensorFrame());
   one(erp::EcuCommand()), one(erp::EcuFrame()), one(erp::EcuParameter()), one(erp::GainCommand());
-  one(erp::JointState()), one(erp::BodyPose()), one(erp::ImuFrame());
+  one(erp::JointState()), one(erp::JointTarget()), one(erp::BodyPose()), one(erp::ImuFrame());
   one(erp::ActuatorOwner());
   one(erp::ComponentState()), one(erp::LifecycleCommand()), one(erp::Clock()), one(erp::Event());
 }

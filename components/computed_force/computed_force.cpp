@@ -1,0 +1,138 @@
+#include "components/computed_force/computed_force.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace control {
+namespace {
+
+using Eigen::Quaterniond;
+using sim::Vec3;
+
+constexpr double creeping_rad_per_s =
+    0.02;  // chosen: below that Coulomb friction is taken as viscous
+
+Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+Quaterniond turn(const sim::JointReading& reading) {
+  const auto& q = reading.position;
+  return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+}
+
+/// What turns a vector of the target's frame into the joint's own.
+Eigen::Matrix3d into_own(const sim::JointReading& now, const sim::JointReading& wanted) {
+  if (now.type != erp::JointType::spherical) return Eigen::Matrix3d::Identity();
+  return (turn(now).conjugate() * turn(wanted)).toRotationMatrix();
+}
+
+}  // namespace
+
+ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
+    : params_(params),
+      robot_(robot),
+      names_(robot),
+      model_(robot),
+      share_(sim::likes_of(robot, params.liking, params.least_N), model_.coordinates()),
+      now_(names_.size()),
+      wanted_(names_.size()),
+      acceleration_(Vector::Zero(model_.coordinates())),
+      integral_(acceleration_),
+      bias_(acceleration_),
+      torque_(acceleration_),
+      last_N_(Vector::Zero(static_cast<Eigen::Index>(robot.actuators.size()))),
+      line_rate_(last_N_),
+      line_acceleration_(last_N_),
+      inertia_(model_.coordinates(), model_.coordinates()) {
+  speed_d_ = acceleration_d_ = acceleration_;
+  for (const erp::Actuator& actuator : robot.actuators) laws_.emplace_back(robot, actuator);
+}
+
+std::optional<erp::ActuatorCommand> ComputedForce::step(
+    const erp::SensorFrame& frame, double dt_s, const node::Latest<erp::JointState>& state,
+    const node::Latest<erp::JointTarget>& target) {
+  const bool known = state && state.age_s <= params_.stale_s && names_.read(state.message, now_) &&
+                     target && target.age_s <= params_.stale_s &&
+                     names_.read(target.message, wanted_);
+  if (!std::exchange(driving_, known)) integral_.setZero(), last_N_.setConstant(-1);
+  if (!known) return std::nullopt;
+  model_.place(now_);
+  wanted_acceleration(dt_s);
+  model_.skeleton().inertia(inertia_);
+  model_.skeleton().bias(bias_);
+  torque_ = bias_;
+  torque_.noalias() += inertia_ * acceleration_;
+  add_friction();
+  count_lost(frame);
+  return command(share_.share(model_.jacobian(), torque_), dt_s);
+}
+
+/// a_ref, joint by joint.
+void ComputedForce::wanted_acceleration(double dt_s) {
+  acceleration_.setZero();
+  for (std::size_t j = 0; j < now_.size(); ++j) {
+    const int first = model_.skeleton().first_of(static_cast<int>(j));
+    const int turns = std::min(sim::coordinates_of(now_[j].type), 3);
+    if (first < 0 || names_.list()[j].type == erp::JointType::free) continue;
+    const Eigen::Matrix3d own = into_own(now_[j], wanted_[j].now);
+    const Vec3 e = vec(sim::way_between(now_[j].type, now_[j].position, wanted_[j].now.position));
+    const Vec3 speed = own * vec(wanted_[j].now.velocity_rad_per_s);
+    const Vec3 slower = speed - vec(now_[j].velocity_rad_per_s);
+    const Vec3 ahead = own * vec(wanted_[j].acceleration_rad_per_s2);
+    for (int d = 0; d < turns; ++d) {
+      speed_d_[first + d] = speed[d], acceleration_d_[first + d] = ahead[d];
+      double& sum = integral_[first + d];
+      sum = std::clamp(sum + dt_s * e[d], -params_.integral_rad_s, params_.integral_rad_s);
+      acceleration_[first + d] = ahead[d] + params_.kd_per_s * slower[d] +
+                                 params_.kp_per_s2 * e[d] + params_.ki_per_s3 * sum;
+    }
+  }
+}
+
+/// τ_f = µ v_d + τ_C v_d/|v_d|: of the wanted motion, so that it does not chatter.
+void ComputedForce::add_friction() {
+  for (std::size_t j = 0; j < now_.size(); ++j) {
+    const int first = model_.skeleton().first_of(static_cast<int>(j));
+    const erp::Joint& joint = names_.list()[j];
+    if (first < 0 || params_.friction == 0) continue;
+    const Vec3 v = vec(wanted_[j].now.velocity_rad_per_s);
+    const double per_speed =
+        joint.viscous_Nm_s_per_rad + joint.coulomb_Nm / std::max(v.norm(), creeping_rad_per_s);
+    for (int d = 0; d < std::min(sim::coordinates_of(joint.type), 3); ++d)
+      torque_[first + d] += params_.friction * per_speed * v[d];
+  }
+}
+
+/// Tendons of ECUs that have tripped do not do as they are told.
+void ComputedForce::count_lost(const erp::SensorFrame& frame) {
+  for (const erp::ActuatorSample& sample : erp::samples(frame.actuators))
+    for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
+      if (robot_.actuators[a].name != sample.name) continue;
+      const bool lost = static_cast<erp::EcuState>(sample.ecu_state) == erp::EcuState::fault;
+      const double pulls_N =
+          sample.valid & erp::valid::tension ? std::max(0.0, sample.tension_N) : 0;
+      share_.fix(static_cast<int>(a), lost ? pulls_N : -1);
+    }
+}
+
+erp::ActuatorCommand ComputedForce::command(const Vector& tension_N, double dt_s) {
+  erp::ActuatorCommand command;
+  line_rate_.noalias() = model_.jacobian() * speed_d_;
+  line_acceleration_.noalias() = model_.jacobian() * acceleration_d_;
+  for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
+    const auto i = static_cast<Eigen::Index>(a);
+    const double rate = last_N_[i] >= 0 && dt_s > 0 ? (tension_N[i] - last_N_[i]) / dt_s : 0;
+    erp::ActuatorReference reference{};
+    erp::assign(reference.name, robot_.actuators[a].name);
+    reference.mode = static_cast<std::uint8_t>(erp::Mode::force);
+    const double asked_N =
+        laws_[a].reference_N({tension_N[i], rate, line_rate_[i], line_acceleration_[i]});
+    reference.reference = std::clamp(tension_N[i] + params_.anticipate * (asked_N - tension_N[i]),
+                                     0.0, robot_.actuators[a].max_tension_N);
+    erp::append(command.actuators, reference);
+  }
+  last_N_ = tension_N;
+  return command;
+}
+
+}  // namespace control

@@ -1,0 +1,88 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "components/joints/joints.hpp"
+#include "components/node/run.hpp"
+#include "sim/actuator/force_reference.hpp"
+#include "sim/actuator/musculoskeletal.hpp"
+#include "sim/actuator/tension_share.hpp"
+
+/// Computed force control (paper, 5.3 and Fig. 8a):
+///
+///   a_ref = a_d + k_d (v_d − v) + k_p e + k_i ∫ e dt          e = q_d ⊖ q
+///   τ     = H(q) a_ref + C(q, v) + τ_G(q) + τ_f(v_d)          eq. 6; τ_f friction of the joints
+///   f     = argmin of a liking, τ = −Lᵀ(q) f, f_min ≤ f ≤ f_max     eqs 7, 8: tension_share.hpp
+///
+/// f are references for the force controllers of the ECUs. Of ball joints e is a rotation vector in
+/// the child's frame, which is where v and a are: no angles, so no gimbal lock.
+/// A tendon whose ECU has tripped is counted with what it still pulls; the others make up for it.
+namespace control {
+
+class ComputedForce {
+ public:
+  struct Params {
+    sim::Liking liking = sim::Liking::least_tension;
+    double least_N = 5;      ///< no tendon goes slack; chosen
+    double kp_per_s2 = 100;  ///< (10 /s)², critically damped with kd; chosen
+    double kd_per_s = 20;
+    double ki_per_s3 = 0;
+    double integral_rad_s = 0.2;  ///< ∫ e is kept within; chosen
+    double friction = 0;          ///< share of robot.xml's joint friction that is compensated
+    double anticipate = 1;  ///< share of what the force laws would fall behind; force_reference.hpp
+    std::string source = "sim";  ///< whose joint_state is believed
+    double stale_s = 0.05;       ///< older states and targets are no longer followed; chosen
+    void visit(auto& v) {
+      v("liking", liking);
+      v("least_N", least_N, xml::at_least_zero);
+      v("kp_per_s2", kp_per_s2, xml::at_least_zero);
+      v("kd_per_s", kd_per_s, xml::at_least_zero);
+      v("ki_per_s3", ki_per_s3, xml::at_least_zero);
+      v("integral_rad_s", integral_rad_s, xml::at_least_zero);
+      v("friction", friction, xml::at_least_zero);
+      v("anticipate", anticipate, xml::at_least_zero);
+      v("source", source);
+      v("stale_s", stale_s, xml::positive);
+    }
+  };
+
+  /// Throws std::invalid_argument as Musculoskeletal and likes_of.
+  ComputedForce(const Params& params, const erp::Robot& robot);
+
+  bool wants(const erp::JointState& state) const { return params_.source == state.source; }
+  /// Nothing while joints or target are not known or stale: the plant then takes its safe action.
+  std::optional<erp::ActuatorCommand> step(const erp::SensorFrame& frame, double dt_s,
+                                           const node::Latest<erp::JointState>& state,
+                                           const node::Latest<erp::JointTarget>& target);
+
+ private:
+  using Vector = Eigen::VectorXd;
+  void wanted_acceleration(double dt_s);
+  void add_friction();
+  void count_lost(const erp::SensorFrame& frame);
+  erp::ActuatorCommand command(const Vector& tension_N, double dt_s);
+
+  Params params_;
+  erp::Robot robot_;
+  joints::Names names_;
+  sim::Musculoskeletal model_;
+  sim::TensionShare share_;
+  std::vector<sim::JointReading> now_;
+  std::vector<sim::JointMotion> wanted_;
+  std::vector<sim::ForceReference> laws_;
+  Vector speed_d_, acceleration_d_;  ///< wanted, in the joints' own frames
+  Vector acceleration_, integral_, bias_, torque_, last_N_, line_rate_, line_acceleration_;
+  Eigen::MatrixXd inertia_;
+  bool driving_ = false;
+};
+
+}  // namespace control
+
+template <>
+struct xml::Names<sim::Liking> {
+  static constexpr auto list = std::to_array<std::pair<const char*, sim::Liking>>(
+      {{"least_tension", sim::Liking::least_tension},
+       {"least_energy", sim::Liking::least_energy},
+       {"least_activation", sim::Liking::least_activation},
+       {"smooth", sim::Liking::smooth}});
+};

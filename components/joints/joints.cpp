@@ -1,0 +1,87 @@
+#include "components/joints/joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace joints {
+namespace {
+
+bool turns(const erp::Joint& joint) {
+  return joint.type == erp::JointType::revolute || joint.type == erp::JointType::spherical;
+}
+
+/// Where and how fast, of any sample. False: no number, or a quaternion without a direction.
+template <class Sample>
+bool take(const Sample& sample, sim::JointReading& reading) {
+  double size = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    reading.position[i] = sample.position[i];
+    size += sample.position[i] * sample.position[i];
+  }
+  double speed = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    speed += std::abs(reading.velocity_rad_per_s[i] = sample.velocity_rad_per_s[i]);
+  const bool turned = reading.type != erp::JointType::spherical || size > 0.5;
+  return turned && std::isfinite(size) && std::isfinite(speed);
+}
+
+}  // namespace
+
+Names::Names(const erp::Robot& robot) : joints_(robot.joints()) {}
+
+/// Calls take(j, sample) for each joint that turns; messages are mostly in the robot's own order.
+template <class Message, class Take>
+bool Names::each(const Message& message, Take take_one) const {
+  const auto said = erp::samples(message.joints);
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    if (!turns(joints_[j])) continue;
+    const auto is_it = [&](const auto& sample) { return joints_[j].name == sample.name; };
+    const auto found = j < said.size() && is_it(said[j]) ? said.begin() + static_cast<long>(j)
+                                                         : std::ranges::find_if(said, is_it);
+    if (found == said.end() || !take_one(j, *found)) return false;
+  }
+  return true;
+}
+
+bool Names::read(const erp::JointState& message, std::vector<sim::JointReading>& readings) const {
+  readings.resize(joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j) readings[j] = sim::start_of(joints_[j]);
+  return each(message,
+              [&](std::size_t j, const auto& sample) { return take(sample, readings[j]); });
+}
+
+bool Names::read(const erp::JointTarget& message, std::vector<sim::JointMotion>& motions) const {
+  motions.resize(joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j) motions[j] = {sim::start_of(joints_[j]), {}};
+  return each(message, [&](std::size_t j, const auto& sample) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      sum += std::abs(motions[j].acceleration_rad_per_s2[i] = sample.acceleration_rad_per_s2[i]);
+    return take(sample, motions[j].now) && std::isfinite(sum);
+  });
+}
+
+void Names::write(std::span<const sim::JointMotion> motions, erp::JointTarget& message) const {
+  message.joints._length = 0;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    if (!turns(joints_[j])) continue;
+    erp::JointTargetSample sample{};
+    erp::assign(sample.name, joints_[j].name);
+    sample.dof = static_cast<std::uint8_t>(sim::coordinates_of(joints_[j].type));
+    std::ranges::copy(motions[j].now.position, sample.position);
+    std::ranges::copy(motions[j].now.velocity_rad_per_s, sample.velocity_rad_per_s);
+    std::ranges::copy(motions[j].acceleration_rad_per_s2, sample.acceleration_rad_per_s2);
+    erp::append(message.joints, sample);
+  }
+}
+
+double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointMotion> b) {
+  double most = 0;
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    const auto way = sim::way_between(a[j].type, a[j].position, b[j].now.position);
+    most = std::max(most, std::hypot(way[0], way[1], way[2]));
+  }
+  return most;
+}
+
+}  // namespace joints
