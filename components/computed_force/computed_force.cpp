@@ -41,6 +41,7 @@ ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
       bias_(acceleration_),
       torque_(acceleration_),
       last_N_(Vector::Zero(static_cast<Eigen::Index>(robot.actuators.size()))),
+      rate_N_per_s_(last_N_),
       line_rate_(last_N_),
       line_acceleration_(last_N_),
       inertia_(model_.coordinates(), model_.coordinates()) {
@@ -54,7 +55,8 @@ std::optional<erp::ActuatorCommand> ComputedForce::step(
   const bool known = state && state.age_s <= params_.stale_s && names_.read(state.message, now_) &&
                      target && target.age_s <= params_.stale_s &&
                      names_.read(target.message, wanted_);
-  if (!std::exchange(driving_, known)) integral_.setZero(), last_N_.setConstant(-1);
+  if (!std::exchange(driving_, known))
+    integral_.setZero(), rate_N_per_s_.setZero(), last_N_.setConstant(-1);
   if (!known) return std::nullopt;
   model_.place(now_);
   wanted_acceleration(dt_s);
@@ -122,11 +124,12 @@ erp::ActuatorCommand ComputedForce::command(const Vector& tension_N, double dt_s
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
     const auto i = static_cast<Eigen::Index>(a);
     const double rate = last_N_[i] >= 0 && dt_s > 0 ? (tension_N[i] - last_N_[i]) / dt_s : 0;
+    rate_N_per_s_[i] += dt_s / (dt_s + params_.rate_s) * (rate - rate_N_per_s_[i]);
     erp::ActuatorReference reference{};
     erp::assign(reference.name, robot_.actuators[a].name);
     reference.mode = static_cast<std::uint8_t>(erp::Mode::force);
-    const double asked_N =
-        laws_[a].reference_N({tension_N[i], rate, line_rate_[i], line_acceleration_[i]});
+    const double asked_N = laws_[a].reference_N(
+        {tension_N[i], rate_N_per_s_[i], line_rate_[i], line_acceleration_[i]});
     reference.reference = std::clamp(tension_N[i] + params_.anticipate * (asked_N - tension_N[i]),
                                      0.0, robot_.actuators[a].max_tension_N);
     erp::append(command.actuators, reference);

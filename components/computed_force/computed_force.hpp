@@ -30,6 +30,7 @@ class ComputedForce {
     double integral_rad_s = 0.2;  ///< ∫ e is kept within; chosen
     double friction = 0;          ///< share of robot.xml's joint friction that is compensated
     double anticipate = 1;  ///< share of what the force laws would fall behind; force_reference.hpp
+    double rate_s = 0.02;   ///< over which df/dt is smoothed; chosen
     std::string source = "sim";  ///< whose joint_state is believed
     double stale_s = 0.05;       ///< older states and targets are no longer followed; chosen
     void visit(auto& v) {
@@ -41,6 +42,7 @@ class ComputedForce {
       v("integral_rad_s", integral_rad_s, xml::at_least_zero);
       v("friction", friction, xml::at_least_zero);
       v("anticipate", anticipate, xml::at_least_zero);
+      v("rate_s", rate_s, xml::at_least_zero);
       v("source", source);
       v("stale_s", stale_s, xml::positive);
     }
@@ -71,7 +73,8 @@ class ComputedForce {
   std::vector<sim::JointMotion> wanted_;
   std::vector<sim::ForceReference> laws_;
   Vector speed_d_, acceleration_d_;  ///< wanted, in the joints' own frames
-  Vector acceleration_, integral_, bias_, torque_, last_N_, line_rate_, line_acceleration_;
+  Vector acceleration_, integral_, bias_, torque_, last_N_, rate_N_per_s_, line_rate_,
+      line_acceleration_;
   Eigen::MatrixXd inertia_;
   bool driving_ = false;
 };

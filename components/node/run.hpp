@@ -16,7 +16,8 @@
 ///   Out step(const In& in, double dt_s, const node::Latest<More>&… more)
 /// It is stepped once for each In; Out is a message or std::optional of one. In lockstep the step
 /// waits for the `More` that answer the same frame, so a repeated run is identical. Of messages that
-/// several may send, `bool wants(const More&) const` says which count.
+/// several may send, `bool wants(const More&) const` says which count; a class whose joint_state
+/// comes by itself, not once a frame, says so by a member `comes_by_itself`.
 /// A class with a constructor (Params, const erp::Robot&, node::Node&) makes its own ports instead.
 namespace node {
 
@@ -74,11 +75,14 @@ class Stepper {
   template <class M>
   bool answered() const {
     const auto& latest = std::get<Latest<M>>(more_);
-    std::uint64_t of_frame = pending_.sequence;
-    if constexpr (requires(M m) { m.answers; }) of_frame = latest->answers;
-    else if constexpr (std::same_as<M, erp::JointState>) of_frame = latest->sequence;
-    return std::get<Subscription<M>*>(more_ports_)->matched() == 0 ||
-           (latest.received && of_frame >= pending_.sequence);
+    const auto waits = [&](std::uint64_t of_frame) {
+      return std::get<Subscription<M>*>(more_ports_)->matched() > 0 &&
+             !(latest.received && of_frame >= pending_.sequence);
+    };
+    constexpr bool by_itself = requires { T::comes_by_itself; };
+    if constexpr (requires(M m) { m.answers; }) return !waits(latest->answers);
+    if constexpr (std::same_as<M, erp::JointState> && !by_itself) return !waits(latest->sequence);
+    return true;
   }
 
   void try_step() {
@@ -111,7 +115,12 @@ class Stepper {
   void send(OutMessage& message) {
     message.stamp_ns = node_.clock().now_ns();
     if constexpr (requires { message.answers; }) message.answers = pending_.sequence;
-    out_.publish(message);
+    if constexpr (std::same_as<OutMessage, erp::JointState>) {
+      message.sequence = pending_.sequence;  // of the frame it is about
+      out_.publish_numbered(message);
+    } else {
+      out_.publish(message);
+    }
   }
 
   Node& node_;

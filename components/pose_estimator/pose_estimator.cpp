@@ -1,0 +1,117 @@
+#include "components/pose_estimator/pose_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/actuator/sensors.hpp"
+
+namespace pose {
+namespace {
+
+const double quantum = 1 / std::sqrt(12.0);  // σ of rounding, of a count
+
+}  // namespace
+
+PoseEstimator::PoseEstimator(const Params& params, const erp::Robot& robot)
+    : params_(params), robot_(robot), names_(robot), filter_(robot, params) {
+  const auto& lengths = filter_.model().length_m();
+  for (const erp::Actuator& a : robot_.actuators) {
+    const erp::SensorType& sensors = robot_.sensors_of(a);
+    const sim::SensorScale scale(robot_.motor_of(a), sensors);
+    const auto i = static_cast<Eigen::Index>(tendons_.size());
+    tendons_.push_back({a.name, sim::TendonLaw::at_rest(a.tendon, a.spindle, lengths[i]),
+                        std::hypot(sensors.tension_noise_N, quantum * scale.tension_N_per_count),
+                        quantum * scale.shaft_rad_per_count});
+  }
+  tension_N_.setZero(lengths.size());
+  length_rate_m_per_s_.setZero(lengths.size());
+}
+
+erp::JointState PoseEstimator::step(const erp::SensorFrame& frame, double dt_s,
+                                    const node::Latest<erp::JointState>& capture) {
+  if (dt_s > 0) filter_.predict(dt_s, tension_N_);
+  hear(frame, dt_s);
+  see_tendons();
+  if (params_.joint_sensors) see_joints(frame);
+  see_capture(capture);
+  filter_.settle();
+  return estimate();
+}
+
+void PoseEstimator::hear(const erp::SensorFrame& frame, double dt_s) {
+  constexpr auto needed = erp::valid::shaft | erp::valid::tension;
+  for (Tendon& tendon : tendons_) tendon.known = false;
+  for (const erp::ActuatorSample& sample : erp::samples(frame.actuators)) {
+    const auto found =
+        std::ranges::find_if(tendons_, [&](const auto& t) { return t.name == sample.name; });
+    if (found == tendons_.end() || (sample.valid & needed) != needed) continue;
+    found->speed_rad_per_s = dt_s > 0 ? (sample.shaft_rad - found->shaft_rad) / dt_s : 0;
+    found->shaft_rad = sample.shaft_rad;
+    found->tension_N = std::max(0.0, sample.tension_N);
+    found->known = true;
+  }
+}
+
+void PoseEstimator::see_tendons() {
+  length_rate_m_per_s_.noalias() = filter_.model().jacobian() * filter_.speed_rad_per_s();
+  for (std::size_t a = 0; a < tendons_.size(); ++a) {
+    const Tendon& t = tendons_[a];
+    const auto i = static_cast<Eigen::Index>(a);
+    if (!t.known) continue;  // the tension of a moment ago is the best there is
+    tension_N_[i] = t.tension_N;
+    if (t.tension_N < params_.slack_N) continue;
+    const double rate = length_rate_m_per_s_[i] + t.law.radius_m * t.speed_rad_per_s;
+    const double spring_N = std::max(0.0, t.tension_N - t.law.damping_N_s_per_m * rate);
+    const double stretch_m = t.law.spring.stretch_m(spring_N);
+    const double length_m = t.law.rest_m + t.law.line_m(t.shaft_rad) + stretch_m;
+    const double sigma_m = std::hypot(t.tension_sigma_N / t.law.spring.slope_N_per_m(stretch_m),
+                                      t.shaft_sigma_rad * t.law.radius_m, params_.model_m);
+    filter_.see_length(static_cast<int>(a), length_m, sigma_m);
+  }
+}
+
+/// Sensors of revolute joints.
+void PoseEstimator::see_joints(const erp::SensorFrame& frame) {
+  for (const erp::JointSample& sample : erp::samples(frame.joints))
+    for (std::size_t j = 0; j < names_.size(); ++j) {
+      const bool is_it =
+          names_.list()[j].name == sample.name && names_.list()[j].type == erp::JointType::revolute;
+      if (!is_it || !(sample.valid & erp::valid::joint_angle)) continue;
+      for (const erp::JointSensor& sensor : robot_.joint_sensors)
+        if (sensor.joint == sample.name)
+          filter_.see_joint(static_cast<int>(j), {sample.angle_rad},
+                            std::hypot(sensor.noise_rad, quantum * 2 * std::numbers::pi /
+                                                             std::exp2(sensor.bits_per_rev)));
+    }
+}
+
+/// Each picture once.
+void PoseEstimator::see_capture(const node::Latest<erp::JointState>& capture) {
+  if (!capture || capture.arrived_ns == captured_ns_) return;
+  captured_ns_ = capture.arrived_ns;
+  if (!names_.read(capture.message, captured_)) return;
+  for (std::size_t j = 0; j < captured_.size(); ++j)
+    filter_.see_joint(static_cast<int>(j), captured_[j].position, params_.capture_rad);
+}
+
+erp::JointState PoseEstimator::estimate() const {
+  erp::JointState state;
+  erp::assign(state.source, "pose_estimator");
+  const auto variance = filter_.covariance().diagonal();
+  for (std::size_t j = 0; j < names_.size(); ++j) {
+    const sim::JointReading& now = filter_.joints()[j];
+    const int first = filter_.model().skeleton().first_of(static_cast<int>(j));
+    const int turns = std::min(sim::coordinates_of(now.type), 3);
+    if (first < 0) continue;
+    erp::JointStateSample sample{};
+    erp::assign(sample.name, names_.list()[j].name);
+    sample.dof = static_cast<std::uint8_t>(turns);
+    std::ranges::copy(now.position, sample.position);
+    std::ranges::copy(now.velocity_rad_per_s, sample.velocity_rad_per_s);
+    for (int d = 0; d < turns; ++d) sample.variance_rad2[d] = variance[first + d];
+    erp::append(state.joints, sample);
+  }
+  return state;
+}
+
+}  // namespace pose

@@ -1,0 +1,73 @@
+#pragma once
+#include "components/joints/joints.hpp"
+#include "components/node/run.hpp"
+#include "components/pose_estimator/pose_filter.hpp"
+#include "sim/actuator/tendon.hpp"
+
+/// The pose, computed back from the actuators' sensors (paper, 2.3): joint_state from sensor_frame.
+///
+///   l̂_a = L_R + L_K0 − r θ + Δx,   f(Δx) = F − D (dl/dt + r ω)       eqs 1, 2, 4, solved for l
+///
+/// from what encoder and force sensor say; a slack tendon says nothing. What the lengths are worth:
+///
+///   σ_l² = (σ_F / f′)² + σ_θ² r² + σ_model²        sensors of robot.xml, and `model_m`
+///
+/// Encoders count from where the robot was switched on: it must then stand in its starting pose.
+namespace pose {
+
+class PoseEstimator {
+ public:
+  struct Params : FilterOptions {
+    double model_m = 0.0002;     ///< what the tendon's law and its routing are off by; chosen
+    double slack_N = 1;          ///< below, a tendon says nothing; chosen
+    bool joint_sensors = false;  ///< whether sensors of the joints are used as well
+    double capture_rad = 0;      ///< σ of motion_capture's joint_state; 0: not used
+    void visit(auto& v) {
+      v("acceleration_rad_per_s2", acceleration_rad_per_s2, xml::positive);
+      v("start_rad", start_rad, xml::positive);
+      v("start_rad_per_s", start_rad_per_s, xml::positive);
+      v("gate", gate, xml::positive);
+      v("model_m", model_m, xml::at_least_zero);
+      v("slack_N", slack_N, xml::at_least_zero);
+      v("joint_sensors", joint_sensors);
+      v("capture_rad", capture_rad, xml::at_least_zero);
+    }
+  };
+
+  static constexpr bool comes_by_itself = true;  ///< motion_capture's joint_state
+
+  PoseEstimator(const Params& params, const erp::Robot& robot);
+
+  bool wants(const erp::JointState& state) const {
+    return params_.capture_rad > 0 && std::string_view(state.source) == "motion_capture";
+  }
+  erp::JointState step(const erp::SensorFrame& frame, double dt_s,
+                       const node::Latest<erp::JointState>& capture);
+
+  const PoseFilter& filter() const { return filter_; }
+
+ private:
+  struct Tendon {
+    std::string name;
+    sim::TendonLaw law;
+    double tension_sigma_N, shaft_sigma_rad;
+    double tension_N = 0, shaft_rad = 0, speed_rad_per_s = 0;
+    bool known = false;
+  };
+  void hear(const erp::SensorFrame& frame, double dt_s);
+  void see_tendons();
+  void see_joints(const erp::SensorFrame& frame);
+  void see_capture(const node::Latest<erp::JointState>& capture);
+  erp::JointState estimate() const;
+
+  Params params_;
+  erp::Robot robot_;
+  joints::Names names_;
+  PoseFilter filter_;
+  std::vector<Tendon> tendons_;
+  Eigen::VectorXd tension_N_, length_rate_m_per_s_;
+  std::vector<sim::JointReading> captured_;
+  std::int64_t captured_ns_ = 0;
+};
+
+}  // namespace pose

@@ -1,0 +1,118 @@
+#include "components/pose_estimator/pose_filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace pose {
+
+PoseFilter::PoseFilter(const erp::Robot& robot, const FilterOptions& options)
+    : options_(options), model_(robot) {
+  const Eigen::Index n = model_.coordinates();
+  for (const erp::Joint& joint : model_.tree().joints) joints_.push_back(sim::start_of(joint));
+  viscous_.resize(static_cast<std::size_t>(n));
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (int d = 0; d < sim::coordinates_of(joints_[j].type); ++d)
+      if (const int first = model_.skeleton().first_of(static_cast<int>(j)); first >= 0)
+        viscous_[static_cast<std::size_t>(first + d)] =
+            model_.tree().joints[j].viscous_Nm_s_per_rad;
+  for (Vector* v : {&speed_, &bias_, &torque_}) v->setZero(n);
+  for (Vector* v : {&error_, &gain_, &row_}) v->setZero(2 * n);
+  inertia_.setZero(n, n);
+  p_.setZero(2 * n, 2 * n);
+  p_.diagonal().head(n).setConstant(options.start_rad * options.start_rad);
+  p_.diagonal().tail(n).setConstant(options.start_rad_per_s * options.start_rad_per_s);
+}
+
+// ---- time ----
+
+void PoseFilter::predict(double dt_s, const Vector& tension_N) {
+  const Eigen::Index n = speed_.size();
+  accelerate(dt_s, tension_N);
+  turn(speed_ * dt_s);
+  model_.place(joints_);
+  auto qq = p_.topLeftCorner(n, n);
+  auto qv = p_.topRightCorner(n, n);
+  auto vv = p_.bottomRightCorner(n, n);
+  qq += dt_s * (qv + qv.transpose()) + dt_s * dt_s * vv;
+  qv += dt_s * vv;
+  const double s =
+      options_.acceleration_rad_per_s2 * options_.acceleration_rad_per_s2 * dt_s * dt_s;
+  qq.diagonal().array() += s * dt_s * dt_s / 4;
+  qv.diagonal().array() += s * dt_s / 2;
+  vv.diagonal().array() += s;
+  p_.bottomLeftCorner(n, n) = qv.transpose();
+}
+
+/// v ← v + H⁻¹ (−Lᵀ F − µ v − C − τ_G) dt
+void PoseFilter::accelerate(double dt_s, const Vector& tension_N) {
+  auto& skeleton = model_.skeleton();
+  skeleton.inertia(inertia_);
+  skeleton.bias(bias_);
+  torque_ = -bias_;
+  torque_.noalias() -= model_.jacobian().transpose() * tension_N;
+  for (Eigen::Index d = 0; d < speed_.size(); ++d) {
+    torque_[d] -= viscous_[static_cast<std::size_t>(d)] * speed_[d];
+    inertia_(d, d) += viscous_[static_cast<std::size_t>(d)] * dt_s;
+  }
+  Eigen::LLT<Eigen::Ref<Matrix>> factor(inertia_);
+  factor.solveInPlace(torque_);
+  speed_ += dt_s * torque_;
+}
+
+/// q ← q ⊕ by; velocities as they are.
+void PoseFilter::turn(const Vector& by) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const int first = model_.skeleton().first_of(static_cast<int>(j));
+    if (first < 0) continue;
+    std::array<double, 3> way{};
+    for (int d = 0; d < std::min(sim::coordinates_of(joints_[j].type), 3); ++d) {
+      way[static_cast<std::size_t>(d)] = by[first + d];
+      joints_[j].velocity_rad_per_s[static_cast<std::size_t>(d)] = speed_[first + d];
+    }
+    joints_[j].position = sim::gone(joints_[j].type, joints_[j].position, way);
+  }
+}
+
+// ---- sights ----
+
+bool PoseFilter::see_length(int actuator, double length_m, double sigma_m) {
+  row_.setZero();
+  row_.head(speed_.size()) = model_.jacobian().row(actuator);
+  return see(row_, length_m - model_.length_m()[actuator], sigma_m);
+}
+
+bool PoseFilter::see_joint(int joint, const std::array<double, 4>& position, double sigma_rad) {
+  const auto j = static_cast<std::size_t>(joint);
+  const int first = model_.skeleton().first_of(joint);
+  if (first < 0) return false;
+  const auto way = sim::way_between(joints_[j].type, joints_[j].position, position);
+  bool all = true;
+  for (int d = 0; d < std::min(sim::coordinates_of(joints_[j].type), 3); ++d) {
+    row_.setZero();
+    row_[first + d] = 1;
+    all = see(row_, way[static_cast<std::size_t>(d)], sigma_rad) && all;
+  }
+  return all;
+}
+
+/// `apart`: seen less predicted, at the pose that δ is counted from.
+bool PoseFilter::see(const Vector& h, double apart, double sigma) {
+  const double left = apart - h.dot(error_);
+  gain_.noalias() = p_ * h;
+  const double variance = h.dot(gain_) + sigma * sigma;
+  if (!(left * left <= options_.gate * options_.gate * variance)) return false;
+  error_ += (left / variance) * gain_;
+  p_.noalias() -= (1 / variance) * gain_ * gain_.transpose();
+  return true;
+}
+
+void PoseFilter::settle() {
+  const Eigen::Index n = speed_.size();
+  speed_ += error_.tail(n);
+  turn(error_.head(n));
+  error_.setZero();
+  model_.place(joints_);
+}
+
+}  // namespace pose
