@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
 #include <map>
+#include <ostream>
 
 #include "interfaces/recording/csv.hpp"
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/topic_csv.hpp"
+#include "launch/erp/guarded.hpp"
 #include "launch/erp/plot.hpp"
 #include "launch/text/columns.hpp"
 
@@ -15,26 +16,6 @@ namespace launch {
 namespace {
 
 using recording::McapReader;
-
-/// Runs `work`; says what went wrong on stderr, and as an exit code.
-template <class Work>
-int guarded(Work&& work) {
-  try {
-    return work();
-  } catch (const recording::WriteError& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  } catch (const recording::RecordingError& error) {
-    std::cerr << error.what() << '\n';
-    return 2;
-  }
-}
-
-int written(std::ostream& out) {
-  if (out.flush()) return 0;
-  throw recording::WriteError(
-      "the output could not be written; free some space or name another file");
-}
 
 std::string decimal(const char* format, double value) {
   char text[48];

@@ -1,3 +1,4 @@
+#include "launch/erp/joints.hpp"
 #include "launch/erp/log.hpp"
 
 #include <filesystem>
@@ -68,6 +69,20 @@ void add_plot(CLI::App& log, Chosen& chosen) {
   });
 }
 
+void add_joints(CLI::App& log, Chosen& chosen) {
+  auto* verb = log.add_subcommand("joints", "How near the joints came to where they should be");
+  const Text file = add_file(*verb, "a recording, .mcap");
+  auto options = std::make_shared<LogJointsOptions>();
+  verb->add_option("--of", options->of, "sim, pose_estimator, motion_capture")
+      ->capture_default_str();
+  verb->add_option("--against", options->against, "joint_target, or another of these")
+      ->capture_default_str();
+  verb->add_option("--from", options->from_s, "leave out what was before, s")
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "a picture as well, .svg or .png; needs gnuplot");
+  verb->callback([=, &chosen] { chosen = [=] { return log_joints(*file, *options, std::cout); }; });
+}
+
 }  // namespace
 
 void add_log(CLI::App& app, Chosen& chosen) {
@@ -77,6 +92,7 @@ void add_log(CLI::App& app, Chosen& chosen) {
   add_export(*log, chosen);
   add_recover(*log, chosen);
   add_plot(*log, chosen);
+  add_joints(*log, chosen);
 }
 
 }  // namespace launch
