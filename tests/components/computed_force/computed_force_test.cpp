@@ -1,0 +1,138 @@
+#include "components/computed_force/computed_force.hpp"
+
+#include <catch2/catch.hpp>
+
+using control::ComputedForce;
+
+namespace {
+
+/// The arm in its starting pose, and what is asked of it.
+struct Bench {
+  erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
+  joints::Names names{robot};
+  sim::Musculoskeletal model{robot};
+  node::Latest<erp::JointState> state;
+  node::Latest<erp::JointTarget> target;
+  erp::SensorFrame frame;
+
+  Bench() {
+    std::vector<sim::JointMotion> still;
+    for (const auto& joint : names.list()) still.push_back({sim::start_of(joint), {}});
+    names.write(still, target.message);
+    for (const auto& sample : erp::samples(target->joints)) {
+      erp::JointStateSample now{};
+      erp::assign(now.name, sample.name);
+      now.dof = sample.dof;
+      std::ranges::copy(sample.position, now.position);
+      erp::append(state.message.joints, now);
+    }
+    for (const auto& actuator : robot.actuators) {
+      erp::ActuatorSample sample{};
+      erp::assign(sample.name, actuator.name);
+      sample.valid = erp::valid::all;
+      sample.tension_N = 5;
+      sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::running);
+      erp::append(frame.actuators, sample);
+    }
+    state.received = target.received = true;
+  }
+  Eigen::VectorXd gravity_Nm() {
+    Eigen::VectorXd torque;
+    model.skeleton().gravity_torques(torque);
+    return torque;
+  }
+  /// −Lᵀ f of a command.
+  Eigen::VectorXd torque_of(const std::optional<erp::ActuatorCommand>& command) {
+    REQUIRE(command);
+    Eigen::VectorXd f(model.length_m().size());
+    for (Eigen::Index a = 0; a < f.size(); ++a) f[a] = command->actuators._buffer[a].reference;
+    return -model.jacobian().transpose() * f;
+  }
+  auto step(ComputedForce& control) { return control.step(frame, 0.002, state, target); }
+};
+
+/// Without what the force laws need beside the tension itself.
+ComputedForce::Params plain() {
+  ComputedForce::Params params;
+  params.anticipate = 0;
+  return params;
+}
+
+}  // namespace
+
+TEST_CASE("where it shall be, and at rest, the tensions carry the bones and no more") {
+  Bench bench;
+  ComputedForce control(plain(), bench.robot);
+  CHECK((bench.torque_of(bench.step(control)) - bench.gravity_Nm()).norm() < 1e-4);
+}
+
+TEST_CASE("an elbow that is behind is accelerated by k_p times the angle") {
+  Bench bench;
+  ComputedForce control(plain(), bench.robot);
+  bench.target.message.joints._buffer[1].position[0] += 0.1;
+  Eigen::MatrixXd inertia;
+  bench.model.skeleton().inertia(inertia);
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(4);
+  acceleration[3] = 100 * 0.1;
+  const Eigen::VectorXd torque = bench.gravity_Nm() + inertia * acceleration;
+  CHECK((bench.torque_of(bench.step(control)) - torque).norm() < 1e-4);
+}
+
+TEST_CASE("a ball joint turned half round still knows the way back") {
+  Bench bench;
+  ComputedForce control(plain(), bench.robot);
+  const Eigen::AngleAxisd far(3.1, Eigen::Vector3d(1, 1, 0).normalized());
+  const Eigen::Quaterniond q(far);
+  const double at[] = {q.w(), q.x(), q.y(), q.z()};
+  std::ranges::copy(at, bench.target.message.joints._buffer[0].position);
+  const auto command = bench.step(control);
+  REQUIRE(command);
+  for (const auto& asked : erp::samples(command->actuators)) {
+    CHECK(std::isfinite(asked.reference));
+    CHECK(asked.reference <= 300);
+  }
+}
+
+TEST_CASE("without joints, without a target, or with stale ones it says nothing") {
+  Bench bench;
+  ComputedForce control({}, bench.robot);
+  CHECK(bench.step(control));
+  bench.state.age_s = 0.06;
+  CHECK_FALSE(bench.step(control));
+  bench.state.age_s = 0;
+  bench.target.age_s = 0.06;
+  CHECK_FALSE(bench.step(control));
+  bench.target.age_s = 0;
+  bench.state.message.joints._buffer[1].position[0] = std::nan("");
+  CHECK_FALSE(bench.step(control));
+  bench.state.message.joints._buffer[1].position[0] = 0.3;
+  CHECK(bench.step(control));
+  bench.target.message.joints._length = 1;
+  CHECK_FALSE(bench.step(control));
+}
+
+TEST_CASE("only the source that was named is believed") {
+  Bench bench;
+  ComputedForce::Params params;
+  params.source = "pose_estimator";
+  const ComputedForce control(params, bench.robot);
+  erp::assign(bench.state.message.source, "sim");
+  CHECK_FALSE(control.wants(bench.state.message));
+  erp::assign(bench.state.message.source, "pose_estimator");
+  CHECK(control.wants(bench.state.message));
+}
+
+TEST_CASE("a muscle whose ECU has tripped is counted with what it pulls, and made up for") {
+  Bench bench;
+  ComputedForce control(plain(), bench.robot);
+  bench.target.message.joints._buffer[1].position[0] += 0.3;
+  const Eigen::VectorXd wanted = bench.torque_of(bench.step(control));
+  constexpr int brachialis = 9;
+  auto& sample = bench.frame.actuators._buffer[brachialis];
+  sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::fault);
+  sample.tension_N = 2;
+  auto command = bench.step(control);
+  REQUIRE(command);
+  CHECK(command->actuators._buffer[brachialis].reference == Approx(2));
+  CHECK((bench.torque_of(command) - wanted).norm() < 1e-3);
+}

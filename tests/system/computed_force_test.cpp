@@ -1,0 +1,99 @@
+// The arm under computed force control: the paper's Fig. 8, in lockstep.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <numbers>
+
+#include "interfaces/recording/table.hpp"
+#include "interfaces/robot/robot.hpp"
+#include "launch/erp/joints.hpp"
+#include "interfaces/recording/mcap_reader.hpp"
+#include "tests/system/command.hpp"
+
+using namespace tests;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
+
+/// Runs a graph for 29 s of the arm's time; its recording.
+std::string recorded(const Folder& folder, const std::string& graph, const std::string& more = "") {
+  const auto outcome = run("erp launch " + graph + " --lockstep --for 29s " + more + " --out " +
+                           (folder / "run"));
+  INFO(outcome.output);
+  REQUIRE(outcome.exit_code == 0);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "run"))
+    if (entry.path().extension() == ".mcap") return entry.path().string();
+  FAIL("no recording");
+  return {};
+}
+
+std::vector<launch::JointError> errors(const std::string& file, const std::string& of,
+                                       const std::string& against) {
+  const recording::McapReader reader(file);
+  auto found = launch::joint_errors(recording::joint_tracks(reader, of),
+                                    recording::joint_tracks(reader, against), 0.5);
+  REQUIRE(found.size() == 2);
+  for (const auto& e : found) REQUIRE(e.frames > 14000);
+  return found;
+}
+
+double least_tension_N(const std::string& file) {
+  const auto table = recording::read_table(file);
+  double least = 1e9;
+  for (const auto& name : table.owners("tension_N"))
+    for (const double f : table.find(name + ".tension_N")->values) least = std::min(least, f);
+  return least;
+}
+
+/// The arm with something that its controllers do not know.
+std::string arm_with(const Folder& folder, const std::string& type, const std::string& on,
+                     const std::string& parameter, const std::string& value) {
+  erp::Robot robot = erp::read_robot(configs + "robot.xml");
+  robot.effects = {{{}, type, on, {{{}, parameter, value}}}};
+  std::ofstream(folder / "robot.xml") << erp::write_robot(robot);
+  std::ofstream(folder / "graph.xml")
+      << "<graph name=\"off\" robot=\"robot.xml\" device=\"sim\">\n  <component name=\"joint_target\" "
+         "config=\""
+      << configs << "figure_8.xml\"/>\n  <component name=\"computed_force\" config=\"" << configs
+      << "computed_force.xml\"/>\n  <component name=\"logger\"/>\n</graph>\n";
+  return folder / "graph.xml";
+}
+
+}  // namespace
+
+TEST_CASE("with true angles all joints follow to half a degree, and every tendon stays taut") {
+  Folder folder;
+  const auto file = recorded(folder, "launch/computed_force.xml");
+  for (const auto& e : errors(file, "sim", "joint_target")) {
+    INFO(e.joint);
+    CHECK(e.rms_rad < 0.5 * degree);
+    CHECK(e.largest_rad < 2 * degree);
+  }
+  CHECK(least_tension_N(file) > 2);
+}
+
+TEST_CASE("with the estimator alone they follow to a degree and a half, and it is true to one") {
+  Folder folder;
+  const auto file = recorded(folder, "launch/computed_force_estimated.xml");
+  for (const auto& e : errors(file, "sim", "joint_target")) CHECK(e.rms_rad < 1.5 * degree);
+  for (const auto& e : errors(file, "pose_estimator", "sim")) CHECK(e.rms_rad < degree);
+}
+
+TEST_CASE("half a kilogram in the hand, or 10 ms of delay, are borne") {
+  Folder loaded, late;
+  const auto payload = arm_with(loaded, "skeleton_payload", "forearm", "mass_kg", "0.5");
+  for (const auto& e : errors(recorded(loaded, payload), "sim", "joint_target"))
+    CHECK(e.rms_rad < 1.5 * degree);
+  const auto delay = arm_with(late, "bus_command_delay", "arm", "delay_s", "0.01");
+  for (const auto& e : errors(recorded(late, delay), "sim", "joint_target"))
+    CHECK(e.rms_rad < 1.5 * degree);
+}
+
+TEST_CASE("the same run twice is the same") {
+  Folder first, second;
+  const auto a = recorded(first, "launch/computed_force_estimated.xml");
+  const auto b = recorded(second, "launch/computed_force_estimated.xml");
+  CHECK(recording::joint_tracks(recording::McapReader(a), "sim").at("elbow").at ==
+        recording::joint_tracks(recording::McapReader(b), "sim").at("elbow").at);
+}
