@@ -19,6 +19,8 @@ constexpr const char* loopback = R"(<CycloneDDS><Domain Id="any">
     <MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>
     <Peers><Peer Address="127.0.0.1"/></Peers>
     <LeaseDuration>3s</LeaseDuration></Discovery>
+  <Sizing><ReceiveBufferSize>128 kB</ReceiveBufferSize>
+    <ReceiveBufferChunkSize>64 kB</ReceiveBufferChunkSize></Sizing>
 </Domain></CycloneDDS>)";
 
 dds_domainid_t domain_id() {

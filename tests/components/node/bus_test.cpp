@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "components/node/builtin.hpp"
 #include "components/node/clock.hpp"
 #include "components/node/histogram.hpp"
 #include "tests/components/node/domain.hpp"
@@ -101,4 +102,25 @@ TEST_CASE("a histogram's quantile is the upper edge of its bin") {
   histogram.add_ns(1'000'000);
   CHECK(node::quantile_us(histogram.counts(), 0.5) == 32);
   CHECK(node::quantile_us(histogram.counts(), 0.995) == 1024);
+}
+
+TEST_CASE("of those who have left the bus nothing is kept") {
+  const node::Entity self = node::join("self");
+  node::Wake wake;
+  const node::Arrival arrival = node::waking(wake);
+  const node::Entity reader =
+      node::make_builtin_reader(self, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, arrival);
+  const auto alive = [&] {
+    int count = 0;
+    node::for_each_alive<dds_builtintopic_participant_t>(
+        reader, [&](const auto&, const auto&) { ++count; });
+    return count;
+  };
+  {
+    const node::Entity guest = node::join("guest");
+    REQUIRE(alive() == 2);
+  }
+  REQUIRE(alive() == 1);
+  node::BuiltinSamples room;
+  CHECK(room.get(reader, dds_read_mask, DDS_ANY_STATE) == 1);  // whatever has become of it
 }
