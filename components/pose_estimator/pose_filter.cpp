@@ -16,7 +16,7 @@ PoseFilter::PoseFilter(const erp::Robot& robot, const FilterOptions& options)
       if (const int first = model_.skeleton().first_of(static_cast<int>(j)); first >= 0)
         viscous_[static_cast<std::size_t>(first + d)] =
             model_.tree().joints[j].viscous_Nm_s_per_rad;
-  for (Vector* v : {&speed_, &bias_, &torque_}) v->setZero(n);
+  for (Vector* v : {&speed_, &step_, &bias_, &torque_}) v->setZero(n);
   for (Vector* v : {&error_, &gain_, &row_}) v->setZero(2 * n);
   inertia_.setZero(n, n);
   p_.setZero(2 * n, 2 * n);
@@ -29,7 +29,8 @@ PoseFilter::PoseFilter(const erp::Robot& robot, const FilterOptions& options)
 void PoseFilter::predict(double dt_s, const Vector& tension_N) {
   const Eigen::Index n = speed_.size();
   accelerate(dt_s, tension_N);
-  turn(speed_ * dt_s);
+  step_ = dt_s * speed_;
+  turn(step_);
   model_.place(joints_);
   auto qq = p_.topLeftCorner(n, n);
   auto qv = p_.topRightCorner(n, n);
@@ -61,7 +62,7 @@ void PoseFilter::accelerate(double dt_s, const Vector& tension_N) {
 }
 
 /// q ← q ⊕ by; velocities as they are.
-void PoseFilter::turn(const Vector& by) {
+void PoseFilter::turn(const Eigen::Ref<const Vector>& by) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const int first = model_.skeleton().first_of(static_cast<int>(j));
     if (first < 0) continue;

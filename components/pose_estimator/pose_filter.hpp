@@ -15,7 +15,7 @@
 /// So a ball joint needs no angles, and a path length that does not fit (a dead sensor, a line that
 /// has slipped) is left out: beyond `gate` standard deviations of what it should be.
 /// Source: Solà 2017, quaternion kinematics for the error-state Kalman filter; sequential updates:
-/// Maybeck 1979. No heap after construction, but in the dynamics.
+/// Maybeck 1979. No heap after construction.
 namespace pose {
 
 struct FilterOptions {
@@ -52,13 +52,13 @@ class PoseFilter {
  private:
   bool see(const Vector& h, double apart, double sigma);
   void accelerate(double dt_s, const Vector& tension_N);
-  void turn(const Vector& by);
+  void turn(const Eigen::Ref<const Vector>& by);
 
   FilterOptions options_;
   sim::Musculoskeletal model_;
   std::vector<sim::JointReading> joints_;
   std::vector<double> viscous_;  ///< by coordinate
-  Vector speed_, error_, gain_, row_, bias_, torque_;
+  Vector speed_, step_, error_, gain_, row_, bias_, torque_;
   Matrix p_, inertia_;
 };
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "tests/hal/can/allocations.hpp"
+#include "tests/allocations.hpp"
 #include "tests/hal/can/pair.hpp"
 
 using namespace can_test;
@@ -116,7 +116,7 @@ TEST_CASE("neither end touches the heap once it is built") {
   std::vector<erp::EcuCommand> commands;
   for (int tick = 0; tick < 100; ++tick)
     commands.push_back(any_command(pair.robot, std::uint64_t(tick + 1), random));
-  const std::size_t before = allocations();
+  const std::size_t before = tests::allocations();
   for (const auto& command : commands) {
     pair.robotics.tick();
     for (const auto& frame : pair.ecus.report(pair.robotics.frame)) pair.gateway.hear(frame);
@@ -124,7 +124,7 @@ TEST_CASE("neither end touches the heap once it is built") {
     for (const auto& frame : pair.gateway.commands(command)) pair.ecus.hear(frame);
     pair.gateway.clear_news();
   }
-  CHECK(allocations() == before);
+  CHECK(tests::allocations() == before);
 }
 
 TEST_CASE("random frames never stop a gateway") {

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/hal/can/allocations.hpp"
+#include "tests/allocations.hpp"
 #include "tests/hal/can/narrow_bus.hpp"
 
 using namespace can_test;
@@ -123,11 +123,11 @@ TEST_CASE("an outbox touches no heap") {
   NarrowBus bus;
   bus.taken.reserve(1000);
   const erp::CanFrame frames[] = {command(3, 1), command(4, 1), parameter(0)};
-  const auto before = allocations();
+  const auto before = tests::allocations();
   for (int tick = 0; tick < 50; ++tick) {
     outbox.put(frames, start + tick * ms);
     bus.room = std::size_t(tick % 5);
     outbox.flush(bus, start + tick * ms);
   }
-  CHECK(allocations() == before);
+  CHECK(tests::allocations() == before);
 }

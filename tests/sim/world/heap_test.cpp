@@ -1,35 +1,10 @@
-// Its own program: it replaces the allocator to count.
+// Its own program: it counts every allocation.
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <new>
 
 #include "sim/world/imus.hpp"
+#include "tests/allocations.hpp"
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t n) {
-  ++allocations;
-  if (void* p = std::malloc(n)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t n, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(n);
-}
-void* operator new(std::size_t n, std::align_val_t a) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(a);
-  if (void* p = std::aligned_alloc(align, (n + align - 1) / align * align)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 TEST_CASE("ropes on bones, timed sensors and inertial units do not touch the heap either") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
@@ -52,9 +27,9 @@ TEST_CASE("ropes on bones, timed sensors and inertial units do not touch the hea
   };
   for (int k = 0; k < 50; ++k) tick();
   REQUIRE(limb.world.rope(0)->forces().size() > 3);
-  const std::size_t before = allocations;
+  const std::size_t before = tests::allocations();
   for (int k = 0; k < 100; ++k) limb.ecus.tick(limb.world), imus.look(limb.world), imus.next(frame);
-  const std::size_t after = allocations;
+  const std::size_t after = tests::allocations();
   CHECK(after == before);
 }
 
@@ -70,8 +45,8 @@ TEST_CASE("a tick of the arm, its ECUs and its frame does not touch the heap") {
     limb.world.fill(bodies);
   };
   for (int k = 0; k < 10; ++k) tick();
-  const std::size_t before = allocations;
+  const std::size_t before = tests::allocations();
   for (int k = 0; k < 100; ++k) tick();
-  const std::size_t after = allocations;
+  const std::size_t after = tests::allocations();
   CHECK(after == before);
 }

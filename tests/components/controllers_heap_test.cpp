@@ -1,0 +1,66 @@
+// Steps of controllers do not touch the heap, from the second one on.
+#include <catch2/catch.hpp>
+
+#include "components/computed_force/computed_force.hpp"
+#include "components/pose_estimator/pose_estimator.hpp"
+#include "tests/allocations.hpp"
+
+namespace {
+
+struct Bench {
+  erp::Robot robot;
+  node::Latest<erp::JointState> state;
+  node::Latest<erp::JointTarget> target;
+  erp::SensorFrame frame;
+
+  explicit Bench(const std::string& name)
+      : robot(erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml")) {
+    const joints::Names names(robot);
+    std::vector<sim::JointMotion> still;
+    for (const auto& joint : names.list()) still.push_back({sim::start_of(joint), {}});
+    names.write(still, target.message);
+    for (const auto& sample : erp::samples(target->joints)) {
+      erp::JointStateSample now{};
+      erp::assign(now.name, sample.name);
+      std::ranges::copy(sample.position, now.position);
+      erp::append(state.message.joints, now);
+    }
+    for (const auto& actuator : robot.actuators) {
+      erp::ActuatorSample sample{};
+      erp::assign(sample.name, actuator.name);
+      sample.valid = erp::valid::all, sample.tension_N = actuator.tendon.pretension_N;
+      erp::append(frame.actuators, sample);
+    }
+    state.received = target.received = true;
+  }
+  /// Everything moves a little, so that bounds come and go.
+  void wiggle(int k) {
+    const double by = 0.02 * std::sin(0.3 * k);
+    for (auto& sample : erp::samples(state.message.joints)) sample.velocity_rad_per_s[0] = by;
+    for (auto& sample : erp::samples(target.message.joints))
+      sample.acceleration_rad_per_s2[0] = 50 * by;
+    for (auto& sample : erp::samples(frame.actuators)) sample.shaft_rad = by;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("computed force and the pose estimator do not touch the heap") {
+  for (const std::string name : {"arm", "ecce4"}) {
+    Bench bench(name);
+    control::ComputedForce control({}, bench.robot);
+    pose::PoseEstimator estimator({}, bench.robot);
+    std::size_t before = 0;
+    int answered = 0;
+    for (int k = 0; k < 40; ++k) {
+      bench.wiggle(k);
+      if (k == 2) before = tests::allocations();
+      answered += control.step(bench.frame, 0.002, bench.state, bench.target).has_value();
+      estimator.step(bench.frame, 0.002, {});
+    }
+    const std::size_t after = tests::allocations();
+    INFO(name);
+    CHECK(after == before);
+    CHECK(answered == 40);
+  }
+}
