@@ -1,0 +1,165 @@
+// How long controllers of joints take for a cycle, and the quadratic programme beside CGAL's.
+#include <CGAL/MP_Float.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <random>
+
+#include "components/computed_force/computed_force.hpp"
+#include "components/pose_estimator/pose_estimator.hpp"
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double now_us() {
+  return 1e-3 * static_cast<double>(std::chrono::steady_clock::now().time_since_epoch().count());
+}
+
+/// What each call took, µs.
+struct Times {
+  std::vector<double> us;
+  template <class Work>
+  void take(Work&& work) {
+    const double began = now_us();
+    work();
+    us.push_back(now_us() - began);
+  }
+  double at(double share) {
+    std::ranges::sort(us);
+    return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))];
+  }
+};
+
+/// A robot whose joints are asked to swing about where they start.
+struct Swing {
+  erp::Robot robot;
+  joints::Names names;
+  std::vector<sim::JointMotion> motions;
+  node::Latest<erp::JointState> state;
+  node::Latest<erp::JointTarget> target;
+  erp::SensorFrame frame;
+
+  explicit Swing(const std::string& name)
+      : robot(erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml")), names(robot) {
+    for (const auto& actuator : robot.actuators) {
+      erp::ActuatorSample sample{};
+      erp::assign(sample.name, actuator.name);
+      sample.valid = erp::valid::all, sample.tension_N = actuator.tendon.pretension_N;
+      erp::append(frame.actuators, sample);
+    }
+    state.received = target.received = true;
+  }
+  void move_to(double time_s) {
+    const double s = std::sin(3 * time_s), c = 3 * std::cos(3 * time_s);
+    motions.clear();
+    for (const auto& joint : names.list()) {
+      sim::JointMotion motion{sim::start_of(joint), {}};
+      motion.now.position = sim::gone(joint.type, motion.now.position, {0.1 * s, 0.1 * s, 0});
+      motion.now.velocity_rad_per_s = {0.1 * c, 0.1 * c, 0};
+      motion.acceleration_rad_per_s2 = {-0.9 * s, -0.9 * s, 0};
+      motions.push_back(motion);
+    }
+    names.write(motions, target.message);
+    state.message.joints._length = 0;
+    for (const auto& wanted : erp::samples(target.message.joints)) {
+      erp::JointStateSample now{};
+      erp::assign(now.name, wanted.name);
+      std::ranges::copy(wanted.position, now.position);
+      std::ranges::copy(wanted.velocity_rad_per_s, now.velocity_rad_per_s);
+      erp::append(state.message.joints, now);
+    }
+  }
+};
+
+void cycle_row(const std::string& name) {
+  Swing swing(name);
+  control::ComputedForce control({}, swing.robot);
+  pose::PoseEstimator estimator({}, swing.robot);
+  sim::Musculoskeletal model(swing.robot);
+  Times controls, estimates;
+  for (int k = 0; k < 5000; ++k) {
+    swing.move_to(0.002 * k);
+    controls.take([&] { (void)control.step(swing.frame, 0.002, swing.state, swing.target); });
+    estimates.take([&] { (void)estimator.step(swing.frame, 0.002, {}); });
+  }
+  std::printf("| %-9s | %2zu | %3d | %7.1f | %7.1f | %7.1f | %7.1f |\n", name.c_str(),
+              swing.robot.actuators.size(), model.coordinates(), controls.at(0.5),
+              controls.at(0.99), estimates.at(0.5), estimates.at(0.99));
+}
+
+// ---- the quadratic programme ----
+
+struct Programme {
+  MatrixXd l;
+  VectorXd torque;
+};
+
+/// Torques around those that carry the robot.
+std::vector<Programme> programmes(const erp::Robot& robot, int count) {
+  sim::Musculoskeletal model(robot);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<Programme> all;
+  VectorXd torque;
+  model.skeleton().gravity_torques(torque);
+  for (int k = 0; k < count; ++k) {
+    torque += 0.05 * VectorXd::NullaryExpr(torque.size(), [&] { return normal(random); });
+    all.push_back({model.jacobian(), torque});
+  }
+  return all;
+}
+
+/// The same in CGAL's words:  min ½ fᵀ f − f°ᵀ f  with  Lᵀ f = −τ,  low ≤ f ≤ high.
+VectorXd by_cgal(const Programme& programme, const sim::Likes& likes) {
+  CGAL::Quadratic_program<double> qp(CGAL::EQUAL, true, 0, true, 0);
+  const int n = static_cast<int>(programme.l.rows()), m = static_cast<int>(programme.l.cols());
+  for (int a = 0; a < n; ++a) {
+    qp.set_l(a, true, likes.low_N[a]), qp.set_u(a, true, likes.high_N[a]);
+    qp.set_d(a, a, 1), qp.set_c(a, -likes.liked_N[a]);
+    for (int d = 0; d < m; ++d) qp.set_a(a, d, programme.l(a, d));
+  }
+  for (int d = 0; d < m; ++d) qp.set_b(d, -programme.torque[d]);
+  const auto solution = CGAL::solve_quadratic_program(qp, CGAL::MP_Float());
+  VectorXd f = VectorXd::Constant(n, std::nan(""));
+  if (solution.is_infeasible()) return f;
+  int a = 0;
+  for (auto value = solution.variable_values_begin(); value != solution.variable_values_end();
+       ++value)
+    f[a++] = CGAL::to_double(*value);
+  return f;
+}
+
+void programme_row(const std::string& name) {
+  const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml");
+  const sim::Likes likes = sim::likes_of(robot, sim::Liking::least_tension, 5);
+  const auto all = programmes(robot, 20);
+  sim::TensionShare share(likes, static_cast<int>(all[0].l.cols()));
+  Times ours, theirs;
+  double apart_N = 0;
+  int solved = 0;
+  for (const Programme& programme : all) {
+    VectorXd f, g;
+    ours.take([&] { f = share.share(programme.l, programme.torque); });
+    theirs.take([&] { g = by_cgal(programme, likes); });
+    if (g.hasNaN()) continue;
+    ++solved;
+    apart_N = std::max(apart_N, (f - g).cwiseAbs().maxCoeff());
+  }
+  std::printf("| %-9s | %7.1f | %9.1f | %5.0f | %2d of %zu | %.1e |\n", name.c_str(), ours.at(0.5),
+              theirs.at(0.5), theirs.at(0.5) / ours.at(0.5), solved, all.size(), apart_N);
+}
+
+}  // namespace
+
+int main() {
+  std::puts(
+      "| robot | muscles | coordinates | computed force, µs p50 | p99 | estimator, p50 | p99 |");
+  for (const char* name : {"hinge_rig", "arm", "seven_dof", "ecce4"}) cycle_row(name);
+  std::puts("\n| robot | shares, µs | CGAL's, µs | ratio | solved by both | apart, N |");
+  for (const char* name : {"hinge_rig", "arm", "seven_dof"}) programme_row(name);
+}
