@@ -1,3 +1,4 @@
+#include "launch/erp/effort.hpp"
 #include "launch/erp/joints.hpp"
 #include "launch/erp/log.hpp"
 
@@ -83,6 +84,15 @@ void add_joints(CLI::App& log, Chosen& chosen) {
   verb->callback([=, &chosen] { chosen = [=] { return log_joints(*file, *options, std::cout); }; });
 }
 
+void add_effort(CLI::App& log, Chosen& chosen) {
+  auto* verb =
+      log.add_subcommand("effort", "What a motion took: tensions and energy of each muscle");
+  const Text file = add_file(*verb, "a recording, .mcap or .csv");
+  auto from_s = std::make_shared<double>(0);
+  verb->add_option("--from", *from_s, "leave out what was before, s")->capture_default_str();
+  verb->callback([=, &chosen] { chosen = [=] { return log_effort(*file, *from_s, std::cout); }; });
+}
+
 }  // namespace
 
 void add_log(CLI::App& app, Chosen& chosen) {
@@ -93,6 +103,7 @@ void add_log(CLI::App& app, Chosen& chosen) {
   add_recover(*log, chosen);
   add_plot(*log, chosen);
   add_joints(*log, chosen);
+  add_effort(*log, chosen);
 }
 
 }  // namespace launch

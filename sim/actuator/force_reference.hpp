@@ -1,5 +1,6 @@
 #pragma once
 #include "interfaces/robot/robot.hpp"
+#include "sim/actuator/motor_inverse.hpp"
 #include "sim/actuator/spring.hpp"
 
 /// What to ask an ECU's force law for, so that a tendon that is being wound pulls as wanted.
@@ -7,12 +8,9 @@
 /// The law V = P F_ref − k_i i − k_ω ω − k_F F is exact at rest, where ω = 0. While the shaft turns
 /// at ω it settles where V = R i + K_E N ω, so that for tension f
 ///
-///   F_ref = ((R + k_i) i + (K_E N + k_ω) ω + k_F f) / P
-///   i     = ((r f + µ_G ω + s τ_CG + J_G ω̇)/(e N) + µ_M N ω + s τ_CM + J_M N ω̇) / K_T
+///   F_ref = ((R + k_i) i(f, ω, ω̇) + (K_E N + k_ω) ω + k_F f) / P          i: motor_inverse.hpp
 ///
-/// e is the gear's efficiency as the power flows: η winding up, 1/η letting out; s = sgn ω, both
-/// rounded off below `creep_rad_per_s`, where a shaft may as well stick.
-/// Source: eq. 3 of the paper and `design.hpp`.
+/// Source: `design.hpp`.
 namespace sim {
 
 /// How a tendon is to move.
@@ -29,12 +27,8 @@ class ForceReference {
   double reference_N(const TendonMotion& motion) const;
 
  private:
-  static constexpr double creep_rad_per_s = 0.05;  // chosen: 0.6 % of a 12 V motor's top speed
-  double current_A(double tension_N, double speed_rad_per_s, double acceleration) const;
-
-  erp::MotorType motor_;
+  MotorInverse motor_;
   Spring spring_;
-  double radius_m_;
   double per_A_, per_speed_, per_N_;  ///< of F_ref
 };
 

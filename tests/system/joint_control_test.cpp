@@ -1,12 +1,13 @@
-// The arm under computed force control: the paper's Fig. 8, in lockstep.
+// Joints under control, in lockstep: the arm by computed force (the paper's Fig. 8), the hinge rig by
+// puller and follower (Fig. 7a).
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <numbers>
 
+#include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "launch/erp/joints.hpp"
-#include "interfaces/recording/mcap_reader.hpp"
 #include "tests/system/command.hpp"
 
 using namespace tests;
@@ -17,9 +18,9 @@ constexpr double degree = std::numbers::pi / 180;
 const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
 
 /// Runs a graph for 29 s of the arm's time; its recording.
-std::string recorded(const Folder& folder, const std::string& graph, const std::string& more = "") {
-  const auto outcome = run("erp launch " + graph + " --lockstep --for 29s " + more + " --out " +
-                           (folder / "run"));
+std::string recorded(const Folder& folder, const std::string& graph) {
+  const auto outcome =
+      run("erp launch " + graph + " --lockstep --for 29s --out " + (folder / "run"));
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "run"))
@@ -33,7 +34,7 @@ std::vector<launch::JointError> errors(const std::string& file, const std::strin
   const recording::McapReader reader(file);
   auto found = launch::joint_errors(recording::joint_tracks(reader, of),
                                     recording::joint_tracks(reader, against), 0.5);
-  REQUIRE(found.size() == 2);
+  REQUIRE(found.size() > 0);
   for (const auto& e : found) REQUIRE(e.frames > 14000);
   return found;
 }
@@ -53,7 +54,8 @@ std::string arm_with(const Folder& folder, const std::string& type, const std::s
   robot.effects = {{{}, type, on, {{{}, parameter, value}}}};
   std::ofstream(folder / "robot.xml") << erp::write_robot(robot);
   std::ofstream(folder / "graph.xml")
-      << "<graph name=\"off\" robot=\"robot.xml\" device=\"sim\">\n  <component name=\"joint_target\" "
+      << "<graph name=\"off\" robot=\"robot.xml\" device=\"sim\">\n  <component "
+         "name=\"joint_target\" "
          "config=\""
       << configs << "figure_8.xml\"/>\n  <component name=\"computed_force\" config=\"" << configs
       << "computed_force.xml\"/>\n  <component name=\"logger\"/>\n</graph>\n";
@@ -88,6 +90,13 @@ TEST_CASE("half a kilogram in the hand, or 10 ms of delay, are borne") {
   const auto delay = arm_with(late, "bus_command_delay", "arm", "delay_s", "0.01");
   for (const auto& e : errors(recorded(late, delay), "sim", "joint_target"))
     CHECK(e.rms_rad < 1.5 * degree);
+}
+
+TEST_CASE("puller and follower change roles without slack, to half a degree") {
+  Folder folder;
+  const auto file = recorded(folder, "launch/puller_follower.xml");
+  for (const auto& e : errors(file, "sim", "joint_target")) CHECK(e.rms_rad < 0.5 * degree);
+  CHECK(least_tension_N(file) > 1);
 }
 
 TEST_CASE("the same run twice is the same") {

@@ -1,0 +1,81 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/actuator/motor_inverse.hpp"
+#include "sim/actuator/spring.hpp"
+
+/// The pieces of puller-follower control (paper, 5.2): who pulls, how taut the follower is kept, and
+/// what voltage makes a tension follow.
+namespace control {
+
+/// Tensions of a pair: the puller's carries the torque, the follower's is the reference tension.
+///
+///   F_follower = F_ref,   F_puller = F_ref + |τ| / arm of the puller
+///
+/// [0] pulls towards positive angles.
+struct Pair {
+  std::array<double, 2> arm_m;  ///< moment arms, both positive
+
+  bool positive_pulls(double torque_Nm) const { return torque_Nm >= 0; }
+  std::array<double, 2> tensions_N(double torque_Nm, double reference_N) const {
+    // Both at the reference turn the joint too, where their arms differ.
+    const double own_Nm = reference_N * (arm_m[0] - arm_m[1]), left_Nm = torque_Nm - own_Nm;
+    return {reference_N + std::max(0.0, left_Nm) / arm_m[0],
+            reference_N + std::max(0.0, -left_Nm) / arm_m[1]};
+  }
+};
+
+/// The reference tension: low where one of the two clearly pulls, raised around a change of roles,
+/// which it begins before the change, as far as the torque's slope tells.
+///
+///   s = max over 0 … lead of (1 − |τ + t dτ/dt| / τ_w)₊²(3 − 2 …),   F_ref = low + s (high − low)
+struct ReferenceTension {
+  double low_N, high_N, width_Nm, lead_s;
+
+  double of(double torque_Nm, double torque_rate_Nm_per_s) const {
+    const double ahead_Nm = torque_Nm + lead_s * torque_rate_Nm_per_s;
+    const bool crosses = torque_Nm * ahead_Nm <= 0;
+    const double nearest_Nm = crosses ? 0 : std::min(std::abs(torque_Nm), std::abs(ahead_Nm));
+    const double x = std::clamp(1 - nearest_Nm / width_Nm, 0.0, 1.0);
+    return low_N + x * x * (3 - 2 * x) * (high_N - low_N);
+  }
+};
+
+/// Input–output linearisation of one tension: with the voltage of the motor's inverse, F obeys
+///
+///   F̈ = F̈_d + 2 b (Ḟ_d − Ḟ) + b² (F_d − F),     Ḟ = κ (dl/dt + r ω),  F̈ = κ (d²l/dt² + r ω̇)
+///
+/// κ the spring's slope at F; its change and the damper are left out.
+class TensionLinearisation {
+ public:
+  TensionLinearisation(const sim::MotorInverse& motor, const sim::Spring& spring,
+                       double bandwidth_per_s)
+      : motor_(motor), spring_(spring), b_(bandwidth_per_s) {}
+
+  struct Seen {
+    double tension_N, speed_rad_per_s, length_rate_m_per_s, length_acceleration_m_per_s2;
+  };
+  struct Wanted {
+    double tension_N, rate_N_per_s, acceleration_N_per_s2;
+  };
+
+  double voltage_V(const Seen& seen, const Wanted& wanted) const {
+    const double slope = spring_.slope_N_per_m(spring_.stretch_m(std::max(0.0, seen.tension_N)));
+    const double r = motor_.radius_m();
+    const double rate = slope * (seen.length_rate_m_per_s + r * seen.speed_rad_per_s);
+    const double acceleration = wanted.acceleration_N_per_s2 +
+                                2 * b_ * (wanted.rate_N_per_s - rate) +
+                                b_ * b_ * (wanted.tension_N - seen.tension_N);
+    return motor_.voltage_V(seen.tension_N, seen.speed_rad_per_s,
+                            (acceleration / slope - seen.length_acceleration_m_per_s2) / r);
+  }
+
+ private:
+  sim::MotorInverse motor_;
+  sim::Spring spring_;
+  double b_;
+};
+
+}  // namespace control

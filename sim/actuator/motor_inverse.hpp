@@ -1,0 +1,31 @@
+#pragma once
+#include "interfaces/robot/robot.hpp"
+
+/// What a motor must be given to turn as wanted: eq. 3 of the paper, solved for its input.
+///
+///   i = ((r F + µ_G ω + s τ_CG + J_G ω̇)/(e N) + µ_M N ω + s τ_CM + J_M N ω̇) / K_T
+///   V = R i + K_E N ω                                              the inductance left out
+///
+/// e is the gear's efficiency as the power flows: η where the motor drives, 1/η where the load does;
+/// s = sgn ω. Both are rounded off below `creep_rad_per_s`, where a shaft may as well stick.
+namespace sim {
+
+class MotorInverse {
+ public:
+  MotorInverse(const erp::MotorType& motor, double spindle_radius_m)
+      : motor_(motor), radius_m_(spindle_radius_m) {}
+
+  double current_A(double tension_N, double speed_rad_per_s, double acceleration_rad_per_s2) const;
+  double voltage_V(double tension_N, double speed_rad_per_s, double acceleration_rad_per_s2) const {
+    return motor_.resistance_ohm * current_A(tension_N, speed_rad_per_s, acceleration_rad_per_s2) +
+           motor_.back_emf_V_s_per_rad * motor_.gear_ratio * speed_rad_per_s;
+  }
+  double radius_m() const { return radius_m_; }
+
+ private:
+  static constexpr double creep_rad_per_s = 0.05;  // chosen: 0.6 % of a 12 V motor's top speed
+  erp::MotorType motor_;
+  double radius_m_;
+};
+
+}  // namespace sim

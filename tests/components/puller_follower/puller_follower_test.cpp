@@ -1,0 +1,78 @@
+#include "components/puller_follower/puller_follower.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "sim/actuator/motor.hpp"
+
+using namespace control;
+
+namespace {
+
+const erp::Robot& rig() {
+  static const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml");
+  return robot;
+}
+
+}  // namespace
+
+TEST_CASE("the puller carries the torque, the follower keeps the reference tension") {
+  const Pair pair{{0.02, 0.04}};
+  for (const double torque : {-1.0, -0.3, 0.0, 0.2, 2.0}) {
+    const auto f = pair.tensions_N(torque, 5);
+    CHECK(f[0] * 0.02 - f[1] * 0.04 == Approx(torque).margin(1e-12));
+    CHECK(std::min(f[0], f[1]) == Approx(5));
+  }
+}
+
+TEST_CASE("the reference tension is low where one pulls, and high at a change and just before it") {
+  const ReferenceTension reference{4, 15, 0.2, 0.1};
+  CHECK(reference.of(1, 0) == 4);
+  CHECK(reference.of(-1, 0) == 4);
+  CHECK(reference.of(0, 0) == 15);
+  CHECK(reference.of(0.5, -6) == 15);  // in 0.1 s it will have changed
+  CHECK(reference.of(0.5, 6) == 4);
+  const double near = reference.of(0.1, 0);
+  CHECK(near > 4);
+  CHECK(near < 15);
+}
+
+TEST_CASE("a tension below its reference is wound, and the more the farther it is off") {
+  const erp::Actuator& flexor = rig().actuators[0];
+  const TensionLinearisation law({rig().motor_of(flexor), flexor.spindle.radius_m},
+                                 sim::Spring::of(flexor.tendon), 60);
+  const double still = law.voltage_V({10, 0, 0, 0}, {10, 0, 0});
+  CHECK(law.voltage_V({10, 0, 0, 0}, {12, 0, 0}) > still);
+  CHECK(law.voltage_V({10, 0, 0, 0}, {14, 0, 0}) > law.voltage_V({10, 0, 0, 0}, {12, 0, 0}));
+  CHECK(law.voltage_V({10, 0, 0, 0}, {8, 0, 0}) < still);
+  // A path that gets longer stretches the tendon: the line is let out.
+  CHECK(law.voltage_V({10, 0, 0.01, 0}, {10, 0, 0}) < still);
+}
+
+TEST_CASE("a motor's inverse gives the voltage at which the motor turns as wanted") {
+  const erp::Actuator& flexor = rig().actuators[0];
+  const auto& type = rig().motor_of(flexor);
+  const sim::Motor motor(type, flexor.spindle.radius_m);
+  const sim::MotorInverse inverse(type, flexor.spindle.radius_m);
+  for (const double speed : {-4.0, -1.0, 1.0, 4.0})
+    for (const double tension : {5.0, 60.0}) {
+      sim::MotorState state{inverse.current_A(tension, speed, 0), speed, 0};
+      const double voltage = inverse.voltage_V(tension, speed, 0);
+      for (int k = 0; k < 200; ++k) state = sim::step(motor, state, voltage, tension, 0.001);
+      INFO(speed << " rad/s, " << tension << " N");
+      CHECK(state.speed_rad_per_s == Approx(speed).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a robot that is no single hinge with two antagonists is refused, with a remedy") {
+  const erp::Robot arm = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
+  CHECK_THROWS_WITH(PullerFollower({}, arm),
+                    Catch::Contains("\"arm\"") && Catch::Contains("computed_force"));
+  PullerFollower::Params params;
+  params.high_N = 1;
+  CHECK_THROWS_WITH(PullerFollower(params, rig()), Catch::Contains("high_N"));
+}
+
+TEST_CASE("without a target, or with a tendon that is not measured, it says nothing") {
+  PullerFollower control({}, rig());
+  CHECK_FALSE(control.step({}, 0.002, {}, {}));
+}
