@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <ostream>

@@ -1,10 +1,11 @@
 #include "sim/actuator/holding.hpp"
 
+#include <Eigen/LU>
+#include <cmath>
 #include <stdexcept>
 
 #include "sim/actuator/musculoskeletal.hpp"
 #include "sim/actuator/spring.hpp"
-#include "sim/actuator/tension_share.hpp"
 
 namespace sim {
 
@@ -13,13 +14,26 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// No tendon has a most here: what is asked of a robot is not what it may be asked.
-TensionShare share_of(Eigen::Index actuators, int coordinates, const HoldingOptions& options) {
-  constexpr double no_most_N = 1e9;
-  return {
-      {VectorXd::Ones(actuators), VectorXd::Constant(actuators, options.rest_N),
-       VectorXd::Constant(actuators, options.least_N), VectorXd::Constant(actuators, no_most_N)},
-      coordinates};
+/// f = max(f_min, f_rest + J λ) with Jᵀ f = b.
+VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options) {
+  VectorXd lambda = VectorXd::Zero(j.cols());
+  const auto tensions = [&](const VectorXd& at) {
+    return VectorXd((j * at).array().max(options.least_N - options.rest_N) + options.rest_N);
+  };
+  for (int k = 0; k < 200; ++k) {
+    const VectorXd f = tensions(lambda), missing = b - j.transpose() * f;
+    if (missing.norm() < 1e-10) break;
+    const VectorXd pulls = ((j * lambda).array() > options.least_N - options.rest_N).cast<double>();
+    MatrixXd slope = j.transpose() * pulls.asDiagonal() * j;
+    slope.diagonal().array() += 1e-9 + 1e-6 * slope.diagonal().maxCoeff();
+    const VectorXd newton = slope.fullPivLu().solve(missing);
+    double size = 1;
+    while (size > 1e-6 &&
+           (b - j.transpose() * tensions(lambda + size * newton)).norm() > missing.norm())
+      size /= 2;
+    lambda += size * newton;
+  }
+  return tensions(lambda);
 }
 
 }  // namespace
@@ -55,10 +69,9 @@ Holding PoseHolder::hold(const Pose& pose, const HoldingOptions& options) {
   const MatrixXd& jacobian = inside_->model.jacobian();
   VectorXd gravity_Nm;
   inside_->model.skeleton().gravity_torques(gravity_Nm);
-  TensionShare share = share_of(jacobian.rows(), inside_->model.coordinates(), options);
-  const VectorXd f = share.share(jacobian, gravity_Nm);
+  const VectorXd f = balance(jacobian, -gravity_Nm, options);
   Holding holding;
-  holding.unbalanced_Nm = share.missing().norm();
+  holding.unbalanced_Nm = (jacobian.transpose() * f + gravity_Nm).norm();
   for (Eigen::Index i = 0; i < f.size(); ++i) {
     const erp::Tendon& tendon = inside_->robot.actuators[static_cast<std::size_t>(i)].tendon;
     const Spring spring = Spring::of(tendon);

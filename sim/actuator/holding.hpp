@@ -11,7 +11,7 @@
 ///
 /// q0, f0: the robot's starting pose and pretensions. With the lines at these lengths the tendons
 /// pull with f at q, so the pose is an equilibrium of length control.
-/// Where no tensions hold it, those that miss it least: `tension_share.hpp`.
+/// Solved on the dual: f = max(f_min, f_rest + J λ), by damped Newton steps in λ.
 namespace sim {
 
 struct HoldingOptions {

@@ -4,9 +4,12 @@
 #include <functional>
 #include <map>
 
+#include "components/computed_force/computed_force.hpp"
 #include "components/follow/follow.hpp"
 #include "components/logger/logger_node.hpp"
 #include "components/plant/plant.hpp"
+#include "components/puller_follower/puller_follower.hpp"
+#include "components/reference/joint_player.hpp"
 #include "components/reference/reference.hpp"
 #include "components/replay/replay_node.hpp"
 #include "hal/can/gateway_node.hpp"
@@ -33,11 +36,14 @@ Kind kind_of() {
 }
 
 const std::map<std::string, Kind> kinds{
+    {"computed_force", kind_of<control::ComputedForce::Params>()},
     {"force_control", kind_of<follow::Params>()},
     {"gateway", kind_of<can::GatewayNode::Params>()},
+    {"joint_target", kind_of<reference::JointPlayer::Params>()},
     {"length_control", kind_of<follow::Params>()},
     {"logger", kind_of<logger::LoggerNode::Params>()},
     {"plant", kind_of<plant::Plant::Params>()},
+    {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},
     {"replay", kind_of<replay::ReplayNode::Params>()},
     {"sim", kind_of<sim::SimNode::Params>()},
