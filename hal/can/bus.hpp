@@ -79,4 +79,8 @@ struct BusOptions {
 /// Throws std::runtime_error with the specification, what is wrong with it, and the remedy.
 std::unique_ptr<CanBus> open_bus(const std::string& specification, const BusOptions& options = {});
 
+/// The bus of this machine that a graph and its ECUs meet on where nothing else is said:
+/// udp:239.255.42.1:20000, and 16 ports on, one a bus, for each ERP_DOMAIN.
+std::string own_bus();
+
 }  // namespace erp

@@ -1,5 +1,6 @@
 #include <array>
 #include <charconv>
+#include <cstdlib>
 
 #include "hal/can/backends.hpp"
 
@@ -37,7 +38,15 @@ std::unique_ptr<CanBus> open_by_name(const std::string& specification, const Bus
   throw std::invalid_argument("unknown back end \"" + backend + "\"; " + usage);
 }
 
+constexpr int first_port = 20000, ports_a_domain = 16;  // chosen
+
 }  // namespace
+
+std::string own_bus() {
+  const char* domain = std::getenv("ERP_DOMAIN");
+  const int port = first_port + ports_a_domain * (domain ? std::atoi(domain) : 0);
+  return "udp:239.255.42.1:" + std::to_string(port);
+}
 
 const char* name_of(BusState state) {
   static constexpr std::array names{"active", "warning", "passive", "bus-off", "down"};

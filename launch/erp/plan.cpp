@@ -1,11 +1,10 @@
 #include "launch/erp/plan.hpp"
 
-#include <cstdlib>
-
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
+#include "hal/can/bus.hpp"
 #include "interfaces/xml/errors.hpp"
 #include "interfaces/xml/words.hpp"
 #include "launch/erp/program.hpp"
@@ -35,14 +34,8 @@ bool is_device_type(const std::string& type) {
   return type == "sim" || type == "gateway" || type == "replay";
 }
 
-constexpr int ports_a_domain = 16;  // one a bus; chosen
-
-/// The default bus is shared by the whole machine, so each ERP_DOMAIN gets ports of its own.
 std::string bus_of(const erp::Graph& graph) {
-  if (graph.bus != erp::Graph{}.bus) return graph.bus;
-  const char* domain = std::getenv("ERP_DOMAIN");
-  return "udp:239.255.42.1:" +
-         std::to_string(20000 + ports_a_domain * (domain ? std::atoi(domain) : 0));
+  return graph.bus != erp::Graph{}.bus ? graph.bus : erp::own_bus();
 }
 
 bool needs_robot_behind_bus(const erp::Graph& graph) {

@@ -79,3 +79,13 @@ TEST_CASE("a CAN interface that is not there is refused with the way to one that
       Catch::Contains("this kernel has no SocketCAN; use udp:239.255.42.1:20000") ||
           Catch::Contains("no interface \"nowhere0\"; `ip -br link show type can` lists them"));
 }
+
+TEST_CASE("each ERP_DOMAIN has ports of its own, as many as a robot may have buses") {
+  const char* before = std::getenv("ERP_DOMAIN");
+  const std::string domain = before ? before : "0";
+  setenv("ERP_DOMAIN", "0", 1);
+  CHECK(erp::own_bus() == "udp:239.255.42.1:20000");
+  setenv("ERP_DOMAIN", "3", 1);
+  CHECK(erp::own_bus() == "udp:239.255.42.1:20048");
+  setenv("ERP_DOMAIN", domain.c_str(), 1);
+}
