@@ -171,6 +171,12 @@ class Bench {
     }
     return since;
   }
+  /// When an ECU's next period drove its pins; 0: it has not yet.
+  std::int64_t next_period(std::int64_t from_ns, int ecu = 0) {
+    for (const auto& drive : pins().drives_since(from_ns))
+      if (drive.ecu == ecu) return drive.at_ns;
+    return 0;
+  }
   /// When an ECU first said that fault.
   std::int64_t emergency(std::int64_t from_ns, int fault) {
     return ear_->first(from_ns, [&](const erp::CanFrame& frame) {

@@ -120,12 +120,14 @@ TEST_CASE("over-temperature") {
 
 TEST_CASE("loop overrun, and bus-off at an ECU") {
   Bench bench;
-  Row overrun("loop overrun", "PWM 0, of three in a row", 8);
+  // Three periods of 2 ms, and one tick to notice, from where the first that overruns begins.
+  Row overrun("loop overrun, three in a row", "PWM 0", 3 * 2 + 2);
   Row off("bus-off at an ECU", "PWM 0", 4),
       rejoined("bus-off at an ECU", "rejoined, disarmed", 100);
   for (int k = 0; k < injections(); ++k) {
     bench.settle();
     auto from = bench.pins().befall(0, WIRE_MISHAP_BUSY, 6);
+    from = bench.await([&] { return bench.next_period(from); });
     CHECK(bench.await([&] { return bench.emergency(from, ECU_FAULT_OVERRUN); }) != 0);
     overrun.add(from, bench.await([&] { return bench.pwm_off(from); }));
     bench.say_off();
