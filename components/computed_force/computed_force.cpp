@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace control {
 namespace {
@@ -26,6 +27,12 @@ Eigen::Matrix3d into_own(const sim::JointReading& now, const sim::JointReading& 
   return (turn(now).conjugate() * turn(wanted)).toRotationMatrix();
 }
 
+/// The file of the muscles, beside the config that names it.
+std::string beside(const ComputedForce::Params& params) {
+  if (params.muscles.empty()) return "";
+  return (std::filesystem::path(params.place.file).parent_path() / params.muscles).string();
+}
+
 }  // namespace
 
 ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
@@ -33,6 +40,7 @@ ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
       robot_(robot),
       names_(robot),
       model_(robot),
+      source_(jacobian_source(params.jacobian, beside(params), robot, model_)),
       share_(sim::likes_of(robot, params.liking, params.least_N), model_.coordinates()),
       now_(names_.size()),
       wanted_(names_.size()),
@@ -66,7 +74,9 @@ std::optional<erp::ActuatorCommand> ComputedForce::step(
   torque_.noalias() += inertia_ * acceleration_;
   add_friction();
   count_lost(frame);
-  return command(share_.share(model_.jacobian(), torque_), dt_s);
+  source_->hear(now_, frame);
+  const Eigen::MatrixXd& jacobian = source_->at(now_);
+  return command(jacobian, share_.share(jacobian, torque_), dt_s);
 }
 
 /// a_ref, joint by joint.
@@ -117,10 +127,11 @@ void ComputedForce::count_lost(const erp::SensorFrame& frame) {
     }
 }
 
-erp::ActuatorCommand ComputedForce::command(const Vector& tension_N, double dt_s) {
+erp::ActuatorCommand ComputedForce::command(const Eigen::MatrixXd& jacobian,
+                                            const Vector& tension_N, double dt_s) {
   erp::ActuatorCommand command;
-  line_rate_.noalias() = model_.jacobian() * speed_d_;
-  line_acceleration_.noalias() = model_.jacobian() * acceleration_d_;
+  line_rate_.noalias() = jacobian * speed_d_;
+  line_acceleration_.noalias() = jacobian * acceleration_d_;
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
     const auto i = static_cast<Eigen::Index>(a);
     const double rate = last_N_[i] >= 0 && dt_s > 0 ? (tension_N[i] - last_N_[i]) / dt_s : 0;

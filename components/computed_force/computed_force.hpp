@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "components/computed_force/jacobian_source.hpp"
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
 #include "sim/actuator/force_reference.hpp"
@@ -22,7 +23,10 @@ namespace control {
 class ComputedForce {
  public:
   struct Params {
+    xml::Place place;
     sim::Liking liking = sim::Liking::least_tension;
+    JacobianKind jacobian = JacobianKind::analytic;
+    std::string muscles;     ///< of a learnt Jacobian: its file, relative to the config
     double least_N = 5;      ///< no tendon goes slack; chosen
     double kp_per_s2 = 100;  ///< (10 /s)², critically damped with kd; chosen
     double kd_per_s = 20;
@@ -35,6 +39,8 @@ class ComputedForce {
     double stale_s = 0.05;       ///< older states and targets are no longer followed; chosen
     void visit(auto& v) {
       v("liking", liking);
+      v("jacobian", jacobian);
+      v("muscles", muscles);
       v("least_N", least_N, xml::at_least_zero);
       v("kp_per_s2", kp_per_s2, xml::at_least_zero);
       v("kd_per_s", kd_per_s, xml::at_least_zero);
@@ -48,8 +54,10 @@ class ComputedForce {
     }
   };
 
-  /// Throws std::invalid_argument as Musculoskeletal and likes_of.
+  /// Throws std::invalid_argument as Musculoskeletal and likes_of, and as jacobian_source.
   ComputedForce(const Params& params, const erp::Robot& robot);
+  ComputedForce(const ComputedForce&) = delete;
+  ComputedForce& operator=(const ComputedForce&) = delete;
 
   bool wants(const erp::JointState& state) const { return params_.source == state.source; }
   /// Nothing while joints or target are not known or stale: the plant then takes its safe action.
@@ -62,12 +70,14 @@ class ComputedForce {
   void wanted_acceleration(double dt_s);
   void add_friction();
   void count_lost(const erp::SensorFrame& frame);
-  erp::ActuatorCommand command(const Vector& tension_N, double dt_s);
+  erp::ActuatorCommand command(const Eigen::MatrixXd& jacobian, const Vector& tension_N,
+                               double dt_s);
 
   Params params_;
   erp::Robot robot_;
   joints::Names names_;
   sim::Musculoskeletal model_;
+  std::unique_ptr<JacobianSource> source_;
   sim::TensionShare share_;
   std::vector<sim::JointReading> now_;
   std::vector<sim::JointMotion> wanted_;
@@ -81,6 +91,14 @@ class ComputedForce {
 
 }  // namespace control
 
+template <>
+struct xml::Names<control::JacobianKind> {
+  static constexpr auto list = std::to_array<std::pair<const char*, control::JacobianKind>>(
+      {{"analytic", control::JacobianKind::analytic},
+       {"network", control::JacobianKind::network},
+       {"difference", control::JacobianKind::difference},
+       {"on_line", control::JacobianKind::on_line}});
+};
 template <>
 struct xml::Names<sim::Liking> {
   static constexpr auto list = std::to_array<std::pair<const char*, sim::Liking>>(

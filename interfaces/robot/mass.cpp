@@ -73,12 +73,9 @@ Mass given_mass(const Body& body) {
 }
 }  // namespace
 
-Mass mass_of(const Body& body) {
-  if (!made_of_parts(body)) return given_mass(body);
-  const double density = body.density_kg_per_m3.value_or(0);
-  Mass sum;  // about the body's origin, until the end
-  for (const Part& part : body.parts) {
-    Mass mass = std::visit([&](const auto& p) { return of_part(p, density); }, part);
+Mass together(std::vector<Mass> masses) {
+  Mass sum;  // about the origin of the axes, until the end
+  for (Mass& mass : masses) {
     shift(mass, mass.com_m, 1);
     sum.mass_kg += mass.mass_kg;
     for (std::size_t k = 0; k < 3; ++k) sum.com_m[k] += mass.mass_kg * mass.com_m[k];
@@ -88,6 +85,15 @@ Mass mass_of(const Body& body) {
   for (double& c : sum.com_m) c /= sum.mass_kg;
   shift(sum, sum.com_m, -1);
   return sum;
+}
+
+Mass mass_of(const Body& body) {
+  if (!made_of_parts(body)) return given_mass(body);
+  const double density = body.density_kg_per_m3.value_or(0);
+  std::vector<Mass> masses;
+  for (const Part& part : body.parts)
+    masses.push_back(std::visit([&](const auto& p) { return of_part(p, density); }, part));
+  return together(std::move(masses));
 }
 
 }  // namespace erp

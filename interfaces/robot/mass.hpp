@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <vector>
 
 #include "interfaces/robot/skeleton.hpp"
 
@@ -16,6 +17,9 @@ struct Mass {
 /// Of a body as robot.xml gives it: either its mass_kg, com_m and inertia_kg_m2, or the sum of its
 /// solids times density and of its weights. Solids that overlap count twice.
 Mass mass_of(const Body& body);
+
+/// Of all, fixed to each other; in the axes they share.
+Mass together(std::vector<Mass> masses);
 
 /// Whether its mass follows from its parts.
 bool made_of_parts(const Body& body);

@@ -62,7 +62,7 @@ ModelFigures figures_of(const erp::Robot& robot) {
     ecus.insert(actuator.ecu);
   }
   f.ecus = static_cast<int>(ecus.size());
-  f.buses = ecus.empty() ? 0 : 1;  // all ECUs of a robot share one
+  f.buses = ecus.empty() ? 0 : static_cast<int>(robot.buses().size());
   return f;
 }
 

@@ -5,9 +5,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "launch/erp/loops.hpp"
 #include "launch/erp/model.hpp"
-#include "launch/text/text_files.hpp"
+#include "launch/erp/muscles.hpp"
 #include "launch/erp/verbs.hpp"
+#include "launch/text/text_files.hpp"
 
 namespace launch {
 
@@ -61,6 +63,52 @@ void add_statics(CLI::App& model, Chosen& chosen) {
   });
 }
 
+void add_loops(CLI::App& model, Chosen& chosen) {
+  auto options = std::make_shared<ModelLoopsOptions>();
+  auto* verb = model.add_subcommand(
+      "loops", "Robust loops around its hinges, designed from the model; prints their margin");
+  verb->add_option("robot", options->robot, "robot.xml")->required();
+  verb->add_option("loops", options->loops, "their shape: <loops crossover_Hz=\"2.5\" …/>");
+  verb->add_option("--poses", options->poses, "CSV of postures in which they are tried");
+  verb->add_option("--out", options->out, "a picture of the loops: .svg or .png");
+  verb->callback([=, &chosen] { chosen = [=] { return model_loops(*options, std::cout); }; });
+}
+
+void add_muscles(CLI::App& model, Chosen& chosen) {
+  auto robot = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  auto how = std::make_shared<sim::learning::BabbleOptions>();
+  auto* babble = model.add_subcommand(
+      "babble", "Tendon forces at random: a trajectory for `target`, to learn muscles from");
+  babble->add_option("robot", *robot, "robot.xml")->required();
+  babble->add_option("--seconds", how->duration_s, "how long")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  babble->add_option("--seed", how->seed, "of what is drawn")->capture_default_str();
+  babble->add_option("--least", how->least_N, "no tendon pulls less, N")->capture_default_str();
+  babble->add_option("--mean", how->mean_N, "what each pulls more, on average, N")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  babble->add_option("--out", *out, "a file to write; else it is printed");
+  babble->callback([=, &chosen] {
+    chosen = [=] { return give(*out, [=](auto& to) { return model_babble(*robot, *how, to); }); };
+  });
+
+  auto options = std::make_shared<ModelMusclesOptions>();
+  auto* muscles = model.add_subcommand(
+      "muscles", "Learns from recordings how muscles' lengths change with the joints");
+  muscles->add_option("robot", options->robot, "robot.xml")->required();
+  muscles->add_option("recordings", options->recordings, "of the robot moving, its joints known")
+      ->required();
+  muscles->add_option("--units", options->units, "hidden units of each muscle's network")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 200));
+  muscles->add_option("--held-out", options->held_out, "share of each recording that only checks")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.9));
+  muscles->add_option("--out", options->out, "the new file of networks, for computed_force");
+  muscles->callback([=, &chosen] { chosen = [=] { return model_muscles(*options, std::cout); }; });
+}
+
 }  // namespace
 
 void add_model(CLI::App& app, Chosen& chosen) {
@@ -91,6 +139,8 @@ void add_model(CLI::App& app, Chosen& chosen) {
   import_verb->add_option("out", *out, "the new robot.xml")->required();
   import_verb->callback([=, &chosen] { chosen = [=] { return model_import(*robot, *out); }; });
   add_statics(*model, chosen);
+  add_loops(*model, chosen);
+  add_muscles(*model, chosen);
 
   auto part = std::make_shared<std::string>();
   auto* effects = model->add_subcommand(

@@ -9,6 +9,13 @@ namespace {
 
 Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
 
+Eigen::Matrix3d tensor(const erp::Mass& mass) {
+  const auto& i = mass.inertia_kg_m2;
+  Eigen::Matrix3d t;
+  t << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  return t;
+}
+
 }  // namespace
 
 SkeletonModel::SkeletonModel(const RobotTree& tree, const Vec3& gravity,
@@ -44,14 +51,19 @@ void SkeletonModel::add_link(int k, bool locked) {
   if (joint.type == erp::JointType::revolute)
     link.rotation = Eigen::AngleAxisd(joint.initial_rad, link.axis).toRotationMatrix();
   link.origin_m = vec(joint.at_m);
-  const auto& i = body.mass.inertia_kg_m2;
-  link.central_kg_m2 << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  link.central_kg_m2 = tensor(body.mass);
   if (link.dofs > 0) first_of_[body.joint] = link.first;
   for (int d = 0; d < link.dofs; ++d) movers_[k].push_back(link.first + d);
   std::ranges::copy(movers_[body.parent], std::back_inserter(movers_[k]));
   axes_.resize(6, link.first + link.dofs);
   link_of_[k] = static_cast<int>(links_.size());
   links_.push_back(link);
+}
+
+void SkeletonModel::set_mass(int body, const erp::Mass& mass) {
+  tree_.bodies[static_cast<std::size_t>(body)].mass = mass;
+  if (const int link = link_of_[static_cast<std::size_t>(body)]; link >= 0)
+    links_[static_cast<std::size_t>(link)].central_kg_m2 = tensor(mass);
 }
 
 void SkeletonModel::turn(Link& link, const JointReading& joint) const {

@@ -39,6 +39,8 @@ class SkeletonModel {
   /// S_d.
   auto axis(int coordinate) const { return axes_.col(coordinate); }
 
+  /// Gives a body another mass; counts from the next `place` on.
+  void set_mass(int body, const erp::Mass& mass);
   /// Moves the bones there; all that follows is of this posture and these velocities.
   void place(std::span<const JointReading> joints);
   std::span<const BodyPose> poses() const { return poses_; }

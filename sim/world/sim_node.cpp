@@ -49,6 +49,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     : node_(node),
       world_(robot, world_options(params)),
       mishaps_(params.mishaps, robot),
+      grasps_(params.grasps, world_),
       ecus_(robot, ecu_options(params)),
       imus_(world_, static_cast<std::uint64_t>(params.seed), tick_s),
       joints_out_(node.advertise<erp::JointState>()),
@@ -150,6 +151,10 @@ void SimNode::tick() {
   for (const Mishap* begun : mishaps_.beginning(world_.time_s(), tick_s))
     node_.report(erp::Severity::info, begun->on, "mishap",
                  xml::Codec<MishapKind>::write(begun->kind));
+  for (const Grasp* changed : grasps_.befall(world_))
+    node_.report(erp::Severity::info, changed->body, "grasp",
+                 (changed->holds(world_.time_s()) ? "takes up " : "lets go ") +
+                     xml::Codec<double>::write(changed->mass_kg) + " kg");
   if (outside_) say_outside();
   else ecus_.tick(world_);
   watch_world();

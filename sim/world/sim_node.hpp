@@ -8,6 +8,7 @@
 #include "components/node/node.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "sim/world/bus_front.hpp"
+#include "sim/world/grasps.hpp"
 #include "sim/world/imus.hpp"
 #include "sim/world/outside_ecus.hpp"
 #include "sim/world/virtual_ecus.hpp"
@@ -42,6 +43,7 @@ class SimNode {
     std::string converter_lines;  ///< and over these serial devices; with neither they are in here
     std::vector<Lock> locks;      ///< joints held still
     std::vector<Mishap> mishaps;  ///< what breaks, and when
+    std::vector<Grasp> grasps;    ///< what is taken up, and when
     bool ecus_outside() const { return converter_port > 0 || !converter_lines.empty(); }
     void visit(auto& v) {
       v("physics_Hz", physics_Hz, xml::Range{500, 20000});
@@ -51,6 +53,7 @@ class SimNode {
       v("converter_lines", converter_lines);
       v.list(locks);
       v.list(mishaps);
+      v.list(grasps);
     }
   };
 
@@ -79,6 +82,7 @@ class SimNode {
   node::Node& node_;
   World world_;
   Mishaps mishaps_;
+  Grasps grasps_;
   VirtualEcus ecus_;
   std::unique_ptr<OutsideEcus> outside_;                ///< null: the ECUs are in here
   int alive_said_ = 0;                                  ///< ECUs outside

@@ -29,6 +29,7 @@ void World::reset() {
       throw std::invalid_argument("actuator \"" + actuator.name + "\": " + error.what());
     }
   readings_.assign(chains_.size(), {});
+  carried_.clear();
   make_solver();
   time_s_ = time_rest_s_ = 0;
   unsettled_ = 0, sound_ = true;
@@ -219,7 +220,7 @@ void World::pass_time(double dt_s) {
 
 WorldState World::save() const {
   WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}, {},
-                   {}};
+                   {},      carried_};
   for (const Chain& chain : chains_) {
     state.motors.push_back(chain.state);
     state.snapped.push_back(chain.snapped);
@@ -254,8 +255,29 @@ void World::restore(const WorldState& state) {
     restore_effects(chains_[k], memories);
   }
   for (JointEffects& joint : joint_effects_) joint.acting.restore(memories);
+  if (!carried_.empty() || !state.carried.empty()) carry(state.carried);
   bones_->place(state.joints);
   read();
+}
+
+void World::carry(std::vector<Carried> carried) {
+  for (const Carried& one : carried) {
+    const int joint = tree_.bodies.at(static_cast<std::size_t>(one.body)).joint;
+    const auto type =
+        joint < 0 ? erp::JointType::fixed : tree_.joints[static_cast<std::size_t>(joint)].type;
+    if (type != erp::JointType::revolute && type != erp::JointType::spherical)
+      throw std::invalid_argument("body \"" + tree_.names[static_cast<std::size_t>(one.body)] +
+                                  "\" cannot carry: no hinge or ball joint moves it");
+  }
+  carried_ = std::move(carried);
+  for (std::size_t k = 0; k < tree_.bodies.size(); ++k) {
+    erp::Mass mass = tree_.bodies[k].mass;
+    for (const Carried& one : carried_)
+      if (one.body == static_cast<int>(k))
+        mass = erp::together({mass, {one.mass_kg, {one.at_m[0], one.at_m[1], one.at_m[2]}, {}}});
+    model_->set_mass(static_cast<int>(k), mass);
+  }
+  model_->place(joints());
 }
 
 void World::set_joint(int joint, const JointReading& reading) {

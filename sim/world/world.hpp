@@ -56,6 +56,13 @@ struct ActuatorReading {
   double line_m = 0;  ///< change since the start; negative: wound up
 };
 
+/// Something held, of no size: `body` an index of `World::body_names`, the place in its frame.
+struct Carried {
+  int body = 0;
+  Vec3 at_m = Vec3::Zero();
+  double mass_kg = 0;
+};
+
 /// All that a world's future depends on.
 struct WorldState {
   double time_s = 0, time_rest_s = 0;  ///< the rest: what adding up has rounded away
@@ -66,6 +73,7 @@ struct WorldState {
   std::vector<RopeState> ropes;                                   ///< of the tendons that are ropes
   std::vector<effects::Memory> effects;                           ///< what they remember
   std::vector<bool> snapped;                                      ///< tendons that pull no more
+  std::vector<Carried> carried;
 };
 
 class World {
@@ -86,6 +94,9 @@ class World {
   void restore(const WorldState& state);
   /// Breaks a tendon: it pulls no more, until `reset`. Not for ropes.
   void snap(std::size_t actuator) { chains_[actuator].snapped = true; }
+  /// From now on the bodies carry this beside their own mass, and nothing else; until `reset`.
+  /// Throws std::invalid_argument for a body that no hinge or ball joint moves.
+  void carry(std::vector<Carried> carried);
   /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are. Ropes are laid
   /// anew.
   void set_joint(int joint, const JointReading& reading);
@@ -175,6 +186,7 @@ class World {
   std::vector<Chain> chains_;
   std::vector<JointEffects> joint_effects_;
   std::vector<ActuatorReading> readings_;
+  std::vector<Carried> carried_;
   double time_s_ = 0, time_rest_s_ = 0;
   long unsettled_ = 0;
   bool sound_ = true;

@@ -3,6 +3,7 @@
 
 #include "components/computed_force/computed_force.hpp"
 #include "components/pose_estimator/pose_estimator.hpp"
+#include "components/puller_follower/puller_follower.hpp"
 #include "tests/allocations.hpp"
 
 namespace {
@@ -60,6 +61,25 @@ TEST_CASE("computed force and the pose estimator do not touch the heap") {
     }
     const std::size_t after = tests::allocations();
     INFO(name);
+    CHECK(after == before);
+    CHECK(answered == 40);
+  }
+}
+
+TEST_CASE("puller-follower does not touch the heap") {
+  Bench bench("seven_dof");
+  for (const auto law : {control::Law::linearised, control::Law::loop_shaping}) {
+    control::PullerFollower::Params params;
+    params.law = law;
+    control::PullerFollower control(params, bench.robot);
+    std::size_t before = 0;
+    int answered = 0;
+    for (int k = 0; k < 40; ++k) {
+      bench.wiggle(k);
+      if (k == 2) before = tests::allocations();
+      answered += control.step(bench.frame, 0.002, bench.state, bench.target).has_value();
+    }
+    const std::size_t after = tests::allocations();
     CHECK(after == before);
     CHECK(answered == 40);
   }

@@ -34,7 +34,9 @@ const std::vector<Rule> rules{
      {"interfaces/", "components/node/", "sim/diagnosis/", "sim/residuals/", "sim/effects/"}},
     {"components/",
      {"interfaces/", "components/node/", "components/joints/", "firmware/core/", "sim/actuator/",
-      "sim/skeleton/"}},
+      "sim/learning/", "sim/loop_shaping/", "sim/skeleton/"}},
+    {"sim/learning/", {"interfaces/", "sim/actuator/", "sim/skeleton/"}},
+    {"sim/loop_shaping/", {"interfaces/", "sim/actuator/", "sim/skeleton/"}},
     {"sim/actuator/", {"interfaces/", "firmware/core/", "sim/effects/", "sim/skeleton/"}},
     {"sim/residuals/",
      {"interfaces/", "firmware/core/", "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
@@ -54,7 +56,7 @@ const std::vector<Rule> rules{
       "sim/rehearsal/", "sim/residuals/", "sim/effects/"}},
     {"launch/erp/",
      {"interfaces/", "components/node/", "launch/text/", "launch/gap/", "hal/can/", "sim/formats/",
-      "sim/effects/", "sim/actuator/", "sim/skeleton/"}},
+      "sim/effects/", "sim/actuator/", "sim/learning/", "sim/loop_shaping/", "sim/skeleton/"}},
 };
 
 // Headers of others that have one home.

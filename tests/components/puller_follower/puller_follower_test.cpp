@@ -63,13 +63,44 @@ TEST_CASE("a motor's inverse gives the voltage at which the motor turns as wante
     }
 }
 
-TEST_CASE("a robot that is no single hinge with two antagonists is refused, with a remedy") {
+TEST_CASE("a robot with ball joints or muscles over two joints is refused, with a remedy") {
   const erp::Robot arm = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
-  CHECK_THROWS_WITH(PullerFollower({}, arm),
-                    Catch::Contains("\"arm\"") && Catch::Contains("computed_force"));
+  CHECK_THROWS_WITH(PullerFollower({}, arm), Catch::Contains("\"shoulder\" is no hinge"));
+  erp::Robot lonely = rig();
+  lonely.actuators.pop_back();
+  CHECK_THROWS_WITH(PullerFollower({}, lonely),
+                    Catch::Contains("two antagonists") && Catch::Contains("computed_force"));
   PullerFollower::Params params;
-  params.high_N = 1;
+  params.drives.high_N = 1;
   CHECK_THROWS_WITH(PullerFollower(params, rig()), Catch::Contains("high_N"));
+}
+
+TEST_CASE(
+    "each law asks a joint that lags behind for more torque, and holds it where it should be") {
+  const erp::Robot seven = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
+  sim::Musculoskeletal model(seven);
+  const int n = model.coordinates();
+  Dynamics dynamics(n);
+  dynamics.take(model.skeleton());
+  for (const Law kind : {Law::linearised, Law::loop_shaping, Law::pd}) {
+    INFO(int(kind));
+    const auto law = law_of(kind, {}, model);
+    JointErrors errors(n);
+    law->begin();
+    CHECK((law->torque_Nm(errors, dynamics, 0.002) - dynamics.gravity).norm() < 1e-9);
+    errors.error_rad[3] = 0.1;
+    Eigen::VectorXd torque = law->torque_Nm(errors, dynamics, 0.002);
+    for (int k = 0; k < 20; ++k) torque = law->torque_Nm(errors, dynamics, 0.002);
+    CHECK(torque[3] > dynamics.gravity[3] + 0.01);
+  }
+}
+
+TEST_CASE("loops of a shape that cannot be had are refused") {
+  sim::Musculoskeletal model(rig());
+  LawParams late;
+  late.shape.delay_s = 1e-12;  // a pole at 2e12 /s: no numbers for that
+  late.shape.crossover_Hz = 1e9;
+  CHECK_THROWS_AS(law_of(Law::loop_shaping, late, model), std::invalid_argument);
 }
 
 TEST_CASE("without a target, or with a tendon that is not measured, it says nothing") {

@@ -41,6 +41,7 @@ const std::map<std::string, Kind> kinds{
     {"gateway", kind_of<can::GatewayNode::Params>()},
     {"joint_target", kind_of<reference::JointPlayer::Params>()},
     {"length_control", kind_of<follow::Params>()},
+    {"loops", kind_of<sim::loop_shaping::JointShape>()},
     {"logger", kind_of<logger::LoggerNode::Params>()},
     {"plant", kind_of<plant::Plant::Params>()},
     {"puller_follower", kind_of<control::PullerFollower::Params>()},

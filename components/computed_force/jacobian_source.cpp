@@ -1,0 +1,114 @@
+#include "components/computed_force/jacobian_source.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "interfaces/xml/xml.hpp"
+#include "sim/actuator/spring.hpp"
+#include "sim/learning/learnt_lengths.hpp"
+#include "sim/learning/length_learner.hpp"
+
+namespace control {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Joints = std::span<const sim::JointReading>;
+namespace learning = sim::learning;
+
+class Analytic : public JacobianSource {
+ public:
+  explicit Analytic(const sim::Musculoskeletal& model) : model_(model) {}
+  const MatrixXd& at(Joints) override { return model_.jacobian(); }
+
+ private:
+  const sim::Musculoskeletal& model_;
+};
+
+class Network : public JacobianSource {
+ public:
+  Network(learning::LearntLengths lengths, bool by_difference)
+      : lengths_(std::move(lengths)), by_difference_(by_difference) {}
+  const MatrixXd& at(Joints joints) override {
+    return by_difference_ ? lengths_.jacobian_by_difference(joints) : lengths_.jacobian(joints);
+  }
+
+ private:
+  learning::LearntLengths lengths_;
+  bool by_difference_;
+};
+
+/// A base, and what the robot adds to it.
+class OnLine : public JacobianSource {
+ public:
+  OnLine(const erp::Robot& robot, const sim::Musculoskeletal& model,
+         std::unique_ptr<learning::LearntLengths> network)
+      : robot_(robot),
+        model_(model),
+        network_(std::move(network)),
+        learner_({model.tree().joints, model.skeleton()},
+                 static_cast<Eigen::Index>(robot.actuators.size()), {}),
+        beside_m_(static_cast<Eigen::Index>(robot.actuators.size())),
+        jacobian_(model.jacobian()) {
+    for (const erp::Actuator& actuator : robot.actuators)
+      springs_.push_back(sim::Spring::of(actuator.tendon));
+  }
+
+  void hear(Joints joints, const erp::SensorFrame& frame) override {
+    if (!measure(frame)) return;
+    beside_m_ -= network_ ? network_->length_m(joints) : model_.length_m();
+    learner_.hear(joints, beside_m_);
+  }
+  const MatrixXd& at(Joints joints) override {
+    jacobian_ = network_ ? network_->jacobian(joints) : model_.jacobian();
+    jacobian_ += learner_.jacobian(joints);
+    return jacobian_;
+  }
+
+ private:
+  static constexpr double taut_N = 2;  // chosen: slacker, a line tells nothing of its path
+
+  /// Lengths of the paths by what the actuators say, up to constants. False: not all are known.
+  bool measure(const erp::SensorFrame& frame) {
+    constexpr auto needed = erp::valid::shaft | erp::valid::tension;
+    std::size_t known = 0;
+    for (const erp::ActuatorSample& sample : erp::samples(frame.actuators))
+      for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
+        if (robot_.actuators[a].name != sample.name) continue;
+        if ((sample.valid & needed) != needed || !(sample.tension_N > taut_N)) return false;
+        beside_m_[static_cast<Eigen::Index>(a)] =
+            springs_[a].stretch_m(sample.tension_N) -
+            robot_.actuators[a].spindle.radius_m * sample.shaft_rad;
+        ++known;
+      }
+    return known == robot_.actuators.size();
+  }
+
+  erp::Robot robot_;
+  const sim::Musculoskeletal& model_;
+  std::unique_ptr<learning::LearntLengths> network_;
+  learning::LengthLearner learner_;
+  std::vector<sim::Spring> springs_;
+  VectorXd beside_m_;
+  MatrixXd jacobian_;
+};
+
+}  // namespace
+
+std::unique_ptr<JacobianSource> jacobian_source(JacobianKind kind, const std::string& file,
+                                                const erp::Robot& robot,
+                                                const sim::Musculoskeletal& model) {
+  if (kind == JacobianKind::analytic) return std::make_unique<Analytic>(model);
+  std::unique_ptr<learning::LearntLengths> network;
+  if (!file.empty())
+    network =
+        std::make_unique<learning::LearntLengths>(robot, xml::read<learning::LearntMuscles>(file));
+  if (kind == JacobianKind::on_line)
+    return std::make_unique<OnLine>(robot, model, std::move(network));
+  if (!network)
+    throw std::invalid_argument(
+        "a learnt Jacobian needs `muscles`: a file that `erp model muscles` has written");
+  return std::make_unique<Network>(std::move(*network), kind == JacobianKind::difference);
+}
+
+}  // namespace control

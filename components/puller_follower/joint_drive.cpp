@@ -1,0 +1,125 @@
+#include "components/puller_follower/joint_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace control {
+namespace {
+
+constexpr double lever_m = 1e-4;  // chosen: below, a tendon runs through the joint's axis
+
+/// The actuators that turn a hinge, the one towards positive angles first.
+std::array<std::size_t, 2> antagonists(const erp::Robot& robot, const sim::Musculoskeletal& model,
+                                       const sim::loop_shaping::Hinge& hinge) {
+  const auto& l = model.jacobian();
+  std::vector<std::size_t> found;
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const auto row = l.row(static_cast<Eigen::Index>(a));
+    if (std::abs(row[hinge.coordinate]) < lever_m) continue;
+    if ((row.array().abs() >= lever_m).count() > 1)
+      throw std::invalid_argument("actuator \"" + robot.actuators[a].name +
+                                  "\" turns more than one joint: puller-follower control knows "
+                                  "none such; there is computed_force");
+    found.push_back(a);
+  }
+  const auto lever = [&](std::size_t k) {
+    return l(static_cast<Eigen::Index>(found[k]), hinge.coordinate);
+  };
+  if (found.size() != 2 || lever(0) * lever(1) > 0)
+    throw std::invalid_argument("joint \"" + hinge.name + "\" of robot \"" + robot.name +
+                                "\" has not exactly two antagonists; there is computed_force");
+  if (lever(0) > 0) std::swap(found[0], found[1]);  // it turns where it gets shorter
+  return {found[0], found[1]};
+}
+
+}  // namespace
+
+JointDrive::Tendon JointDrive::tendon_of(const erp::Robot& robot, std::size_t a) const {
+  const erp::Actuator& actuator = robot.actuators[a];
+  const erp::MotorType& motor = robot.motor_of(actuator);
+  return {a, actuator.name, motor.supply_V, actuator.max_tension_N,
+          TensionLinearisation(sim::MotorInverse(motor, actuator.spindle.radius_m),
+                               sim::Spring::of(actuator.tendon), params_.tension_per_s)};
+}
+
+JointDrive::JointDrive(const erp::Robot& robot, const sim::Musculoskeletal& model,
+                       const sim::loop_shaping::Hinge& hinge, const DriveParams& params)
+    : params_(params),
+      coordinate_(hinge.coordinate),
+      tendons_{tendon_of(robot, antagonists(robot, model, hinge)[0]),
+               tendon_of(robot, antagonists(robot, model, hinge)[1])} {}
+
+bool JointDrive::hear(const erp::SensorFrame& frame, double dt_s) {
+  constexpr auto needed = erp::valid::shaft | erp::valid::tension;
+  for (Tendon& tendon : tendons_) {
+    const auto said = erp::samples(frame.actuators);
+    const auto found =
+        std::ranges::find_if(said, [&](const auto& s) { return tendon.name == s.name; });
+    const bool valid = found != said.end() && (found->valid & needed) == needed;
+    if (valid) {
+      const bool moves = tendon.seen && dt_s > 0;
+      tendon.speed_rad_per_s = moves ? (found->shaft_rad - tendon.shaft_rad) / dt_s : 0;
+      tendon.shaft_rad = found->shaft_rad;
+      tendon.tension_N = found->tension_N;
+    }
+    tendon.seen = valid;
+  }
+  return tendons_[0].seen && tendons_[1].seen;
+}
+
+void JointDrive::begin(double torque_Nm) {
+  torque_ = {torque_Nm}, raised_N_ = params_.low_N, reference_ = {raised_N_};
+}
+
+void JointDrive::follow(double torque_Nm, double dt_s) {
+  torque_.follow(torque_Nm, dt_s, params_.smooth_s);
+  const ReferenceTension raised{params_.low_N, params_.high_N, params_.width_Nm, params_.lead_s};
+  const double most_N = params_.raise_N_per_s * dt_s;
+  raised_N_ += std::clamp(raised.of(torque_.value, torque_.rate) - raised_N_, -most_N, most_N);
+  reference_.follow(raised_N_, dt_s, params_.smooth_s);
+}
+
+void JointDrive::drive(double torque_Nm, double acceleration, const sim::Musculoskeletal& model,
+                       double dt_s, erp::ActuatorCommand& message) {
+  follow(torque_Nm, dt_s);
+  std::array<double, 2> lever_m;
+  for (std::size_t k = 0; k < 2; ++k)
+    lever_m[k] = model.jacobian()(static_cast<Eigen::Index>(tendons_[k].actuator), coordinate_);
+  const Pair pair{{std::abs(lever_m[0]), std::abs(lever_m[1])}};
+  const auto tension_N = pair.tensions_N(torque_.value, reference_.value);
+  const double speed = model.skeleton().velocity()[coordinate_];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const bool pulls = pair.positive_pulls(torque_.value) == (k == 0);
+    const double share = pulls ? (k == 0 ? 1 : -1) / pair.arm_m[k] : 0;  // dF_d/dτ
+    command(k, tension_N[k], share, speed, lever_m[k], acceleration, message);
+  }
+}
+
+void JointDrive::command(std::size_t which, double tension_N, double share, double speed,
+                         double lever_m, double acceleration, erp::ActuatorCommand& message) const {
+  const Tendon& t = tendons_[which];
+  const TensionLinearisation::Wanted wanted{std::min(tension_N, t.most_N),
+                                            reference_.rate + share * torque_.rate,
+                                            reference_.acceleration + share * torque_.acceleration};
+  const double asked_V = t.law.voltage_V(
+      {t.tension_N, t.speed_rad_per_s, lever_m * speed, lever_m * acceleration}, wanted);
+  erp::ActuatorReference reference{};
+  erp::assign(reference.name, t.name);
+  reference.mode = static_cast<std::uint8_t>(erp::Mode::voltage);
+  reference.reference = std::clamp(asked_V, -t.supply_V, t.supply_V);
+  erp::append(message.actuators, reference);
+}
+
+/// Two first-order lags in a row: value, and its first and second derivative.
+void JointDrive::Smooth::follow(double to, double dt_s, double smooth_s) {
+  // ẍ = (to − x) / T² − 2 ẋ / T, implicitly
+  const double T = smooth_s, h = dt_s;
+  acceleration = ((to - value) / (T * T) - 2 * rate / T - h * rate / (T * T)) /
+                 (1 + 2 * h / T + h * h / (T * T));
+  rate += h * acceleration;
+  value += h * rate;
+}
+
+}  // namespace control

@@ -1,0 +1,28 @@
+#pragma once
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "sim/learning/babble.hpp"
+
+/// `erp model babble`, `erp model muscles`: what the muscles' lengths do over postures, learnt.
+namespace launch {
+
+/// Prints a trajectory of tendon forces for `target`. Throws xml::Errors. Returns the exit code.
+int model_babble(const std::string& robot_file, const sim::learning::BabbleOptions& options,
+                 std::ostream& out);
+
+struct ModelMusclesOptions {
+  std::string robot;
+  std::vector<std::string> recordings;
+  std::string out;        ///< the new file of networks; empty: only tried
+  int units = 16;         ///< hidden ones a muscle
+  double held_out = 0.2;  ///< share of each recording, its end, that only checks
+};
+
+/// Learns a network a muscle, prints what it leaves, and how far torques by its Jacobian are off
+/// those of robot.xml; also of one learnt on line from the same samples. Throws xml::Errors,
+/// RecordingError, WriteError, std::invalid_argument. Returns the exit code.
+int model_muscles(const ModelMusclesOptions& options, std::ostream& out);
+
+}  // namespace launch
