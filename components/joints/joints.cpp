@@ -75,6 +75,25 @@ void Names::write(std::span<const sim::JointMotion> motions, erp::JointTarget& m
   }
 }
 
+void Names::write(std::span<const sim::JointReading> readings, const Eigen::VectorXd& variance_rad2,
+                  const sim::SkeletonModel& model, erp::JointState& message,
+                  const std::vector<bool>& known) const {
+  message.joints._length = 0;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const sim::JointReading& now = readings[j];
+    const int first = model.first_of(static_cast<int>(j));
+    const int turns = std::min(sim::coordinates_of(now.type), 3);
+    if (first < 0 || (!known.empty() && !known[j])) continue;
+    erp::JointStateSample sample{};
+    erp::assign(sample.name, joints_[j].name);
+    sample.dof = static_cast<std::uint8_t>(turns);
+    std::ranges::copy(now.position, sample.position);
+    std::ranges::copy(now.velocity_rad_per_s, sample.velocity_rad_per_s);
+    for (int d = 0; d < turns; ++d) sample.variance_rad2[d] = variance_rad2[first + d];
+    erp::append(message.joints, sample);
+  }
+}
+
 double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointMotion> b) {
   double most = 0;
   for (std::size_t j = 0; j < a.size(); ++j) {

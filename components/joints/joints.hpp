@@ -8,6 +8,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/topics.hpp"
 #include "sim/skeleton/joint_path.hpp"
+#include "sim/skeleton/skeleton_model.hpp"
 
 /// The joints of a robot, in its order, as they cross the bus by name.
 namespace joints {
@@ -23,6 +24,11 @@ class Names {
   bool read(const erp::JointState& message, std::vector<sim::JointReading>& readings) const;
   bool read(const erp::JointTarget& message, std::vector<sim::JointMotion>& motions) const;
   void write(std::span<const sim::JointMotion> motions, erp::JointTarget& message) const;
+  /// With variances by coordinate of the model. Joints that do not move are left out, and those that
+  /// are not `known`; empty: all are.
+  void write(std::span<const sim::JointReading> readings, const Eigen::VectorXd& variance_rad2,
+             const sim::SkeletonModel& model, erp::JointState& message,
+             const std::vector<bool>& known = {}) const;
 
  private:
   template <class Message, class Take>

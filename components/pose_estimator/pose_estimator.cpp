@@ -94,23 +94,11 @@ void PoseEstimator::see_capture(const node::Latest<erp::JointState>& capture) {
     filter_.see_joint(static_cast<int>(j), captured_[j].position, params_.capture_rad);
 }
 
-erp::JointState PoseEstimator::estimate() const {
+erp::JointState PoseEstimator::estimate() {
   erp::JointState state;
   erp::assign(state.source, "pose_estimator");
-  const auto variance = filter_.covariance().diagonal();
-  for (std::size_t j = 0; j < names_.size(); ++j) {
-    const sim::JointReading& now = filter_.joints()[j];
-    const int first = filter_.model().skeleton().first_of(static_cast<int>(j));
-    const int turns = std::min(sim::coordinates_of(now.type), 3);
-    if (first < 0) continue;
-    erp::JointStateSample sample{};
-    erp::assign(sample.name, names_.list()[j].name);
-    sample.dof = static_cast<std::uint8_t>(turns);
-    std::ranges::copy(now.position, sample.position);
-    std::ranges::copy(now.velocity_rad_per_s, sample.velocity_rad_per_s);
-    for (int d = 0; d < turns; ++d) sample.variance_rad2[d] = variance[first + d];
-    erp::append(state.joints, sample);
-  }
+  variance_rad2_ = filter_.covariance().diagonal().head(filter_.model().coordinates());
+  names_.write(filter_.joints(), variance_rad2_, filter_.model().skeleton(), state);
   return state;
 }
 

@@ -58,14 +58,14 @@ class PoseEstimator {
   void see_tendons();
   void see_joints(const erp::SensorFrame& frame);
   void see_capture(const node::Latest<erp::JointState>& capture);
-  erp::JointState estimate() const;
+  erp::JointState estimate();
 
   Params params_;
   erp::Robot robot_;
   joints::Names names_;
   PoseFilter filter_;
   std::vector<Tendon> tendons_;
-  Eigen::VectorXd tension_N_, length_rate_m_per_s_;
+  Eigen::VectorXd tension_N_, length_rate_m_per_s_, variance_rad2_;
   std::vector<sim::JointReading> captured_;
   std::int64_t captured_ns_ = 0;
 };

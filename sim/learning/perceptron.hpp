@@ -22,8 +22,7 @@ struct Perceptron {
 
 struct FitOptions {
   int most_steps = 200;
-  double decay =
-      1e-4;  ///< how much the sum of squared weights counts, beside the mean square error
+  double decay = 1e-7;  ///< what the sum of squared weights counts, beside the mean square error
 };
 /// Levenberg–Marquardt on the mean square error. `x`: inputs × samples. Returns the root mean
 /// square of what is left.

@@ -7,6 +7,7 @@
 #include "components/computed_force/computed_force.hpp"
 #include "components/follow/follow.hpp"
 #include "components/logger/logger_node.hpp"
+#include "components/motion_capture/motion_capture.hpp"
 #include "components/plant/plant.hpp"
 #include "components/puller_follower/puller_follower.hpp"
 #include "components/reference/joint_player.hpp"
@@ -43,6 +44,7 @@ const std::map<std::string, Kind> kinds{
     {"length_control", kind_of<follow::Params>()},
     {"loops", kind_of<sim::loop_shaping::JointShape>()},
     {"logger", kind_of<logger::LoggerNode::Params>()},
+    {"motion_capture", kind_of<capture::MotionCapture::Params>()},
     {"plant", kind_of<plant::Plant::Params>()},
     {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},

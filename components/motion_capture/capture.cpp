@@ -1,0 +1,112 @@
+#include "components/motion_capture/capture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/skeleton/joint_path.hpp"
+
+namespace capture {
+
+using sim::BodyPose;
+using sim::JointReading;
+using sim::Vec3;
+
+Capture::Capture(const sim::RobotTree& tree, std::vector<Marker> markers,
+                 std::array<sim::cameras::Camera, 2> cameras, const CaptureOptions& options)
+    : cameras_(std::move(cameras)), options_(options), fit_(tree, std::move(markers), options.fit) {
+  for (const erp::Joint& joint : tree.joints) joints_.push_back(sim::start_of(joint));
+}
+
+std::optional<Captured> Capture::see(const sim::cameras::Image& left,
+                                     const sim::cameras::Image& right, double dt_s) {
+  const auto points = triangulate(cameras_[0], find_spots(left, options_.spots), cameras_[1],
+                                  find_spots(right, options_.spots), options_.stereo);
+  expect(dt_s);
+  const bool followed = !lost_ && track(points);
+  const bool whole = followed && all_known();
+  const bool found = whole || search(points) || followed;
+  if (found) learn_speed(captured_.joints, whole ? dt_s : 0);
+  lost_ = !found;
+  if (!found) return std::nullopt;
+  joints_ = captured_.joints;
+  return captured_;
+}
+
+/// Where the joints are now if they go on as they did.
+void Capture::expect(double dt_s) {
+  expected_ = joints_;
+  for (JointReading& joint : expected_) {
+    std::array<double, 3> way = joint.velocity_rad_per_s;
+    for (double& turn : way) turn *= dt_s;
+    joint.position = sim::gone(joint.type, joint.position, way);
+  }
+}
+
+bool Capture::track(std::span<const StereoPoint> points) {
+  return accept(follow(fit_.markers(), fit_.poses(expected_), points, options_.gate_m), expected_);
+}
+
+bool Capture::all_known() const {
+  return std::ranges::all_of(captured_.known, [](bool one) { return one; });
+}
+
+/// Body by body, by the distances between its markers.
+bool Capture::search(std::span<const StereoPoint> points) {
+  constexpr double within_m = 0.004;  // chosen
+  std::vector<std::optional<BodyPose>> found(fit_.tree().bodies.size());
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    std::vector<Vec3> own;
+    for (const Marker& marker : fit_.markers())
+      if (marker.body == b) own.push_back(marker.at_m);
+    if (own.size() >= 3) found[b] = find_body(own, points, within_m);
+  }
+  std::vector<JointReading> joints = expected_;
+  fit_.from_bodies(found, joints);
+  return accept(follow(fit_.markers(), fit_.poses(joints), points, options_.gate_m), joints);
+}
+
+bool Capture::accept(const Sightings& seen, std::vector<JointReading> joints) {
+  const auto count = std::ranges::count_if(seen, [](const auto& one) { return one.has_value(); });
+  if (static_cast<std::size_t>(count) < options_.least) return false;
+  const double left_m = fit_.fit(seen, joints);
+  if (!(left_m < options_.lost_m)) return false;
+  captured_ = {std::move(joints),
+               {},
+               fit_.variance_rad2(),
+               bodies(seen),
+               static_cast<std::size_t>(count),
+               left_m};
+  for (std::size_t j = 0; j < captured_.joints.size(); ++j) {
+    const int first = fit_.model().first_of(static_cast<int>(j));
+    const int turns = first < 0 ? 0 : sim::coordinates_of(captured_.joints[j].type);
+    const double most = options_.known_rad * options_.known_rad;
+    captured_.known.push_back(turns == 0 ||
+                              captured_.variance_rad2.segment(first, turns).maxCoeff() < most);
+  }
+  return true;
+}
+
+/// v ← v + g (q ⊖ q expected)/dt; at rest where it has just been found.
+void Capture::learn_speed(const std::vector<JointReading>& found, double dt_s) {
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    auto& speed = captured_.joints[j].velocity_rad_per_s;
+    speed = expected_[j].velocity_rad_per_s;
+    const auto off = sim::way_between(found[j].type, expected_[j].position, found[j].position);
+    for (std::size_t d = 0; d < 3; ++d)
+      speed[d] = dt_s > 0 ? speed[d] + options_.follow * off[d] / dt_s : 0;
+  }
+}
+
+std::vector<std::optional<BodyPose>> Capture::bodies(const Sightings& seen) const {
+  std::vector<std::optional<BodyPose>> poses(fit_.tree().bodies.size());
+  for (std::size_t b = 0; b < poses.size(); ++b) {
+    std::vector<Vec3> own, at;
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      if (seen[k] && fit_.markers()[k].body == b)
+        own.push_back(fit_.markers()[k].at_m), at.push_back(*seen[k]);
+    if (own.size() >= 3) poses[b] = rigid_pose(own, at);
+  }
+  return poses;
+}
+
+}  // namespace capture

@@ -1,0 +1,35 @@
+#include "components/motion_capture/image_files.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+namespace capture {
+
+std::string image_name(const std::string& folder, const std::string& camera, std::uint64_t number) {
+  return fmt::format("{}/{}_{:05}.png", folder, camera, number);
+}
+
+std::optional<sim::cameras::Image> read_image(const std::string& file, int width, int height) {
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  const cv::Mat read = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  if (read.cols != width || read.rows != height)
+    throw std::invalid_argument(fmt::format("{}: {} × {} pixels, the camera's images have {} × {}",
+                                            file, read.cols, read.rows, width, height));
+  sim::cameras::Image image{width, height, {}};
+  image.pixels.reserve(read.total());
+  for (int v = 0; v < height; ++v)
+    image.pixels.insert(image.pixels.end(), read.ptr(v), read.ptr(v) + width);
+  return image;
+}
+
+void write_image(const std::string& file, const sim::cameras::Image& image) {
+  const cv::Mat whole(image.height, image.width, CV_8UC1,
+                      const_cast<std::uint8_t*>(image.pixels.data()));  // is only read
+  if (!cv::imwrite(file, whole))
+    throw std::invalid_argument(file + ": cannot be written; is there such a folder?");
+}
+
+}  // namespace capture

@@ -1,0 +1,121 @@
+#include "components/motion_capture/markers.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace capture {
+
+using sim::BodyPose;
+using sim::Vec3;
+
+std::vector<Marker> markers_of(std::span<const MarkerConfig> configs, const sim::RobotTree& tree) {
+  std::vector<Marker> markers;
+  for (const MarkerConfig& config : configs) {
+    const auto found = std::ranges::find(tree.names, config.body);
+    if (found == tree.names.end())
+      throw std::invalid_argument("a marker on body \"" + config.body +
+                                  "\", which the robot does not have");
+    markers.push_back({static_cast<std::size_t>(found - tree.names.begin()),
+                       {config.at_m[0], config.at_m[1], config.at_m[2]}});
+  }
+  return markers;
+}
+
+Sightings follow(std::span<const Marker> markers, std::span<const BodyPose> expected,
+                 std::span<const StereoPoint> points, double gate_m) {
+  struct Pair {
+    double apart_m;
+    std::size_t marker, point;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    const BodyPose& body = expected[markers[m].body];
+    const Vec3 at = body.position_m + body.rotation * markers[m].at_m;
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (const double apart_m = (points[p].at_m - at).norm(); apart_m < gate_m)
+        pairs.push_back({apart_m, m, p});
+  }
+  std::ranges::sort(pairs, {}, &Pair::apart_m);
+  Sightings seen(markers.size());
+  std::set<std::size_t> left, right;  // spots that serve already
+  for (const Pair& pair : pairs) {
+    const StereoPoint& point = points[pair.point];
+    if (seen[pair.marker] || left.contains(point.left) || right.contains(point.right)) continue;
+    seen[pair.marker] = point.at_m;
+    left.insert(point.left), right.insert(point.right);
+  }
+  return seen;
+}
+
+BodyPose rigid_pose(std::span<const Vec3> in_body_m, std::span<const Vec3> seen_m) {
+  Eigen::Matrix3Xd from(3, in_body_m.size()), to(3, seen_m.size());
+  for (std::size_t k = 0; k < in_body_m.size(); ++k)
+    from.col(static_cast<Eigen::Index>(k)) = in_body_m[k],
+    to.col(static_cast<Eigen::Index>(k)) = seen_m[k];
+  const Eigen::Matrix4d moved = Eigen::umeyama(from, to, false);
+  return {moved.topLeftCorner<3, 3>(), moved.topRightCorner<3, 1>()};
+}
+
+namespace {
+
+/// A body's markers and the points they may be.
+class Search {
+ public:
+  Search(std::span<const Vec3> in_body_m, std::span<const StereoPoint> points, double within_m)
+      : body_(in_body_m), points_(points), within_m_(within_m) {}
+
+  std::optional<BodyPose> best() {
+    for (std::size_t i = 0; i + 2 < body_.size(); ++i)
+      for (std::size_t j = i + 1; j + 1 < body_.size(); ++j)
+        for (std::size_t k = j + 1; k < body_.size(); ++k) try_triple({i, j, k});
+    return best_;
+  }
+
+ private:
+  bool fits(std::size_t a, std::size_t b, std::size_t p, std::size_t q) const {
+    return std::abs((body_[a] - body_[b]).norm() - (points_[p].at_m - points_[q].at_m).norm()) <
+           2 * within_m_;
+  }
+  void try_triple(const std::array<std::size_t, 3>& m) {
+    for (std::size_t p = 0; p < points_.size(); ++p)
+      for (std::size_t q = 0; q < points_.size(); ++q)
+        if (q != p && fits(m[0], m[1], p, q))
+          for (std::size_t r = 0; r < points_.size(); ++r)
+            if (r != p && r != q && fits(m[0], m[2], p, r) && fits(m[1], m[2], q, r))
+              try_pose({body_[m[0]], body_[m[1]], body_[m[2]]},
+                       {points_[p].at_m, points_[q].at_m, points_[r].at_m});
+  }
+  void try_pose(const std::array<Vec3, 3>& from, const std::array<Vec3, 3>& to) {
+    const BodyPose pose = rigid_pose(from, to);
+    std::size_t met = 0;
+    double off_m = 0;
+    for (const Vec3& marker : body_) {
+      double nearest_m = within_m_;
+      for (const StereoPoint& point : points_)
+        nearest_m =
+            std::min(nearest_m, (pose.position_m + pose.rotation * marker - point.at_m).norm());
+      met += nearest_m < within_m_;
+      off_m += nearest_m;
+    }
+    if (met < 3 || met < met_ || (met == met_ && off_m >= off_m_)) return;
+    met_ = met, off_m_ = off_m, best_ = pose;
+  }
+
+  std::span<const Vec3> body_;
+  std::span<const StereoPoint> points_;
+  double within_m_;
+  std::size_t met_ = 0;
+  double off_m_ = 0;
+  std::optional<BodyPose> best_;
+};
+
+}  // namespace
+
+std::optional<BodyPose> find_body(std::span<const Vec3> in_body_m,
+                                  std::span<const StereoPoint> points, double within_m) {
+  return Search(in_body_m, points, within_m).best();
+}
+
+}  // namespace capture

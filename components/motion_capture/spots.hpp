@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "sim/cameras/images.hpp"
+
+namespace capture {
+
+/// A bright spot of an image.
+struct Spot {
+  sim::cameras::Pixel at;  ///< its centre of brightness
+  double area_px = 0;
+  bool at_edge = false;  ///< it touches the image's edge: there may be more of it
+};
+
+struct SpotOptions {
+  int threshold = 90;     ///< of 255
+  double least_px = 6;    ///< smaller ones are noise
+  double most_px = 2000;  ///< larger ones are lamps
+};
+
+/// In no order.
+std::vector<Spot> find_spots(const sim::cameras::Image& image, const SpotOptions& options);
+
+}  // namespace capture

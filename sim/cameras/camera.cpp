@@ -1,0 +1,47 @@
+#include "sim/cameras/camera.hpp"
+
+#include <Eigen/Geometry>
+#include <stdexcept>
+
+namespace sim::cameras {
+namespace {
+
+Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
+
+double stretched(const CameraConfig& c, double square) {
+  return 1 + square * (c.k1 + square * c.k2);
+}
+
+}  // namespace
+
+Camera::Camera(const CameraConfig& config)
+    : config_(config),
+      at_m_(vec(config.at_m)),
+      centre_((config.width_px - 1) / 2.0 + config.centre_u_px,
+              (config.height_px - 1) / 2.0 + config.centre_v_px) {
+  const Vec3 ahead = vec(config.looks_at_m) - at_m_, right = ahead.cross(Vec3::UnitZ());
+  if (!(right.norm() > 1e-6 * ahead.norm()))
+    throw std::invalid_argument("camera \"" + config.name +
+                                "\" looks straight up, down or at itself: move it aside a little");
+  axes_.col(0) = right.normalized();
+  axes_.col(2) = ahead.normalized();
+  axes_.col(1) = axes_.col(2).cross(axes_.col(0));
+}
+
+std::optional<Pixel> Camera::project(const Vec3& world_m) const {
+  constexpr double nearest_m = 1e-3;
+  const Vec3 seen = axes_.transpose() * (world_m - at_m_);
+  if (seen.z() < nearest_m) return std::nullopt;
+  const Pixel flat = seen.head<2>() / seen.z();
+  return Pixel(config_.focal_px * stretched(config_, flat.squaredNorm()) * flat + centre_);
+}
+
+/// The distortion is undone by fixed-point steps, which halve the error and more for lenses in use.
+Vec3 Camera::ray(const Pixel& pixel) const {
+  const Pixel bent = (pixel - centre_) / config_.focal_px;
+  Pixel flat = bent;
+  for (int k = 0; k < 20; ++k) flat = bent / stretched(config_, flat.squaredNorm());
+  return (axes_ * Vec3(flat.x(), flat.y(), 1)).normalized();
+}
+
+}  // namespace sim::cameras

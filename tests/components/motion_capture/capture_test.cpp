@@ -1,0 +1,222 @@
+#include "components/motion_capture/capture.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <numbers>
+
+#include "components/motion_capture/image_files.hpp"
+#include "components/motion_capture/motion_capture.hpp"
+#include "interfaces/recording/table.hpp"
+#include "interfaces/xml/xml.hpp"
+#include "sim/actuator/pose_plan.hpp"
+#include "tests/interfaces/recording/support.hpp"
+
+using namespace capture;
+using sim::Vec3;
+
+namespace {
+
+constexpr double period_s = 0.01, degree = std::numbers::pi / 180;
+
+/// The arm before its two cameras, with what its config gives it.
+struct Studio {
+  erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
+  MotionCapture::Params params;
+  sim::RobotTree tree{robot};
+  std::vector<Marker> markers;
+  std::array<sim::cameras::Camera, 2> cameras;
+  std::vector<sim::cameras::Painter> painters;
+  sim::SkeletonModel bones{tree, Vec3::Zero()};
+
+  Studio()
+      : params(read()),
+        markers(markers_of(params.markers, tree)),
+        cameras{sim::cameras::Camera(params.cameras[0]), sim::cameras::Camera(params.cameras[1])} {
+    for (std::uint64_t c = 0; c < 2; ++c)
+      painters.emplace_back(cameras[c], sim::cameras::Light{}, c + 1);
+  }
+  static MotionCapture::Params read() {
+    MotionCapture::Params params;
+    xml::read_into(params, ERP_SOURCE_DIR "/configs/arm/motion_capture.xml", "motion_capture");
+    return params;
+  }
+  Capture capture() const { return {tree, markers, cameras, params.options}; }
+
+  std::vector<sim::cameras::Ball> balls() const {
+    std::vector<sim::cameras::Ball> all;
+    for (const Marker& m : markers) {
+      const sim::BodyPose& body = bones.poses()[m.body];
+      all.push_back({body.position_m + body.rotation * m.at_m, params.ball_m});
+    }
+    return all;
+  }
+  std::vector<sim::cameras::Bone> limbs() const {
+    std::vector<sim::cameras::Bone> all;
+    for (const auto& bone : params.bones) {
+      const auto body = std::size_t(std::ranges::find(tree.names, bone.body) - tree.names.begin());
+      const sim::BodyPose& pose = bones.poses()[body];
+      const auto at = [&](const xml::Vec3& v) {
+        return Vec3(pose.position_m + pose.rotation * Vec3(v[0], v[1], v[2]));
+      };
+      all.push_back({at(bone.from_m), at(bone.to_m), bone.radius_m});
+    }
+    return all;
+  }
+  std::array<sim::cameras::Image, 2> images(std::span<const sim::JointReading> joints,
+                                            std::span<const sim::cameras::Bone> more = {}) {
+    bones.place(joints);
+    auto hiding = limbs();
+    hiding.insert(hiding.end(), more.begin(), more.end());
+    return {painters[0].paint(balls(), hiding), painters[1].paint(balls(), hiding)};
+  }
+};
+
+double apart(const sim::JointReading& a, const sim::JointReading& b) {
+  const auto way = sim::way_between(a.type, a.position, b.position);
+  return std::hypot(way[0], way[1], way[2]);
+}
+
+/// Follows the arm through its figure; RMS error by joint, over the images in which it was found.
+struct Followed {
+  std::vector<double> rms_rad;
+  int images = 0, found = 0;
+};
+Followed follow_figure(Studio& studio, std::span<const sim::cameras::Bone> more = {}) {
+  const auto poses = sim::poses_of(
+      recording::read_table(ERP_SOURCE_DIR "/configs/arm/figure_8.csv"), studio.robot);
+  const sim::JointPath path(studio.robot.joints(), poses);
+  Capture capture = studio.capture();
+  Followed followed{std::vector<double>(studio.robot.joints().size()), 0, 0};
+  std::vector<sim::JointMotion> motions;
+  std::vector<sim::JointReading> joints;
+  for (double t = 0; t < 8; t += period_s) {
+    path.at(t, motions);
+    joints.clear();
+    for (const auto& motion : motions) joints.push_back(motion.now);
+    const auto pair = studio.images(joints, more);
+    const auto seen = capture.see(pair[0], pair[1], period_s);
+    ++followed.images;
+    if (!seen) continue;
+    ++followed.found;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      followed.rms_rad[j] += std::pow(apart(seen->joints[j], joints[j]), 2);
+  }
+  for (double& e : followed.rms_rad) e = std::sqrt(e / followed.found);
+  return followed;
+}
+
+}  // namespace
+
+TEST_CASE("a pixel's ray leads back to what was projected there, distorted or not") {
+  for (const double k1 : {0.0, -0.2, 0.1}) {
+    const sim::cameras::Camera camera(
+        {{}, "c", {1.7, 0.3, 0.2}, {0, -0.2, -0.1}, 800, 640, 480, 5, -3, k1, 0.02});
+    for (const Vec3& p : {Vec3(0.1, 0, 0), Vec3(-0.2, -0.5, 0.3), Vec3(0.4, 0.2, -0.4)}) {
+      const auto pixel = camera.project(p);
+      REQUIRE(pixel);
+      CHECK((camera.at_m() + camera.ray(*pixel) * (p - camera.at_m()).norm() - p).norm() < 1e-9);
+    }
+    CHECK_FALSE(camera.project({3, 0, 0}));  // behind it
+  }
+}
+
+TEST_CASE("a ball's spot lies where the ball is, to a tenth of a pixel") {
+  Studio studio;
+  const sim::cameras::Ball ball{{0.1, -0.1, -0.2}, 0.007};
+  for (const auto& camera : studio.cameras) {
+    sim::cameras::Painter painter(camera, {}, 3);
+    const auto spots = find_spots(painter.paint(std::span(&ball, 1), {}), {});
+    REQUIRE(spots.size() == 1);
+    CHECK((spots[0].at - *camera.project(ball.at_m)).norm() < 0.1);
+  }
+}
+
+TEST_CASE("spots of the same point meet, others mostly do not") {
+  Studio studio;
+  const std::vector<sim::cameras::Ball> balls{{{0.1, -0.1, -0.2}, 0.007}, {{0, -0.3, 0.1}, 0.007}};
+  std::array<std::vector<Spot>, 2> spots;
+  for (std::size_t c = 0; c < 2; ++c)
+    spots[c] = find_spots(studio.painters[c].paint(balls, {}), {});
+  const auto points =
+      triangulate(studio.cameras[0], spots[0], studio.cameras[1], spots[1], StereoOptions{});
+  REQUIRE(points.size() == 2);
+  for (const auto& ball : balls)
+    CHECK(std::ranges::any_of(points,
+                              [&](const auto& p) { return (p.at_m - ball.at_m).norm() < 0.001; }));
+}
+
+TEST_CASE("the arm is followed through its figure to 0.3 degrees, its bones hiding markers") {
+  Studio studio;
+  const auto followed = follow_figure(studio);
+  CHECK(followed.found == followed.images);
+  for (const double e : followed.rms_rad) CHECK(e < 0.3 * degree);
+}
+
+TEST_CASE("a pole before the arm hides more, and it is still followed") {
+  Studio studio;
+  const sim::cameras::Bone pole{{0.8, -0.25, -1}, {0.8, -0.25, 1}, 0.02};
+  const auto followed = follow_figure(studio, std::span(&pole, 1));
+  CHECK(followed.found > 0.9 * followed.images);
+  for (const double e : followed.rms_rad) CHECK(e < 0.3 * degree);
+}
+
+TEST_CASE("a robot that was hidden, or stands elsewhere than expected, is found again") {
+  Studio studio;
+  Capture capture = studio.capture();
+  std::vector<sim::JointReading> joints;
+  for (const auto& joint : studio.robot.joints()) joints.push_back(sim::start_of(joint));
+  joints[1].position[0] = 1.4;
+  joints[0].position =
+      sim::gone(joints[0].type, joints[0].position, std::array<double, 3>{0.3, -0.5, 0.4});
+  const auto pair = studio.images(joints);
+  const auto seen = capture.see(pair[0], pair[1], period_s);
+  REQUIRE(seen);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    CHECK(apart(seen->joints[j], joints[j]) < 0.5 * degree);
+  const sim::cameras::Bone wall{{0.5, -2, -0.2}, {0.5, 2, -0.2}, 1};
+  const auto hidden = studio.images(joints, std::span(&wall, 1));
+  CHECK_FALSE(capture.see(hidden[0], hidden[1], period_s));
+  CHECK(capture.lost());
+  CHECK(capture.see(pair[0], pair[1], period_s));
+}
+
+TEST_CASE("a joint whose body is hidden is not told of, and is found again elsewhere") {
+  Studio studio;
+  Capture capture = studio.capture();
+  std::vector<sim::JointReading> joints;
+  for (const auto& joint : studio.robot.joints()) joints.push_back(sim::start_of(joint));
+  auto pair = studio.images(joints);
+  REQUIRE(capture.see(pair[0], pair[1], period_s));
+  const sim::cameras::Bone wall{{0.6, -2, -0.67}, {0.6, 2, -0.67}, 0.55};
+  pair = studio.images(joints, std::span(&wall, 1));
+  auto seen = capture.see(pair[0], pair[1], period_s);
+  REQUIRE(seen);
+  CHECK(seen->known == std::vector{true, false});
+  joints[1].position[0] = 1.5;
+  pair = studio.images(joints);
+  seen = capture.see(pair[0], pair[1], period_s);
+  REQUIRE(seen);
+  CHECK(seen->known == std::vector{true, true});
+  CHECK(apart(seen->joints[1], joints[1]) < 0.5 * degree);
+}
+
+TEST_CASE("images come back from files as they were; what is none is refused") {
+  test::Folder folder;
+  Studio studio;
+  const auto pair = studio.images(std::vector{sim::start_of(studio.robot.joints()[0]),
+                                              sim::start_of(studio.robot.joints()[1])});
+  const auto file = image_name(folder / "", "left", 3);
+  write_image(file, pair[0]);
+  CHECK(read_image(file, 640, 480)->pixels == pair[0].pixels);
+  CHECK_THROWS_WITH(read_image(file, 320, 240), Catch::Contains("640 × 480"));
+  CHECK_FALSE(read_image(image_name(folder / "", "left", 4), 640, 480));
+  CHECK_THROWS_AS(write_image((folder / "no/such") + "/a.png", pair[0]), std::invalid_argument);
+}
+
+TEST_CASE("a marker on a body that there is not, and a camera that looks down, are refused") {
+  Studio studio;
+  const MarkerConfig tail{{}, "tail", {}};
+  CHECK_THROWS_WITH(markers_of(std::span(&tail, 1), studio.tree), Catch::Contains("tail"));
+  CHECK_THROWS_WITH(sim::cameras::Camera({{}, "c", {0, 0, 1}, {0, 0, 0}}),
+                    Catch::Contains("straight"));
+}
