@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "interfaces/xml/xml.hpp"
-#include "sim/actuator/spring.hpp"
+#include "sim/actuator/tendon.hpp"
 #include "sim/learning/learnt_lengths.hpp"
 #include "sim/learning/length_learner.hpp"
 
@@ -51,7 +51,7 @@ class OnLine : public JacobianSource {
         beside_m_(static_cast<Eigen::Index>(robot.actuators.size())),
         jacobian_(model.jacobian()) {
     for (const erp::Actuator& actuator : robot.actuators)
-      springs_.push_back(sim::Spring::of(actuator.tendon));
+      laws_.push_back(sim::TendonLaw::at_rest(actuator.tendon, actuator.spindle, 0));
   }
 
   void hear(Joints joints, const erp::SensorFrame& frame) override {
@@ -77,8 +77,7 @@ class OnLine : public JacobianSource {
         if (robot_.actuators[a].name != sample.name) continue;
         if ((sample.valid & needed) != needed || !(sample.tension_N > taut_N)) return false;
         beside_m_[static_cast<Eigen::Index>(a)] =
-            springs_[a].stretch_m(sample.tension_N) -
-            robot_.actuators[a].spindle.radius_m * sample.shaft_rad;
+            laws_[a].length_m(sample.tension_N, sample.shaft_rad);
         ++known;
       }
     return known == robot_.actuators.size();
@@ -88,7 +87,7 @@ class OnLine : public JacobianSource {
   const sim::Musculoskeletal& model_;
   std::unique_ptr<learning::LearntLengths> network_;
   learning::LengthLearner learner_;
-  std::vector<sim::Spring> springs_;
+  std::vector<sim::TendonLaw> laws_;
   VectorXd beside_m_;
   MatrixXd jacobian_;
 };

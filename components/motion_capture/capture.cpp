@@ -22,10 +22,11 @@ std::optional<Captured> Capture::see(const sim::cameras::Image& left,
   const auto points = triangulate(cameras_[0], find_spots(left, options_.spots), cameras_[1],
                                   find_spots(right, options_.spots), options_.stereo);
   expect(dt_s);
+  const std::vector<bool> known_before = lost_ ? std::vector<bool>{} : captured_.known;
   const bool followed = !lost_ && track(points);
   const bool whole = followed && all_known();
   const bool found = whole || search(points) || followed;
-  if (found) learn_speed(captured_.joints, whole ? dt_s : 0);
+  if (found) learn_speed(known_before, dt_s);
   lost_ = !found;
   if (!found) return std::nullopt;
   joints_ = captured_.joints;
@@ -86,14 +87,17 @@ bool Capture::accept(const Sightings& seen, std::vector<JointReading> joints) {
   return true;
 }
 
-/// v ← v + g (q ⊖ q expected)/dt; at rest where it has just been found.
-void Capture::learn_speed(const std::vector<JointReading>& found, double dt_s) {
-  for (std::size_t j = 0; j < found.size(); ++j) {
-    auto& speed = captured_.joints[j].velocity_rad_per_s;
-    speed = expected_[j].velocity_rad_per_s;
-    const auto off = sim::way_between(found[j].type, expected_[j].position, found[j].position);
+/// v ← v + g (q ⊖ q expected)/dt of joints that were followed; at rest where a joint has just been
+/// found or is not in view.
+void Capture::learn_speed(const std::vector<bool>& known_before, double dt_s) {
+  for (std::size_t j = 0; j < captured_.joints.size(); ++j) {
+    JointReading& joint = captured_.joints[j];
+    joint.velocity_rad_per_s = {};
+    if (known_before.empty() || !known_before[j] || !captured_.known[j] || !(dt_s > 0)) continue;
+    const auto off = sim::way_between(joint.type, expected_[j].position, joint.position);
     for (std::size_t d = 0; d < 3; ++d)
-      speed[d] = dt_s > 0 ? speed[d] + options_.follow * off[d] / dt_s : 0;
+      joint.velocity_rad_per_s[d] =
+          expected_[j].velocity_rad_per_s[d] + options_.follow * off[d] / dt_s;
   }
 }
 

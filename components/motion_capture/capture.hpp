@@ -51,7 +51,7 @@ class Capture {
   bool search(std::span<const StereoPoint> points);
   bool all_known() const;
   bool accept(const Sightings& seen, std::vector<sim::JointReading> joints);
-  void learn_speed(const std::vector<sim::JointReading>& found, double dt_s);
+  void learn_speed(const std::vector<bool>& known_before, double dt_s);
   std::vector<std::optional<sim::BodyPose>> bodies(const Sightings& seen) const;
 
   std::array<sim::cameras::Camera, 2> cameras_;

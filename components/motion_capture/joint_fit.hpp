@@ -13,7 +13,7 @@ namespace capture {
 class JointFit {
  public:
   struct Options {
-    double noise_m = 0.0005;  ///< σ of a marker's place; chosen, see motion_capture's README
+    double noise_m = 0.0005;  ///< σ of a marker's place; chosen
     double before_rad = 0.5;  ///< σ₀; chosen: wide, so that it only decides where markers do not
   };
   JointFit(const sim::RobotTree& tree, std::vector<Marker> markers, const Options& options);

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 
 namespace capture {
 
@@ -12,14 +11,9 @@ using sim::Vec3;
 
 std::vector<Marker> markers_of(std::span<const MarkerConfig> configs, const sim::RobotTree& tree) {
   std::vector<Marker> markers;
-  for (const MarkerConfig& config : configs) {
-    const auto found = std::ranges::find(tree.names, config.body);
-    if (found == tree.names.end())
-      throw std::invalid_argument("a marker on body \"" + config.body +
-                                  "\", which the robot does not have");
-    markers.push_back({static_cast<std::size_t>(found - tree.names.begin()),
+  for (const MarkerConfig& config : configs)
+    markers.push_back({sim::body_named(tree.names, config.body, "a marker"),
                        {config.at_m[0], config.at_m[1], config.at_m[2]}});
-  }
   return markers;
 }
 

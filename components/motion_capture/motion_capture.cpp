@@ -33,14 +33,9 @@ MotionCapture::MotionCapture(const Params& params, const erp::Robot& robot, node
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()) {
   const auto& names = capture_.fit().tree().names;
-  for (const BoneConfig& bone : params_.bones) {
-    const auto found = std::ranges::find(names, bone.body);
-    if (found == names.end())
-      throw std::invalid_argument("a bone of body \"" + bone.body +
-                                  "\", which the robot does not have");
-    bones_.push_back({static_cast<std::size_t>(found - names.begin()),
+  for (const BoneConfig& bone : params_.bones)
+    bones_.push_back({sim::body_named(names, bone.body, "a bone"),
                       {vec(bone.from_m), vec(bone.to_m), bone.radius_m}});
-  }
   const auto folder = std::filesystem::path(params_.place.file).parent_path();
   for (std::string* one : {&params_.images, &params_.save})
     if (!one->empty()) *one = (folder / *one).string();

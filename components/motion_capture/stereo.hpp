@@ -12,7 +12,7 @@
 namespace capture {
 
 struct StereoOptions {
-  double gap_m = 0.003;            ///< chosen: three times what noise and lens leave at 2 m
+  double gap_m = 0.003;            ///< chosen
   double near_m = 0.3, far_m = 6;  ///< from each camera
 };
 

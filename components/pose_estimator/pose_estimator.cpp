@@ -63,7 +63,7 @@ void PoseEstimator::see_tendons() {
     const double rate = length_rate_m_per_s_[i] + t.law.radius_m * t.speed_rad_per_s;
     const double spring_N = std::max(0.0, t.tension_N - t.law.damping_N_s_per_m * rate);
     const double stretch_m = t.law.spring.stretch_m(spring_N);
-    const double length_m = t.law.rest_m + t.law.line_m(t.shaft_rad) + stretch_m;
+    const double length_m = t.law.length_m(spring_N, t.shaft_rad);
     const double sigma_m = std::hypot(t.tension_sigma_N / t.law.spring.slope_N_per_m(stretch_m),
                                       t.shaft_sigma_rad * t.law.radius_m, params_.model_m);
     filter_.see_length(static_cast<int>(a), length_m, sigma_m);

@@ -37,6 +37,10 @@ struct TendonLaw {
   }
   /// Change of L_K since the start; negative: wound up.
   double line_m(double shaft_rad) const { return -radius_m * shaft_rad; }
+  /// L_T of a taut tendon whose spring pulls so much: what an actuator's own sensors tell.
+  double length_m(double spring_N, double shaft_rad) const {
+    return rest_m + line_m(shaft_rad) + spring.stretch_m(spring_N);
+  }
 
   double tension_N(double length_m, double length_rate_m_per_s, double shaft_rad,
                    double speed_rad_per_s) const {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/actuator/spring.hpp"
+#include "sim/actuator/tendon.hpp"
 
 namespace sim::learning {
 namespace {
@@ -52,12 +52,11 @@ bool read(const std::vector<JointColumns>& columns, std::size_t row,
 
 struct Line {
   const Column &shaft, &tension;
-  double radius_m;
-  Spring spring;
+  TendonLaw law;
   /// NaN: not known.
   double path_m(std::size_t row, double taut_N) const {
     const double force_N = tension.values[row];
-    return force_N > taut_N ? spring.stretch_m(force_N) - radius_m * shaft.values[row] : NAN;
+    return force_N > taut_N ? law.length_m(force_N, shaft.values[row]) : NAN;
   }
 };
 
@@ -69,8 +68,8 @@ LengthSamples samples_of(const erp::Robot& robot, const Table& table,
   std::vector<Line> lines;
   for (const erp::Actuator& actuator : robot.actuators)
     lines.push_back({column(table, actuator.name + ".shaft_rad"),
-                     column(table, actuator.name + ".tension_N"), actuator.spindle.radius_m,
-                     Spring::of(actuator.tendon)});
+                     column(table, actuator.name + ".tension_N"),
+                     TendonLaw::at_rest(actuator.tendon, actuator.spindle, 0)});
   LengthSamples samples;
   std::vector<Eigen::VectorXd> lengths;
   std::vector<JointReading> now;

@@ -29,6 +29,14 @@ void check(const erp::Body& body, const erp::Mass& mass, bool moved) {
 
 }  // namespace
 
+std::size_t body_named(std::span<const std::string> names, const std::string& body,
+                       const std::string& what) {
+  const auto found = std::ranges::find(names, body);
+  if (found == names.end())
+    refuse(what + " of body \"" + body + "\", which the robot does not have");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 RobotTree::RobotTree(const erp::Robot& robot) : joints(robot.joints()) {
   std::vector<erp::Body> left = robot.bodies();
   const auto index = [this](const std::string& name) {

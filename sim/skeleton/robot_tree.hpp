@@ -16,6 +16,10 @@ struct TreeBody {
   erp::Mass mass;
 };
 
+/// Which of the names it is. Throws std::invalid_argument: "a grasp" by a body that there is not.
+std::size_t body_named(std::span<const std::string> names, const std::string& body,
+                       const std::string& what);
+
 struct RobotTree {
   std::vector<TreeBody> bodies;    ///< parents first
   std::vector<erp::Joint> joints;  ///< as in robot.xml

@@ -1,7 +1,4 @@
 #pragma once
-#include <algorithm>
-#include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -55,12 +52,7 @@ class Grasps {
 
  private:
   static Carried carried(const Grasp& grasp, const World& world) {
-    const auto& names = world.body_names();
-    const auto found = std::ranges::find(names, grasp.body);
-    if (found == names.end())
-      throw std::invalid_argument("a grasp by body \"" + grasp.body +
-                                  "\", which the robot does not have");
-    return {static_cast<int>(found - names.begin()),
+    return {static_cast<int>(body_named(world.body_names(), grasp.body, "a grasp")),
             {grasp.at_m[0], grasp.at_m[1], grasp.at_m[2]},
             grasp.mass_kg};
   }

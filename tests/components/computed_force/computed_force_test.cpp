@@ -1,6 +1,9 @@
 #include "components/computed_force/computed_force.hpp"
 
 #include <catch2/catch.hpp>
+#include <random>
+
+#include "sim/actuator/tendon.hpp"
 
 using control::ComputedForce;
 
@@ -135,4 +138,91 @@ TEST_CASE("a muscle whose ECU has tripped is counted with what it pulls, and mad
   REQUIRE(command);
   CHECK(command->actuators._buffer[brachialis].reference == Approx(2));
   CHECK((bench.torque_of(command) - wanted).norm() < 1e-3);
+}
+
+namespace {
+
+/// Somewhere about the start: hinges by up to 0.6 rad, ball joints by 0.4 rad an axis.
+std::vector<sim::JointReading> somewhere(const erp::Robot& robot, std::mt19937& random) {
+  std::uniform_real_distribution<double> within(-1, 1);
+  std::vector<sim::JointReading> joints;
+  for (const erp::Joint& joint : robot.joints()) {
+    joints.push_back(sim::start_of(joint));
+    const double reach = joint.type == erp::JointType::revolute ? 0.6 : 0.4;
+    joints.back().position = sim::gone(joint.type, joints.back().position,
+                                       std::array{reach * (1 + within(random)) / 2,
+                                                  reach * within(random), reach * within(random)});
+  }
+  return joints;
+}
+
+/// What the actuators say of a robot in a posture, all tendons pulling 10 N.
+erp::SensorFrame measured(const erp::Robot& robot, const sim::Musculoskeletal& model) {
+  erp::SensorFrame frame;
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const auto law =
+        sim::TendonLaw::at_rest(robot.actuators[a].tendon, robot.actuators[a].spindle, 0);
+    erp::ActuatorSample sample{};
+    erp::assign(sample.name, robot.actuators[a].name);
+    sample.valid = erp::valid::all, sample.tension_N = 10;
+    const double length_m = model.length_m()[static_cast<Eigen::Index>(a)];
+    sample.shaft_rad = (law.length_m(10, 0) - length_m) / law.radius_m;
+    erp::append(frame.actuators, sample);
+  }
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("a Jacobian learnt on line comes near the robot's own where robot.xml is wrong") {
+  const erp::Robot real = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
+  erp::Robot believed = real;
+  for (auto& actuator : believed.actuators)
+    for (auto& element : actuator.tendon.path)
+      if (auto* attach = std::get_if<erp::Attach>(&element); attach && attach->body == "upper_arm")
+        attach->at_m[0] += 0.008;
+  sim::Musculoskeletal truth(real), model(believed);
+  const auto source = control::jacobian_source(control::JacobianKind::on_line, "", believed, model);
+  std::mt19937 random(7);
+  const auto off = [&](int postures, bool learn) {
+    double squares = 0;
+    for (int k = 0; k < postures; ++k) {
+      const auto joints = somewhere(real, random);
+      truth.place(joints), model.place(joints);
+      if (learn) source->hear(joints, measured(real, truth));
+      squares += (source->at(joints) - truth.jacobian()).squaredNorm();
+    }
+    return std::sqrt(squares / postures);
+  };
+  const double before = off(100, false);
+  off(3000, true);
+  const double after = off(100, false);
+  INFO(1e3 * before << " mm before, " << 1e3 * after << " mm after");
+  CHECK(before > 0.003);
+  CHECK(after < before / 2);
+}
+
+TEST_CASE("a frame in which a tendon is slack or not measured teaches nothing") {
+  const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
+  sim::Musculoskeletal model(robot);
+  const auto source = control::jacobian_source(control::JacobianKind::on_line, "", robot, model);
+  std::mt19937 random(8);
+  const auto joints = somewhere(robot, random);
+  model.place(joints);
+  for (const bool slack : {true, false}) {
+    auto frame = measured(robot, model);
+    auto& first = frame.actuators._buffer[0];
+    if (slack) first.tension_N = 0;
+    else first.valid = 0;
+    for (auto& sample : erp::samples(frame.actuators)) sample.shaft_rad += 1;
+    source->hear(joints, frame);
+    CHECK((source->at(joints) - model.jacobian()).norm() == 0);
+  }
+}
+
+TEST_CASE("a learnt Jacobian without its file is refused, with the command that writes it") {
+  const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
+  ComputedForce::Params params;
+  params.jacobian = control::JacobianKind::network;
+  CHECK_THROWS_WITH(ComputedForce(params, robot), Catch::Contains("erp model muscles"));
 }
