@@ -9,12 +9,10 @@ namespace control {
 namespace {
 
 using Eigen::Quaterniond;
-using sim::Vec3;
+using sim::vec, sim::Vec3;
 
 constexpr double creeping_rad_per_s =
     0.02;  // chosen: below that Coulomb friction is taken as viscous
-
-Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 Quaterniond turn(const sim::JointReading& reading) {
   const auto& q = reading.position;
@@ -60,9 +58,10 @@ ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
 std::optional<erp::ActuatorCommand> ComputedForce::step(
     const erp::SensorFrame& frame, double dt_s, const node::Latest<erp::JointState>& state,
     const node::Latest<erp::JointTarget>& target) {
-  const bool known = state && state.age_s <= params_.stale_s && names_.read(state.message, now_) &&
-                     target && target.age_s <= params_.stale_s &&
-                     names_.read(target.message, wanted_);
+  const bool known = state && state.age_s <= params_.stale_s &&
+                     names_.read(state.message, frame.stamp_ns, now_) && target &&
+                     target.age_s <= params_.stale_s &&
+                     names_.read(target.message, frame.stamp_ns, wanted_);
   if (!std::exchange(driving_, known))
     integral_.setZero(), rate_N_per_s_.setZero(), last_N_.setConstant(-1);
   if (!known) return std::nullopt;

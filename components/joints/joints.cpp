@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace joints {
 namespace {
@@ -23,6 +24,15 @@ bool take(const Sample& sample, sim::JointReading& reading) {
     speed += std::abs(reading.velocity_rad_per_s[i] = sample.velocity_rad_per_s[i]);
   const bool turned = reading.type != erp::JointType::spherical || size > 0.5;
   return turned && std::isfinite(size) && std::isfinite(speed);
+}
+
+void bring(sim::JointReading& reading, std::int64_t by_ns) {
+  constexpr std::int64_t farthest_ns = 50'000'000;  // chosen
+  if (by_ns == 0 || std::abs(by_ns) > farthest_ns) return;
+  const double by_s = 1e-9 * static_cast<double>(by_ns);
+  auto way = reading.velocity_rad_per_s;
+  for (double& turn : way) turn *= by_s;
+  reading.position = sim::gone(reading.type, reading.position, way);
 }
 
 }  // namespace
@@ -59,6 +69,20 @@ bool Names::read(const erp::JointTarget& message, std::vector<sim::JointMotion>&
       sum += std::abs(motions[j].acceleration_rad_per_s2[i] = sample.acceleration_rad_per_s2[i]);
     return take(sample, motions[j].now) && std::isfinite(sum);
   });
+}
+
+bool Names::read(const erp::JointState& message, std::int64_t at_ns,
+                 std::vector<sim::JointReading>& readings) const {
+  if (!read(message, readings)) return false;
+  for (auto& reading : readings) bring(reading, at_ns - message.stamp_ns);
+  return true;
+}
+
+bool Names::read(const erp::JointTarget& message, std::int64_t at_ns,
+                 std::vector<sim::JointMotion>& motions) const {
+  if (!read(message, motions)) return false;
+  for (auto& motion : motions) bring(motion.now, at_ns - message.stamp_ns);
+  return true;
 }
 
 void Names::write(std::span<const sim::JointMotion> motions, erp::JointTarget& message) const {

@@ -23,6 +23,12 @@ class Names {
   /// False, and nothing of use: a joint that turns is not in the message, or is no number.
   bool read(const erp::JointState& message, std::vector<sim::JointReading>& readings) const;
   bool read(const erp::JointTarget& message, std::vector<sim::JointMotion>& motions) const;
+  /// The same at `at_ns`: what was said of a moment before or after is brought there as it moves,
+  /// q ⊕ v dt. Beyond 50 ms it is left as it was: clocks of computers may differ.
+  bool read(const erp::JointState& message, std::int64_t at_ns,
+            std::vector<sim::JointReading>& readings) const;
+  bool read(const erp::JointTarget& message, std::int64_t at_ns,
+            std::vector<sim::JointMotion>& motions) const;
   void write(std::span<const sim::JointMotion> motions, erp::JointTarget& message) const;
   /// With variances by coordinate of the model. Joints that do not move are left out, and those that
   /// are not `known`; empty: all are.

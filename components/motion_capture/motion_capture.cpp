@@ -11,9 +11,7 @@
 namespace capture {
 namespace {
 
-using sim::Vec3;
-
-Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
+using sim::vec, sim::Vec3;
 
 std::array<sim::cameras::Camera, 2> cameras_of(const MotionCapture::Params& params) {
   if (params.cameras.size() != 2)

@@ -75,13 +75,15 @@ class Stepper {
   template <class M>
   bool answered() const {
     const auto& latest = std::get<Latest<M>>(more_);
-    const auto waits = [&](std::uint64_t of_frame) {
+    const auto waits = [&](bool it_came) {
       return std::get<Subscription<M>*>(more_ports_)->matched() > 0 &&
-             !(latest.received && of_frame >= pending_.sequence);
+             !(latest.received && it_came);
     };
     constexpr bool by_itself = requires { T::comes_by_itself; };
-    if constexpr (requires(M m) { m.answers; }) return !waits(latest->answers);
-    if constexpr (std::same_as<M, erp::JointState> && !by_itself) return !waits(latest->sequence);
+    if constexpr (requires(M m) { m.answers; }) return !waits(latest->answers >= pending_.sequence);
+    // By its instant: over a gateway frames are numbered otherwise than the simulator's joints.
+    if constexpr (std::same_as<M, erp::JointState> && !by_itself)
+      return !waits(latest->stamp_ns >= pending_.stamp_ns);
     return true;
   }
 
@@ -113,7 +115,9 @@ class Stepper {
     }
   }
   void send(OutMessage& message) {
-    message.stamp_ns = node_.clock().now_ns();
+    constexpr bool of_the_frame =
+        std::same_as<OutMessage, erp::JointState> || std::same_as<OutMessage, erp::JointTarget>;
+    message.stamp_ns = of_the_frame ? pending_.stamp_ns : node_.clock().now_ns();
     if constexpr (requires { message.answers; }) message.answers = pending_.sequence;
     if constexpr (std::same_as<OutMessage, erp::JointState>) {
       message.sequence = pending_.sequence;  // of the frame it is about

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/actuator/motor.hpp"
+
 namespace plant {
 namespace {
-
-/// Line speed of the unloaded motor at full supply, r V / (K_E N): no reference needs more.
-double top_line_speed_m_per_s(const erp::MotorType& motor, double radius_m) {
-  return radius_m * motor.supply_V / (motor.back_emf_V_s_per_rad * motor.gear_ratio);
-}
 
 /// How fast slack is wound up; chosen.
 constexpr double take_up_m_per_s = 0.010;
@@ -29,7 +26,7 @@ Drive::Drive(const erp::Actuator& actuator, const erp::MotorType& motor,
       channel_(actuator.channel),
       safe_action_(actuator.safe_action),
       relax_tension_N_(actuator.relax_tension_N),
-      approach_m_per_s_(0.5 * top_line_speed_m_per_s(motor, actuator.spindle.radius_m)),
+      approach_m_per_s_(0.5 * sim::top_line_speed_m_per_s(motor, actuator.spindle.radius_m)),
       units_(motor, sensors, actuator.spindle),
       limits_(actuator, motor, sensors),
       max_line_speed_m_per_s_(actuator.max_line_speed_m_per_s.value_or(Slew::free)),

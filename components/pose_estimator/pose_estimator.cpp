@@ -23,17 +23,23 @@ PoseEstimator::PoseEstimator(const Params& params, const erp::Robot& robot)
                         std::hypot(sensors.tension_noise_N, quantum * scale.tension_N_per_count),
                         quantum * scale.shaft_rad_per_count});
   }
+  const auto& bodies = filter_.model().tree().names;
+  for (const erp::Imu& imu : robot_.imus)
+    imu_bodies_.push_back(
+        static_cast<int>(sim::body_named(bodies, imu.body, "inertial unit \"" + imu.name + "\"")));
   tension_N_.setZero(lengths.size());
   length_rate_m_per_s_.setZero(lengths.size());
 }
 
 erp::JointState PoseEstimator::step(const erp::SensorFrame& frame, double dt_s,
-                                    const node::Latest<erp::JointState>& capture) {
+                                    const node::Latest<erp::JointState>& capture,
+                                    const node::Latest<erp::ImuFrame>& imus) {
   if (dt_s > 0) filter_.predict(dt_s, tension_N_);
   hear(frame, dt_s);
   see_tendons();
   if (params_.joint_sensors) see_joints(frame);
   see_capture(capture);
+  if (params_.imus) see_imus(imus);
   filter_.settle();
   return estimate();
 }
@@ -92,6 +98,23 @@ void PoseEstimator::see_capture(const node::Latest<erp::JointState>& capture) {
   if (!names_.read(capture.message, captured_)) return;
   for (std::size_t j = 0; j < captured_.size(); ++j)
     filter_.see_joint(static_cast<int>(j), captured_[j].position, params_.capture_rad);
+}
+
+/// Each frame once.
+void PoseEstimator::see_imus(const node::Latest<erp::ImuFrame>& imus) {
+  if (!imus || imus.arrived_ns == turned_ns_) return;
+  turned_ns_ = imus.arrived_ns;
+  for (const erp::ImuSample& sample : erp::samples(imus->imus))
+    for (std::size_t k = 0; k < robot_.imus.size(); ++k) {
+      const erp::Imu& unit = robot_.imus[k];
+      if (unit.name != sample.name) continue;
+      const double counts = std::exp2(unit.bits);
+      filter_.see_turning(imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.turning_rad_per_s),
+                          std::hypot(unit.turning_noise_rad_per_s,
+                                     quantum * 2 * unit.turning_range_rad_per_s / counts));
+      filter_.see_up(imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.acceleration_m_per_s2),
+                     std::hypot(unit.acceleration_noise_m_per_s2, params_.jerked_m_per_s2));
+    }
 }
 
 erp::JointState PoseEstimator::estimate() {

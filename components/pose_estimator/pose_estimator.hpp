@@ -22,6 +22,8 @@ class PoseEstimator {
     double slack_N = 1;          ///< below, a tendon says nothing; chosen
     bool joint_sensors = false;  ///< whether sensors of the joints are used as well
     double capture_rad = 0;      ///< σ of motion_capture's joint_state; 0: not used
+    bool imus = false;           ///< whether inertial units are used as well
+    double jerked_m_per_s2 = 3;  ///< σ of what accelerates them, beside gravity; chosen
     void visit(auto& v) {
       v("acceleration_rad_per_s2", acceleration_rad_per_s2, xml::positive);
       v("start_rad", start_rad, xml::positive);
@@ -31,18 +33,22 @@ class PoseEstimator {
       v("slack_N", slack_N, xml::at_least_zero);
       v("joint_sensors", joint_sensors);
       v("capture_rad", capture_rad, xml::at_least_zero);
+      v("imus", imus);
+      v("jerked_m_per_s2", jerked_m_per_s2, xml::positive);
     }
   };
 
   static constexpr bool comes_by_itself = true;  ///< motion_capture's joint_state
 
+  /// Throws std::invalid_argument for an inertial unit on a body that there is not.
   PoseEstimator(const Params& params, const erp::Robot& robot);
 
   bool wants(const erp::JointState& state) const {
     return params_.capture_rad > 0 && std::string_view(state.source) == "motion_capture";
   }
   erp::JointState step(const erp::SensorFrame& frame, double dt_s,
-                       const node::Latest<erp::JointState>& capture);
+                       const node::Latest<erp::JointState>& capture,
+                       const node::Latest<erp::ImuFrame>& imus);
 
   const PoseFilter& filter() const { return filter_; }
 
@@ -58,6 +64,7 @@ class PoseEstimator {
   void see_tendons();
   void see_joints(const erp::SensorFrame& frame);
   void see_capture(const node::Latest<erp::JointState>& capture);
+  void see_imus(const node::Latest<erp::ImuFrame>& imus);
   erp::JointState estimate();
 
   Params params_;
@@ -67,7 +74,8 @@ class PoseEstimator {
   std::vector<Tendon> tendons_;
   Eigen::VectorXd tension_N_, length_rate_m_per_s_, variance_rad2_;
   std::vector<sim::JointReading> captured_;
-  std::int64_t captured_ns_ = 0;
+  std::vector<int> imu_bodies_;  ///< by unit of robot.xml
+  std::int64_t captured_ns_ = 0, turned_ns_ = 0;
 };
 
 }  // namespace pose

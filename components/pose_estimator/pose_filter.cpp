@@ -7,7 +7,7 @@
 namespace pose {
 
 PoseFilter::PoseFilter(const erp::Robot& robot, const FilterOptions& options)
-    : options_(options), model_(robot) {
+    : options_(options), model_(robot), gravity_m_per_s2_(sim::vec(robot.gravity_m_per_s2())) {
   const Eigen::Index n = model_.coordinates();
   for (const erp::Joint& joint : model_.tree().joints) joints_.push_back(sim::start_of(joint));
   viscous_.resize(static_cast<std::size_t>(n));
@@ -16,6 +16,12 @@ PoseFilter::PoseFilter(const erp::Robot& robot, const FilterOptions& options)
       if (const int first = model_.skeleton().first_of(static_cast<int>(j)); first >= 0)
         viscous_[static_cast<std::size_t>(first + d)] =
             model_.tree().joints[j].viscous_Nm_s_per_rad;
+  parents_.assign(viscous_.size(), -1);
+  for (const sim::TreeBody& body : model_.tree().bodies)
+    for (int d = 0;
+         body.joint >= 0 && d < sim::coordinates_of(joints_[std::size_t(body.joint)].type); ++d)
+      if (const int first = model_.skeleton().first_of(body.joint); first >= 0)
+        parents_[static_cast<std::size_t>(first + d)] = body.parent;
   for (Vector* v : {&speed_, &step_, &bias_, &torque_}) v->setZero(n);
   for (Vector* v : {&error_, &gain_, &row_}) v->setZero(2 * n);
   inertia_.setZero(n, n);
@@ -93,6 +99,49 @@ bool PoseFilter::see_joint(int joint, const std::array<double, 4>& position, dou
     row_.setZero();
     row_[first + d] = 1;
     all = see(row_, way[static_cast<std::size_t>(d)], sigma_rad) && all;
+  }
+  return all;
+}
+
+/// S_d's turn in a body's own axes.
+sim::Vec3 PoseFilter::axis_on(int body, int coordinate) const {
+  const auto& pose = model_.skeleton().poses()[static_cast<std::size_t>(body)];
+  return pose.rotation.transpose() * model_.skeleton().axis(coordinate).head<3>();
+}
+
+/// ω of the body that a coordinate's joint is on.
+sim::Vec3 PoseFilter::carried_rad_per_s(int coordinate) const {
+  const int parent = parents_[static_cast<std::size_t>(coordinate)];
+  if (parent < 0) return sim::Vec3::Zero();
+  return model_.skeleton().twists()[static_cast<std::size_t>(parent)].angular_rad_per_s;
+}
+
+bool PoseFilter::see_turning(int body, const sim::Vec3& turning_rad_per_s, double sigma) {
+  const auto b = static_cast<std::size_t>(body);
+  const auto& skeleton = model_.skeleton();
+  const Eigen::Matrix3d into = skeleton.poses()[b].rotation.transpose();
+  const sim::Vec3 apart = turning_rad_per_s - into * skeleton.twists()[b].angular_rad_per_s;
+  bool all = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    row_.setZero();
+    for (const int d : skeleton.movers(body)) {
+      const sim::Vec3 turns = skeleton.axis(d).head<3>();
+      row_[speed_.size() + d] = (into * turns)[axis];
+      row_[d] = (into * carried_rad_per_s(d).cross(turns))[axis];
+    }
+    all = see(row_, apart[axis], sigma) && all;
+  }
+  return all;
+}
+
+bool PoseFilter::see_up(int body, const sim::Vec3& force_m_per_s2, double sigma) {
+  const auto& pose = model_.skeleton().poses()[static_cast<std::size_t>(body)];
+  const sim::Vec3 up = -(pose.rotation.transpose() * gravity_m_per_s2_);
+  bool all = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    row_.setZero();
+    for (const int d : model_.skeleton().movers(body)) row_[d] = up.cross(axis_on(body, d))[axis];
+    all = see(row_, force_m_per_s2[axis] - up[axis], sigma) && all;
   }
   return all;
 }

@@ -12,6 +12,10 @@
 ///            P ← A P Aᵀ + σ_a² G Gᵀ,  A = [1 dt; 0 1],  G = [dt²/2; dt]
 ///   see      l̂_a − l_a(q) = L_a δ + noise σ_l:   one tendon after the other, each with its own gate
 ///
+///   see      ω̂ − R_bᵀ ω_b = R_bᵀ (S ε + (ω_p × S) δ) + noise,   f̂ + R_bᵀ g = −R_bᵀ (g × S) δ + noise
+///            an inertial unit on body b, S the axes that turn it and ω_p of what each is on: how it
+///            turns, and, as noise as it is accelerated, what is up
+///
 /// So a ball joint needs no angles, and a path length that does not fit (a dead sensor, a line that
 /// has slipped) is left out: beyond `gate` standard deviations of what it should be.
 /// Source: Solà 2017, quaternion kinematics for the error-state Kalman filter; sequential updates:
@@ -39,6 +43,11 @@ class PoseFilter {
   /// A joint's place, as from motion capture or a sensor of it, with the σ of each axis. False: left
   /// out.
   bool see_joint(int joint, const std::array<double, 4>& position, double sigma_rad);
+  /// How a body turns, rad/s, in its own axes, with the σ of each axis. False: left out.
+  bool see_turning(int body, const sim::Vec3& turning_rad_per_s, double sigma_rad_per_s);
+  /// The specific force on a body, m/s², in its own axes, with the σ of each; what accelerates it is
+  /// taken as noise. False: left out.
+  bool see_up(int body, const sim::Vec3& force_m_per_s2, double sigma_m_per_s2);
   /// After a period's sights: moves the pose there.
   void settle();
 
@@ -51,13 +60,17 @@ class PoseFilter {
 
  private:
   bool see(const Vector& h, double apart, double sigma);
+  sim::Vec3 axis_on(int body, int coordinate) const;
+  sim::Vec3 carried_rad_per_s(int coordinate) const;
   void accelerate(double dt_s, const Vector& tension_N);
   void turn(const Eigen::Ref<const Vector>& by);
 
   FilterOptions options_;
   sim::Musculoskeletal model_;
+  sim::Vec3 gravity_m_per_s2_;
   std::vector<sim::JointReading> joints_;
   std::vector<double> viscous_;  ///< by coordinate
+  std::vector<int> parents_;     ///< the body that each coordinate's joint is on
   Vector speed_, step_, error_, gain_, row_, bias_, torque_;
   Matrix p_, inertia_;
 };

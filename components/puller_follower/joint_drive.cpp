@@ -78,7 +78,7 @@ void JointDrive::follow(double torque_Nm, double dt_s) {
   const ReferenceTension raised{params_.low_N, params_.high_N, params_.width_Nm, params_.lead_s};
   const double most_N = params_.raise_N_per_s * dt_s;
   raised_N_ += std::clamp(raised.of(torque_.value, torque_.rate) - raised_N_, -most_N, most_N);
-  reference_.follow(raised_N_, dt_s, params_.smooth_s);
+  reference_.follow(raised_N_, dt_s, params_.raise_s);
 }
 
 void JointDrive::drive(double torque_Nm, double acceleration, const sim::Musculoskeletal& model,

@@ -18,6 +18,7 @@ struct DriveParams {
   double width_Nm = 0.15;         ///< of the torque, around a change; chosen
   double lead_s = 0.3;            ///< how long before the change; chosen
   double raise_N_per_s = 40;      ///< how fast it rises and falls: the line that takes; chosen
+  double raise_s = 0.05;          ///< how gently that begins and ends; chosen
   double smooth_s = 0.01;         ///< of the torque; chosen
   double tension_per_s = 60;      ///< b of the tensions; chosen
 };

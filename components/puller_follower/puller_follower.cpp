@@ -52,8 +52,9 @@ std::optional<erp::ActuatorCommand> PullerFollower::step(
     const node::Latest<erp::JointTarget>& target) {
   const bool heard = hear(frame, dt_s);
   const bool known = heard && state && state.age_s <= params_.stale_s &&
-                     names_.read(state.message, now_) && target &&
-                     target.age_s <= params_.stale_s && names_.read(target.message, wanted_);
+                     names_.read(state.message, frame.stamp_ns, now_) && target &&
+                     target.age_s <= params_.stale_s &&
+                     names_.read(target.message, frame.stamp_ns, wanted_);
   const bool begins = known && !driving_;
   driving_ = known;
   if (!known) return std::nullopt;

@@ -36,6 +36,7 @@ class PullerFollower {
       v("width_Nm", drives.width_Nm, xml::positive);
       v("lead_s", drives.lead_s, xml::at_least_zero);
       v("raise_N_per_s", drives.raise_N_per_s, xml::positive);
+      v("raise_s", drives.raise_s, xml::positive);
       v("smooth_s", drives.smooth_s, xml::positive);
       v("tension_per_s", drives.tension_per_s, xml::positive);
       v("kp_per_s2", laws.kp_per_s2, xml::at_least_zero);

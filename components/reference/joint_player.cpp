@@ -1,14 +1,19 @@
 #include "components/reference/joint_player.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "interfaces/recording/table.hpp"
 
 namespace reference {
 namespace {
 
-constexpr double least_start_s = 0.2;  // chosen: even where it is there already
+// Chosen: how long it takes even where it is there already, and to lose start_rad_per_s.
+constexpr double least_start_s = 0.2;
+constexpr double missing_s = 0.05;  // chosen: so long without a frame, and the robot went on alone
 
 std::vector<sim::TimedPose> poses_of(const JointPlayer::Params& params, const erp::Robot& robot) {
   const auto folder = std::filesystem::path(params.place.file).parent_path();
@@ -20,10 +25,20 @@ std::vector<sim::TimedPose> poses_of(const JointPlayer::Params& params, const er
   return poses;
 }
 
-sim::Pose pose_of(std::span<const sim::JointReading> readings) {
-  sim::Pose pose;
-  for (const auto& reading : readings) pose.push_back(reading.position);
-  return pose;
+double top_speed(std::span<const sim::JointReading> joints) {
+  double most = 0;
+  for (const auto& joint : joints) most = std::max(most, sim::vec(joint.velocity_rad_per_s).norm());
+  return most;
+}
+
+void check_range(const sim::JointPath& path, std::span<const erp::Joint> joints) {
+  const auto out = sim::leaves_range(path, joints);
+  if (!out) return;
+  const erp::Joint& joint = joints[out->joint];
+  throw std::invalid_argument(
+      fmt::format("at {:.2f} s the way takes joint \"{}\" to {:.3f} rad, out of {} … {}: halt in "
+                  "the poses (via=\"rest\"), or keep them farther from its stops",
+                  out->time_s, joint.name, out->at_rad, joint.min_rad, joint.max_rad));
 }
 
 }  // namespace
@@ -31,16 +46,20 @@ sim::Pose pose_of(std::span<const sim::JointReading> readings) {
 JointPlayer::JointPlayer(const Params& params, const erp::Robot& robot)
     : params_(params),
       names_(robot),
-      path_(names_.list(), poses_of(params, robot)),
-      path_s_(path_.begin_s()) {}
+      path_(names_.list(), poses_of(params, robot), params.via),
+      path_s_(path_.begin_s()) {
+  check_range(path_, names_.list());
+}
 
-std::optional<erp::JointTarget> JointPlayer::step(const erp::SensorFrame&, double dt_s,
+std::optional<erp::JointTarget> JointPlayer::step(const erp::SensorFrame& frame, double dt_s,
                                                   const node::Latest<erp::JointState>& state) {
-  if (!state || !names_.read(state.message, now_)) return std::nullopt;
-  if (starting_) start_s_ += dt_s;
-  else if (begun_) path_s_ += dt_s;
+  if (!state || !names_.read(state.message, frame.stamp_ns, now_)) return std::nullopt;
+  const bool missed = dt_s > missing_s;
+  catching_up_s_ += dt_s;
+  there_ = there_ || (begun_ && catching_up_s_ >= catch_up_.duration_s());
+  if (there_ && !missed) path_s_ += dt_s;
   lead();
-  if (!begun_ || joints::apart_rad(now_, led_) > params_.lost_rad) pick_up();
+  if (!begun_ || missed || joints::apart_rad(now_, led_) > params_.lost_rad) pick_up();
   erp::JointTarget target;
   names_.write(led_, target);
   return target;
@@ -49,22 +68,19 @@ std::optional<erp::JointTarget> JointPlayer::step(const erp::SensorFrame&, doubl
 /// Where the joints shall be now.
 void JointPlayer::lead() {
   if (params_.loop && path_s_ > path_.end_s()) path_s_ -= path_.end_s() - path_.begin_s();
-  starting_ = starting_ && start_s_ < start_.end_s();
-  if (starting_) start_.at(start_s_, led_);
-  else path_.at(path_s_, led_);
+  path_.at(path_s_, led_);
+  catch_up_.add(catching_up_s_, led_);
 }
 
-/// A way from where the robot is to where the path stands.
+/// From where the robot is and as it moves, onto the path.
 void JointPlayer::pick_up() {
   path_.at(path_s_, led_);
   const double way_s =
       sim::least_jerk_top_speed * joints::apart_rad(now_, led_) / params_.start_rad_per_s;
-  sim::Pose there;
-  for (const auto& motion : led_) there.push_back(motion.now.position);
-  start_ =
-      sim::JointPath(names_.list(), {{0, pose_of(now_)}, {std::max(way_s, least_start_s), there}});
-  start_s_ = 0;
-  starting_ = begun_ = true;
+  const double slow_s = least_start_s * top_speed(now_) / params_.start_rad_per_s;
+  catch_up_ = sim::CatchUp(now_, led_, std::max({way_s, slow_s, least_start_s}));
+  catching_up_s_ = 0;
+  begun_ = true;
   lead();
 }
 

@@ -13,17 +13,34 @@ namespace {
 
 using recording::Column;
 
-constexpr double mean_over_s = 0.1;  // chosen
+constexpr double line_over_s = 0.1;  // chosen
 
-/// RMS about the mean of the values within half of `mean_over_s`, by running sums.
+/// Sums over a window that moves along, for the straight line through it.
+struct Window {
+  double n = 0, t = 0, tt = 0, y = 0, ty = 0;
+  void add(double time_s, double value, double sign) {
+    n += sign, t += sign * time_s, tt += sign * time_s * time_s;
+    y += sign * value, ty += sign * time_s * value;
+  }
+  double line_at(double time_s) const {
+    const double spread = n * tt - t * t;
+    const double slope = spread > 1e-9 * n * tt ? (n * ty - t * y) / spread : 0;
+    return (y + slope * (n * time_s - t)) / n;
+  }
+};
+
+/// RMS about the straight line through the values within half of `line_over_s`.
 double swing(const std::vector<double>& time_s, const std::vector<double>& values) {
-  double squares = 0, sum = 0;
-  std::size_t first = 0, last = 0;  // the window: first … last − 1
+  double squares = 0;
+  Window window;
+  std::size_t first = 0, last = 0;  // of the window: first … last − 1
+  const auto take = [&](std::size_t k, double sign) {
+    window.add(time_s[k] - time_s.front(), values[k], sign);
+  };
   for (std::size_t k = 0; k < values.size(); ++k) {
-    while (last < values.size() && time_s[last] <= time_s[k] + mean_over_s / 2)
-      sum += values[last++];
-    while (time_s[first] < time_s[k] - mean_over_s / 2) sum -= values[first++];
-    const double off = values[k] - sum / static_cast<double>(last - first);
+    while (last < values.size() && time_s[last] <= time_s[k] + line_over_s / 2) take(last++, 1);
+    while (time_s[first] < time_s[k] - line_over_s / 2) take(first++, -1);
+    const double off = values[k] - window.line_at(time_s[k] - time_s.front());
     squares += off * off;
   }
   return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));

@@ -11,7 +11,7 @@ namespace launch {
 struct Effort {
   std::string actuator;
   double least_N = 0, mean_N = 0, largest_N = 0;
-  double swing_N = 0;   ///< RMS of the tension about its mean over 0.1 s
+  double swing_N = 0;   ///< RMS of the tension about its straight line over 0.1 s: what oscillates
   double energy_J = 0;  ///< ∫ V i dt: what the supply gave, less what it got back
 };
 

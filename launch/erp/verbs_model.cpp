@@ -74,7 +74,7 @@ void add_loops(CLI::App& model, Chosen& chosen) {
   verb->callback([=, &chosen] { chosen = [=] { return model_loops(*options, std::cout); }; });
 }
 
-void add_muscles(CLI::App& model, Chosen& chosen) {
+void add_babble(CLI::App& model, Chosen& chosen) {
   auto robot = std::make_shared<std::string>(), out = std::make_shared<std::string>();
   auto how = std::make_shared<sim::learning::BabbleOptions>();
   auto* babble = model.add_subcommand(
@@ -92,7 +92,31 @@ void add_muscles(CLI::App& model, Chosen& chosen) {
   babble->callback([=, &chosen] {
     chosen = [=] { return give(*out, [=](auto& to) { return model_babble(*robot, *how, to); }); };
   });
+}
 
+void add_motion(CLI::App& model, Chosen& chosen) {
+  auto robot = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  auto led = std::make_shared<sim::learning::JointMotionOptions>();
+  auto* motion = model.add_subcommand(
+      "motion", "Poses all over the workspace, for `joint_target`, to learn muscles from");
+  motion->add_option("robot", *robot, "robot.xml")->required();
+  motion->add_option("--seconds", led->duration_s, "how long")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  motion->add_option("--share", led->share, "of their top speed that motors wind with")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1.0));
+  motion->add_option("--ball", led->workspace.ball_rad, "ball joints turn by at most so much, rad")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 3.0));
+  motion->add_option("--seed", led->workspace.seed, "of what is drawn")->capture_default_str();
+  motion->add_option("--out", *out, "a file to write; else it is printed");
+  motion->callback([=, &chosen] {
+    chosen = [=] { return give(*out, [=](auto& to) { return model_motion(*robot, *led, to); }); };
+  });
+}
+
+void add_muscles(CLI::App& model, Chosen& chosen) {
   auto options = std::make_shared<ModelMusclesOptions>();
   auto* muscles = model.add_subcommand(
       "muscles", "Learns from recordings how muscles' lengths change with the joints");
@@ -105,6 +129,11 @@ void add_muscles(CLI::App& model, Chosen& chosen) {
   muscles->add_option("--held-out", options->held_out, "share of each recording that only checks")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.9));
+  muscles
+      ->add_option("--ball", options->over.ball_rad,
+                   "torques are compared with ball joints turned by at most so much, rad")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 3.0));
   muscles->add_option("--out", options->out, "the new file of networks, for computed_force");
   muscles->callback([=, &chosen] { chosen = [=] { return model_muscles(*options, std::cout); }; });
 }
@@ -140,6 +169,8 @@ void add_model(CLI::App& app, Chosen& chosen) {
   import_verb->callback([=, &chosen] { chosen = [=] { return model_import(*robot, *out); }; });
   add_statics(*model, chosen);
   add_loops(*model, chosen);
+  add_babble(*model, chosen);
+  add_motion(*model, chosen);
   add_muscles(*model, chosen);
 
   auto part = std::make_shared<std::string>();

@@ -1,7 +1,7 @@
 #include "sim/actuator/holding.hpp"
 
-#include <Eigen/LU>
-#include <cmath>
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <stdexcept>
 
 #include "sim/actuator/musculoskeletal.hpp"
@@ -14,26 +14,54 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// f = max(f_min, f_rest + J λ) with Jᵀ f = b.
+/// The dual of eq. (1): D(λ) = bᵀ λ − Σ φ(J λ) − ε/2 |λ|², φ' = f. Concave, by pieces quadratic.
+class Dual {
+ public:
+  Dual(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options)
+      : j_(j), b_(b), rest_(options.rest_N), least_(options.least_N) {
+    constexpr double stiff = 1e-8;  // of the largest Σ J²; chosen: what is left is far below friction
+    epsilon_ = stiff * (j.size() > 0 ? j.colwise().squaredNorm().maxCoeff() : 1);
+  }
+
+  VectorXd tensions(const VectorXd& at) const {
+    return (rest_ + (j_ * at).array()).max(least_).matrix();
+  }
+  VectorXd gradient(const VectorXd& at) const {
+    return b_ - j_.transpose() * tensions(at) - epsilon_ * at;
+  }
+  double value(const VectorXd& at) const {
+    const auto pull = rest_ + (j_ * at).array();
+    const auto f = pull.max(least_);
+    return b_.dot(at) - (f * pull - f.square() / 2).sum() - epsilon_ / 2 * at.squaredNorm();
+  }
+  VectorXd newton(const VectorXd& at, const VectorXd& gradient) const {
+    const VectorXd pulls = ((rest_ + (j_ * at).array()) > least_).cast<double>();
+    MatrixXd slope = j_.transpose() * pulls.asDiagonal() * j_;
+    slope.diagonal().array() += epsilon_;
+    return slope.ldlt().solve(gradient);
+  }
+
+ private:
+  const MatrixXd& j_;
+  const VectorXd& b_;
+  double rest_, least_, epsilon_;
+};
+
+/// Tensions nearest to rest that hold b, and of what cannot be held leave as little as they can.
 VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options) {
+  const Dual dual(j, b, options);
   VectorXd lambda = VectorXd::Zero(j.cols());
-  const auto tensions = [&](const VectorXd& at) {
-    return VectorXd((j * at).array().max(options.least_N - options.rest_N) + options.rest_N);
-  };
   for (int k = 0; k < 200; ++k) {
-    const VectorXd f = tensions(lambda), missing = b - j.transpose() * f;
-    if (missing.norm() < 1e-10) break;
-    const VectorXd pulls = ((j * lambda).array() > options.least_N - options.rest_N).cast<double>();
-    MatrixXd slope = j.transpose() * pulls.asDiagonal() * j;
-    slope.diagonal().array() += 1e-9 + 1e-6 * slope.diagonal().maxCoeff();
-    const VectorXd newton = slope.fullPivLu().solve(missing);
+    const VectorXd gradient = dual.gradient(lambda);
+    if (gradient.norm() < 1e-10) break;
+    const VectorXd newton = dual.newton(lambda, gradient);
+    const double before = dual.value(lambda), slope = gradient.dot(newton);
     double size = 1;
-    while (size > 1e-6 &&
-           (b - j.transpose() * tensions(lambda + size * newton)).norm() > missing.norm())
+    while (size > 1e-6 && dual.value(lambda + size * newton) < before + 1e-4 * size * slope)
       size /= 2;
     lambda += size * newton;
   }
-  return tensions(lambda);
+  return dual.tensions(lambda);
 }
 
 }  // namespace

@@ -6,12 +6,13 @@
 
 /// Statics: which tensions hold a pose, and how long the lines are then.
 ///
-///   Jᵀ f = −τ_G,  J = ∂L/∂q,  f ≥ f_min,  Σ (f − f_rest)² least
+///   min ½ Σ (f − f_rest)² + ½ |τ_G + Jᵀ f|²/ε,  J = ∂L/∂q,  f ≥ f_min                       (1)
 ///   line change = L_T(q) − L_T(q0) − (Δx(f) − Δx(f0))
 ///
 /// q0, f0: the robot's starting pose and pretensions. With the lines at these lengths the tendons
 /// pull with f at q, so the pose is an equilibrium of length control.
-/// Solved on the dual: f = max(f_min, f_rest + J λ), by damped Newton steps in λ.
+/// ε is so small that the pose is held wherever tensions can; where they cannot, (1) still has one
+/// answer. Solved on the dual: f = max(f_min, f_rest + J λ), τ_G + Jᵀ f = −ε λ, by Newton steps in λ.
 namespace sim {
 
 struct HoldingOptions {

@@ -32,6 +32,11 @@ struct MotorState {
   double shaft_rad = 0;        ///< gearbox shaft; positive: wound up since the start
 };
 
+/// Line speed of the unloaded motor at full supply, r V/(K_E N).
+inline double top_line_speed_m_per_s(const erp::MotorType& type, double spindle_radius_m) {
+  return spindle_radius_m * type.supply_V / (type.back_emf_V_s_per_rad * type.gear_ratio);
+}
+
 /// What acts on the gearbox shaft over a step.
 struct MotorLoad {
   double tension_N = 0;                     ///< F

@@ -14,10 +14,17 @@ namespace {
 constexpr double unit_within = 1e-3;  // chosen: of a quaternion's length
 constexpr double angle_within =
     1e-2;  // chosen: recordings overrun their stops a little, with noise
-constexpr double rounding_m = 1e-7, rounding_s = 1e-6;  // so that files stay readable
+constexpr double rounding_m = 1e-7, rounding_s = 1e-6, rounding_rad = 1e-6;  // readable files
 
 /// Never −0.
 double rounded(double x, double step) { return std::round(x / step) / std::round(1 / step) + 0.0; }
+
+/// The signals that say where a joint is, in the order of its position's entries.
+std::vector<const char*> signals_of(const erp::Joint& joint) {
+  if (joint.type == erp::JointType::revolute) return {".angle_rad"};
+  if (joint.type == erp::JointType::spherical) return {".qw", ".qx", ".qy", ".qz"};
+  return {};
+}
 
 /// Which entry of a joint's position a column gives.
 struct PoseColumn {
@@ -58,15 +65,12 @@ std::vector<PoseColumn> pose_columns(const recording::Table& table, const erp::R
   std::vector<std::string> known;
   std::vector<PoseColumn> found;
   const auto joints = robot.joints();
-  const auto look = [&](std::size_t joint, std::size_t entry, const char* signal) {
-    known.push_back(joints[joint].name + signal);
-    if (const auto* column = table.find(known.back())) found.push_back({joint, entry, column});
-  };
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (joints[j].type == erp::JointType::revolute) look(j, 0, ".angle_rad");
-    if (joints[j].type != erp::JointType::spherical) continue;
-    look(j, 0, ".qw"), look(j, 1, ".qx"), look(j, 2, ".qy"), look(j, 3, ".qz");
-  }
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    for (std::size_t entry = 0; const char* signal : signals_of(joints[j])) {
+      known.push_back(joints[j].name + signal);
+      if (const auto* column = table.find(known.back())) found.push_back({j, entry, column});
+      ++entry;
+    }
   for (const recording::Column& column : table.columns) {
     const auto signal = recording::signal_of(column.name);
     const bool of_a_joint = signal == "angle_rad" || (signal.size() == 2 && signal[0] == 'q');
@@ -95,6 +99,21 @@ std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot&
     poses.push_back(next);
   }
   return poses;
+}
+
+recording::Table table_of(const std::vector<TimedPose>& poses, const erp::Robot& robot) {
+  recording::Table table{{{"time_s", {}}}};
+  for (const TimedPose& timed : poses)
+    table.columns[0].values.push_back(rounded(timed.time_s, rounding_s));
+  const auto joints = robot.joints();
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    for (std::size_t entry = 0; const char* signal : signals_of(joints[j])) {
+      auto& column = table.columns.emplace_back(joints[j].name + signal, std::vector<double>{});
+      for (const TimedPose& timed : poses)
+        column.values.push_back(rounded(timed.pose[j][entry], rounding_rad));
+      ++entry;
+    }
+  return table;
 }
 
 namespace {

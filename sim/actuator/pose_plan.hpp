@@ -10,6 +10,9 @@ namespace sim {
 /// column that belongs to no joint, the row and joint out of range; or a table without rows.
 std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot& robot);
 
+/// The table of poses, as poses_of reads it: to a microradian and a microsecond.
+recording::Table table_of(const std::vector<TimedPose>& poses, const erp::Robot& robot);
+
 struct PlanOptions {
   HoldingOptions holding;
   double sample_s = 0.05;  ///< between poses farther apart than this

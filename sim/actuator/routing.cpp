@@ -9,8 +9,6 @@ namespace sim {
 
 namespace {
 
-Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
-
 int index_of(const std::string& body, std::span<const std::string> names) {
   const auto found = std::find(names.begin(), names.end(), body);
   if (found == names.end())

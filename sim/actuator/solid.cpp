@@ -7,8 +7,6 @@
 namespace sim {
 namespace {
 
-Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
-
 Clearance from_line(const Solid& solid, const Vec3& point) {
   const Vec3 line = solid.to_m - solid.from_m;
   const double length2 = line.squaredNorm();

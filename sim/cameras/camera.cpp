@@ -6,8 +6,6 @@
 namespace sim::cameras {
 namespace {
 
-Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
-
 double stretched(const CameraConfig& c, double square) {
   return 1 + square * (c.k1 + square * c.k2);
 }

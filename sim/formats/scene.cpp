@@ -11,7 +11,7 @@
 namespace formats {
 namespace {
 
-using sim::Vec3;
+using sim::vec, sim::Vec3;
 
 constexpr double bone_m = 0.008;           // how thick a body without a shape is drawn
 constexpr double arc_step_rad = 0.1;       // of a line around a pulley
@@ -19,8 +19,6 @@ constexpr double weight_kg_per_m3 = 4000;  // about a motor's
 constexpr auto weight_fill = "#b9b3a5";
 constexpr auto bone_fill = "#e6e2d8", bone_edge = "#8a8375", joint_fill = "#3b6ea5";
 constexpr auto pulley_edge = "#9db4c8", muscle = "#c0392b";
-
-Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 class Scene {
  public:
@@ -106,8 +104,8 @@ class Scene {
                            pulley_edge,
                            "",
                            1});
-    strokes.push_back({sim::path_line(routing, shape, arc_step_rad), 0, muscle,
-                       nullptr, actuator.name, 2});
+    strokes.push_back(
+        {sim::path_line(routing, shape, arc_step_rad), 0, muscle, nullptr, actuator.name, 2});
   }
 
   sim::RobotTree tree_;

@@ -6,14 +6,32 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/skeleton/rotation_vector.hpp"
+
 namespace sim {
 namespace {
 
+using Eigen::Index;
 using Eigen::Quaterniond;
 using erp::JointType;
 
 Quaterniond turn_of(const std::array<double, 4>& q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+}
+
+/// How a joint moves at an end of a way.
+struct End {
+  Vec3 velocity, acceleration;
+};
+
+QuinticWay way_of(JointType type, const Vec3& u, const End& from, End to, double T) {
+  if (type == JointType::spherical) {
+    const RotationVector turn(u);
+    to.velocity = turn.rate(to.velocity);
+    to.acceleration = turn.rate_of_rate(to.velocity, to.acceleration);
+  }
+  return QuinticWay::between(u, T * from.velocity, T * T * from.acceleration, T * to.velocity,
+                             T * T * to.acceleration);
 }
 
 }  // namespace
@@ -47,40 +65,90 @@ std::array<double, 4> gone(JointType type, const std::array<double, 4>& from,
   return {q.w(), q.x(), q.y(), q.z()};
 }
 
-JointPath::JointPath(std::span<const erp::Joint> joints, std::vector<TimedPose> poses)
+JointPath::JointPath(std::span<const erp::Joint> joints, std::vector<TimedPose> poses, Via via)
     : poses_(std::move(poses)) {
   if (poses_.empty()) throw std::invalid_argument("a way needs a pose at least");
   for (const erp::Joint& joint : joints) types_.push_back(joint.type);
+  check_times();
+  if (poses_.size() > 1) plan(via);
+}
+
+void JointPath::check_times() const {
+  for (std::size_t k = 1; k < poses_.size(); ++k)
+    if (!(poses_[k].time_s > poses_[k - 1].time_s))
+      throw std::invalid_argument("row " + std::to_string(k + 1) + ": time_s " +
+                                  std::to_string(poses_[k].time_s) + " does not rise");
+}
+
+void JointPath::plan(Via via) {
+  std::vector<double> times_s;
+  for (const TimedPose& pose : poses_) times_s.push_back(pose.time_s);
+  const Eigen::MatrixXd u = turns();
+  const ViaMotions motions = least_jerk_through(times_s, u, rests(via));
   for (std::size_t k = 0; k + 1 < poses_.size(); ++k) {
-    const TimedPose &from = poses_[k], &to = poses_[k + 1];
-    if (!(to.time_s > from.time_s))
-      throw std::invalid_argument("row " + std::to_string(k + 2) + ": time_s " +
-                                  std::to_string(to.time_s) + " does not rise");
     auto& ways = ways_.emplace_back();
-    for (std::size_t j = 0; j < types_.size(); ++j)
-      ways.push_back(way_between(types_[j], from.pose[j], to.pose[j]));
+    for (std::size_t j = 0; j < types_.size(); ++j) {
+      const auto of = [&](const Eigen::MatrixXd& all, std::size_t row) -> Vec3 {
+        return all.block<1, 3>(Index(row), Index(3 * j)).transpose();
+      };
+      const End from{of(motions.velocity, k), of(motions.acceleration, k)};
+      const End to{of(motions.velocity, k + 1), of(motions.acceleration, k + 1)};
+      ways.push_back(way_of(types_[j], of(u, k), from, to, times_s[k + 1] - times_s[k]));
+    }
   }
+}
+
+/// u(1) of all ways: segments × three a joint.
+Eigen::MatrixXd JointPath::turns() const {
+  Eigen::MatrixXd u(poses_.size() - 1, 3 * types_.size());
+  for (std::size_t k = 0; k + 1 < poses_.size(); ++k)
+    for (std::size_t j = 0; j < types_.size(); ++j)
+      u.block<1, 3>(Index(k), Index(3 * j)) =
+          vec(way_between(types_[j], poses_[k].pose[j], poses_[k + 1].pose[j])).transpose();
+  return u;
+}
+
+std::vector<bool> JointPath::rests(Via via) const {
+  std::vector<bool> rests(poses_.size(), via == Via::rest);
+  for (std::size_t k = 0; k + 1 < poses_.size(); ++k)
+    if (poses_[k].pose == poses_[k + 1].pose) rests[k] = rests[k + 1] = true;
+  return rests;
 }
 
 void JointPath::at(double time_s, std::vector<JointMotion>& motions) const {
   motions.resize(types_.size());
   const auto after = std::ranges::upper_bound(poses_, time_s, {}, &TimedPose::time_s);
   const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - poses_.begin() - 1, 0));
-  const bool moves = k < ways_.size();
-  const double T = moves ? poses_[k + 1].time_s - poses_[k].time_s : 1;
-  const LeastJerk p = least_jerk(moves ? (time_s - poses_[k].time_s) / T : 0);
+  const bool moves = k < ways_.size() && time_s >= poses_[k].time_s;
   for (std::size_t j = 0; j < types_.size(); ++j) {
     JointMotion& motion = motions[j];
     motion = {{types_[j], poses_[k].pose[j], {}, {}, {}}, {}};
     if (!moves) continue;
-    std::array<double, 3> way = ways_[k][j];
-    for (std::size_t d = 0; d < 3; ++d) {
-      motion.now.velocity_rad_per_s[d] = p.speed / T * way[d];
-      motion.acceleration_rad_per_s2[d] = p.acceleration / (T * T) * way[d];
-      way[d] *= p.done;
-    }
-    motion.now.position = gone(types_[j], poses_[k].pose[j], way);
+    const double T = poses_[k + 1].time_s - poses_[k].time_s;
+    auto p = ways_[k][j].at((time_s - poses_[k].time_s) / T);
+    p.rate /= T, p.rate_of_rate /= T * T;
+    const bool ball = types_[j] == JointType::spherical;
+    const RotationVector turn(p.u);
+    motion.now.velocity_rad_per_s = numbers(ball ? turn.speed(p.rate) : p.rate);
+    motion.acceleration_rad_per_s2 =
+        numbers(ball ? turn.acceleration(p.rate, p.rate_of_rate) : p.rate_of_rate);
+    motion.now.position = gone(types_[j], poses_[k].pose[j], numbers(p.u));
   }
+}
+
+std::optional<OutOfRange> leaves_range(const JointPath& path, std::span<const erp::Joint> joints) {
+  constexpr double every_s = 0.01, within_rad = 0.01;  // chosen
+  std::vector<JointMotion> at;
+  for (double t_s = path.begin_s(); t_s < path.end_s(); t_s += every_s) {
+    path.at(t_s, at);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const double q_rad = at[j].now.position[0];
+      if (joints[j].type == JointType::revolute &&
+          (q_rad < joints[j].min_rad - within_rad || q_rad > joints[j].max_rad + within_rad))
+        return OutOfRange{j, t_s, q_rad};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace sim

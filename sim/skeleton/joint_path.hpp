@@ -1,17 +1,21 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/skeleton/joint_reading.hpp"
+#include "sim/skeleton/via_points.hpp"
 
-/// Ways of joints through poses in time.
+/// Ways of joints through poses in time, with the least jerk (Flash and Hogan 1985).
 ///
-///   q(t) = q₀ ⊕ p(s) u,   s = (t − t₀)/T,   p(s) = s³ (10 − 15 s + 6 s²),   u = q₁ ⊖ q₀
+///   q(t) = q_k ⊕ u(s),   s = (t − t_k)/T,   u(0) = 0,   u(1) = q_{k+1} ⊖ q_k
 ///
-/// Between two poses straight, with the least jerk (Flash and Hogan 1985), at rest in both. A ball
-/// joint turns about one axis, which stands still in parent and child: u is the rotation vector in
-/// the child's frame, and p′u/T, p″u/T² are velocity and acceleration there.
+/// Of a ball joint u is a rotation vector in the child's frame. From rest to rest u goes straight,
+/// u = p(s) u(1) with p = s³ (10 − 15 s + 6 s²): about one axis, which stands still in parent and
+/// child. Through a pose without a halt velocity and acceleration are continuous; which they are
+/// follows from the least jerk of each entry of u, for ball joints nearly the least.
 namespace sim {
 
 /// One position a joint, as JointReading has it.
@@ -52,11 +56,17 @@ struct JointMotion {
   std::array<double, 3> acceleration_rad_per_s2{};
 };
 
+/// What happens in the poses between the first and the last.
+enum class Via {
+  rest,    ///< a halt in each
+  through  ///< a halt only where two rows in sequence are the same pose
+};
+
 class JointPath {
  public:
   JointPath() = default;
   /// Throws std::invalid_argument where times do not rise, or without a pose.
-  JointPath(std::span<const erp::Joint> joints, std::vector<TimedPose> poses);
+  JointPath(std::span<const erp::Joint> joints, std::vector<TimedPose> poses, Via via = Via::rest);
 
   double begin_s() const { return poses_.front().time_s; }
   double end_s() const { return poses_.back().time_s; }
@@ -65,9 +75,22 @@ class JointPath {
   void at(double time_s, std::vector<JointMotion>& motions) const;
 
  private:
+  void check_times() const;
+  void plan(Via via);
+  Eigen::MatrixXd turns() const;
+  std::vector<bool> rests(Via via) const;
+
   std::vector<erp::JointType> types_;
   std::vector<TimedPose> poses_;
-  std::vector<std::vector<std::array<double, 3>>> ways_;  ///< from each pose to the next, by joint
+  std::vector<std::vector<QuinticWay>> ways_;  ///< from each pose to the next, by joint
 };
+
+/// Where a way takes a hinge out of its range, by more than 0.01 rad; a way without halts swings out
+/// beside its poses.
+struct OutOfRange {
+  std::size_t joint;
+  double time_s, at_rad;
+};
+std::optional<OutOfRange> leaves_range(const JointPath& path, std::span<const erp::Joint> joints);
 
 }  // namespace sim

@@ -1,10 +1,15 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 
 /// Where bodies are and how they move.
 namespace sim {
 
 using Vec3 = Eigen::Vector3d;
+
+/// From and to the three numbers that messages and files have.
+inline Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+inline std::array<double, 3> numbers(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// Where a body's frame is, in the world.
 struct BodyPose {

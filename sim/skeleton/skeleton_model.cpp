@@ -7,8 +7,6 @@
 namespace sim {
 namespace {
 
-Vec3 vec(const xml::Vec3& v) { return {v[0], v[1], v[2]}; }
-
 Eigen::Matrix3d tensor(const erp::Mass& mass) {
   const auto& i = mass.inertia_kg_m2;
   Eigen::Matrix3d t;

@@ -4,36 +4,19 @@
 #include <CGAL/QP_models.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <random>
 
 #include "components/computed_force/computed_force.hpp"
 #include "components/pose_estimator/pose_estimator.hpp"
+#include "tests/bench/times.hpp"
 
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double now_us() {
-  return 1e-3 * static_cast<double>(std::chrono::steady_clock::now().time_since_epoch().count());
-}
-
-/// What each call took, µs.
-struct Times {
-  std::vector<double> us;
-  template <class Work>
-  void take(Work&& work) {
-    const double began = now_us();
-    work();
-    us.push_back(now_us() - began);
-  }
-  double at(double share) {
-    std::ranges::sort(us);
-    return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))];
-  }
-};
+using bench::Times;
 
 /// A robot whose joints are asked to swing about where they start.
 struct Swing {
@@ -85,7 +68,7 @@ void cycle_row(const std::string& name) {
   for (int k = 0; k < 5000; ++k) {
     swing.move_to(0.002 * k);
     controls.take([&] { (void)control.step(swing.frame, 0.002, swing.state, swing.target); });
-    estimates.take([&] { (void)estimator.step(swing.frame, 0.002, {}); });
+    estimates.take([&] { (void)estimator.step(swing.frame, 0.002, {}, {}); });
   }
   std::printf("| %-9s | %2zu | %3d | %7.1f | %7.1f | %7.1f | %7.1f |\n", name.c_str(),
               swing.robot.actuators.size(), model.coordinates(), controls.at(0.5),

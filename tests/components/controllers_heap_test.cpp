@@ -68,7 +68,7 @@ TEST_CASE("computed force and the pose estimator do not touch the heap") {
     control::ComputedForce control({}, bench.robot);
     pose::PoseEstimator estimator({}, bench.robot);
     check_heap(bench, [&] {
-      estimator.step(bench.frame, 0.002, {});
+      estimator.step(bench.frame, 0.002, {}, {});
       return control.step(bench.frame, 0.002, bench.state, bench.target).has_value();
     });
   }

@@ -1,51 +1,15 @@
 // Joints under control, in lockstep: the arm by computed force (the paper's Fig. 8), the hinge rig by
 // puller and follower (Fig. 7a).
-#include <catch2/catch.hpp>
 #include <fstream>
-#include <numbers>
 
-#include "interfaces/recording/mcap_reader.hpp"
-#include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
-#include "launch/erp/joints.hpp"
-#include "tests/system/command.hpp"
+#include "tests/system/joint_runs.hpp"
 
 using namespace tests;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
-
-/// Runs a graph for so much of the robot's time; its recording.
-std::string recorded(const Folder& folder, const std::string& graph, int for_s = 29) {
-  const auto outcome = run("erp launch " + graph + " --lockstep --for " + std::to_string(for_s) +
-                           "s --out " + (folder / "run"));
-  INFO(outcome.output);
-  REQUIRE(outcome.exit_code == 0);
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "run"))
-    if (entry.path().extension() == ".mcap") return entry.path().string();
-  FAIL("no recording");
-  return {};
-}
-
-std::vector<launch::JointError> errors(const std::string& file, const std::string& of,
-                                       const std::string& against, double from_s = 0.5) {
-  const recording::McapReader reader(file);
-  auto found = launch::joint_errors(recording::joint_tracks(reader, of),
-                                    recording::joint_tracks(reader, against), from_s);
-  REQUIRE(found.size() > 0);
-  for (const auto& e : found) REQUIRE(e.frames > 500);
-  return found;
-}
-
-double least_tension_N(const std::string& file) {
-  const auto table = recording::read_table(file);
-  double least = 1e9;
-  for (const auto& name : table.owners("tension_N"))
-    for (const double f : table.find(name + ".tension_N")->values) least = std::min(least, f);
-  return least;
-}
 
 /// The arm with something that its controllers do not know.
 std::string arm_with(const Folder& folder, const std::string& type, const std::string& on,
@@ -125,7 +89,7 @@ TEST_CASE("a limb that grasps 0.2 kg on its way is soon back where it should be;
     const auto file = recorded(folder, "launch/puller_follower_twin.xml " + more, 3);
     CHECK(least_tension_N(file) > 1);
     double largest = 0;
-    for (const auto& e : errors(file, "sim", "joint_target", 1.55))
+    for (const auto& e : errors(file, "sim", "joint_target", 1.5))
       largest = std::max(largest, e.largest_rad);
     return largest;
   };

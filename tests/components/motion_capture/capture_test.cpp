@@ -5,71 +5,18 @@
 #include <numbers>
 
 #include "components/motion_capture/image_files.hpp"
-#include "components/motion_capture/motion_capture.hpp"
 #include "interfaces/recording/table.hpp"
-#include "interfaces/xml/xml.hpp"
 #include "sim/actuator/pose_plan.hpp"
+#include "tests/components/motion_capture/studio.hpp"
 #include "tests/interfaces/recording/support.hpp"
 
 using namespace capture;
 using sim::Vec3;
+using tests::Studio;
 
 namespace {
 
 constexpr double period_s = 0.01, degree = std::numbers::pi / 180;
-
-/// The arm before its two cameras, with what its config gives it.
-struct Studio {
-  erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
-  MotionCapture::Params params;
-  sim::RobotTree tree{robot};
-  std::vector<Marker> markers;
-  std::array<sim::cameras::Camera, 2> cameras;
-  std::vector<sim::cameras::Painter> painters;
-  sim::SkeletonModel bones{tree, Vec3::Zero()};
-
-  Studio()
-      : params(read()),
-        markers(markers_of(params.markers, tree)),
-        cameras{sim::cameras::Camera(params.cameras[0]), sim::cameras::Camera(params.cameras[1])} {
-    for (std::uint64_t c = 0; c < 2; ++c)
-      painters.emplace_back(cameras[c], sim::cameras::Light{}, c + 1);
-  }
-  static MotionCapture::Params read() {
-    MotionCapture::Params params;
-    xml::read_into(params, ERP_SOURCE_DIR "/configs/arm/motion_capture.xml", "motion_capture");
-    return params;
-  }
-  Capture capture() const { return {tree, markers, cameras, params.options}; }
-
-  std::vector<sim::cameras::Ball> balls() const {
-    std::vector<sim::cameras::Ball> all;
-    for (const Marker& m : markers) {
-      const sim::BodyPose& body = bones.poses()[m.body];
-      all.push_back({body.position_m + body.rotation * m.at_m, params.ball_m});
-    }
-    return all;
-  }
-  std::vector<sim::cameras::Bone> limbs() const {
-    std::vector<sim::cameras::Bone> all;
-    for (const auto& bone : params.bones) {
-      const auto body = std::size_t(std::ranges::find(tree.names, bone.body) - tree.names.begin());
-      const sim::BodyPose& pose = bones.poses()[body];
-      const auto at = [&](const xml::Vec3& v) {
-        return Vec3(pose.position_m + pose.rotation * Vec3(v[0], v[1], v[2]));
-      };
-      all.push_back({at(bone.from_m), at(bone.to_m), bone.radius_m});
-    }
-    return all;
-  }
-  std::array<sim::cameras::Image, 2> images(std::span<const sim::JointReading> joints,
-                                            std::span<const sim::cameras::Bone> more = {}) {
-    bones.place(joints);
-    auto hiding = limbs();
-    hiding.insert(hiding.end(), more.begin(), more.end());
-    return {painters[0].paint(balls(), hiding), painters[1].paint(balls(), hiding)};
-  }
-};
 
 double apart(const sim::JointReading& a, const sim::JointReading& b) {
   const auto way = sim::way_between(a.type, a.position, b.position);

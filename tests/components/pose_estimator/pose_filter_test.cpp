@@ -153,3 +153,38 @@ TEST_CASE("a joint that is seen is believed as far as it is worth") {
   CHECK(filter.joints()[1].position[0] == Approx(0.32).margin(1e-9));
   CHECK_FALSE(filter.see_joint(1, {2.0}, 0.001));
 }
+
+TEST_CASE("inertial units tell how the bones turn, and which way is up") {
+  sim::Musculoskeletal truth(arm());
+  std::vector<sim::JointReading> now;
+  for (const auto& joint : truth.tree().joints) now.push_back(sim::start_of(joint));
+  now[0].position = sim::gone(now[0].type, now[0].position, {0.06, -0.05, 0.04});
+  now[0].velocity_rad_per_s = {0.3, -0.5, 0.2};
+  now[1].position = sim::gone(now[1].type, now[1].position, {0.08});
+  now[1].velocity_rad_per_s = {-0.4};
+  truth.place(now);
+  pose::FilterOptions wide = options;
+  wide.start_rad = 0.1, wide.start_rad_per_s = 1;
+  pose::PoseFilter filter(arm(), wide);
+  const auto& there = truth.skeleton();
+  const sim::Vec3 up(0, 0, 9.81);
+  const auto is_on = [](const sim::BodyPose& pose, const sim::Vec3& v) -> sim::Vec3 {
+    return pose.rotation.transpose() * v;
+  };
+  for (int k = 0; k < 30; ++k) {
+    for (const int body : {1, 2}) {
+      const auto b = std::size_t(body);
+      filter.see_turning(body, is_on(there.poses()[b], there.twists()[b].angular_rad_per_s), 1e-3);
+      filter.see_up(body, is_on(there.poses()[b], up), 1e-2);
+    }
+    filter.settle();
+  }
+  for (const std::size_t b : {1U, 2U}) {
+    const auto& seen = filter.model().skeleton();
+    CHECK((is_on(seen.poses()[b], up) - is_on(there.poses()[b], up)).norm() < 0.02);
+    CHECK((is_on(seen.poses()[b], seen.twists()[b].angular_rad_per_s) -
+           is_on(there.poses()[b], there.twists()[b].angular_rad_per_s))
+              .norm() < 0.005);
+  }
+  CHECK_FALSE(filter.see_up(2, -up, 1e-2));  // upside down: that cannot be
+}

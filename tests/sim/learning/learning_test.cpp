@@ -1,10 +1,13 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "sim/actuator/motor.hpp"
+#include "sim/actuator/pose_plan.hpp"
 #include "sim/learning/babble.hpp"
 #include "sim/learning/learnt_lengths.hpp"
 #include "sim/learning/length_learner.hpp"
 #include "sim/learning/torque_error.hpp"
+#include "sim/learning/workspace.hpp"
 #include "sim/skeleton/joint_path.hpp"
 
 using namespace sim::learning;
@@ -148,4 +151,51 @@ TEST_CASE("babbling begins at the pretensions and keeps every tendon within its 
     for (const double f : column->values) CHECK((f >= 4 && f <= actuator.max_tension_N / 2));
   }
   CHECK(table.rows() > 25);
+}
+
+TEST_CASE("a workspace holds only what the muscles can hold") {
+  erp::Robot robot = arm();
+  Workspace workspace(robot, {.seed = 5});
+  sim::PoseHolder holder(robot);
+  for (int k = 0; k < 50; ++k) {
+    const auto holding = holder.hold(workspace.draw());
+    CHECK(holding.unbalanced_Nm < 0.05);
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a)
+      CHECK(holding.tension_N[a] <= 0.5 * robot.actuators[a].max_tension_N);
+  }
+  for (auto& actuator : robot.actuators) actuator.max_tension_N = 12;
+  Workspace none(robot, {.seed = 5});
+  CHECK_THROWS_WITH(none.draw(), Catch::Contains("can hold none"));
+}
+
+TEST_CASE("joint motion goes over the workspace no faster than motors wind") {
+  const erp::Robot robot = arm();
+  const auto poses = sim::poses_of(joint_motion(robot, {.duration_s = 60}), robot);
+  const sim::JointPath path(robot.joints(), poses, sim::Via::through);
+  CHECK(path.end_s() > 60);
+  CHECK(poses.size() > 15);
+  sim::Musculoskeletal model(robot);
+  std::vector<sim::JointMotion> at;
+  double fastest = 0;
+  for (double t_s = 0; t_s < path.end_s(); t_s += 0.02) {
+    path.at(t_s, at);
+    Joints now;
+    Eigen::VectorXd speed(model.coordinates());
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      now.push_back(at[j].now);
+      for (int d = 0; d < sim::coordinates_of(at[j].now.type); ++d)
+        speed[model.skeleton().first_of(int(j)) + d] = at[j].now.velocity_rad_per_s[std::size_t(d)];
+    }
+    CHECK((at[1].now.position[0] > -0.05 && at[1].now.position[0] < 2.4));
+    model.place(now);
+    const Eigen::VectorXd line = model.jacobian() * speed;
+    for (Eigen::Index a = 0; a < line.size(); ++a) {
+      const auto& actuator = robot.actuators[std::size_t(a)];
+      fastest = std::max(
+          fastest, std::abs(line[a]) / sim::top_line_speed_m_per_s(robot.motor_of(actuator),
+                                                                   actuator.spindle.radius_m));
+    }
+  }
+  INFO(fastest);
+  CHECK(fastest < 1);
 }

@@ -1,0 +1,49 @@
+#pragma once
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "interfaces/recording/mcap_reader.hpp"
+#include "interfaces/recording/table.hpp"
+#include "launch/erp/joints.hpp"
+#include "tests/system/command.hpp"
+
+/// Graphs in which joints are led, and how far they were off.
+namespace tests {
+
+constexpr double degree = std::numbers::pi / 180;
+
+inline std::string recording_in(const std::string& folder) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".mcap") return entry.path().string();
+  FAIL("no recording");
+  return {};
+}
+
+/// Runs a graph in lockstep for so much of the robot's time; its recording.
+inline std::string recorded(const Folder& folder, const std::string& graph, int for_s = 29) {
+  const auto outcome = run("erp launch " + graph + " --lockstep --for " + std::to_string(for_s) +
+                           "s --out " + (folder / "run"));
+  INFO(outcome.output);
+  REQUIRE(outcome.exit_code == 0);
+  return recording_in(folder / "run");
+}
+
+inline std::vector<launch::JointError> errors(const std::string& file, const std::string& of,
+                                              const std::string& against, double from_s = 0.5) {
+  const recording::McapReader reader(file);
+  auto found = launch::joint_errors(recording::joint_tracks(reader, of),
+                                    recording::joint_tracks(reader, against), from_s);
+  REQUIRE(found.size() > 0);
+  for (const auto& e : found) REQUIRE(e.frames > 500);
+  return found;
+}
+
+inline double least_tension_N(const std::string& file) {
+  const auto table = recording::read_table(file);
+  double least = 1e9;
+  for (const auto& name : table.owners("tension_N"))
+    for (const double f : table.find(name + ".tension_N")->values) least = std::min(least, f);
+  return least;
+}
+
+}  // namespace tests
