@@ -47,8 +47,9 @@ Split read(const erp::Robot& robot, const ModelMusclesOptions& options) {
 /// The same samples one after the other, with nothing known before.
 learning::LengthLearner learnt_on_line(const erp::Robot& robot, const LengthSamples& samples) {
   const sim::Musculoskeletal model(robot);
+  constexpr int units = 400;  // chosen: here nothing is known before, and nobody waits
   learning::LengthLearner learner({model.tree().joints, model.skeleton()}, samples.length_m.rows(),
-                                  {});
+                                  {.units = units, .noise_m = 1e-4});
   for (std::size_t k = 0; k < samples.joints.size(); ++k)
     learner.hear(samples.joints[k], samples.length_m.col(std::ptrdiff_t(k)));
   return learner;

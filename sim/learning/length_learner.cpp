@@ -1,6 +1,17 @@
 #include "sim/learning/length_learner.hpp"
 
 namespace sim::learning {
+namespace {
+
+/// P before anything was heard. The constant may be any: its entry is not held.
+Eigen::MatrixXd first_p(const LengthLearner::Options& options) {
+  constexpr double any_m = 1;
+  Eigen::VectorXd expected_m = Eigen::VectorXd::Constant(options.units + 1, options.weight_m);
+  expected_m[options.units] = any_m;
+  return (expected_m / options.noise_m).cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -10,7 +21,7 @@ LengthLearner::LengthLearner(const PostureInputs& inputs, Index muscles, const O
     : inputs_(inputs),
       options_(options),
       weights_(Perceptron::drawn(inputs.size(), options.units, options.seed).hidden),
-      p_(options.first_variance * MatrixXd::Identity(options.units + 1, options.units + 1)),
+      p_(first_p(options)),
       c_(MatrixXd::Zero(options.units + 1, muscles)),
       x_(VectorXd::Zero(inputs.size())),
       last_x_(VectorXd::Constant(inputs.size(), 1e9)),

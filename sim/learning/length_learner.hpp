@@ -7,6 +7,7 @@ namespace sim::learning {
 /// Tendon lengths learnt on line, sample by sample, beside a base that is already known:
 ///
 ///   l = l_base(q) + Cᵀ φ(x) + noise,    φ(x) = tanh(W x + b) and a constant; W, b drawn once
+///   P = (σ_C/σ_noise)² at first, so that C stays at the base where nothing has been seen
 ///   k = P φ/(λ + φᵀ P φ),   C ← C + k (l − l_base − Cᵀ φ)ᵀ,   P ← (P − k φᵀ P)/λ
 ///
 /// Recursive least squares with forgetting λ; one P serves all muscles, which see the same φ. So
@@ -16,9 +17,10 @@ class LengthLearner {
  public:
   struct Options {
     int units = 150;
-    double forgetting = 1;        ///< λ, a sample
-    double move = 0.005;          ///< of x: what is a new posture
-    double first_variance = 1e6;  ///< of C, over that of the noise: P at the start
+    double forgetting = 1;   ///< λ, a sample
+    double move = 0.02;      ///< of x: what is a new posture; chosen
+    double weight_m = 1e-3;  ///< σ_C, what entries of C are expected to be: beside a base; chosen
+    double noise_m = 3e-4;   ///< σ_noise, of a sample on the move; chosen
     std::uint64_t seed = 1;
   };
   LengthLearner(const PostureInputs& inputs, Eigen::Index muscles, const Options& options);

@@ -46,6 +46,21 @@ TEST_CASE("with the estimator alone they follow to a degree and a half, and it i
   for (const auto& e : errors(file, "pose_estimator", "sim")) CHECK(e.rms_rad < degree);
 }
 
+TEST_CASE("by what was learnt of its muscles the arm follows as well: beforehand, or on the way") {
+  for (const char* source : {"network", "difference", "on_line"}) {
+    Folder folder;
+    CAPTURE(source);
+    const auto file = recorded(folder, std::string("launch/computed_force_learnt.xml --set "
+                                                   "computed_force.jacobian=") +
+                                           source);
+    for (const auto& e : errors(file, "sim", "joint_target")) {
+      CHECK(e.rms_rad < 0.5 * degree);
+      CHECK(e.largest_rad < 2 * degree);
+    }
+    CHECK(least_tension_N(file) > 2);
+  }
+}
+
 TEST_CASE("half a kilogram in the hand, or 10 ms of delay, are borne") {
   Folder loaded, late;
   const auto payload = arm_with(loaded, "skeleton_payload", "forearm", "mass_kg", "0.5");

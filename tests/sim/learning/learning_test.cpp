@@ -116,7 +116,8 @@ TEST_CASE("learnt on line, torques come nearer sample by sample") {
   const erp::Robot robot = arm();
   const LengthSamples from = samples(robot, 3000, 5), check = samples(robot, 100, 6);
   const sim::Musculoskeletal model(robot);
-  LengthLearner learner({model.tree().joints, model.skeleton()}, from.length_m.rows(), {});
+  LengthLearner learner({model.tree().joints, model.skeleton()}, from.length_m.rows(),
+                        {.weight_m = 0.01, .noise_m = 1e-5});  // no base, no noise
   std::vector<double> shares;
   for (int k = 0; k < 3000; ++k) {
     learner.hear(from.joints[std::size_t(k)], from.length_m.col(k));
