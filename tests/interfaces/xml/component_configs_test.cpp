@@ -15,6 +15,7 @@
 #include "components/replay/replay_node.hpp"
 #include "hal/can/gateway_node.hpp"
 #include "interfaces/xml/xml.hpp"
+#include "sim/learning/learnt_lengths.hpp"
 #include "sim/world/sim_node.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
 
@@ -45,6 +46,7 @@ const std::map<std::string, Kind> kinds{
     {"loops", kind_of<sim::loop_shaping::JointShape>()},
     {"logger", kind_of<logger::LoggerNode::Params>()},
     {"motion_capture", kind_of<capture::MotionCapture::Params>()},
+    {"muscles", kind_of<sim::learning::LearntMuscles>()},
     {"plant", kind_of<plant::Plant::Params>()},
     {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},
