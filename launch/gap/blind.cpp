@@ -18,7 +18,7 @@
 #include "launch/text/text_files.hpp"
 #include "sim/blind/shows.hpp"
 #include "sim/diagnosis/diagnose.hpp"
-#include "sim/diagnosis/parallel.hpp"
+#include "sim/parallel/in_parallel.hpp"
 
 namespace launch::gap {
 namespace {
@@ -84,7 +84,7 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   std::size_t done = 0;
   std::mutex telling;
   Progress progress(remarks);
-  sim::diagnosis::in_parallel(count, options.threads, [&](std::size_t k) {
+  sim::in_parallel(count, options.threads, [&](std::size_t k) {
     const std::string name = fmt::format("case_{:04}", k + 1);
     const auto blind = sim::blind::draw_case(robot, kind, options.seed + k, options.only, shows);
     drawn_anew += blind.drawn_anew;
@@ -134,7 +134,7 @@ int blind_run(const std::string& folder, int threads, std::ostream& out, std::os
   std::atomic<std::size_t> done = 0;
   std::mutex telling;
   Progress progress(remarks);
-  sim::diagnosis::in_parallel(mine.size(), threads, [&](std::size_t k) {
+  sim::in_parallel(mine.size(), threads, [&](std::size_t k) {
     std::vector<std::string> files;
     for (const Json& file : mine[k]["recordings"])
       files.push_back(folder + "/" + file.get<std::string>());

@@ -31,6 +31,13 @@ struct Spring {
   double force_N(double stretch_m) const {
     return stretch_m > 0 ? of_spring_N(spring_stretch_m(stretch_m)) : 0.0;
   }
+  /// ∫ F dΔx from slack: in the spring, and in the line.
+  double energy_J(double stretch_m) const {
+    if (!(stretch_m > 0)) return 0;
+    const double x = spring_stretch_m(stretch_m), force_N = of_spring_N(x);
+    return x * x * (stiffness_N_per_m / 2 + cubic_N_per_m3 * x * x / 4) +
+           force_N * force_N * line_compliance_m_per_N / 2;
+  }
   /// dF/dΔx.
   double slope_N_per_m(double stretch_m) const {
     const double own = own_slope_N_per_m(spring_stretch_m(std::fmax(0.0, stretch_m)));

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
 #include "sim/diagnosis/tries.hpp"
+#include "sim/parallel/in_parallel.hpp"
 
 namespace sim::diagnosis {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/tries.hpp"
+#include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {

@@ -4,10 +4,10 @@
 #include <functional>
 #include <optional>
 
-#include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
 #include "sim/diagnosis/shares.hpp"
 #include "sim/diagnosis/signature.hpp"
+#include "sim/parallel/in_parallel.hpp"
 
 namespace sim::diagnosis {
 namespace {

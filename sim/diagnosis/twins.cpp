@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
+#include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {

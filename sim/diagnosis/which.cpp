@@ -5,8 +5,8 @@
 #include <mutex>
 
 #include "sim/diagnosis/bootstrap.hpp"
-#include "sim/diagnosis/parallel.hpp"
 #include "sim/diagnosis/promise.hpp"
+#include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {

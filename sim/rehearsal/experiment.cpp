@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sim/diagnosis/parallel.hpp"
+#include "sim/parallel/in_parallel.hpp"
 #include "sim/rehearsal/rehearse.hpp"
 
 namespace sim::rehearsal {
@@ -108,7 +108,7 @@ Experiment next_experiment(const erp::Robot& robot, const std::vector<Placed>& s
   Experiment experiment;
   experiment.candidates.resize(static_cast<std::size_t>(options.candidates));
   std::atomic<int> done = 0;
-  diagnosis::in_parallel(experiment.candidates.size(), options.threads, [&](std::size_t k) {
+  in_parallel(experiment.candidates.size(), options.threads, [&](std::size_t k) {
     const std::uint64_t seed = options.seed + k / excitation_kinds;
     experiment.candidates[k] =
         try_out(robot, suspects, static_cast<int>(k % excitation_kinds), seed, options);

@@ -5,7 +5,7 @@
 #include <map>
 #include <mutex>
 
-#include "sim/diagnosis/parallel.hpp"
+#include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/indices.hpp"
 #include "sim/residuals/measured.hpp"
 
@@ -114,7 +114,7 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
   std::vector<std::string> why(recordings.size());
   std::size_t done = 0;
   std::mutex telling;
-  diagnosis::in_parallel(recordings.size(), options.threads, [&](std::size_t r) {
+  in_parallel(recordings.size(), options.threads, [&](std::size_t r) {
     why[r] = obstacle(recordings[r], nominal);
     try {
       if (why[r].empty())

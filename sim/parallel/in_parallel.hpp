@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-namespace sim::diagnosis {
+namespace sim {
 
 /// Calls work(k) for each k < count on some threads; the first exception comes back to the caller
 /// when all have ended.
@@ -28,4 +28,4 @@ void in_parallel(std::size_t count, int threads, Work work) {
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace sim::diagnosis
+}  // namespace sim

@@ -1,0 +1,85 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "interfaces/robot/robot.hpp"
+
+/// What of a robot is not well known, as normalised numbers (paper, 4.4): 0 is what robot.xml says,
+/// 1 is off by the spread that is expected.
+///
+///   attachments   A, B: first and last point of a tendon    x_i m, each of three axes
+///   length        L_K0                                      m, beside what robot.xml makes of it
+///   stiffness     κ                                         κ exp(spread x)
+///   radius        r of the spindle                          r exp(spread x)
+namespace sim::calibration {
+
+enum class Quantity { attachments, length, stiffness, radius };
+
+/// One `<vary>` of a calibration's file.
+struct Vary {
+  static constexpr auto element = "vary";
+  xml::Place place;
+  Quantity what = Quantity::attachments;
+  std::string on = "*";  ///< an actuator; all of them
+  double spread = 0;     ///< m; of stiffness and radius relative
+  void visit(auto& v) {
+    v.required("what", what);
+    v("on", on);
+    v.required("spread", spread, xml::positive);
+  }
+};
+
+/// `<calibration>`, a file.
+struct Choice {
+  static constexpr auto element = "calibration";
+  xml::Place place;
+  std::vector<Vary> list;
+  void visit(auto& v) { v.list(list); }
+};
+
+/// One number that is looked for.
+struct Parameter {
+  std::size_t actuator = 0;
+  Quantity what = Quantity::attachments;
+  int axis = 0;  ///< of attachments: 0 … 2 of A, 3 … 5 of B
+  double spread = 0;
+};
+
+/// A robot with other parameters; lengths beside those that follow from its pretensions.
+struct Candidate {
+  erp::Robot robot;
+  std::vector<double> longer_m;  ///< by actuator
+};
+
+class Parameters {
+ public:
+  /// Throws xml::Errors for an actuator that there is not, or that is chosen twice.
+  Parameters(erp::Robot robot, const Choice& choice);
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(list_.size()); }
+  const std::vector<Parameter>& list() const { return list_; }
+  /// "biceps: A x, mm".
+  std::string name_of(const Parameter& parameter) const;
+  Candidate at(const Eigen::VectorXd& x) const;
+  /// The same as one robot.xml: lengths as effects `tendon_length_offset`.
+  erp::Robot robot_at(const Eigen::VectorXd& x) const;
+
+ private:
+  void choose(const Vary& vary);
+
+  erp::Robot robot_;
+  std::vector<Parameter> list_;
+};
+
+}  // namespace sim::calibration
+
+template <>
+struct xml::Names<sim::calibration::Quantity> {
+  using Quantity = sim::calibration::Quantity;
+  static constexpr auto list =
+      std::to_array<std::pair<const char*, Quantity>>({{"attachments", Quantity::attachments},
+                                                       {"length", Quantity::length},
+                                                       {"stiffness", Quantity::stiffness},
+                                                       {"radius", Quantity::radius}});
+};
