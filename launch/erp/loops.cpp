@@ -6,7 +6,7 @@
 
 #include "interfaces/recording/csv.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "launch/erp/plot.hpp"
+#include "launch/text/gnuplot.hpp"
 #include "sim/actuator/pose_plan.hpp"
 #include "sim/loop_shaping/loop_curves.hpp"
 

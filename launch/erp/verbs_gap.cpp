@@ -1,15 +1,13 @@
 #include <iostream>
 #include <memory>
-#include <thread>
 
+#include "launch/erp/verb_parts.hpp"
 #include "launch/erp/verbs.hpp"
 #include "launch/gap/blind.hpp"
 #include "launch/gap/gap.hpp"
 
 namespace launch {
 namespace {
-
-int all_cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 void add_where(CLI::App& gap, Chosen& chosen) {
   auto robot = std::make_shared<std::string>();

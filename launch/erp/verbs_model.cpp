@@ -1,4 +1,3 @@
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -8,21 +7,12 @@
 #include "launch/erp/loops.hpp"
 #include "launch/erp/model.hpp"
 #include "launch/erp/muscles.hpp"
+#include "launch/erp/verb_parts.hpp"
 #include "launch/erp/verbs.hpp"
-#include "launch/text/text_files.hpp"
 
 namespace launch {
 
 namespace {
-
-/// Prints, or writes a file: only once all is computed, because the robot may include that file.
-int give(const std::string& file, const std::function<int(std::ostream&)>& print) {
-  std::ostringstream text;
-  const int code = print(text);
-  if (file.empty()) return std::cout << text.str(), code;
-  write_file(file, text.str());
-  return code;
-}
 
 /// What follows from the balance of tensions and gravity.
 void add_statics(CLI::App& model, Chosen& chosen) {

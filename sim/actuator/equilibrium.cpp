@@ -1,6 +1,7 @@
 #include "sim/actuator/equilibrium.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -66,7 +67,6 @@ struct Equilibrium::Inside {
     }
     return q;
   }
-  /// Hinges no farther than their stops.
   Joints within_range(Joints q) const {
     for (std::size_t j = 0; j < q.size(); ++j)
       if (q[j].type == erp::JointType::revolute)
@@ -101,6 +101,14 @@ struct Equilibrium::Inside {
       found.col(c) = (torque_Nm - torque)(among) / step_rad;
     }
     return (found + found.transpose()) / 2;
+  }
+
+  /// Hinges no farther than their stops.
+  Joints at(const Pose& pose) const {
+    Joints q;
+    for (std::size_t j = 0; j < pose.size(); ++j)
+      q.push_back({.type = joint(j).type, .position = pose[j]});
+    return within_range(std::move(q));
   }
 
   /// One step down, as far as V falls; false: it does not.
@@ -147,10 +155,7 @@ Rest Equilibrium::find(std::span<const double> shaft_rad, const Pose& from) {
   constexpr double balanced_Nm = 1e-8;
   Inside& in = *inside_;
   in.shaft_rad = shaft_rad, in.damping = 0;
-  Joints q;
-  for (std::size_t j = 0; j < from.size(); ++j)
-    q.push_back({.type = in.joint(j).type, .position = from[j]});
-  q = in.within_range(std::move(q));
+  Joints q = in.at(from);
   double energy_J = in.place(q);
   for (int k = 0; k < most_steps; ++k) {
     const VectorXd torque = in.torque_Nm;
@@ -163,6 +168,22 @@ Rest Equilibrium::find(std::span<const double> shaft_rad, const Pose& from) {
   for (const JointReading& joint : q) rest.pose.push_back(joint.position);
   rest.tension_N.assign(in.force_N.begin(), in.force_N.end());
   return rest;
+}
+
+VectorXd Equilibrium::torque_Nm(std::span<const double> shaft_rad, const Pose& pose) {
+  inside_->shaft_rad = shaft_rad;
+  inside_->place(inside_->at(pose));
+  return inside_->torque_Nm;
+}
+
+MatrixXd Equilibrium::compliance_rad_per_Nm(std::span<const double> shaft_rad, const Pose& pose) {
+  const VectorXd torque = torque_Nm(shaft_rad, pose);
+  const Joints q = inside_->at(pose);
+  const auto among = inside_->movable(q, torque);
+  MatrixXd compliance = MatrixXd::Zero(torque.size(), torque.size());
+  const MatrixXd stiff = inside_->slope(q, torque, among);
+  compliance(among, among) = MatrixXd(stiff.partialPivLu().inverse());
+  return compliance;
 }
 
 }  // namespace sim

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <memory>
 #include <span>
 #include <vector>
@@ -32,6 +33,10 @@ class Equilibrium {
 
   /// Shaft angles by actuator, positive wound up; the search goes down from `from`.
   Rest find(std::span<const double> shaft_rad, const Pose& from);
+  /// τ_G + Lᵀ f in a pose, Nm: zero where it rests.
+  Eigen::VectorXd torque_Nm(std::span<const double> shaft_rad, const Pose& pose);
+  /// How far it gives way there, −∂q/∂τ, rad/Nm; nothing at stops that hold.
+  Eigen::MatrixXd compliance_rad_per_Nm(std::span<const double> shaft_rad, const Pose& pose);
 
  private:
   struct Inside;

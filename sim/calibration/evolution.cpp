@@ -38,7 +38,7 @@ Individual Evolution::mutated(std::uint64_t number) const {
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<std::size_t> any(0, parents_.size() - 1);
   const Individual &parent = parents_[any(dice)], &other = parents_[any(dice)];
-  Individual child = parent;
+  Individual child{(parent.x + other.x) / 2, parent.sigma};
   const double n = static_cast<double>(child.x.size());
   const double own = 1 / std::sqrt(2 * std::sqrt(n)), common = normal(dice) / std::sqrt(2 * n);
   for (Eigen::Index i = 0; i < child.x.size(); ++i) {

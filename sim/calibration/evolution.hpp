@@ -10,8 +10,9 @@
 ///   τ' = 1/√(2n),  τ = 1/√(2√n)
 ///
 /// The parents of each generation are the µ best of the λ offspring of the one before; none outlives
-/// its generation. x of an offspring is one parent's; its σ the mean of two parents' (geometric), or
-/// step sizes would only fall. What falls outside the bounds is reflected.
+/// its generation. An offspring's x is the mean of two parents', its σ their geometric mean, or step
+/// sizes would only fall (intermediate recombination, Schwefel). What falls outside the bounds is
+/// reflected.
 ///
 /// Each offspring's dice are its own, of seed, generation and number: the same on any threads.
 namespace sim::calibration {

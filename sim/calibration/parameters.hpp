@@ -9,7 +9,8 @@
 /// 1 is off by the spread that is expected.
 ///
 ///   attachments   A, B: first and last point of a tendon    x_i m, each of three axes
-///   length        L_K0                                      m, beside what robot.xml makes of it
+///   length        L_K0                                      m, beside what robot.xml makes of it:
+///                                                           its effect `tendon_length_offset`
 ///   stiffness     κ                                         κ exp(spread x)
 ///   radius        r of the spindle                          r exp(spread x)
 namespace sim::calibration {
@@ -48,27 +49,32 @@ struct Parameter {
 
 /// A robot with other parameters; lengths beside those that follow from its pretensions.
 struct Candidate {
-  erp::Robot robot;
+  erp::Robot robot;              ///< without effects of that
   std::vector<double> longer_m;  ///< by actuator
 };
 
 class Parameters {
  public:
-  /// Throws xml::Errors for an actuator that there is not, or that is chosen twice.
+  /// Begins at the robot's lengths; its other effects stay as they are. Throws xml::Errors for an
+  /// actuator that there is not, or that is chosen twice.
   Parameters(erp::Robot robot, const Choice& choice);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(list_.size()); }
   const std::vector<Parameter>& list() const { return list_; }
   /// "biceps: A x, mm".
   std::string name_of(const Parameter& parameter) const;
+  /// Throws std::invalid_argument where a length is off by more than its effect may be.
   Candidate at(const Eigen::VectorXd& x) const;
+  /// As robot.xml has it: at(0).
+  Candidate start() const { return {robot_, longer_m_}; }
   /// The same as one robot.xml: lengths as effects `tendon_length_offset`.
   erp::Robot robot_at(const Eigen::VectorXd& x) const;
 
  private:
   void choose(const Vary& vary);
 
-  erp::Robot robot_;
+  erp::Robot robot_;              ///< without its effects of length
+  std::vector<double> longer_m_;  ///< that those had
   std::vector<Parameter> list_;
 };
 

@@ -110,22 +110,28 @@ PoseSet split(std::vector<StillPose> poses) {
   return set;
 }
 
+PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> poses,
+                          std::span<const Pose> there) {
+  PoseErrors errors;
+  const auto joints = robot.joints();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (coordinates_of(joints[j].type) == 0) continue;
+    double sum_rad = 0;
+    for (std::size_t k = 0; k < poses.size(); ++k)
+      sum_rad += apart_rad(joints[j].type, there[k][j], poses[k].pose[j]);
+    errors.mean_rad.push_back(sum_rad / static_cast<double>(poses.size()));
+    errors.mean_of_all_rad += errors.mean_rad.back();
+  }
+  errors.mean_of_all_rad /= static_cast<double>(errors.mean_rad.size());
+  return errors;
+}
+
 PoseErrors pose_errors(const Candidate& candidate, std::span<const StillPose> poses) {
   Equilibrium equilibrium(candidate.robot, candidate.longer_m);
-  PoseErrors errors;
-  const auto joints = candidate.robot.joints();
-  std::vector<double> sum_rad(joints.size());
-  for (const StillPose& still : poses) {
-    const Rest rest = equilibrium.find(still.shaft_rad, still.pose);
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      sum_rad[j] += apart_rad(joints[j].type, rest.pose[j], still.pose[j]);
-  }
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (coordinates_of(joints[j].type) > 0)
-      errors.mean_rad.push_back(sum_rad[j] / static_cast<double>(poses.size()));
-  errors.mean_of_all_rad = std::accumulate(errors.mean_rad.begin(), errors.mean_rad.end(), 0.0) /
-                           static_cast<double>(errors.mean_rad.size());
-  return errors;
+  std::vector<Pose> rests;
+  for (const StillPose& still : poses)
+    rests.push_back(equilibrium.find(still.shaft_rad, still.pose).pose);
+  return errors_between(candidate.robot, poses, rests);
 }
 
 }  // namespace sim::calibration

@@ -38,6 +38,9 @@ struct PoseErrors {
   std::vector<double> mean_rad;  ///< by joint that moves: of the angle between
   double mean_of_all_rad = 0;
 };
+/// `there`: by pose, where it stood instead.
+PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> poses,
+                          std::span<const Pose> there);
 /// The shafts of each pose are given to the candidate; it rests where statics lets it.
 PoseErrors pose_errors(const Candidate& candidate, std::span<const StillPose> poses);
 

@@ -49,25 +49,50 @@ std::string first_rows(const std::string& curve, int rounds) {
   return kept;
 }
 
+/// Where a course is kept.
+class Folder {
+ public:
+  explicit Folder(const std::string& path) : path_(path) {}
+
+  std::string state_file() const { return (path_ / "state.xml").string(); }
+  /// What was kept of a run to be resumed.
+  std::string state(bool resume) const {
+    if (fs::exists(state_file()) != resume)
+      throw std::invalid_argument(path_.string() +
+                                  (resume ? ": holds no run that could be resumed"
+                                          : ": holds a run: resume it, or name another folder"));
+    return resume ? text_of(state_file()) : "";
+  }
+  void begin(const Learner& learner, bool resumed) {
+    fs::create_directories(path_);
+    curve_ = resumed ? first_rows(text_of(curve_file()), learner.rounds())
+                     : heading(learner.metrics()) + row(0, learner.metrics());
+    replace(curve_file(), curve_), replace(state_file(), learner.state());
+  }
+  void keep(const Learner& learner) {
+    curve_ += row(learner.rounds(), learner.metrics());
+    replace(curve_file(), curve_), replace(state_file(), learner.state());
+  }
+
+ private:
+  fs::path curve_file() const { return path_ / "curve.csv"; }
+
+  fs::path path_;
+  std::string curve_;
+};
+
 }  // namespace
 
-void learn(Learner& learner, const Course& course) {
-  const fs::path state = fs::path(course.folder) / "state.xml";
-  const fs::path curve = fs::path(course.folder) / "curve.csv";
-  fs::create_directories(course.folder);
-  if (fs::exists(state) != course.resume)
-    throw std::invalid_argument(
-        course.folder + (course.resume ? ": holds no run that could be resumed"
-                                       : ": holds a run: resume it, or name another folder"));
-  if (course.resume) learner.restore(text_of(state), state.string());
-  std::string told = course.resume ? first_rows(text_of(curve), learner.rounds())
-                                   : heading(learner.metrics()) + row(0, learner.metrics());
-  const auto keep = [&] { replace(curve, told), replace(state, learner.state()); };
-  for (keep(); learner.rounds() < course.rounds;) {
-    learner.round(course.threads);
-    told += row(learner.rounds(), learner.metrics());
-    keep();
-    if (!course.told(learner)) return;
+void learn(Learner& learner, const Course& course, const Pool& pool) {
+  Folder folder(course.folder);
+  const std::string kept = pool.from_first(pool.first() ? folder.state(course.resume) : "");
+  if (course.resume) learner.restore(kept, folder.state_file());
+  if (pool.first()) folder.begin(learner, course.resume);
+  while (learner.rounds() < course.rounds && !learner.done()) {
+    learner.round(pool);
+    if (pool.first()) folder.keep(learner);
+    const bool on = !pool.first() || course.told(learner);
+    if (pool.from_first(on ? "on" : "") != "on") return;
   }
 }
 

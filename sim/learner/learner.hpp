@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/parallel/pool.hpp"
+
 /// Anything that is learnt in rounds: how it is run, kept, gone on with and judged.
 ///
 /// What a learner is after a round follows from what it was before and the round's number alone (dice
@@ -17,10 +19,12 @@ struct Metric {
 class Learner {
  public:
   virtual ~Learner() = default;
-  /// One more round, on so many threads.
-  virtual void round(int threads) = 0;
+  /// One more round, its parts done by the pool.
+  virtual void round(const Pool& pool) = 0;
   /// So many are behind it.
   virtual int rounds() const = 0;
+  /// True: another round would not better it.
+  virtual bool done() const { return false; }
   /// How good it is now; the same names after every round.
   virtual std::vector<Metric> metrics() const = 0;
   /// All that it needs to go on, as the text of an XML file.
@@ -30,17 +34,17 @@ class Learner {
 };
 
 struct Course {
-  std::string folder;  ///< of state.xml and curve.csv
-  int rounds = 0;      ///< in all
-  int threads = 1;
+  std::string folder;   ///< of state.xml and curve.csv
+  int rounds = 0;       ///< in all
   bool resume = false;  ///< from what is in the folder
-  /// After each round; false: to end here, as if killed, all kept.
+  /// After each round, in the first process; false: to end here, as if killed, all kept.
   std::function<bool(const Learner&)> told = [](const Learner&) { return true; };
 };
 
-/// Learns until `rounds` are done. After each the curve has one row more, then state.xml is
-/// replaced: either is whole at any time. Throws std::invalid_argument where the folder holds a run
-/// that is not to be resumed, or none that could be; what `restore` throws.
-void learn(Learner& learner, const Course& course);
+/// Learns until `rounds` are behind it, or it is done. After each the curve has one row more, then state.xml is
+/// replaced: either is whole at any time; the first process of the pool writes them. Throws
+/// std::invalid_argument where the folder holds a run that is not to be resumed, or none that could
+/// be; what `restore` throws.
+void learn(Learner& learner, const Course& course, const Pool& pool = Threads());
 
 }  // namespace sim::learner

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-#include "launch/erp/plot.hpp"
+#include "launch/text/gnuplot.hpp"
 #include "sim/actuator/spring.hpp"
 #include "tests/sim/world/limb.hpp"
 

@@ -15,6 +15,7 @@
 #include "components/replay/replay_node.hpp"
 #include "hal/can/gateway_node.hpp"
 #include "interfaces/xml/xml.hpp"
+#include "sim/calibration/parameters.hpp"
 #include "sim/learning/learnt_lengths.hpp"
 #include "sim/world/sim_node.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
@@ -38,6 +39,7 @@ Kind kind_of() {
 }
 
 const std::map<std::string, Kind> kinds{
+    {"calibration", kind_of<sim::calibration::Choice>()},
     {"computed_force", kind_of<control::ComputedForce::Params>()},
     {"force_control", kind_of<follow::Params>()},
     {"gateway", kind_of<can::GatewayNode::Params>()},

@@ -1,3 +1,5 @@
+#include "launch/text/gnuplot.hpp"
+
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -9,7 +11,6 @@
 #include <memory>
 
 #include "interfaces/recording/error.hpp"
-#include "launch/erp/plot.hpp"
 
 extern char** environ;
 

@@ -1,0 +1,25 @@
+#pragma once
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+#include "sim/learner/learner.hpp"
+
+/// Learning as one watches it: whatever is learnt, it is shown, interrupted and drawn alike.
+namespace launch {
+
+struct CourseOptions {
+  std::string folder;  ///< of state.xml, curve.csv, curve.svg and what else is learnt
+  int rounds = 0;
+  int threads = 1;
+  bool resume = false;
+  /// True: to end after this round; all is kept.
+  std::function<bool()> interrupted = [] { return false; };
+};
+
+/// Learns, with a line of progress and time left, then draws the curve. False: interrupted; it has
+/// said how to go on. Throws what sim::learner::learn does.
+bool run_course(sim::learner::Learner& learner, const CourseOptions& options, const sim::Pool& pool,
+                std::ostream& remarks);
+
+}  // namespace launch

@@ -1,0 +1,43 @@
+#include "sim/calibration/calibration.hpp"
+
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace sim::calibration {
+
+double error_rad(const Task& task, const Eigen::VectorXd& x) {
+  try {
+    return pose_errors(task.parameters.at(x), task.poses.learn).mean_of_all_rad;
+  } catch (const std::invalid_argument&) {
+    return std::numeric_limits<double>::max();
+  }
+}
+
+Calibration::Calibration(Task task)
+    : task_(std::move(task)),
+      best_(Eigen::VectorXd::Zero(task_.parameters.size())),
+      best_error_rad_(pose_errors(task_.parameters.at(best_), task_.poses.learn).mean_of_all_rad) {}
+
+void Calibration::found(const Eigen::VectorXd& x, double error_rad) {
+  if (error_rad < best_error_rad_) best_ = x, best_error_rad_ = error_rad;
+}
+
+std::vector<learner::Metric> Calibration::metrics() const {
+  constexpr double degree = std::numbers::pi / 180;
+  std::vector<learner::Metric> all;
+  const Candidate candidate = task_.parameters.at(best_);
+  const auto add = [&](const char* of, std::span<const StillPose> poses) {
+    if (poses.empty()) return;
+    const PoseErrors errors = pose_errors(candidate, poses);
+    std::size_t k = 0;
+    for (const erp::Joint& joint : candidate.robot.joints())
+      if (coordinates_of(joint.type) > 0)
+        all.push_back({joint.name + of, errors.mean_rad[k++] / degree});
+  };
+  add(".learnt_deg", task_.poses.learn), add(".checked_deg", task_.poses.check);
+  all.push_back({"judged_poses", static_cast<double>(judged_poses())});
+  return all;
+}
+
+}  // namespace sim::calibration
