@@ -13,6 +13,7 @@
 #include "interfaces/idl/ecu_parameter.h"
 #include "interfaces/idl/event.h"
 #include "interfaces/idl/gain_command.h"
+#include "interfaces/idl/image_point.h"
 #include "interfaces/idl/imu_frame.h"
 #include "interfaces/idl/joint_state.h"
 #include "interfaces/idl/joint_target.h"
@@ -35,6 +36,7 @@ using JointStateSample = erp_JointStateSample;
 using JointTargetSample = erp_JointTargetSample;
 using BodyPoseSample = erp_BodyPoseSample;
 using ActuatorOwnerSample = erp_ActuatorOwnerSample;
+using ImagePointSample = erp_ImagePointSample;
 using ImuSample = erp_ImuSample;
 using StageSample = erp_StageSample;
 using ComponentValue = erp_ComponentValue;
@@ -49,6 +51,8 @@ template <>
 inline constexpr std::size_t capacity_of<JointTargetSample> = 128;
 template <>
 inline constexpr std::size_t capacity_of<BodyPoseSample> = 128;
+template <>
+inline constexpr std::size_t capacity_of<ImagePointSample> = 256;
 template <>
 inline constexpr std::size_t capacity_of<ImuSample> = 32;
 template <>
@@ -70,6 +74,7 @@ using GainCommand = Message<erp_GainCommand, &erp_GainCommand::gains>;
 using JointState = Message<erp_JointState, &erp_JointState::joints>;
 using JointTarget = Message<erp_JointTarget, &erp_JointTarget::joints>;
 using BodyPose = Message<erp_BodyPose, &erp_BodyPose::bodies>;
+using ImagePoint = Message<erp_ImagePoint, &erp_ImagePoint::points>;
 using ImuFrame = Message<erp_ImuFrame, &erp_ImuFrame::imus>;
 using StageResidual = Message<erp_StageResidual, &erp_StageResidual::stages>;
 using ActuatorOwner = Message<erp_ActuatorOwner, &erp_ActuatorOwner::actuators>;
@@ -97,6 +102,7 @@ ERP_TOPIC(GainCommand, "gain_command")            // controllers -> plant
 ERP_TOPIC(JointState, "joint_state")              // sim (truth), pose_estimator, motion_capture
 ERP_TOPIC(JointTarget, "joint_target")            // joint_target, planners -> controllers
 ERP_TOPIC(BodyPose, "body_pose")                  // sim, motion_capture
+ERP_TOPIC(ImagePoint, "image_point")              // eye -> controllers
 ERP_TOPIC(ImuFrame, "imu_frame")                  // sim, or a driver
 ERP_TOPIC(StageResidual, "stage_residual")        // gap_monitor -> all
 ERP_TOPIC(ActuatorOwner, "actuator_owner")        // plant -> all
@@ -109,7 +115,7 @@ ERP_TOPIC(Event, "event")                         // all
 /// Every message, for those who look at the bus as a whole.
 using Messages =
     std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame, EcuParameter,
-               GainCommand, JointState, JointTarget, BodyPose, ImuFrame, StageResidual, ActuatorOwner,
-               ComponentState, LifecycleCommand, Clock, Event>;
+               GainCommand, JointState, JointTarget, BodyPose, ImagePoint, ImuFrame, StageResidual,
+               ActuatorOwner, ComponentState, LifecycleCommand, Clock, Event>;
 
 }  // namespace erp

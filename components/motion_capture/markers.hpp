@@ -5,19 +5,13 @@
 
 #include "components/motion_capture/stereo.hpp"
 #include "interfaces/robot/robot.hpp"
+#include "sim/cameras/view.hpp"
 #include "sim/skeleton/robot_tree.hpp"
 
 /// Which point is which marker.
 namespace capture {
 
-/// `<marker body="forearm" at_m="0.05 0 -0.1"/>`: a ball's centre, in the body's frame.
-struct MarkerConfig {
-  static constexpr auto element = "marker";
-  xml::Place place;
-  std::string body;
-  xml::Vec3 at_m{0, 0, 0};
-  void visit(auto& v) { v.required("body", body), v.required("at_m", at_m); }
-};
+using sim::cameras::MarkerConfig;
 
 struct Marker {
   std::size_t body;  ///< of RobotTree::bodies

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "components/motion_capture/spots.hpp"
+#include "components/images/spots.hpp"
 
 /// Two spots as one point: epipolar matching and triangulation.
 ///
@@ -10,6 +10,8 @@
 ///
 ///   min ‖a + s d − b − t e‖ ≤ gap;     the point lies in the middle between the nearest two
 namespace capture {
+
+using images::Spot, images::SpotOptions, images::find_spots;
 
 struct StereoOptions {
   double gap_m = 0.003;            ///< chosen

@@ -18,7 +18,8 @@
 /// waits for the `More` that answer the same frame, so a repeated run is identical. Of messages that
 /// several may send, `bool wants(const More&) const` says which count; a class whose joint_state
 /// comes by itself, not once a frame, says so by a member `comes_by_itself`.
-/// A class with a constructor (Params, const erp::Robot&, node::Node&) makes its own ports instead.
+/// A constructor (Params, const erp::Robot&, node::Node&) may have more to say than its step returns;
+/// a class that has it and no `step` makes its own ports.
 namespace node {
 
 /// The newest message of a topic that a component reads beside the one that steps it.
@@ -165,16 +166,17 @@ int run_component(const Options& options) {
   const auto params = read_params<typename T::Params>(options);
   const erp::Robot robot = erp::read_robot(options.robot);
   Node node(options, robot.name);
-  if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&, Node&>) {
-    T component(params, robot, node);
+  T component = [&] {
+    if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&, Node&>)
+      return T(params, robot, node);
+    else if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&>)
+      return T(params, robot);
+    else return T(params);
+  }();
+  if constexpr (requires { &T::step; }) {
+    const auto stepper = make_stepper(node, component, &T::step);
     return node.spin();
   } else {
-    T component = [&] {
-      if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&>)
-        return T(params, robot);
-      else return T(params);
-    }();
-    const auto stepper = make_stepper(node, component, &T::step);
     return node.spin();
   }
 }

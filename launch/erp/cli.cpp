@@ -22,6 +22,7 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
   add_model(app, chosen);
   add_gap(app, chosen);
   add_calibrate(app, chosen);
+  add_learn(app, chosen);
   add_new(app, chosen);
   add_security(app, chosen);
 }

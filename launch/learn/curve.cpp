@@ -31,7 +31,7 @@ void draw_curve(const std::vector<sim::learner::Metric>& metrics, const std::str
 
   PlotScript plot{.panels = static_cast<int>(units.size())};
   plot.commands = fmt::format(
-      "set datafile separator ','\nset grid\nset key outside right\nset multiplot layout {},1\n"
+      "set datafile separator ','\nset grid\nset key outside right\nset lmargin 12\nset rmargin 30\nset multiplot layout {},1\n"
       "set yrange [0:*]\n",
       units.size());
   for (const std::string& unit : units) {

@@ -17,10 +17,12 @@ Camera::Camera(const CameraConfig& config)
       at_m_(vec(config.at_m)),
       centre_((config.width_px - 1) / 2.0 + config.centre_u_px,
               (config.height_px - 1) / 2.0 + config.centre_v_px) {
-  const Vec3 ahead = vec(config.looks_at_m) - at_m_, right = ahead.cross(Vec3::UnitZ());
+  const Vec3 ahead = vec(config.looks_at_m) - at_m_,
+             right = ahead.cross(vec(config.up).normalized());
   if (!(right.norm() > 1e-6 * ahead.norm()))
     throw std::invalid_argument("camera \"" + config.name +
-                                "\" looks straight up, down or at itself: move it aside a little");
+                                "\" looks along its up, or at itself: give it another up, such as "
+                                "up=\"0 1 0\"");
   axes_.col(0) = right.normalized();
   axes_.col(2) = ahead.normalized();
   axes_.col(1) = axes_.col(2).cross(axes_.col(0));

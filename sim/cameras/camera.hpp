@@ -21,6 +21,7 @@ struct CameraConfig {
   xml::Place place;
   std::string name;
   xml::Vec3 at_m{0, 0, 0}, looks_at_m{0, 0, 0};  ///< in the world
+  xml::Vec3 up{0, 0, 1};  ///< where the image's upper edge is, as near as can be
   double focal_px = 800;
   int width_px = 640, height_px = 480;
   double centre_u_px = 0, centre_v_px = 0;  ///< of the optical axis, from the image's middle
@@ -28,6 +29,7 @@ struct CameraConfig {
   void visit(auto& v) {
     v.required("name", name);
     v.required("at_m", at_m), v.required("looks_at_m", looks_at_m);
+    v("up", up);
     v("focal_px", focal_px, xml::positive);
     v("width_px", width_px, xml::Range{16, 8192});
     v("height_px", height_px, xml::Range{16, 8192});
@@ -38,8 +40,7 @@ struct CameraConfig {
 
 class Camera {
  public:
-  /// The image's upper edge is as near to the world's z as can be. Throws std::invalid_argument for
-  /// a camera that looks straight up or down, or at itself.
+  /// Throws std::invalid_argument for a camera that looks straight along `up`, or at itself.
   explicit Camera(const CameraConfig& config);
 
   /// Nothing: behind the camera. May lie outside the image.

@@ -19,8 +19,9 @@ struct Studio {
 
   Studio()
       : params(read()),
-        markers(markers_of(params.markers, tree)),
-        cameras{sim::cameras::Camera(params.cameras[0]), sim::cameras::Camera(params.cameras[1])} {
+        markers(markers_of(params.view.markers, tree)),
+        cameras{sim::cameras::Camera(params.view.cameras[0]),
+                sim::cameras::Camera(params.view.cameras[1])} {
     for (std::uint64_t c = 0; c < 2; ++c)
       painters.emplace_back(cameras[c], sim::cameras::Light{}, c + 1);
   }
@@ -35,13 +36,13 @@ struct Studio {
     std::vector<sim::cameras::Ball> all;
     for (const Marker& m : markers) {
       const sim::BodyPose& body = bones.poses()[m.body];
-      all.push_back({body.position_m + body.rotation * m.at_m, params.ball_m});
+      all.push_back({body.position_m + body.rotation * m.at_m, params.film.ball_m});
     }
     return all;
   }
   std::vector<sim::cameras::Bone> limbs() const {
     std::vector<sim::cameras::Bone> all;
-    for (const auto& bone : params.bones) {
+    for (const auto& bone : params.film.bones) {
       const auto body = std::size_t(std::ranges::find(tree.names, bone.body) - tree.names.begin());
       const sim::BodyPose& pose = bones.poses()[body];
       const auto at = [&](const xml::Vec3& v) {

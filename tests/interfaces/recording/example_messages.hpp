@@ -106,6 +106,13 @@ inline void fill(erp::BodyPose& m, std::uint64_t n) {
   for (int i = 0; i < 4; ++i) b.orientation_wxyz[i] = i == 0;
   erp::append(m.bodies, b);
 }
+inline void fill(erp::ImagePoint& m, std::uint64_t n) {
+  head(m, n);
+  erp::assign(m.source, "eye");
+  erp::ImagePointSample p{};
+  erp::assign(p.camera, "below"), p.u_px = 319.5, p.v_px = 0.25, p.area_px = 153;
+  erp::append(m.points, p);
+}
 inline void fill(erp::ImuFrame& m, std::uint64_t n) {
   head(m, n);
   erp::assign(m.source, "sim");
@@ -154,7 +161,7 @@ void each_example(std::uint64_t n, Use&& use) {
   one(erp::ActuatorCommand()), one(erp::ActuatorTarget()), one(erp::SensorFrame());
   one(erp::EcuCommand()), one(erp::EcuFrame()), one(erp::EcuParameter()), one(erp::GainCommand());
   one(erp::JointState()), one(erp::JointTarget()), one(erp::BodyPose()), one(erp::ImuFrame());
-  one(erp::ActuatorOwner());
+  one(erp::ImagePoint()), one(erp::ActuatorOwner());
   one(erp::ComponentState()), one(erp::LifecycleCommand()), one(erp::Clock()), one(erp::Event());
 }
 

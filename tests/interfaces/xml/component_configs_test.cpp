@@ -5,6 +5,7 @@
 #include <map>
 
 #include "components/computed_force/computed_force.hpp"
+#include "components/eye/eye.hpp"
 #include "components/follow/follow.hpp"
 #include "components/logger/logger_node.hpp"
 #include "components/motion_capture/motion_capture.hpp"
@@ -13,6 +14,7 @@
 #include "components/reference/joint_player.hpp"
 #include "components/reference/reference.hpp"
 #include "components/replay/replay_node.hpp"
+#include "components/sensorimotor/sensorimotor.hpp"
 #include "hal/can/gateway_node.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "sim/calibration/parameters.hpp"
@@ -41,6 +43,7 @@ Kind kind_of() {
 const std::map<std::string, Kind> kinds{
     {"calibration", kind_of<sim::calibration::Choice>()},
     {"computed_force", kind_of<control::ComputedForce::Params>()},
+    {"eye", kind_of<eye::Eye::Params>()},
     {"force_control", kind_of<follow::Params>()},
     {"gateway", kind_of<can::GatewayNode::Params>()},
     {"joint_target", kind_of<reference::JointPlayer::Params>()},
@@ -53,8 +56,10 @@ const std::map<std::string, Kind> kinds{
     {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},
     {"replay", kind_of<replay::ReplayNode::Params>()},
+    {"sensorimotor", kind_of<control::Sensorimotor::Params>()},
     {"sim", kind_of<sim::SimNode::Params>()},
     {"target", kind_of<reference::Params>()},
+    {"view", kind_of<sim::cameras::ViewConfig>()},
 };
 
 using Configs = std::map<std::string, std::vector<std::string>>;

@@ -34,7 +34,7 @@ async function ourFileTheirReader() {
   execFileSync(fixture, ["write", `${folder}/ours.mcap`, `${folder}/ours.jsonl`]);
   const bytes = readFileSync(`${folder}/ours.mcap`);
   const expected = readFileSync(`${folder}/ours.jsonl`, "utf8").trim().split("\n").map(expectedOf);
-  assert.equal(expected.length, 3 * 16);
+  assert.equal(expected.length, 3 * 17);
 
   const reader = await McapIndexedReader.Initialize({ readable: readable(bytes), decompressHandlers });
   assert.equal(reader.header.profile, "");

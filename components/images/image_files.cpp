@@ -1,4 +1,4 @@
-#include "components/motion_capture/image_files.hpp"
+#include "components/images/image_files.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-namespace capture {
+namespace images {
 
 std::string image_name(const std::string& folder, const std::string& camera, std::uint64_t number) {
   return fmt::format("{}/{}_{:05}.png", folder, camera, number);
@@ -32,4 +32,4 @@ void write_image(const std::string& file, const sim::cameras::Image& image) {
     throw std::invalid_argument(file + ": cannot be written; is there such a folder?");
 }
 
-}  // namespace capture
+}  // namespace images

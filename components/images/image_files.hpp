@@ -5,7 +5,7 @@
 #include "sim/cameras/images.hpp"
 
 /// Images as files of eight bits a pixel.
-namespace capture {
+namespace images {
 
 /// <folder>/<camera>_00017.png
 std::string image_name(const std::string& folder, const std::string& camera, std::uint64_t number);
@@ -15,4 +15,4 @@ std::optional<sim::cameras::Image> read_image(const std::string& file, int width
 /// Throws std::invalid_argument where it cannot be written.
 void write_image(const std::string& file, const sim::cameras::Image& image);
 
-}  // namespace capture
+}  // namespace images

@@ -3,7 +3,7 @@
 
 #include "sim/cameras/images.hpp"
 
-namespace capture {
+namespace images {
 
 /// A bright spot of an image.
 struct Spot {
@@ -21,4 +21,4 @@ struct SpotOptions {
 /// In no order.
 std::vector<Spot> find_spots(const sim::cameras::Image& image, const SpotOptions& options);
 
-}  // namespace capture
+}  // namespace images

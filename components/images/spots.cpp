@@ -1,8 +1,8 @@
-#include "components/motion_capture/spots.hpp"
+#include "components/images/spots.hpp"
 
 #include <opencv2/imgproc.hpp>
 
-namespace capture {
+namespace images {
 namespace {
 
 /// Of what is brighter than half the threshold, about the box.
@@ -41,4 +41,4 @@ std::vector<Spot> find_spots(const sim::cameras::Image& image, const SpotOptions
   return spots;
 }
 
-}  // namespace capture
+}  // namespace images

@@ -1,0 +1,86 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "components/joints/joints.hpp"
+#include "components/node/node.hpp"
+#include "interfaces/xml/fields.hpp"
+#include "sim/cameras/images.hpp"
+#include "sim/cameras/view.hpp"
+
+/// What cameras see, image after image: painted, as they would see the simulated robot (from the
+/// sim's joint_state), or read from a folder: <camera>_00000.png, …, one of each camera a period.
+namespace images {
+
+/// `<bone body="forearm" from_m="…" to_m="…" radius_m="…"/>`: hides the markers behind it.
+struct BoneConfig {
+  static constexpr auto element = "bone";
+  xml::Place place;
+  std::string body;
+  xml::Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};
+  double radius_m = 0.03;
+  void visit(auto& v) {
+    v.required("body", body);
+    v.required("from_m", from_m), v.required("to_m", to_m);
+    v("radius_m", radius_m, xml::positive);
+  }
+};
+
+struct FilmParams {
+  std::string images;  ///< a folder of image files, beside the config; "": painted
+  std::string save;    ///< a folder that painted images are kept in; "": they are not
+  double period_s = 0.01;
+  int seed = 1;           ///< of the noise
+  double ball_m = 0.007;  ///< a marker's radius
+  double noise = 4;       ///< of a pixel, of 255
+  std::vector<BoneConfig> bones;
+  void visit(auto& v) {
+    v("images", images), v("save", save);
+    v("period_s", period_s, xml::positive);
+    v("seed", seed, xml::Range{0, 1e9});
+    v("ball_m", ball_m, xml::positive);
+    v("noise", noise, xml::at_least_zero);
+    v.list(bones);
+  }
+};
+
+class Film {
+ public:
+  /// One image a camera, in their order, of one instant.
+  using Frame = std::vector<sim::cameras::Image>;
+  using Use = std::function<void(const Frame&, std::uint64_t sequence, std::int64_t stamp_ns)>;
+
+  /// `beside`: the config file that names the folders. Throws std::invalid_argument: a marker or a
+  /// bone on a body there is not.
+  Film(const FilmParams& params, const sim::cameras::ViewConfig& view, const std::string& beside,
+       const erp::Robot& robot, node::Node& node, Use use);
+
+  std::uint64_t frames() const { return frames_; }
+
+ private:
+  struct OnBody {
+    std::size_t body;
+    sim::Vec3 from_m, to_m;
+    double radius_m;
+  };
+  void paint(const erp::JointState& truth);
+  void read_files();
+  void keep();
+  void show(std::uint64_t sequence, std::int64_t stamp_ns);
+
+  FilmParams params_;
+  std::vector<sim::cameras::CameraConfig> cameras_;
+  node::Node& node_;
+  Use use_;
+  joints::Names names_;
+  sim::SkeletonModel model_;
+  std::vector<OnBody> balls_, bones_;
+  std::vector<sim::cameras::Painter> painters_;
+  std::vector<sim::JointReading> truth_;
+  Frame frame_;
+  std::int64_t painted_ns_ = 0;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace images

@@ -1,0 +1,3 @@
+#include "components/sensorimotor/sensorimotor.hpp"
+
+int main(int argc, char** argv) { return node::run<control::Sensorimotor>(argc, argv); }

@@ -1,0 +1,75 @@
+#include <iostream>
+#include <memory>
+
+#include "launch/erp/signals.hpp"
+#include "launch/erp/verb_parts.hpp"
+#include "launch/erp/verbs.hpp"
+#include "launch/learn/sensorimotor.hpp"
+
+namespace launch {
+namespace {
+
+/// What every course has.
+void add_course(CLI::App* verb, CourseOptions& course) {
+  course.threads = all_cores();
+  verb->add_option("--out", course.folder, "folder for what is learnt and its pictures")
+      ->required();
+  verb->add_option("--threads", course.threads, "default: all cores")->check(CLI::PositiveNumber);
+  verb->add_flag("--resume", course.resume, "go on with what is in the folder");
+}
+
+void add_sensorimotor(CLI::App& learn, Chosen& chosen) {
+  auto o = std::make_shared<SensorimotorOptions>();
+  auto* verb = learn.add_subcommand(
+      "sensorimotor", "Reaching in a camera's image, from twitches and tries (paper, 5.4)");
+  verb->add_option("--robot", o->robot, "robot.xml")->required();
+  verb->add_option("--experiment", o->experiment, "<sensorimotor view=\"…\">: goals, tries …")
+      ->required();
+  verb->add_option("--seed", o->seed, "default: the experiment's")->check(CLI::PositiveNumber);
+  add_course(verb, o->course);
+  verb->callback([=, &chosen] {
+    chosen = [=] {
+      const auto signals = std::make_shared<Signals>();
+      o->course.interrupted = [signals] { return signals->take() != 0; };
+      return learn_sensorimotor(*o, std::cout, std::cerr);
+    };
+  });
+}
+
+void add_goals(CLI::App& learn, Chosen& chosen) {
+  auto robot = std::make_shared<std::string>(), experiment = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>();
+  auto draw = std::make_shared<sim::lessons::GoalDraw>();
+  auto* verb = learn.add_subcommand(
+      "goals", "An experiment's file with goals that can be reached: where drawn muscles lead");
+  verb->add_option("--robot", *robot, "robot.xml")->required();
+  verb->add_option("--experiment", *experiment, "<sensorimotor view=\"…\">")->required();
+  verb->add_option("--count", draw->count)->capture_default_str()->check(CLI::PositiveNumber);
+  verb->add_option("--muscles", draw->muscles, "that pull, for each goal")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--most", draw->most_N, "above rest, N")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--seed", draw->seed, "of what is drawn")->capture_default_str();
+  verb->add_option("--out", *out, "a file to write; else it is printed");
+  verb->callback([=, &chosen] {
+    chosen = [=] {
+      return give(*out, [=](std::ostream& to) {
+        return learn_goals(*robot, *experiment, *draw, all_cores(), to);
+      });
+    };
+  });
+}
+
+}  // namespace
+
+void add_learn(CLI::App& app, Chosen& chosen) {
+  auto* learn = app.add_subcommand("learn", "Controllers that learn, in the simulator");
+  learn->require_subcommand(1);
+  learn->footer("Exit codes: 0 done, 1 interrupted: --resume goes on; 2 bad usage or input.");
+  add_sensorimotor(*learn, chosen);
+  add_goals(*learn, chosen);
+}
+
+}  // namespace launch

@@ -1,0 +1,58 @@
+#include "sim/rehearsal/puppet.hpp"
+
+#include <stdexcept>
+
+#include "sim/actuator/design.hpp"
+
+namespace sim::rehearsal {
+
+Puppet::Puppet(const erp::Robot& robot, std::uint64_t seed)
+    : robot_(robot), world_(robot), ecus_(robot, {.seed = seed}) {
+  for (const erp::Actuator& a : robot.actuators)
+    units_.emplace_back(robot.motor_of(a), robot.sensors_of(a), a.spindle);
+  give_gains();
+  send(std::vector<Asked>(units_.size()));
+}
+
+void Puppet::give_gains() {
+  for (const erp::Actuator& a : robot_.actuators) {
+    const auto gains = design_parameters(robot_, a, {.stuck_share = 0});
+    erp::EcuParameter message;
+    for (std::size_t k = 0; k < gains.size(); ++k)
+      erp::append(message.values,
+                  erp::EcuParameterValue{std::uint8_t(a.ecu), std::uint8_t(a.channel),
+                                         std::uint8_t(k), k + 1 == gains.size(), gains[k]});
+    ecus_.accept(message);
+  }
+}
+
+/// An actuator that nothing is asked of stays armed, which drives nothing, ready for what comes.
+void Puppet::send(std::span<const Asked> asked) {
+  erp::EcuCommand message;
+  for (std::size_t a = 0; a < asked.size(); ++a) {
+    const erp::Actuator& actuator = robot_.actuators[a];
+    const auto& [mode, reference] = asked[a];
+    const bool off = mode == erp::Mode::off;
+    erp::append(message.channels, erp::EcuChannelCommand{
+                                      std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
+                                      std::uint8_t(off ? ECU_REQUEST_ARM : EcuUnits::request(mode)),
+                                      off ? 0 : units_[a].setpoint(mode, reference)});
+  }
+  ecus_.accept(message);
+}
+
+void Puppet::tick(std::span<const Asked> asked) {
+  send(asked);
+  ecus_.tick(world_);
+  ecus_.fill(frame_);
+  if (!world_.sound()) throw std::runtime_error("the simulated motion is not finite");
+}
+
+const erp::EcuChannelSample& Puppet::said_of(std::size_t actuator) const {
+  const erp::Actuator& a = robot_.actuators[actuator];
+  for (const auto& channel : erp::samples(frame_.channels))
+    if (channel.ecu == a.ecu && channel.channel == a.channel) return channel;
+  throw std::logic_error("an ECU says nothing of \"" + a.name + "\"");
+}
+
+}  // namespace sim::rehearsal
