@@ -11,7 +11,12 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "launch/erp/ask.hpp"
+#include "sim/calibration/parameters.hpp"
+#include "sim/cameras/view.hpp"
 #include "sim/effects/library.hpp"
+#include "sim/learning/learnt_lengths.hpp"
+#include "sim/loop_shaping/joint_loops.hpp"
+#include "sim/sensorimotor/learnt_file.hpp"
 
 namespace launch {
 namespace {
@@ -50,9 +55,19 @@ class Checker {
       check(graph.robot);
       for (const erp::GraphComponent& line : graph.components)
         if (!line.config.empty()) check(line.config);
+    } else if (reads_as_one_of<sim::calibration::Choice, sim::cameras::ViewConfig,
+                               sim::learning::LearntMuscles, sim::loop_shaping::JointShape,
+                               sim::sensorimotor::LearntFile>(root.name, file)) {
+      praise(file);
     } else {
       check_config(root, file);
     }
+  }
+
+  /// Files that configs and verbs name. Throws Errors.
+  template <class... Kind>
+  bool reads_as_one_of(const std::string& root, const std::string& file) {
+    return ((root == Kind::element && (xml::read<Kind>(file), true)) || ...);
   }
 
   void check_config(const xml::Element& root, const std::string& file) {

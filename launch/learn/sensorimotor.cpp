@@ -72,7 +72,8 @@ PlotScript figure(const SensorimotorLesson& lesson, const erp::Robot& robot) {
   for (Eigen::Index m = 0; m < q.cols(); ++m) {
     muscles += fmt::format("{}'{}' {}", m ? "," : "", robot.actuators[std::size_t(m)].name, m);
     for (Eigen::Index s = 0; s < q.rows(); ++s)
-      data += fmt::format("{} {} {} {}\n", m, s, 6 * std::sqrt(std::abs(q(s, m))), q(s, m) > 0);
+      data +=
+          fmt::format("{} {} {} {}\n", m, s, 6 * std::sqrt(std::abs(q(s, m))), q(s, m) > 0 ? 1 : 0);
   }
   for (Eigen::Index s = 0; s < q.rows(); ++s)
     senses += fmt::format("{}'{}' {}", s ? "," : "", sense_name(s), s);
@@ -87,8 +88,9 @@ PlotScript figure(const SensorimotorLesson& lesson, const erp::Robot& robot) {
           "set xrange [-0.7:{}]\nset yrange [{}:-0.7]\nset xtics ({}) rotate by -20\n"
           "set ytics ({})\n",
           double(q.cols()) - 0.3, double(q.rows()) - 0.3, muscles, senses) +
-      "plot $q using 1:2:($4 > 0 ? $3 : 0) with points pt 5 ps variable lc rgb '#0072B2' title "
-      "'recruited for +', $q using 1:2:($4 > 0 ? 0 : $3) with points pt 4 lw 2 ps variable lc rgb "
+      "plot $q using 1:2:($4 > 0 ? $3 : 1/0) with points pt 5 ps variable lc rgb '#0072B2' title "
+      "'recruited for +', $q using 1:2:($4 > 0 ? 1/0 : $3) with points pt 4 lw 2 ps variable lc "
+      "rgb "
       "'#D55E00' title 'recruited for -'\n"
       "set xtics autofreq norotate\nset ytics autofreq\nset xrange [0:*]\nset yrange [0:*]\n"
       "set grid\nset xlabel 'try'\nset ylabel 'error, in senses'\n"

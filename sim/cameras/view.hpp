@@ -16,10 +16,10 @@ struct MarkerConfig {
   void visit(auto& v) { v.required("body", body), v.required("at_m", at_m); }
 };
 
-/// `<view>`, a file: for the component that sees, and for those who want to know beforehand what it
+/// `<camera_view>`, a file: for the component that sees, and for those who want to know beforehand what it
 /// will see.
 struct ViewConfig {
-  static constexpr auto element = "view";
+  static constexpr auto element = "camera_view";
   xml::Place place;
   std::vector<CameraConfig> cameras;
   std::vector<MarkerConfig> markers;

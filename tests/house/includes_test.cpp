@@ -70,9 +70,9 @@ const std::vector<Rule> rules{
      {"interfaces/", "launch/text/", "sim/formats/", "sim/blind/", "sim/diagnosis/",
       "sim/parallel/", "sim/rehearsal/", "sim/residuals/", "sim/effects/"}},
     {"launch/erp/",
-     {"interfaces/", "components/node/", "launch/text/", "launch/gap/", "launch/learn/", "hal/can/",
-      "sim/formats/", "sim/effects/", "sim/actuator/", "sim/learning/", "sim/loop_shaping/",
-      "sim/skeleton/"}},
+     {"interfaces/", "components/node/", "launch/text/", "launch/gap/", "launch/learn/",
+      "sim/calibration/", "sim/cameras/", "sim/sensorimotor/", "hal/can/", "sim/formats/",
+      "sim/effects/", "sim/actuator/", "sim/learning/", "sim/loop_shaping/", "sim/skeleton/"}},
 };
 
 // Headers of others that have one home.

@@ -42,6 +42,7 @@ Kind kind_of() {
 
 const std::map<std::string, Kind> kinds{
     {"calibration", kind_of<sim::calibration::Choice>()},
+    {"camera_view", kind_of<sim::cameras::ViewConfig>()},
     {"computed_force", kind_of<control::ComputedForce::Params>()},
     {"eye", kind_of<eye::Eye::Params>()},
     {"force_control", kind_of<follow::Params>()},
@@ -59,7 +60,6 @@ const std::map<std::string, Kind> kinds{
     {"sensorimotor", kind_of<control::Sensorimotor::Params>()},
     {"sim", kind_of<sim::SimNode::Params>()},
     {"target", kind_of<reference::Params>()},
-    {"view", kind_of<sim::cameras::ViewConfig>()},
 };
 
 using Configs = std::map<std::string, std::vector<std::string>>;
