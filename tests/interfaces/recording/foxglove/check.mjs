@@ -59,7 +59,7 @@ async function ourFileTheirReader() {
   assert.deepEqual(found, expected);
   const attachments = [];
   for await (const attachment of reader.readAttachments()) attachments.push(attachment);
-  assert.equal(attachments.length, 17);
+  assert.equal(attachments.length, 18);
   assert.equal(new TextDecoder().decode(attachments[0].data), '<robot name="rig"/>');
 
   const stream = new McapStreamReader({ decompressHandlers, validateCrcs: true });
