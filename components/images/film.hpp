@@ -56,8 +56,6 @@ class Film {
   Film(const FilmParams& params, const sim::cameras::ViewConfig& view, const std::string& beside,
        const erp::Robot& robot, node::Node& node, Use use);
 
-  std::uint64_t frames() const { return frames_; }
-
  private:
   struct OnBody {
     std::size_t body;

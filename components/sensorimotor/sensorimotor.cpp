@@ -95,6 +95,14 @@ void Sensorimotor::tell() {
                  "nothing is seen where it matters: tries are begun again; is there an eye in the "
                  "graph, and the marker in all of its images?");
   }
+  if (session_.limited() > 0 && !limited_told_) {
+    limited_told_ = true;
+    node_.report(
+        erp::Severity::warning, "most_N", "limited",
+        fmt::format("a try asked a muscle for more than {:.0f} N above rest: all its forces "
+                    "are scaled down to that; the goal may be out of reach",
+                    params_.experiment.session.most_N));
+  }
   if (session_.done() && !done_told_) {
     done_told_ = true;
     node_.report(erp::Severity::info, "session", "done", "all goals are tried; the muscles rest");

@@ -50,7 +50,7 @@ class Sensorimotor {
   double time_s_ = 0;
   std::int64_t seen_ns_ = 0;
   std::size_t goals_told_ = 0;
-  bool done_told_ = false, blind_told_ = false;
+  bool done_told_ = false, blind_told_ = false, limited_told_ = false;
 };
 
 }  // namespace control

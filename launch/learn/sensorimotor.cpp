@@ -59,7 +59,7 @@ void print_errors(const SensorimotorLesson& lesson, std::ostream& out) {
   if (tries(lesson) == 0) return;
   const Spread first = spread(lesson, 0), last = spread(lesson, tries(lesson) - 1);
   out << fmt::format(
-      "error over {} goals, in images' widths of view: try 1 {:.4f} ± {:.4f}, try {} {:.4f} ± "
+      "error over {} goals, tangent of the angle seen: try 1 {:.4f} ± {:.4f}, try {} {:.4f} ± "
       "{:.4f}: {:.1f} % of the first\n",
       lesson.goals().size(), first.mean, first.deviation, tries(lesson), last.mean, last.deviation,
       100 * last.mean / first.mean);

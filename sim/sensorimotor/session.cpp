@@ -1,8 +1,6 @@
 #include "sim/sensorimotor/session.hpp"
 
-#include <algorithm>
 #include <random>
-#include <string>
 
 #include "sim/learner/dice.hpp"
 
@@ -90,17 +88,6 @@ void Session::end_reaching(double time_s) {
   learn(goals_[goal_], wanted_, sum_ / count_ - start_, options_.reach);
   if (++tries_ == options_.tries) tries_ = 0, ++goal_;
   begin(goal_ < goals_.size() ? Phase::relax : Phase::done, time_s);
-}
-
-std::string Session::now() const {
-  const auto of = [](const char* what, std::size_t done, std::size_t all) {
-    return what + std::to_string(std::min(done, all)) + " of " + std::to_string(all);
-  };
-  if (phase_ == Phase::done) return "done";
-  if (phase_ == Phase::twitch || phase_ == Phase::pause)
-    return of("twitch ", std::size_t(twitches_), std::size_t(options_.twitches));
-  return of("goal ", goal_ + 1, goals_.size()) + ", " +
-         of("try ", std::size_t(tries_) + 1, std::size_t(options_.tries));
 }
 
 }  // namespace sim::sensorimotor

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <string>
 
 #include "sim/sensorimotor/learnt.hpp"
 
@@ -37,8 +36,6 @@ class Session {
   const std::vector<Goal>& goals() const { return goals_; }
   int limited() const { return limited_; }  ///< tries that asked for more than the most
   int blind() const { return blind_; }      ///< tries begun again, because nothing was seen
-  /// "twitch 3 of 40", "goal 2 of 25, try 4 of 20".
-  std::string now() const;
 
  private:
   enum class Phase { twitch, pause, relax, reach, done };
