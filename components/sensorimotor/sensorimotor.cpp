@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
+#include "sim/learner/keep.hpp"
 #include "sim/sensorimotor/learnt_file.hpp"
 
 namespace control {
@@ -112,11 +112,12 @@ void Sensorimotor::tell() {
 
 void Sensorimotor::write() const {
   if (params_.save.empty()) return;
-  const std::string file = beside(params_, params_.save), fresh = file + ".new";
-  std::ofstream out(fresh);
-  if (!(out << xml::write(file_of(session_.learnt(), session_.goals())) << std::flush))
-    return node_.report(erp::Severity::fault, file, "unwritten", "cannot be written");
-  fs::rename(fresh, file);
+  const std::string file = beside(params_, params_.save);
+  try {
+    sim::learner::keep(file, xml::write(file_of(session_.learnt(), session_.goals())));
+  } catch (const std::exception& e) {
+    node_.report(erp::Severity::fault, file, "unwritten", e.what());
+  }
 }
 
 }  // namespace control

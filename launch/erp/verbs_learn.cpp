@@ -4,6 +4,7 @@
 #include "launch/erp/signals.hpp"
 #include "launch/erp/verb_parts.hpp"
 #include "launch/erp/verbs.hpp"
+#include "launch/learn/experience.hpp"
 #include "launch/learn/sensorimotor.hpp"
 
 namespace launch {
@@ -32,6 +33,26 @@ void add_sensorimotor(CLI::App& learn, Chosen& chosen) {
       const auto signals = std::make_shared<Signals>();
       o->course.interrupted = [signals] { return signals->take() != 0; };
       return learn_sensorimotor(*o, std::cout, std::cerr);
+    };
+  });
+}
+
+void add_experience(CLI::App& learn, Chosen& chosen) {
+  auto o = std::make_shared<ExperienceOptions>();
+  auto* verb = learn.add_subcommand(
+      "experience", "Reaching with what was experienced, corrected by feedback (paper, 5.6)");
+  verb->add_option("--robot", o->robot, "robot.xml")->required();
+  verb->add_option("--task", o->task, "<acquisition>: hand, zone, patterns …")->required();
+  verb->add_option("--tests", o->tests, "reaches to fresh targets, each way")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--seed", o->seed, "default: the task's")->check(CLI::PositiveNumber);
+  add_course(verb, o->course);
+  verb->callback([=, &chosen] {
+    chosen = [=] {
+      const auto signals = std::make_shared<Signals>();
+      o->course.interrupted = [signals] { return signals->take() != 0; };
+      return learn_experience(*o, std::cout, std::cerr);
     };
   });
 }
@@ -69,6 +90,7 @@ void add_learn(CLI::App& app, Chosen& chosen) {
   learn->require_subcommand(1);
   learn->footer("Exit codes: 0 done, 1 interrupted: --resume goes on; 2 bad usage or input.");
   add_sensorimotor(*learn, chosen);
+  add_experience(*learn, chosen);
   add_goals(*learn, chosen);
 }
 

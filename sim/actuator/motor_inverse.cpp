@@ -14,7 +14,7 @@ double MotorInverse::current_A(double tension_N, double speed, double accelerati
             s * motor_.rotor_coulomb_Nm + motor_.rotor_inertia_kg_m2 * n * acceleration) /
            motor_.torque_Nm_per_A;
   };
-  const double s = std::tanh(speed / creep_rad_per_s);
+  const double s = std::tanh(speed / creep_rad_per_s_);
   return 0.5 * ((1 + s) * turning(1) + (1 - s) * turning(-1));
 }
 

@@ -7,13 +7,14 @@
 ///   V = R i + K_E N ω                                              the inductance left out
 ///
 /// e is the gear's efficiency as the power flows: η where the motor drives, 1/η where the load does;
-/// s = sgn ω. Both are rounded off below `creep_rad_per_s`, where a shaft may as well stick.
+/// s = sgn ω. Both are rounded off below a creeping speed, where a shaft may as well stick.
 namespace sim {
 
 class MotorInverse {
  public:
-  MotorInverse(const erp::MotorType& motor, double spindle_radius_m)
-      : motor_(motor), radius_m_(spindle_radius_m) {}
+  /// `creep_rad_per_s`: by default 0.6 % of a 12 V motor's top speed; chosen.
+  MotorInverse(const erp::MotorType& motor, double spindle_radius_m, double creep_rad_per_s = 0.05)
+      : motor_(motor), radius_m_(spindle_radius_m), creep_rad_per_s_(creep_rad_per_s) {}
 
   double current_A(double tension_N, double speed_rad_per_s, double acceleration_rad_per_s2) const;
   double voltage_V(double tension_N, double speed_rad_per_s, double acceleration_rad_per_s2) const {
@@ -23,9 +24,8 @@ class MotorInverse {
   double radius_m() const { return radius_m_; }
 
  private:
-  static constexpr double creep_rad_per_s = 0.05;  // chosen: 0.6 % of a 12 V motor's top speed
   erp::MotorType motor_;
-  double radius_m_;
+  double radius_m_, creep_rad_per_s_;
 };
 
 }  // namespace sim

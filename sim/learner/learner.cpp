@@ -6,21 +6,12 @@
 #include <stdexcept>
 
 #include "interfaces/recording/csv.hpp"
+#include "sim/learner/keep.hpp"
 
 namespace sim::learner {
 namespace {
 
 namespace fs = std::filesystem;
-
-void replace(const fs::path& file, const std::string& text) {
-  const fs::path fresh = file.string() + ".new";
-  {
-    std::ofstream out(fresh, std::ios::binary);
-    if (!(out << text << std::flush))
-      throw std::invalid_argument(fresh.string() + ": cannot be written");
-  }
-  fs::rename(fresh, file);
-}
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -67,15 +58,15 @@ class Folder {
     fs::create_directories(path_);
     curve_ = resumed ? first_rows(text_of(curve_file()), learner.rounds())
                      : heading(learner.metrics()) + row(0, learner.metrics());
-    replace(curve_file(), curve_), replace(state_file(), learner.state());
+    keep(curve_file(), curve_), keep(state_file(), learner.state());
   }
-  void keep(const Learner& learner) {
+  void add(const Learner& learner) {
     curve_ += row(learner.rounds(), learner.metrics());
-    replace(curve_file(), curve_), replace(state_file(), learner.state());
+    keep(curve_file(), curve_), keep(state_file(), learner.state());
   }
 
  private:
-  fs::path curve_file() const { return path_ / "curve.csv"; }
+  std::string curve_file() const { return (path_ / "curve.csv").string(); }
 
   fs::path path_;
   std::string curve_;
@@ -90,7 +81,7 @@ void learn(Learner& learner, const Course& course, const Pool& pool) {
   if (pool.first()) folder.begin(learner, course.resume);
   while (learner.rounds() < course.rounds && !learner.done()) {
     learner.round(pool);
-    if (pool.first()) folder.keep(learner);
+    if (pool.first()) folder.add(learner);
     const bool on = !pool.first() || course.told(learner);
     if (pool.from_first(on ? "on" : "") != "on") return;
   }

@@ -1,0 +1,175 @@
+#include "components/experience/experience.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "sim/learner/keep.hpp"
+
+namespace control {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace sim::experience;
+using sim::Vec3;
+
+std::string beside(const Experience::Params& params, const std::string& file) {
+  return (fs::path(params.place.file).parent_path() / file).string();
+}
+
+BaseFile checked_base(const Experience::Params& params, const erp::Robot& robot) {
+  auto file = xml::read<BaseFile>(beside(params, params.base));
+  check(file, std::ssize(robot.actuators));
+  return file;
+}
+
+std::shared_ptr<const Feedback> feedback(const Experience::Params& params, const Base& base,
+                                         int start, const Vec3& target_m) {
+  if (params.feedback == FeedbackKind::linear)
+    return linear_feedback(base, start, target_m, params.closing_per_s);
+  if (params.feedback == FeedbackKind::fuzzy)
+    return fuzzy_feedback(base, start, beside(params, params.rules));
+  return nullptr;
+}
+
+std::string off_mm(const std::optional<Vec3>& at_m, const Vec3& target_m) {
+  if (!at_m) return "unknown";
+  const Vec3 off = 1e3 * (*at_m - target_m);
+  return fmt::format("{:+.2f} {:+.2f} {:+.2f} mm", off.x(), off.y(), off.z());
+}
+
+}  // namespace
+
+Experience::Experience(const Params& params, const erp::Robot& robot, node::Node& node)
+    : params_(params),
+      robot_(robot),
+      node_(node),
+      names_(robot),
+      skeleton_(sim::RobotTree(robot), sim::vec(robot.gravity_m_per_s2())),
+      file_(checked_base(params, robot)),
+      base_(base_of(file_)),
+      hand_(file_.hand, sim::RobotTree(robot).names),
+      motors_(robot) {
+  for (const erp::Joint& joint : names_.list()) now_.push_back(sim::start_of(joint));
+  line_m_ = tension_N_ = Eigen::VectorXd::Zero(std::ssize(robot.actuators));
+  feedback(params_, base_, 0, Vec3::Zero());  // a file of rules that is wrong is said now
+}
+
+/// What was not measured keeps its last value; the plant does not drive an actuator that is lost.
+void Experience::read(const erp::SensorFrame& frame) {
+  for (std::size_t m = 0; const erp::ActuatorSample& sample : erp::samples(frame.actuators)) {
+    const auto muscle = static_cast<Eigen::Index>(m++);
+    if (muscle >= line_m_.size()) return;
+    if (sample.valid & erp::valid::line) line_m_[muscle] = sample.line_m;
+    if (sample.valid & erp::valid::tension) tension_N_[muscle] = sample.tension_N;
+  }
+}
+
+std::optional<Vec3> Experience::hand_m(const erp::SensorFrame& frame,
+                                       const node::Latest<erp::JointState>& joints) {
+  if (!joints || joints.age_s > params_.stale_s ||
+      !names_.read(joints.message, frame.stamp_ns, now_))
+    return std::nullopt;
+  skeleton_.place(now_);
+  return hand_.in(skeleton_.poses());
+}
+
+int Experience::nearest_start() const {
+  const auto off = [&](const StartRow& start) {
+    return (Eigen::Map<const Eigen::VectorXd>(start.line_m.data(), line_m_.size()) - line_m_)
+        .squaredNorm();
+  };
+  return static_cast<int>(std::ranges::min_element(file_.starts, {}, off) - file_.starts.begin());
+}
+
+void Experience::begin() {
+  const Vec3 target_m = sim::vec(params_.goals[goal_].at_m);
+  start_ = nearest_start();
+  const Eigen::VectorXd wanted_Vs = base_.inverse(start_, target_m);
+  if (const double peak = peak_V(file_, wanted_Vs); peak > file_.pattern_V)
+    node_.report(erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "far",
+                 fmt::format("asks for {:.1f} V of a muscle, all are scaled down to {:.1f} V: it "
+                             "lies beyond what was experienced",
+                             peak, file_.pattern_V));
+  reach_.emplace(reach_with(file_, start_, target_m, within_voltage(file_, wanted_Vs),
+                            feedback(params_, base_, start_, target_m)));
+}
+
+void Experience::end() {
+  tell_reached();
+  if (const auto& settled_m = reach_->settled_m())
+    base_.add({start_, reach_->plan().scales_Vs, *settled_m});
+  write();
+  ++goal_;
+  node_.show("goals", static_cast<double>(goal_));
+  if (goal_ == params_.goals.size())
+    node_.report(erp::Severity::info, "goals", "done", "all are tried; the gears hold");
+}
+
+void Experience::tell_reached() {
+  const Vec3& target_m = reach_->plan().target_m;
+  const std::string goal = "goal " + std::to_string(goal_ + 1);
+  node_.report(erp::Severity::info, goal, "reached",
+               fmt::format("off by {} without feedback, {} with it",
+                           off_mm(reach_->settled_m(), target_m),
+                           reach_->plan().feedback ? off_mm(reach_->corrected_m(), target_m)
+                                                   : "there is none"));
+  if (reach_->limited())
+    node_.report(erp::Severity::warning, goal, "limited",
+                 fmt::format("feedback asked a drive for more than {:.1f} V; it was scaled down",
+                             file_.times.feedback_V));
+}
+
+erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s,
+                                      const node::Latest<erp::JointState>& joints) {
+  constexpr double most_gap_s = 0.1;  // without frames: where the robot is now, nobody knows; chosen
+  read(frame);
+  time_s_ += dt_s;
+  if (reach_ && dt_s > most_gap_s && goal_ < params_.goals.size()) {
+    node_.report(erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "begun_again",
+                 fmt::format("no frames for {:.2f} s", dt_s));
+    reach_.reset();
+  }
+  if ((!reach_ || reach_->done()) && goal_ < params_.goals.size()) {
+    if (reach_) end();
+    if (goal_ < params_.goals.size()) begin();
+  }
+  if (!reach_) return command({false, Eigen::VectorXd::Zero(line_m_.size())});
+  const auto hand = hand_m(frame, joints);
+  if (!hand && !blind_told_) {
+    blind_told_ = true;
+    node_.report(erp::Severity::warning, params_.source, "blind",
+                 "its joint_state is missing, stale or lacks a joint: nothing is corrected meanwhile");
+  }
+  if (hand) blind_told_ = false;
+  return command(reach_->step(time_s_, line_m_, hand));
+}
+
+erp::ActuatorCommand Experience::command(const Wanted& wanted) const {
+  erp::ActuatorCommand command;
+  for (std::size_t m = 0; m < robot_.actuators.size(); ++m) {
+    const auto [mode, reference] =
+        motors_.ask(m, wanted, tension_N_[static_cast<Eigen::Index>(m)]);
+    erp::ActuatorReference one{};
+    erp::assign(one.name, robot_.actuators[m].name);
+    one.mode = static_cast<std::uint8_t>(mode);
+    one.reference = reference;
+    erp::append(command.actuators, one);
+  }
+  return command;
+}
+
+void Experience::write() const {
+  if (params_.save.empty()) return;
+  BaseFile all = file_;
+  all.experiences = rows_of(base_);
+  const std::string file = beside(params_, params_.save);
+  try {
+    sim::learner::keep(file, xml::write(all));
+  } catch (const std::exception& e) {
+    node_.report(erp::Severity::fault, file, "unwritten", e.what());
+  }
+}
+
+}  // namespace control

@@ -1,0 +1,87 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/joints/joints.hpp"
+#include "components/node/run.hpp"
+#include "sim/experience/base_file.hpp"
+#include "sim/experience/motors.hpp"
+#include "sim/skeleton/skeleton_model.hpp"
+
+/// Reaching with what was experienced before (paper, 5.6 and Fig. 11): from the nearest start a
+/// pattern of voltages, then feedback on what the hand is off; goal after goal.
+///
+/// Where the hand is follows from the joints. While they are not known nothing is corrected: no
+/// voltage beyond what the tension takes, so that the gears hold. Each reach is an experience more.
+namespace control {
+
+/// `<goal at_m="0.3 -0.2 -0.5"/>`, in the world.
+struct ReachGoal {
+  static constexpr auto element = "goal";
+  xml::Place place;
+  xml::Vec3 at_m{};
+  void visit(auto& v) { v.required("at_m", at_m); }
+};
+
+class Experience {
+ public:
+  struct Params {
+    xml::Place place;
+    std::string base;  ///< base.xml of `erp learn experience`, beside this file
+    sim::experience::FeedbackKind feedback = sim::experience::FeedbackKind::linear;
+    double closing_per_s = 1.5;  ///< of linear feedback
+    std::string rules;           ///< of fuzzy feedback, beside this file
+    std::string save;            ///< where the base goes with each reach added; "": nowhere
+    std::string source = "sim";  ///< whose joint_state is believed
+    double stale_s = 0.05;       ///< older ones are not; chosen
+    std::vector<ReachGoal> goals;
+    void visit(auto& v) {
+      v.required("base", base);
+      v("feedback", feedback);
+      v("closing_per_s", closing_per_s, xml::positive);
+      v("rules", rules);
+      v("save", save);
+      v("source", source);
+      v("stale_s", stale_s, xml::positive);
+      v.list(goals);
+    }
+  };
+
+  /// Throws xml::Errors of the base, std::invalid_argument as its `check` and Hand do.
+  Experience(const Params& params, const erp::Robot& robot, node::Node& node);
+
+  bool wants(const erp::JointState& state) const { return params_.source == state.source; }
+  erp::ActuatorCommand step(const erp::SensorFrame& frame, double dt_s,
+                            const node::Latest<erp::JointState>& joints);
+
+ private:
+  void read(const erp::SensorFrame& frame);
+  std::optional<sim::Vec3> hand_m(const erp::SensorFrame& frame,
+                                  const node::Latest<erp::JointState>& joints);
+  int nearest_start() const;
+  void begin();
+  void end();
+  void tell_reached();
+  void write() const;
+  erp::ActuatorCommand command(const sim::experience::Wanted& wanted) const;
+
+  Params params_;
+  erp::Robot robot_;
+  node::Node& node_;
+  joints::Names names_;
+  sim::SkeletonModel skeleton_;
+  sim::experience::BaseFile file_;
+  sim::experience::Base base_;
+  sim::Hand hand_;
+  sim::experience::Motors motors_;
+  std::optional<sim::experience::Reach> reach_;
+  std::vector<sim::JointReading> now_;
+  Eigen::VectorXd line_m_, tension_N_;
+  std::size_t goal_ = 0;
+  int start_ = 0;
+  double time_s_ = 0;
+  bool blind_told_ = false;
+};
+
+}  // namespace control

@@ -1,0 +1,51 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/experience/patterns.hpp"
+#include "sim/experience/reach.hpp"
+#include "sim/skeleton/hand.hpp"
+
+/// How experience is acquired, as a file: `<acquisition> <hand …/> <zone …/> <burst …/> … </…>`.
+namespace sim::experience {
+
+/// `<zone from_m="0.2 -0.3 -0.4" to_m="0.4 0 -0.1"/>`: a box in the world where targets lie.
+struct Zone {
+  static constexpr auto element = "zone";
+  xml::Place place;
+  xml::Vec3 from_m{}, to_m{};
+  void visit(auto& v) { v.required("from_m", from_m), v.required("to_m", to_m); }
+};
+
+struct Task {
+  static constexpr auto element = "acquisition";
+  xml::Place place;
+  std::string starts;     ///< poses.csv of postures to start from; "": where the robot starts
+  std::string rules;      ///< of fuzzy feedback, in the FuzzyLite language
+  int rounds = 30, batch = 40;
+  double noise_Vs = 0.5;  ///< of every second try's scales, to explore; chosen
+  double pattern_V = 10;  ///< no muscle is given more by a pattern; chosen
+  double noise_m = 0.0002;///< of where the hand is seen; chosen
+  double closing_per_s = 1.5;  ///< of linear feedback; chosen
+  int seed = 1;
+  ReachTimes times;
+  HandConfig hand;
+  Zone zone;
+  std::vector<Burst> bursts;
+  void visit(auto& v) {
+    v("starts", starts);
+    v("rules", rules);
+    v("rounds", rounds, xml::Range{1, 1e5});
+    v("batch", batch, xml::Range{2, 1e5});
+    v("noise_Vs", noise_Vs, xml::at_least_zero);
+    v("pattern_V", pattern_V, xml::positive);
+    v("noise_m", noise_m, xml::at_least_zero);
+    v("closing_per_s", closing_per_s, xml::positive);
+    v("seed", seed, xml::Range{0, 1e9});
+    times.visit(v);
+    v.child(hand), v.child(zone);
+    v.list(bursts);
+  }
+};
+
+}  // namespace sim::experience
