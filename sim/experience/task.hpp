@@ -22,6 +22,7 @@ struct Task {
   xml::Place place;
   std::string starts;     ///< poses.csv of postures to start from; "": where the robot starts
   std::string rules;      ///< of fuzzy feedback, in the FuzzyLite language
+  double rest_N = 30, least_N = 20;  ///< of tensions at the start; little goes slack; chosen
   int rounds = 30, batch = 40;
   double noise_Vs = 0.5;  ///< of every second try's scales, to explore; chosen
   double pattern_V = 10;  ///< no muscle is given more by a pattern; chosen
@@ -35,6 +36,8 @@ struct Task {
   void visit(auto& v) {
     v("starts", starts);
     v("rules", rules);
+    v("rest_N", rest_N, xml::at_least_zero);
+    v("least_N", least_N, xml::at_least_zero);
     v("rounds", rounds, xml::Range{1, 1e5});
     v("batch", batch, xml::Range{2, 1e5});
     v("noise_Vs", noise_Vs, xml::at_least_zero);

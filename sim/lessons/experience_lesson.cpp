@@ -56,7 +56,8 @@ ExperienceLesson::ExperienceLesson(const erp::Robot& robot, const Task& task,
   file_.hand = task.hand, file_.bursts = task.bursts;
   file_.drives = drives_of(robot);
   PoseHolder holder(robot);
-  for (const Pose& start : starts) file_.starts.push_back({{}, holder.hold(start).line_m});
+  const HoldingOptions holding{.rest_N = task.rest_N, .least_N = task.least_N};
+  for (const Pose& start : starts) file_.starts.push_back({{}, holder.hold(start, holding).line_m});
   check(file_, std::ssize(robot.actuators));
   base_ = base_of(file_);
 }
