@@ -6,6 +6,7 @@
 #include "launch/erp/verbs.hpp"
 #include "launch/learn/experience.hpp"
 #include "launch/learn/sensorimotor.hpp"
+#include "launch/learn/synergy.hpp"
 
 namespace launch {
 namespace {
@@ -57,6 +58,26 @@ void add_experience(CLI::App& learn, Chosen& chosen) {
   });
 }
 
+void add_synergy(CLI::App& learn, Chosen& chosen) {
+  auto o = std::make_shared<SynergyOptions>();
+  auto* verb = learn.add_subcommand(
+      "synergy", "Striking a bottle by motor plans, by reinforcement (paper, 5.5)");
+  verb->add_option("--robot", o->robot, "robot.xml")->required();
+  verb->add_option("--task", o->task, "<striking>: hand, zone, bottle, muscles …")->required();
+  verb->add_option("--tests", o->tests, "fresh targets, for each size of the bank")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--seed", o->seed, "default: the task's")->check(CLI::PositiveNumber);
+  add_course(verb, o->course);
+  verb->callback([=, &chosen] {
+    chosen = [=] {
+      const auto signals = std::make_shared<Signals>();
+      o->course.interrupted = [signals] { return signals->take() != 0; };
+      return learn_synergy(*o, std::cout, std::cerr);
+    };
+  });
+}
+
 void add_goals(CLI::App& learn, Chosen& chosen) {
   auto robot = std::make_shared<std::string>(), experiment = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>();
@@ -91,6 +112,7 @@ void add_learn(CLI::App& app, Chosen& chosen) {
   learn->footer("Exit codes: 0 done, 1 interrupted: --resume goes on; 2 bad usage or input.");
   add_sensorimotor(*learn, chosen);
   add_experience(*learn, chosen);
+  add_synergy(*learn, chosen);
   add_goals(*learn, chosen);
 }
 

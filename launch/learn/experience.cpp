@@ -3,21 +3,18 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <filesystem>
 #include <ostream>
 
-#include "interfaces/recording/csv.hpp"
 #include "interfaces/xml/xml.hpp"
+#include "launch/learn/task_poses.hpp"
 #include "launch/text/gnuplot.hpp"
 #include "launch/text/text_files.hpp"
-#include "sim/actuator/pose_plan.hpp"
 #include "sim/learner/dice.hpp"
 #include "sim/lessons/experience_lesson.hpp"
 
 namespace launch {
 namespace {
 
-namespace fs = std::filesystem;
 using sim::Vec3;
 using sim::experience::FeedbackKind;
 using sim::experience::Task;
@@ -25,18 +22,6 @@ using sim::lessons::ExperienceLesson;
 
 constexpr std::array ways{FeedbackKind::none, FeedbackKind::linear, FeedbackKind::fuzzy};
 constexpr std::array way_names{"feed-forward", "linear", "fuzzy"};
-
-std::string beside(const std::string& file, const std::string& other) {
-  return (fs::path(file).parent_path() / other).string();
-}
-
-std::vector<sim::Pose> starts_of(const Task& task, const erp::Robot& robot) {
-  if (task.starts.empty()) return {sim::starting_pose(robot)};
-  std::vector<sim::Pose> starts;
-  const auto table = recording::read_table(beside(task.place.file, task.starts));
-  for (const sim::TimedPose& row : sim::poses_of(table, robot)) starts.push_back(row.pose);
-  return starts;
-}
 
 std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, const Task& task,
                                                           const ExperienceLesson& lesson,
@@ -172,7 +157,7 @@ int learn_experience(const ExperienceOptions& options, std::ostream& out, std::o
   const erp::Robot robot = erp::read_robot(options.robot);
   auto task = xml::read<Task>(options.task);
   if (options.seed != 0) task.seed = options.seed;
-  ExperienceLesson lesson(robot, task, starts_of(task, robot));
+  ExperienceLesson lesson(robot, task, task_poses(options.task, task.starts, robot));
   CourseOptions course = options.course;
   course.rounds = task.rounds;
   if (!run_course(lesson, course, *pool, remarks)) return 1;

@@ -9,14 +9,6 @@
 /// How experience is acquired, as a file: `<acquisition> <hand …/> <zone …/> <burst …/> … </…>`.
 namespace sim::experience {
 
-/// `<zone from_m="0.2 -0.3 -0.4" to_m="0.4 0 -0.1"/>`: a box in the world where targets lie.
-struct Zone {
-  static constexpr auto element = "zone";
-  xml::Place place;
-  xml::Vec3 from_m{}, to_m{};
-  void visit(auto& v) { v.required("from_m", from_m), v.required("to_m", to_m); }
-};
-
 struct Task {
   static constexpr auto element = "acquisition";
   xml::Place place;
@@ -31,7 +23,7 @@ struct Task {
   int seed = 1;
   ReachTimes times;
   HandConfig hand;
-  Zone zone;
+  ZoneConfig zone;
   std::vector<Burst> bursts;
   void visit(auto& v) {
     v("starts", starts);

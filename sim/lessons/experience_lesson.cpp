@@ -64,11 +64,7 @@ ExperienceLesson::ExperienceLesson(const erp::Robot& robot, const Task& task,
 
 Vec3 ExperienceLesson::fresh_target(std::uint64_t seed, std::size_t number) const {
   auto dice = learner::dice(seed, ~std::uint64_t(0), number);
-  Vec3 target;
-  for (int k = 0; k < 3; ++k)
-    target[k] = std::uniform_real_distribution<double>(task_.zone.from_m[std::size_t(k)],
-                                                       task_.zone.to_m[std::size_t(k)])(dice);
-  return target;
+  return task_.zone.draw(dice);
 }
 
 Reach ExperienceLesson::reach(int start, const Vec3& target_m,
