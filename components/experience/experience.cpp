@@ -80,7 +80,8 @@ int Experience::nearest_start() const {
     return (Eigen::Map<const Eigen::VectorXd>(start.line_m.data(), line_m_.size()) - line_m_)
         .squaredNorm();
   };
-  return static_cast<int>(std::ranges::min_element(file_.starts, {}, off) - file_.starts.begin());
+  return static_cast<int>(std::ranges::min_element(file_.starts.all, {}, off) -
+                          file_.starts.all.begin());
 }
 
 void Experience::begin() {
@@ -110,11 +111,11 @@ void Experience::end() {
 void Experience::tell_reached() {
   const Vec3& target_m = reach_->plan().target_m;
   const std::string goal = "goal " + std::to_string(goal_ + 1);
-  node_.report(erp::Severity::info, goal, "reached",
-               fmt::format("off by {} without feedback, {} with it",
-                           off_mm(reach_->settled_m(), target_m),
-                           reach_->plan().feedback ? off_mm(reach_->corrected_m(), target_m)
-                                                   : "there is none"));
+  node_.report(
+      erp::Severity::info, goal, "reached",
+      fmt::format(
+          "off by {} without feedback, {} with it", off_mm(reach_->settled_m(), target_m),
+          reach_->plan().feedback ? off_mm(reach_->corrected_m(), target_m) : "there is none"));
   if (reach_->limited())
     node_.report(erp::Severity::warning, goal, "limited",
                  fmt::format("feedback asked a drive for more than {:.1f} V; it was scaled down",
@@ -123,7 +124,8 @@ void Experience::tell_reached() {
 
 erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s,
                                       const node::Latest<erp::JointState>& joints) {
-  constexpr double most_gap_s = 0.1;  // without frames: where the robot is now, nobody knows; chosen
+  constexpr double most_gap_s =
+      0.1;  // without frames: where the robot is now, nobody knows; chosen
   read(frame);
   time_s_ += dt_s;
   if (reach_ && dt_s > most_gap_s && goal_ < params_.goals.size()) {
@@ -139,8 +141,9 @@ erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s
   const auto hand = hand_m(frame, joints);
   if (!hand && !blind_told_) {
     blind_told_ = true;
-    node_.report(erp::Severity::warning, params_.source, "blind",
-                 "its joint_state is missing, stale or lacks a joint: nothing is corrected meanwhile");
+    node_.report(
+        erp::Severity::warning, params_.source, "blind",
+        "its joint_state is missing, stale or lacks a joint: nothing is corrected meanwhile");
   }
   if (hand) blind_told_ = false;
   return command(reach_->step(time_s_, line_m_, hand));
@@ -149,8 +152,7 @@ erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s
 erp::ActuatorCommand Experience::command(const Wanted& wanted) const {
   erp::ActuatorCommand command;
   for (std::size_t m = 0; m < robot_.actuators.size(); ++m) {
-    const auto [mode, reference] =
-        motors_.ask(m, wanted, tension_N_[static_cast<Eigen::Index>(m)]);
+    const auto [mode, reference] = motors_.ask(m, wanted, tension_N_[static_cast<Eigen::Index>(m)]);
     erp::ActuatorReference one{};
     erp::assign(one.name, robot_.actuators[m].name);
     one.mode = static_cast<std::uint8_t>(mode);
@@ -163,7 +165,7 @@ erp::ActuatorCommand Experience::command(const Wanted& wanted) const {
 void Experience::write() const {
   if (params_.save.empty()) return;
   BaseFile all = file_;
-  all.experiences = rows_of(base_);
+  all.experiences.all = rows_of(base_);
   const std::string file = beside(params_, params_.save);
   try {
     sim::learner::keep(file, xml::write(all));

@@ -34,7 +34,7 @@ Synergy::Synergy(const Params& params, const erp::Robot& robot, node::Node& node
       node_(node),
       file_(checked_bank(params)),
       bank_(bank_of(file_)),
-      muscles_(actuators_of(file_.muscles, robot)),
+      muscles_(actuators_of(file_.muscles.all, robot)),
       all_line_m_(robot.actuators.size()) {
   line_m_ = Eigen::VectorXd::Zero(std::ssize(muscles_));
 }
@@ -96,7 +96,7 @@ void Synergy::learn(const Outcome& outcome) {
   plan.value = judge(file_.bottle, plan.at_m, trial_->path(), trial_->end_s()).reward;
   bank_.add(std::move(plan)), bank_.trim();
   BankFile all = file_;
-  all.plans = rows_of(bank_);
+  all.plans.all = rows_of(bank_);
   const std::string file = beside(params_, params_.save);
   try {
     sim::learner::keep(file, xml::write(all));
@@ -107,7 +107,8 @@ void Synergy::learn(const Outcome& outcome) {
 
 erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,
                                    const node::Latest<erp::BodyPose>& bodies) {
-  constexpr double most_gap_s = 0.1;  // without frames: where the robot is now, nobody knows; chosen
+  constexpr double most_gap_s =
+      0.1;  // without frames: where the robot is now, nobody knows; chosen
   read(frame);
   time_s_ += dt_s;
   if (trial_ && dt_s > most_gap_s && target_ < params_.targets.size()) {
@@ -120,8 +121,7 @@ erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,
     if (target_ == params_.targets.size())  // a plan that does nothing leads back
       trial_.emplace(MotorPlan{Eigen::VectorXd::Zero(line_m_.size()), {}, Vec3::Zero()},
                      file_.times, 0.0, 0);
-    else
-      trial_.reset();
+    else trial_.reset();
   }
   if (!trial_ && target_ < params_.targets.size()) begin();
   if (!trial_) return command(Eigen::VectorXd::Zero(line_m_.size()));

@@ -14,9 +14,12 @@
 #include "sim/calibration/parameters.hpp"
 #include "sim/cameras/view.hpp"
 #include "sim/effects/library.hpp"
+#include "sim/experience/base_file.hpp"
+#include "sim/experience/task.hpp"
 #include "sim/learning/learnt_lengths.hpp"
 #include "sim/loop_shaping/joint_loops.hpp"
 #include "sim/sensorimotor/learnt_file.hpp"
+#include "sim/synergy/task.hpp"
 
 namespace launch {
 namespace {
@@ -57,7 +60,9 @@ class Checker {
         if (!line.config.empty()) check(line.config);
     } else if (reads_as_one_of<sim::calibration::Choice, sim::cameras::ViewConfig,
                                sim::learning::LearntMuscles, sim::loop_shaping::JointShape,
-                               sim::sensorimotor::LearntFile>(root.name, file)) {
+                               sim::sensorimotor::LearntFile, sim::experience::Task,
+                               sim::experience::BaseFile, sim::synergy::Task,
+                               sim::synergy::BankFile>(root.name, file)) {
       praise(file);
     } else {
       check_config(root, file);

@@ -24,8 +24,8 @@ constexpr std::array ways{FeedbackKind::none, FeedbackKind::linear, FeedbackKind
 constexpr std::array way_names{"feed-forward", "linear", "fuzzy"};
 
 std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, const Task& task,
-                                                          const ExperienceLesson& lesson,
-                                                          int start, const Vec3& target_m) {
+                                                          const ExperienceLesson& lesson, int start,
+                                                          const Vec3& target_m) {
   using namespace sim::experience;
   if (kind == FeedbackKind::linear)
     return linear_feedback(lesson.base(), start, target_m, task.closing_per_s);
@@ -66,7 +66,7 @@ class Tests {
  private:
   /// The hand's offset at the end, without the noise of seeing it.
   Vec3 ended(std::size_t test, FeedbackKind kind, sim::lessons::HandTrack* kept) const {
-    const int start = static_cast<int>(test % lesson_.file().starts.size());
+    const int start = static_cast<int>(test % lesson_.file().starts.all.size());
     const Vec3 target = target_m(test);
     auto reach = lesson_.reach(start, target, feedback(kind, task_, lesson_, start, target));
     sim::lessons::HandTrack own, &track = kept ? *kept : own;
@@ -124,9 +124,9 @@ PlotScript figure(const Tests& tests) {
     const auto track = tests.track(0, kind);
     data += fmt::format("$way{} << E\n", kind);
     for (std::size_t k = 0; k < track.time_s.size(); k += 10)
-      data += fmt::format("{} {} {} {} {}\n", track.time_s[k], track.hand_m[k].x(),
-                          track.hand_m[k].y(), track.hand_m[k].z(),
-                          1e3 * (track.hand_m[k] - tests.target_m(0)).norm());
+      data +=
+          fmt::format("{} {} {} {} {}\n", track.time_s[k], track.hand_m[k].x(), track.hand_m[k].y(),
+                      track.hand_m[k].z(), 1e3 * (track.hand_m[k] - tests.target_m(0)).norm());
     data += "E\n";
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -166,9 +166,11 @@ int learn_experience(const ExperienceOptions& options, std::ostream& out, std::o
   if (!pool->first()) return 0;
   write_file(course.folder + "/base.xml", lesson.state());
   write_file(course.folder + "/tests.csv", csv_of(tests));
-  if (options.tests > 0) draw(figure(tests), course.folder + "/figure.svg"), print_offsets(tests, out);
+  if (options.tests > 0)
+    draw(figure(tests), course.folder + "/figure.svg"), print_offsets(tests, out);
   if (lesson.tripped() > 0)
-    out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n", lesson.tripped());
+    out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n",
+                       lesson.tripped());
   out << fmt::format("{0}/base.xml is what the component experience reaches with\n", course.folder);
   return 0;
 }

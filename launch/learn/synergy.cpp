@@ -30,16 +30,21 @@ struct Tested {
 
 std::vector<double> numbers_of(const Test& test) {
   const auto& o = test.outcome;
-  return {test.target_m.x(), test.target_m.y(), test.target_m.z(), test.tripped ? 1.0 : 0.0,
-          o.struck ? 1.0 : 0.0, o.nearest_m, o.strike_s, o.strike_speed_m_per_s, o.stayed,
-          o.reward, test.relative_jerk};
+  return {test.target_m.x(),
+          test.target_m.y(),
+          test.target_m.z(),
+          test.tripped ? 1.0 : 0.0,
+          o.struck ? 1.0 : 0.0,
+          o.nearest_m,
+          o.strike_s,
+          o.strike_speed_m_per_s,
+          o.stayed,
+          o.reward,
+          test.relative_jerk};
 }
 
 Test test_of(const std::vector<double>& n) {
-  return {{n[0], n[1], n[2]},
-          n[3] != 0,
-          {n[4] != 0, n[5], n[6], n[7], n[8], n[9]},
-          n[10]};
+  return {{n[0], n[1], n[2]}, n[3] != 0, {n[4] != 0, n[5], n[6], n[7], n[8], n[9]}, n[10]};
 }
 
 Tested tested(const SynergyLesson& lesson, double share, int count, std::uint64_t seed,
@@ -92,18 +97,21 @@ void print(const std::vector<Tested>& results, std::ostream& out) {
                      struck_percent(tests));
   print_heights(tests, out);
   out << fmt::format(
-      "hand at the strike {:.3f} m/s, {:.0f} % of the time after the signal in the zone, jerk {:.1f} "
+      "hand at the strike {:.3f} m/s, {:.0f} % of the time after the signal in the zone, jerk "
+      "{:.1f} "
       "times the least (medians)\n",
       middle(speeds), middle(stayed), middle(jerks));
   for (const Tested& result : results)
-    out << fmt::format("{:>4.0f} % of the bank, {:>3} plans of {:>2} synergies (90 %): struck{:>7.1f} %\n",
-                       100 * result.share, result.bank.plans().size(), components(result.bank, 0.9),
-                       struck_percent(result.tests));
+    out << fmt::format(
+        "{:>4.0f} % of the bank, {:>3} plans of {:>2} synergies (90 %): struck{:>7.1f} %\n",
+        100 * result.share, result.bank.plans().size(), components(result.bank, 0.9),
+        struck_percent(result.tests));
 }
 
 std::string csv_of(const std::vector<Tested>& results) {
   std::string text =
-      "share,target_x_m,target_y_m,target_z_m,tripped,struck,nearest_m,strike_s,strike_speed_m_per_s,"
+      "share,target_x_m,target_y_m,target_z_m,tripped,struck,nearest_m,strike_s,strike_speed_m_per_"
+      "s,"
       "stayed,reward,relative_jerk\n";
   for (const Tested& result : results)
     for (const Test& test : result.tests) {
@@ -123,11 +131,14 @@ PlotScript figure(const std::vector<Tested>& results) {
   data += "E\n$b << E\n";
   for (const Tested& result : results)
     data += fmt::format("{} {}\n", result.bank.plans().size(), struck_percent(result.tests));
+  data += "E\n";
   const auto view = [](const char* title, int across, int up, const char* x, const char* y) {
     return fmt::format(
         "set title '{0}'\nset xlabel '{3} m'\nset ylabel '{4} m'\n"
-        "plot $t using {1}:($4 > 0 ? ${2} : 1/0) with points pt 7 ps 0.8 lc rgb '#0072B2' title 'struck', "
-        "$t using {1}:($4 > 0 ? 1/0 : ${2}) with points pt 2 ps 0.9 lw 2 lc rgb '#D55E00' title 'missed'\n",
+        "plot $t using {1}:($4 > 0 ? ${2} : 1/0) with points pt 7 ps 0.8 lc rgb '#0072B2' title "
+        "'struck', "
+        "$t using {1}:($4 > 0 ? 1/0 : ${2}) with points pt 2 ps 0.9 lw 2 lc rgb '#D55E00' title "
+        "'missed'\n",
         title, across, up, x, y);
   };
   return {.commands = data +
@@ -154,8 +165,8 @@ int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream
   std::vector<Tested> results;
   if (options.tests > 0)
     for (const double share : kept_shares)
-      results.push_back(tested(lesson, share, options.tests,
-                               static_cast<std::uint64_t>(task.seed), *pool));
+      results.push_back(
+          tested(lesson, share, options.tests, static_cast<std::uint64_t>(task.seed), *pool));
   if (!pool->first()) return 0;
   write_file(course.folder + "/bank.xml", lesson.state());
   if (!results.empty()) {
@@ -164,7 +175,8 @@ int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream
     print(results, out);
   }
   if (lesson.tripped() > 0)
-    out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n", lesson.tripped());
+    out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n",
+                       lesson.tripped());
   out << fmt::format("{}/bank.xml is what the component synergy strikes with\n", course.folder);
   return 0;
 }

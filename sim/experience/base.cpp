@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double per_drive = 4;  ///< neighbours for each drive; chosen
+constexpr double per_drive = 4;    ///< neighbours for each drive; chosen
 constexpr double believed = 0.02;  ///< λ, as a share of the neighbours' own scatter; chosen
 
 struct Weighed {
@@ -92,10 +92,9 @@ Base::Line Base::line_about(int start, const Vector3d& place_m) const {
   if (list.empty()) return {Vector3d::Zero(), VectorXd::Zero(drives_), MatrixXd::Zero(3, drives_)};
   const Moments whole = moments_of(list, drives_);
   const double worth = exchange(whole);
-  const Experience& nearest =
-      *std::ranges::min_element(list, {}, [&](const Weighed& w) {
-        return (w.one->end_m - place_m).squaredNorm();
-      })->one;
+  const Experience& nearest = *std::ranges::min_element(list, {}, [&](const Weighed& w) {
+                                 return (w.one->end_m - place_m).squaredNorm();
+                               })->one;
   for (auto& [one, distance] : list)
     distance = (one->end_m - place_m).squaredNorm() +
                worth * worth * (one->scales_Vs - nearest.scales_Vs).squaredNorm();

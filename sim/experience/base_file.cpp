@@ -21,11 +21,12 @@ std::string unequal(std::size_t found, std::ptrdiff_t wanted, const std::string&
 
 Base base_of(const BaseFile& file) {
   std::vector<Experience> all;
-  for (const ExperienceRow& row : file.experiences)
-    all.push_back({row.start,
-                   Eigen::Map<const Eigen::VectorXd>(row.scales_Vs.data(), std::ssize(row.scales_Vs)),
-                   vec(row.end_m)});
-  return {std::ssize(file.drives), std::move(all)};
+  for (const ExperienceRow& row : file.experiences.all)
+    all.push_back(
+        {row.start,
+         Eigen::Map<const Eigen::VectorXd>(row.scales_Vs.data(), std::ssize(row.scales_Vs)),
+         vec(row.end_m)});
+  return {std::ssize(file.drives.all), std::move(all)};
 }
 
 std::vector<ExperienceRow> rows_of(const Base& base) {
@@ -37,36 +38,38 @@ std::vector<ExperienceRow> rows_of(const Base& base) {
 }
 
 void check(const BaseFile& file, Eigen::Index muscles) {
-  matrix_of(file.drives, muscles);
-  Patterns{file.bursts};
-  expect(!file.drives.empty() && !file.starts.empty(), file.place,
+  matrix_of(file.drives.all, muscles);
+  Patterns{file.bursts.all};
+  expect(!file.drives.all.empty() && !file.starts.all.empty(), file.place,
          "an <experience_base> has at least one <drive> and one <start>");
-  for (const StartRow& start : file.starts)
+  for (const StartRow& start : file.starts.all)
     expect(std::ssize(start.line_m) == muscles, start.place,
            unequal(start.line_m.size(), muscles, "muscles: learnt with another robot?"));
-  for (const ExperienceRow& row : file.experiences) {
-    expect(row.scales_Vs.size() == file.drives.size(), row.place,
-           unequal(row.scales_Vs.size(), std::ssize(file.drives), "drives"));
-    expect(row.start < std::ssize(file.starts), row.place,
+  for (const ExperienceRow& row : file.experiences.all) {
+    expect(row.scales_Vs.size() == file.drives.all.size(), row.place,
+           unequal(row.scales_Vs.size(), std::ssize(file.drives.all), "drives"));
+    expect(row.start < std::ssize(file.starts.all), row.place,
            "start " + std::to_string(row.start) + ", but there are " +
-               std::to_string(file.starts.size()) + ", counted from 0");
+               std::to_string(file.starts.all.size()) + ", counted from 0");
   }
 }
 
 Reach reach_with(const BaseFile& file, int start, const Eigen::Vector3d& target_m,
                  const Eigen::VectorXd& scales_Vs, std::shared_ptr<const Feedback> feedback) {
-  const auto& line_m = file.starts[static_cast<std::size_t>(start)].line_m;
+  const auto& line_m = file.starts.all[static_cast<std::size_t>(start)].line_m;
   const auto muscles = std::ssize(line_m);
-  return {Patterns(file.bursts), matrix_of(file.drives, muscles), file.times,
+  return {Patterns(file.bursts.all),
+          matrix_of(file.drives.all, muscles),
+          file.times,
           {Eigen::Map<const Eigen::VectorXd>(line_m.data(), muscles), scales_Vs, target_m,
            std::move(feedback)}};
 }
 
 double peak_V(const BaseFile& file, const Eigen::VectorXd& scales_Vs) {
   constexpr double sample_s = 0.01;
-  const Patterns patterns(file.bursts);
+  const Patterns patterns(file.bursts.all);
   const Eigen::MatrixXd drives =
-      matrix_of(file.drives, std::ssize(file.starts.front().line_m));
+      matrix_of(file.drives.all, std::ssize(file.starts.all.front().line_m));
   double peak = 0;
   for (double t = 0; t < patterns.end_s(); t += sample_s)
     peak = std::max(peak, voltages_V(patterns, drives, scales_Vs, t).cwiseAbs().maxCoeff());

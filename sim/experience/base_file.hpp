@@ -8,13 +8,13 @@ namespace sim::experience {
 
 /// Where reaches start: `<start line_m="…"/>`, by actuator.
 struct StartRow {
-  static constexpr auto element = "start";
+  static constexpr auto element = "start", plural = "starts";
   xml::Place place;
   std::vector<double> line_m;
   void visit(auto& v) { v.required("line_m", line_m); }
 };
 struct ExperienceRow {
-  static constexpr auto element = "experience";
+  static constexpr auto element = "experience", plural = "experiences";
   xml::Place place;
   int start = 0;
   std::vector<double> scales_Vs;
@@ -33,17 +33,17 @@ struct BaseFile {
   double pattern_V = 10;  ///< no muscle is given more by a pattern; more is out of reach
   ReachTimes times;
   HandConfig hand;
-  std::vector<Burst> bursts;
-  std::vector<Drive> drives;
-  std::vector<StartRow> starts;
-  std::vector<ExperienceRow> experiences;
+  xml::Plural<Burst> bursts;
+  xml::Plural<Drive> drives;
+  xml::Plural<StartRow> starts;
+  xml::Plural<ExperienceRow> experiences;
   void visit(auto& v) {
     v("rounds", rounds);
     v("seed", seed);
     v("pattern_V", pattern_V, xml::positive);
     times.visit(v);
     v.child(hand);
-    v.list(bursts), v.list(drives), v.list(starts), v.list(experiences);
+    v.child(bursts), v.child(drives), v.child(starts), v.child(experiences);
   }
 };
 

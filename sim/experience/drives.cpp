@@ -24,8 +24,9 @@ std::vector<Drive> drives_of(const erp::Robot& robot) {
   for (std::size_t j = 0; j < start.size(); ++j) {
     const int count = coordinates_of(start[j].type), first = model.skeleton().first_of(int(j));
     for (int k = 0; k < count && first >= 0; ++k)
-      drives.push_back(drive(model.tree().joints[j].name + (count > 1 ? std::string(".") + "xyzuvw"[k] : ""),
-                             -model.jacobian().col(first + k)));
+      drives.push_back(
+          drive(model.tree().joints[j].name + (count > 1 ? std::string(".") + "xyzuvw"[k] : ""),
+                -model.jacobian().col(first + k)));
   }
   return drives;
 }

@@ -63,12 +63,10 @@ class Fuzzy final : public Feedback {
 std::unique_ptr<Feedback> linear_feedback(const Base& base, int start, const Vector3d& target_m,
                                           double closing_per_s) {
   return std::make_unique<Linear>(
-      closing_per_s *
-      weighted_inverse(base.influence(start, target_m), base.freedom(start)));
+      closing_per_s * weighted_inverse(base.influence(start, target_m), base.freedom(start)));
 }
 
-std::unique_ptr<Feedback> fuzzy_feedback(const Base& base, int start,
-                                         const std::string& fll_file) {
+std::unique_ptr<Feedback> fuzzy_feedback(const Base& base, int start, const std::string& fll_file) {
   MatrixXd jacobi = weighted_inverse(base.influence(start), base.freedom(start));
   const double most = jacobi.cwiseAbs().maxCoeff();
   if (most > 0) jacobi /= most;

@@ -33,9 +33,8 @@ std::unique_ptr<Feedback> fuzzy_feedback(const Base& base, int start, const std:
 
 template <>
 struct xml::Names<sim::experience::FeedbackKind> {
-  static constexpr auto list =
-      std::to_array<std::pair<const char*, sim::experience::FeedbackKind>>(
-          {{"none", sim::experience::FeedbackKind::none},
-           {"linear", sim::experience::FeedbackKind::linear},
-           {"fuzzy", sim::experience::FeedbackKind::fuzzy}});
+  static constexpr auto list = std::to_array<std::pair<const char*, sim::experience::FeedbackKind>>(
+      {{"none", sim::experience::FeedbackKind::none},
+       {"linear", sim::experience::FeedbackKind::linear},
+       {"fuzzy", sim::experience::FeedbackKind::fuzzy}});
 };

@@ -17,8 +17,9 @@ class Motors {
  public:
   explicit Motors(const erp::Robot& robot) {
     for (const erp::Actuator& a : robot.actuators)
-      laws_.push_back({MotorInverse(robot.motor_of(a), a.spindle.radius_m, creep_rad_per_s),
-                       1 / (robot.motor_of(a).back_emf_V_s_per_rad * robot.motor_of(a).gear_ratio)});
+      laws_.push_back(
+          {MotorInverse(robot.motor_of(a), a.spindle.radius_m, creep_rad_per_s),
+           1 / (robot.motor_of(a).back_emf_V_s_per_rad * robot.motor_of(a).gear_ratio)});
   }
   /// A voltage comes on top of what the tension takes: the shaft turns at the speed that it would
   /// have without load.

@@ -49,8 +49,7 @@ Eigen::MatrixXd matrix_of(const std::vector<Drive>& drives, Index muscles) {
     if (std::ssize(drives[d].shares) != muscles)
       throw std::invalid_argument("drive \"" + drives[d].name + "\" has " +
                                   std::to_string(drives[d].shares.size()) +
-                                  " shares; the robot has " + std::to_string(muscles) +
-                                  " muscles");
+                                  " shares; the robot has " + std::to_string(muscles) + " muscles");
     matrix.col(static_cast<Index>(d)) =
         Eigen::Map<const Eigen::VectorXd>(drives[d].shares.data(), muscles);
   }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "interfaces/xml/fields.hpp"
+#include "interfaces/xml/plural.hpp"
 
 /// Voltage patterns after electromyograms of fast reaches, shared among muscles and scaled.
 ///
@@ -18,7 +18,7 @@ enum class Role { agonist, antagonist };
 
 /// `<burst of="agonist" at_s="0" for_s="0.3" share="1"/>`; of an antagonist a negative share brakes.
 struct Burst {
-  static constexpr auto element = "burst";
+  static constexpr auto element = "burst", plural = "pattern";
   xml::Place place;
   Role of = Role::agonist;
   double at_s = 0, for_s = 0, share = 1;
@@ -32,7 +32,7 @@ struct Burst {
 
 /// `<drive name="elbow" shares="0 0 1 -1 …"/>`: by actuator; positive where the muscle is wound up.
 struct Drive {
-  static constexpr auto element = "drive";
+  static constexpr auto element = "drive", plural = "drives";
   xml::Place place;
   std::string name;
   std::vector<double> shares;

@@ -35,8 +35,7 @@ void Reach::watch(double time_s, const std::optional<Vector3d>& hand_m) {
   if (!hand_m) return hand_m_.reset(), rate_m_per_s_.setZero(), void();
   const double dt_s = time_s - last_s_;
   if (hand_m_ && dt_s > 0)
-    rate_m_per_s_ +=
-        -std::expm1(-dt_s / smooth_s) * ((*hand_m - *hand_m_) / dt_s - rate_m_per_s_);
+    rate_m_per_s_ += -std::expm1(-dt_s / smooth_s) * ((*hand_m - *hand_m_) / dt_s - rate_m_per_s_);
   hand_m_ = hand_m;
   if (time_s < begin_s_ + length_s() - times_.mean_s) return;
   sum_m_ += *hand_m, ++count_;

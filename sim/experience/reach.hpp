@@ -19,9 +19,9 @@
 namespace sim::experience {
 
 struct ReachTimes {
-  double way_s = 1.5, still_s = 0.5;         ///< chosen
-  double settle_s = 1.5, correct_s = 4;      ///< chosen
-  double mean_s = 0.1;                       ///< of the hand's place, at the end of each; chosen
+  double way_s = 1.5, still_s = 0.5;     ///< chosen
+  double settle_s = 1.5, correct_s = 4;  ///< chosen
+  double mean_s = 0.1;                   ///< of the hand's place, at the end of each; chosen
   double feedback_V = 3;  ///< no drive is given more by feedback: scaled down; chosen
   void visit(auto& v) {
     v("way_s", way_s, xml::positive);

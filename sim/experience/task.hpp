@@ -12,19 +12,19 @@ namespace sim::experience {
 struct Task {
   static constexpr auto element = "acquisition";
   xml::Place place;
-  std::string starts;     ///< poses.csv of postures to start from; "": where the robot starts
-  std::string rules;      ///< of fuzzy feedback, in the FuzzyLite language
+  std::string starts;  ///< poses.csv of postures to start from; "": where the robot starts
+  std::string rules;   ///< of fuzzy feedback, in the FuzzyLite language
   double rest_N = 30, least_N = 20;  ///< of tensions at the start; little goes slack; chosen
   int rounds = 30, batch = 40;
-  double noise_Vs = 0.5;  ///< of every second try's scales, to explore; chosen
-  double pattern_V = 10;  ///< no muscle is given more by a pattern; chosen
-  double noise_m = 0.0002;///< of where the hand is seen; chosen
+  double noise_Vs = 0.5;       ///< of every second try's scales, to explore; chosen
+  double pattern_V = 10;       ///< no muscle is given more by a pattern; chosen
+  double noise_m = 0.0002;     ///< of where the hand is seen; chosen
   double closing_per_s = 1.5;  ///< of linear feedback; chosen
   int seed = 1;
   ReachTimes times;
   HandConfig hand;
   ZoneConfig zone;
-  std::vector<Burst> bursts;
+  xml::Plural<Burst> bursts;
   void visit(auto& v) {
     v("starts", starts);
     v("rules", rules);
@@ -39,7 +39,7 @@ struct Task {
     v("seed", seed, xml::Range{0, 1e9});
     times.visit(v);
     v.child(hand), v.child(zone);
-    v.list(bursts);
+    v.child(bursts);
   }
 };
 

@@ -53,11 +53,12 @@ ExperienceLesson::ExperienceLesson(const erp::Robot& robot, const Task& task,
     : robot_(robot), task_(task) {
   file_.seed = std::to_string(task.seed);
   file_.pattern_V = task.pattern_V, file_.times = task.times;
-  file_.hand = task.hand, file_.bursts = task.bursts;
-  file_.drives = drives_of(robot);
+  file_.hand = task.hand, file_.bursts.all = task.bursts.all;
+  file_.drives.all = drives_of(robot);
   PoseHolder holder(robot);
   const HoldingOptions holding{.rest_N = task.rest_N, .least_N = task.least_N};
-  for (const Pose& start : starts) file_.starts.push_back({{}, holder.hold(start, holding).line_m});
+  for (const Pose& start : starts)
+    file_.starts.all.push_back({{}, holder.hold(start, holding).line_m});
   check(file_, std::ssize(robot.actuators));
   base_ = base_of(file_);
 }
@@ -69,14 +70,14 @@ Vec3 ExperienceLesson::fresh_target(std::uint64_t seed, std::size_t number) cons
 
 Reach ExperienceLesson::reach(int start, const Vec3& target_m,
                               std::shared_ptr<const Feedback> feedback) const {
-  return reach_with(file_, start, target_m,
-                    within_voltage(file_, base_.inverse(start, target_m)), std::move(feedback));
+  return reach_with(file_, start, target_m, within_voltage(file_, base_.inverse(start, target_m)),
+                    std::move(feedback));
 }
 
 /// Its scales, where it led, and what that is off the target; nothing: an ECU tripped.
 std::vector<double> ExperienceLesson::tried(std::size_t place) const {
   auto dice = learner::dice(seed(), static_cast<std::uint64_t>(rounds()), place);
-  const int start = static_cast<int>(place / 2 % file_.starts.size());
+  const int start = static_cast<int>(place / 2 % file_.starts.all.size());
   const Vec3 target = fresh_target(dice(), 0);
   VectorXd scales_Vs = base_.inverse(start, target);
   if (explores(place)) {
@@ -94,7 +95,7 @@ std::vector<double> ExperienceLesson::tried(std::size_t place) const {
 }
 
 void ExperienceLesson::round(const Pool& pool) {
-  const auto drives = std::ssize(file_.drives);
+  const auto drives = std::ssize(file_.drives.all);
   const auto all =
       pool.map(static_cast<std::size_t>(task_.batch), [&](std::size_t k) { return tried(k); });
   Vec3 sum_m = Vec3::Zero();
@@ -106,7 +107,7 @@ void ExperienceLesson::round(const Pool& pool) {
       continue;
     }
     const Eigen::Map<const VectorXd> row(numbers.data(), std::ssize(numbers));
-    base_.add({static_cast<int>(k / 2 % file_.starts.size()), row.head(drives),
+    base_.add({static_cast<int>(k / 2 % file_.starts.all.size()), row.head(drives),
                row.segment<3>(drives)});
     if (rounds() > 0 && explores(k)) continue;
     sum_m += row.tail<3>().cwiseAbs(), ++count;
@@ -116,24 +117,23 @@ void ExperienceLesson::round(const Pool& pool) {
 }
 
 std::vector<learner::Metric> ExperienceLesson::metrics() const {
-  return {{"x_mm", 1e3 * offset_m_.x()},
-          {"y_mm", 1e3 * offset_m_.y()},
-          {"z_mm", 1e3 * offset_m_.z()}};
+  return {
+      {"x_mm", 1e3 * offset_m_.x()}, {"y_mm", 1e3 * offset_m_.y()}, {"z_mm", 1e3 * offset_m_.z()}};
 }
 
 std::string ExperienceLesson::state() const {
   BaseFile file = file_;
-  file.experiences = rows_of(base_);
+  file.experiences.all = rows_of(base_);
   return xml::write(file);
 }
 
 void ExperienceLesson::restore(const std::string& text, const std::string& name) {
   auto kept = xml::parse<BaseFile>(text, name);
   check(kept, std::ssize(robot_.actuators));
-  if (kept.seed != file_.seed || kept.starts.size() != file_.starts.size())
+  if (kept.seed != file_.seed || kept.starts.all.size() != file_.starts.all.size())
     throw std::invalid_argument(name + ": of another seed or other starts; resume with those");
   base_ = base_of(kept);
-  kept.experiences.clear();
+  kept.experiences.all.clear();
   file_ = std::move(kept);
 }
 

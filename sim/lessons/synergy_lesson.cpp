@@ -42,11 +42,12 @@ bool play(Trial& trial, const erp::Robot& robot, const HandConfig& hand_config,
 
 SynergyLesson::SynergyLesson(const erp::Robot& robot, const Task& task,
                              const std::vector<Pose>& poses)
-    : robot_(robot), task_(task), muscles_(actuators_of(task.muscles, robot)) {
+    : robot_(robot), task_(task), muscles_(actuators_of(task.muscles.all, robot)) {
   file_.seed = std::to_string(task.seed), file_.options = task.options, file_.times = task.times;
-  file_.hand = task.hand, file_.bottle = task.bottle, file_.muscles = task.muscles;
+  file_.hand = task.hand, file_.bottle = task.bottle, file_.muscles.all = task.muscles.all;
   add_rough_plans(poses);
-  if (bank_.plans().empty()) throw std::invalid_argument(task.place.file + ": no plan to begin with");
+  if (bank_.plans().empty())
+    throw std::invalid_argument(task.place.file + ": no plan to begin with");
 }
 
 /// Where a rough plan leads it leads when it is played; one that trips an ECU is left out.
@@ -135,17 +136,17 @@ SynergyLesson::Test SynergyLesson::test(const Bank& bank, std::uint64_t seed,
 
 std::string SynergyLesson::state() const {
   BankFile file = file_;
-  file.plans = rows_of(bank_);
+  file.plans.all = rows_of(bank_);
   return xml::write(file);
 }
 
 void SynergyLesson::restore(const std::string& text, const std::string& name) {
   auto kept = xml::parse<BankFile>(text, name);
   check(kept);
-  if (kept.seed != file_.seed || kept.muscles.size() != file_.muscles.size())
+  if (kept.seed != file_.seed || kept.muscles.all.size() != file_.muscles.all.size())
     throw std::invalid_argument(name + ": of another seed or other muscles; resume with those");
   bank_ = bank_of(kept);
-  kept.plans.clear();
+  kept.plans.all.clear();
   file_ = std::move(kept);
 }
 

@@ -30,9 +30,9 @@ struct Blend {
 
 /// How a plan is varied to explore.
 struct Exploring {
-  double weights = 0.1;    ///< of each weight, a share of it; and of all together
-  double weights_m = 2e-4; ///< of each weight beside that
-  double rise = 0.1;       ///< of T, a share
+  double weights = 0.1;     ///< of each weight, a share of it; and of all together
+  double weights_m = 2e-4;  ///< of each weight beside that
+  double rise = 0.1;        ///< of T, a share
   double beyond = 0.05;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 Bank bank_of(const BankFile& file) {
   std::vector<MotorPlan> plans;
-  for (const PlanRow& row : file.plans)
+  for (const PlanRow& row : file.plans.all)
     plans.push_back(
         {Eigen::Map<const Eigen::VectorXd>(row.weights_m.data(), std::ssize(row.weights_m)),
          {row.rise_s, row.beyond},
@@ -48,11 +48,11 @@ std::vector<std::size_t> actuators_of(const std::vector<LearntMuscle>& muscles,
 }
 
 void check(const BankFile& file) {
-  if (file.plans.empty()) refuse(file.place, "a <synergy_bank> has at least one <plan>");
-  for (const PlanRow& row : file.plans)
-    if (row.weights_m.size() != file.muscles.size())
+  if (file.plans.all.empty()) refuse(file.place, "a <synergy_bank> has at least one <plan>");
+  for (const PlanRow& row : file.plans.all)
+    if (row.weights_m.size() != file.muscles.all.size())
       refuse(row.place, std::to_string(row.weights_m.size()) + " weights, but there are " +
-                            std::to_string(file.muscles.size()) + " <learnt> muscles");
+                            std::to_string(file.muscles.all.size()) + " <learnt> muscles");
 }
 
 }  // namespace sim::synergy

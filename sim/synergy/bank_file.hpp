@@ -2,6 +2,7 @@
 #include <string>
 
 #include "interfaces/robot/robot.hpp"
+#include "interfaces/xml/plural.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "sim/skeleton/hand.hpp"
 #include "sim/synergy/bank.hpp"
@@ -14,13 +15,13 @@ namespace sim::synergy {
 /// `<learnt muscle="right_biceps"/>`: a muscle that plans have a weight for; the others stay as long as
 /// they are.
 struct LearntMuscle {
-  static constexpr auto element = "learnt";
+  static constexpr auto element = "learnt", plural = "muscles";
   xml::Place place;
   std::string muscle;
   void visit(auto& v) { v.required("muscle", muscle); }
 };
 struct PlanRow {
-  static constexpr auto element = "plan";
+  static constexpr auto element = "plan", plural = "plans";
   xml::Place place;
   xml::Vec3 at_m{};
   double value = 1, rise_s = 0.8, beyond = 0;
@@ -42,8 +43,8 @@ struct BankFile {
   TrialTimes times;
   HandConfig hand;
   BottleConfig bottle;
-  std::vector<LearntMuscle> muscles;
-  std::vector<PlanRow> plans;
+  xml::Plural<LearntMuscle> muscles;
+  xml::Plural<PlanRow> plans;
   void visit(auto& v) {
     v("rounds", rounds);
     v("seed", seed);
@@ -52,7 +53,7 @@ struct BankFile {
     v("most", options.most, xml::Range{1, 1e5});
     times.visit(v);
     v.child(hand), v.child(bottle);
-    v.list(muscles), v.list(plans);
+    v.child(muscles), v.child(plans);
   }
 };
 

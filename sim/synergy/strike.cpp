@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/skeleton/joint_path.hpp"
+
 namespace sim::synergy {
 namespace {
 
@@ -20,6 +22,28 @@ double speed_m_per_s(const HandPath& path, std::size_t k) {
   if (after == before) return 0;
   return (path.at_m[after] - path.at_m[before]).norm() /
          (path.sample_s * static_cast<double>(after - before));
+}
+
+/// Means of five points each, against the tremor of single ones.
+std::vector<Vec3> every_50_ms(const HandPath& path, double end_s) {
+  const auto every = static_cast<std::size_t>(std::lround(0.05 / path.sample_s));
+  std::vector<Vec3> means_m;
+  for (std::size_t k = 0; k + every <= path.at_m.size() && double(k) * path.sample_s < end_s;
+       k += every) {
+    const auto begin = path.at_m.begin() + static_cast<std::ptrdiff_t>(k);
+    means_m.push_back(
+        std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(every), Vec3(Vec3::Zero())) /
+        double(every));
+  }
+  return means_m;
+}
+
+/// Σ |third difference|².
+double jerks(const std::vector<Vec3>& at_m) {
+  double squares = 0;
+  for (std::size_t k = 0; k + 3 < at_m.size(); ++k)
+    squares += (at_m[k + 3] - 3 * at_m[k + 2] + 3 * at_m[k + 1] - at_m[k]).squaredNorm();
+  return squares;
 }
 
 }  // namespace
@@ -54,23 +78,12 @@ Vec3 rest_of(const HandPath& path) {
 }
 
 double relative_jerk(const HandPath& path, double end_s) {
-  constexpr std::size_t every = 5;  // points averaged, against the tremor of single samples; chosen
-  const double h = path.sample_s * every;
-  std::vector<Vec3> at_m;
-  for (std::size_t k = 0; k + every <= path.at_m.size() && double(k) * path.sample_s < end_s;
-       k += every)
-    at_m.push_back(std::accumulate(path.at_m.begin() + std::ptrdiff_t(k),
-                                   path.at_m.begin() + std::ptrdiff_t(k + every),
-                                   Vec3(Vec3::Zero())) /
-                   double(every));
+  std::vector<Vec3> at_m = every_50_ms(path, end_s), least_m;
   if (at_m.size() < 4) return 0;
-  double squares = 0;
-  for (std::size_t k = 0; k + 3 < at_m.size(); ++k)
-    squares += (at_m[k + 3] - 3 * at_m[k + 2] + 3 * at_m[k + 1] - at_m[k]).squaredNorm();
-  squares /= std::pow(h, 5);
-  const double length_m = (at_m.back() - at_m.front()).norm();
-  const double time_s = h * static_cast<double>(at_m.size() - 1);
-  return squares * std::pow(time_s, 5) / (720 * std::pow(std::max(length_m, 1e-6), 2));
+  const Vec3 way_m = at_m.back() - at_m.front();
+  for (std::size_t k = 0; k < at_m.size(); ++k)
+    least_m.push_back(way_m * least_jerk(double(k) / double(at_m.size() - 1)).done);
+  return jerks(at_m) / std::max(jerks(least_m), 1e-12);
 }
 
 }  // namespace sim::synergy

@@ -37,8 +37,8 @@ struct HandPath {
 
 struct Outcome {
   bool struck = false;
-  double nearest_m = 0;             ///< between hand and bottle; below zero where they would overlap
-  double strike_s = 0;              ///< when first; since the plan began
+  double nearest_m = 0;  ///< between hand and bottle; below zero where they would overlap
+  double strike_s = 0;   ///< when first; since the plan began
   double strike_speed_m_per_s = 0;  ///< of the hand, then
   double stayed = 0;                ///< share of the time after the signal's end, in the zone
   double reward = 0;
@@ -49,8 +49,8 @@ Outcome judge(const BottleConfig& bottle, const Vec3& bottle_m, const HandPath& 
 /// Where the hand is at last: the mean of its last 0.2 s.
 Vec3 rest_of(const HandPath& path);
 
-/// ∫ |jerk|² dt until `end_s`, relative to that of the path with the least jerk that is as long, in
-/// its time: 1 at best (Flash and Hogan 1985: 720 L²/T⁵).
+/// Σ |jerk|² until `end_s`, by differences over 50 ms, relative to that of the straight way from the
+/// first to the last point with the least jerk, sampled alike: 1 at best.
 double relative_jerk(const HandPath& path, double end_s);
 
 }  // namespace sim::synergy

@@ -9,7 +9,7 @@ struct Task {
   xml::Place place;
   std::string poses;  ///< poses.csv: a rough starting plan a row, beside this file
   int rounds = 60, batch = 40;
-  double noise = 0.05;  ///< deviation of the signal-dependent noise, a share; chosen
+  double noise = 0.05;     ///< deviation of the signal-dependent noise, a share; chosen
   double beyond_m = 0.08;  ///< plans that lead no farther out of the zone are kept; chosen
   int seed = 1;
   Exploring exploring;
@@ -18,7 +18,7 @@ struct Task {
   HandConfig hand;
   ZoneConfig zone;
   BottleConfig bottle;
-  std::vector<LearntMuscle> muscles;
+  xml::Plural<LearntMuscle> muscles;
   void visit(auto& v) {
     v.required("poses", poses);
     v("rounds", rounds, xml::Range{1, 1e5});
@@ -35,7 +35,7 @@ struct Task {
     v("most", options.most, xml::Range{1, 1e5});
     times.visit(v);
     v.child(hand), v.child(zone), v.child(bottle);
-    v.list(muscles);
+    v.child(muscles);
   }
 };
 

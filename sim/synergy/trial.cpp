@@ -31,7 +31,8 @@ const VectorXd& Trial::step(double time_s, const VectorXd& line_m) {
   }
   done_ = planned_s > end_s() + times_.watch_s;
   add_noise(dt_s);
-  line_m_ = -plan_.signal.at(planned_s) * plan_.weights_m.cwiseProduct(VectorXd::Ones(noises_.size()) + noises_);
+  line_m_ = -plan_.signal.at(planned_s) *
+            plan_.weights_m.cwiseProduct(VectorXd::Ones(noises_.size()) + noises_);
   return line_m_;
 }
 

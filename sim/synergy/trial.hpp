@@ -39,7 +39,7 @@ class Trial {
   bool planned(double time_s) const { return begun_ && planned_s(time_s) >= 0; }
   const MotorPlan& plan() const { return plan_; }
   double end_s() const { return plan_.signal.rise_s + Signal::back_s; }  ///< of the signal
-  const HandPath& path() const { return path_; }                        ///< since the plan began
+  const HandPath& path() const { return path_; }                         ///< since the plan began
 
  private:
   double planned_s(double time_s) const {

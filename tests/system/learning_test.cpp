@@ -2,9 +2,12 @@
 #include <catch2/catch.hpp>
 #include <iostream>
 #include <numeric>
+#include <regex>
 
 #include "interfaces/xml/xml.hpp"
+#include "sim/experience/base_file.hpp"
 #include "sim/sensorimotor/learnt_file.hpp"
+#include "sim/synergy/bank_file.hpp"
 #include "tests/system/command.hpp"
 
 using namespace tests;
@@ -67,4 +70,61 @@ TEST_CASE(
   const auto again = learnt_in(folder);
   for (std::size_t g = 0; g < again.goals.size(); ++g)
     CHECK(again.goals[g].errors.front() < 0.5 * file.goals[g].errors.front());
+}
+
+TEST_CASE(
+    "on a live graph an arm reaches with what was experienced, is corrected, and adds to it") {
+  const std::string device = GENERATE("sim", "can");
+  const std::string feedback = GENERATE("linear", "fuzzy");
+  CAPTURE(device, feedback);
+  Folder folder;
+  const std::string configs = ERP_SOURCE_DIR "/configs/seven_dof/";
+  std::filesystem::copy_file(configs + "experience_base.xml", folder / "base.xml");
+  std::filesystem::copy_file(configs + "feedback.fll", folder / "feedback.fll");
+  std::ofstream(folder / "experience.xml")
+      << "<experience base=\"base.xml\" save=\"saved.xml\" rules=\"feedback.fll\" feedback=\""
+      << feedback
+      << "\"><goal at_m=\"0.3 -0.3 -0.5\"/><goal at_m=\"0.4 -0.25 -0.45\"/></experience>";
+  std::ofstream(folder / "graph.xml")
+      << "<graph name=\"learning\" robot=\"" << configs << "robot.xml\" device=\"sim\">"
+      << "<component name=\"experience\" config=\"experience.xml\"/></graph>";
+  const auto outcome = run("erp launch " + (folder / "graph.xml") + over(device) +
+                           " --lockstep --for 21s --out " + (folder / "run"));
+  INFO(outcome.output);
+  REQUIRE(outcome.exit_code == 0);
+  const std::regex line(
+      "off by (\\S+) (\\S+) (\\S+) mm without feedback, (\\S+) (\\S+) (\\S+) mm with it");
+  int reached = 0;
+  for (std::sregex_iterator it(outcome.output.begin(), outcome.output.end(), line), end; it != end;
+       ++it, ++reached)
+    for (int axis = 1; axis <= 3; ++axis) {
+      CHECK(std::abs(std::stod((*it)[axis])) < 6);
+      CHECK(std::abs(std::stod((*it)[axis + 3])) < 1);
+    }
+  CHECK(reached == 2);
+  const auto before = xml::read<sim::experience::BaseFile>(folder / "base.xml");
+  const auto after = xml::read<sim::experience::BaseFile>(folder / "saved.xml");
+  CHECK(after.experiences.all.size() == before.experiences.all.size() + 2);
+}
+
+TEST_CASE("on a live graph the torso strikes bottles by motor plans, and goes on learning") {
+  const std::string device = GENERATE("sim", "can");
+  CAPTURE(device);
+  Folder folder;
+  const std::string configs = ERP_SOURCE_DIR "/configs/ecce2/";
+  std::filesystem::copy_file(configs + "synergy_bank.xml", folder / "bank.xml");
+  std::ofstream(folder / "synergy.xml")
+      << "<synergy bank=\"bank.xml\" save=\"saved.xml\"><target at_m=\"0.34 -0.2 0.1\"/>"
+      << "<target at_m=\"0.36 -0.12 0.2\"/></synergy>";
+  std::ofstream(folder / "graph.xml")
+      << "<graph name=\"learning\" robot=\"" << configs << "robot.xml\" device=\"sim\">"
+      << "<component name=\"synergy\" config=\"synergy.xml\"/></graph>";
+  const auto outcome = run("erp launch " + (folder / "graph.xml") + over(device) +
+                           " --lockstep --for 13s --out " + (folder / "run"));
+  INFO(outcome.output);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output, Catch::Contains("2 of 2 struck"));
+  const auto before = xml::read<sim::synergy::BankFile>(folder / "bank.xml");
+  const auto after = xml::read<sim::synergy::BankFile>(folder / "saved.xml");
+  CHECK(xml::write(after) != xml::write(before));
 }

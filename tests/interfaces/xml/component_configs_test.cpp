@@ -5,6 +5,7 @@
 #include <map>
 
 #include "components/computed_force/computed_force.hpp"
+#include "components/experience/experience.hpp"
 #include "components/eye/eye.hpp"
 #include "components/follow/follow.hpp"
 #include "components/logger/logger_node.hpp"
@@ -15,10 +16,13 @@
 #include "components/reference/reference.hpp"
 #include "components/replay/replay_node.hpp"
 #include "components/sensorimotor/sensorimotor.hpp"
+#include "components/synergy/synergy.hpp"
 #include "hal/can/gateway_node.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "sim/calibration/parameters.hpp"
+#include "sim/experience/task.hpp"
 #include "sim/learning/learnt_lengths.hpp"
+#include "sim/synergy/task.hpp"
 #include "sim/world/sim_node.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
 
@@ -41,9 +45,12 @@ Kind kind_of() {
 }
 
 const std::map<std::string, Kind> kinds{
+    {"acquisition", kind_of<sim::experience::Task>()},
     {"calibration", kind_of<sim::calibration::Choice>()},
     {"camera_view", kind_of<sim::cameras::ViewConfig>()},
     {"computed_force", kind_of<control::ComputedForce::Params>()},
+    {"experience", kind_of<control::Experience::Params>()},
+    {"experience_base", kind_of<sim::experience::BaseFile>()},
     {"eye", kind_of<eye::Eye::Params>()},
     {"force_control", kind_of<follow::Params>()},
     {"gateway", kind_of<can::GatewayNode::Params>()},
@@ -59,6 +66,9 @@ const std::map<std::string, Kind> kinds{
     {"replay", kind_of<replay::ReplayNode::Params>()},
     {"sensorimotor", kind_of<control::Sensorimotor::Params>()},
     {"sim", kind_of<sim::SimNode::Params>()},
+    {"striking", kind_of<sim::synergy::Task>()},
+    {"synergy", kind_of<control::Synergy::Params>()},
+    {"synergy_bank", kind_of<sim::synergy::BankFile>()},
     {"target", kind_of<reference::Params>()},
 };
 

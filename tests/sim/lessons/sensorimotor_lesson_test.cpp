@@ -1,9 +1,9 @@
 #include "sim/lessons/sensorimotor_lesson.hpp"
 
 #include <catch2/catch.hpp>
-#include <filesystem>
 
 #include "interfaces/xml/xml.hpp"
+#include "tests/sim/lessons/lesson_runs.hpp"
 #include "tests/sim/rigs.hpp"
 
 using namespace sim::lessons;
@@ -20,18 +20,11 @@ SensorimotorLesson lesson() {
           xml::read<sim::cameras::ViewConfig>(rigs::config("pendulum/view.xml")), experiment};
 }
 
-std::string folder(const char* name) {
-  const auto path = std::filesystem::temp_directory_path() / (std::string("erp_lesson_") + name);
-  std::filesystem::remove_all(path);
-  return path.string();
-}
-
 }  // namespace
 
 TEST_CASE(
     "the pendulum's synergies have the signs of the paper's figure 9b, and tries get better") {
-  auto one = lesson(), two = lesson(), killed = lesson(), after = lesson();
-  sim::learner::learn(one, {.folder = folder("one"), .rounds = 100});
+  const auto one = lessons::run_in_three_ways("sensorimotor", lesson);
   CHECK(one.rounds() == 6);
   const Eigen::MatrixXd q = one.learnt().q();
   const Eigen::MatrixXd signs = (Eigen::MatrixXd(2, 4) << 1, 1, -1, -1, -1, 1, 1, -1).finished();
@@ -40,14 +33,4 @@ TEST_CASE(
     CHECK(goal.errors.front() == Approx(0.2 * std::sqrt(2)).epsilon(0.02));
     CHECK(goal.errors.back() < 0.6 * goal.errors.front());
   }
-
-  sim::learner::learn(two, {.folder = folder("two"), .rounds = 100}, sim::Threads(2));
-  CHECK(two.state() == one.state());
-  const auto there = folder("killed");
-  sim::learner::learn(killed, {.folder = there, .rounds = 100, .told = [](const auto& l) {
-                                 return l.rounds() < 3;
-                               }});
-  sim::learner::learn(after, {.folder = there, .rounds = 100, .resume = true});
-  CHECK(after.state() == one.state());
-  for (const char* name : {"one", "two", "killed"}) folder(name);
 }

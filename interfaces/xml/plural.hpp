@@ -1,0 +1,18 @@
+#pragma once
+#include <vector>
+
+#include "interfaces/xml/fields.hpp"
+
+namespace xml {
+
+/// A list in an element of its own, where single children stand beside it: an XSD cannot say both of
+/// one element.   <plans> <plan …/> … </plans>;   One::plural is its name.
+template <class One>
+struct Plural {
+  static constexpr auto element = One::plural;
+  Place place;
+  std::vector<One> all;
+  void visit(auto& v) { v.list(all); }
+};
+
+}  // namespace xml
