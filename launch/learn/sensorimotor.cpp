@@ -127,6 +127,10 @@ int learn_sensorimotor(const SensorimotorOptions& options, std::ostream& out,
   draw(figure(lesson, robot), course.folder + "/figure.svg");
   print_synergies(lesson, robot, out);
   print_errors(lesson, out);
+  if (lesson.limited() > 0)
+    out << fmt::format(
+        "{} tries asked a muscle for more than {:.0f} N above rest and were scaled down\n",
+        lesson.limited(), experiment.session.most_N);
   out << fmt::format(
       "{0}/learnt.xml is what the component sensorimotor can begin with, "
       "{0}/figure.svg shows it\n",

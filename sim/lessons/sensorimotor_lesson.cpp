@@ -82,7 +82,7 @@ void SensorimotorLesson::twitch() {
   learnt_ = session.learnt();
 }
 
-/// One try more: its α, then its error.
+/// One try more: its α, its error, whether it asked for more than the most.
 std::vector<double> SensorimotorLesson::tried(std::size_t goal) const {
   SessionOptions options = experiment_.session;
   options.twitches = 0, options.tries = 1;
@@ -92,6 +92,7 @@ std::vector<double> SensorimotorLesson::tried(std::size_t goal) const {
   const Goal& after = session.goals().front();
   std::vector<double> numbers(after.alpha.begin(), after.alpha.end());
   numbers.push_back(after.errors.back());
+  numbers.push_back(session.limited());
   return numbers;
 }
 
@@ -101,7 +102,8 @@ void SensorimotorLesson::round(const Pool& pool) {
     const auto all = pool.map(goals_.size(), [&](std::size_t k) { return tried(k); });
     for (std::size_t k = 0; k < all.size(); ++k) {
       goals_[k].alpha = Eigen::Map<const VectorXd>(all[k].data(), eye_.senses());
-      goals_[k].errors.push_back(all[k].back());
+      goals_[k].errors.push_back(all[k][static_cast<std::size_t>(eye_.senses())]);
+      limited_ += static_cast<int>(all[k].back());
     }
   }
   ++rounds_;

@@ -41,6 +41,7 @@ class SensorimotorLesson : public learner::Learner {
 
   const sensorimotor::Learnt& learnt() const { return learnt_; }
   const std::vector<sensorimotor::Goal>& goals() const { return goals_; }
+  int limited() const { return limited_; }  ///< tries of this run that asked for more than the most
 
  private:
   void twitch();
@@ -52,7 +53,7 @@ class SensorimotorLesson : public learner::Learner {
   sensorimotor::Experiment experiment_;
   sensorimotor::Learnt learnt_;
   std::vector<sensorimotor::Goal> goals_;
-  int rounds_ = 0;
+  int rounds_ = 0, limited_ = 0;
 };
 
 }  // namespace sim::lessons
