@@ -62,9 +62,21 @@ std::optional<Vec3> Synergy::hand_m(const node::Latest<erp::BodyPose>& bodies) c
 
 void Synergy::begin() {
   Blend blend = bank_.blend(sim::vec(params_.targets[target_].at_m));
-  credits_ = std::move(blend.credits), seen_ = true;
+  credits_ = std::move(blend.credits), seen_ = true, watched_ = false;
   trial_.emplace(std::move(blend.plan), file_.times, params_.noise,
                  sim::learner::dice(static_cast<std::uint64_t>(params_.seed), target_)());
+}
+
+/// A torso of floating bones may rest in more than one way with the same lines.
+void Synergy::begin_watching(const Vec3& hand_m) {
+  constexpr double most_m = 0.02;  // chosen
+  watched_ = true;
+  const double off_m = (hand_m - sim::vec(file_.rest_m)).norm();
+  if (off_m > most_m)
+    node_.report(erp::Severity::warning, "target " + std::to_string(target_ + 1), "displaced",
+                 fmt::format("the hand begins {:.0f} mm from where plans were learnt to begin: the "
+                             "robot has not come back; set it right, or what follows will miss",
+                             1e3 * off_m));
 }
 
 void Synergy::end() {
@@ -126,6 +138,7 @@ erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,
   if (!trial_ && target_ < params_.targets.size()) begin();
   if (!trial_) return command(Eigen::VectorXd::Zero(line_m_.size()));
   const auto hand = hand_m(bodies);
+  if (hand && !watched_ && trial_->planned(time_s_)) begin_watching(*hand);
   if (hand) trial_->see(time_s_, *hand);
   else if (trial_->planned(time_s_)) seen_ = false;
   return command(trial_->step(time_s_, line_m_));

@@ -55,6 +55,7 @@ class Synergy {
   std::optional<sim::Vec3> hand_m(const node::Latest<erp::BodyPose>& bodies) const;
   void begin();
   void end();
+  void begin_watching(const sim::Vec3& hand_m);
   void learn(const sim::synergy::Outcome& outcome);
   erp::ActuatorCommand command(const Eigen::VectorXd& line_m) const;
 
@@ -68,7 +69,8 @@ class Synergy {
   Eigen::VectorXd line_m_;          ///< by learnt muscle
   std::optional<sim::synergy::Trial> trial_;
   std::vector<double> credits_;
-  bool seen_ = true;  ///< the hand, since the plan began, all the time
+  bool watched_ = false;  ///< the plan has begun and the hand was seen
+  bool seen_ = true;      ///< the hand, since the plan began, all the time
   std::size_t target_ = 0;
   int judged_ = 0, struck_ = 0;
   double time_s_ = 0;

@@ -50,6 +50,8 @@ SynergyLesson::SynergyLesson(const erp::Robot& robot, const Task& task,
     : robot_(robot), task_(task), muscles_(actuators_of(task.muscles.all, robot)) {
   file_.seed = std::to_string(task.seed), file_.options = task.options, file_.times = task.times;
   file_.hand = task.hand, file_.bottle = task.bottle, file_.muscles.all = task.muscles.all;
+  const World start(robot);
+  file_.rest_m = numbers(Hand(task.hand, start.body_names()).in(start.poses()));
   add_rough_plans(poses);
   if (bank_.plans().empty())
     throw std::invalid_argument(task.place.file + ": no plan to begin with");

@@ -39,6 +39,7 @@ struct BankFile {
   xml::Place place;
   int rounds = 0;  ///< of the lesson that wrote it
   std::string seed;
+  xml::Vec3 rest_m{};  ///< where the hand is before a trial, in the world
   BankOptions options;
   TrialTimes times;
   HandConfig hand;
@@ -48,6 +49,7 @@ struct BankFile {
   void visit(auto& v) {
     v("rounds", rounds);
     v("seed", seed);
+    v.required("rest_m", rest_m);
     v("basis_m", options.basis_m, xml::positive);
     v("rate", options.rate, xml::Range{0, 1});
     v("most", options.most, xml::Range{1, 1e5});
