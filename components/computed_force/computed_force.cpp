@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "components/node/ask.hpp"
+
 namespace control {
 namespace {
 
@@ -135,14 +137,11 @@ erp::ActuatorCommand ComputedForce::command(const Eigen::MatrixXd& jacobian,
     const auto i = static_cast<Eigen::Index>(a);
     const double rate = last_N_[i] >= 0 && dt_s > 0 ? (tension_N[i] - last_N_[i]) / dt_s : 0;
     rate_N_per_s_[i] += dt_s / (dt_s + params_.rate_s) * (rate - rate_N_per_s_[i]);
-    erp::ActuatorReference reference{};
-    erp::assign(reference.name, robot_.actuators[a].name);
-    reference.mode = static_cast<std::uint8_t>(erp::Mode::force);
     const double asked_N = laws_[a].reference_N(
         {tension_N[i], rate_N_per_s_[i], line_rate_[i], line_acceleration_[i]});
-    reference.reference = std::clamp(tension_N[i] + params_.anticipate * (asked_N - tension_N[i]),
-                                     0.0, robot_.actuators[a].max_tension_N);
-    erp::append(command.actuators, reference);
+    node::ask(command, robot_.actuators[a].name, erp::Mode::force,
+              std::clamp(tension_N[i] + params_.anticipate * (asked_N - tension_N[i]), 0.0,
+                         robot_.actuators[a].max_tension_N));
   }
   last_N_ = tension_N;
   return command;

@@ -3,23 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
+#include "components/node/ask.hpp"
+#include "interfaces/xml/document.hpp"
 #include "sim/learner/keep.hpp"
 
 namespace control {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace sim::experience;
 using sim::Vec3;
 
-std::string beside(const Experience::Params& params, const std::string& file) {
-  return (fs::path(params.place.file).parent_path() / file).string();
-}
-
 BaseFile checked_base(const Experience::Params& params, const erp::Robot& robot) {
-  auto file = xml::read<BaseFile>(beside(params, params.base));
+  auto file = xml::read<BaseFile>(xml::resolved(params.base, params.place.file));
   check(file, std::ssize(robot.actuators));
   return file;
 }
@@ -29,7 +25,7 @@ std::shared_ptr<const Feedback> feedback(const Experience::Params& params, const
   if (params.feedback == FeedbackKind::linear)
     return linear_feedback(base, start, target_m, params.closing_per_s);
   if (params.feedback == FeedbackKind::fuzzy)
-    return fuzzy_feedback(base, start, beside(params, params.rules));
+    return fuzzy_feedback(base, start, xml::resolved(params.rules, params.place.file));
   return nullptr;
 }
 
@@ -153,11 +149,7 @@ erp::ActuatorCommand Experience::command(const Wanted& wanted) const {
   erp::ActuatorCommand command;
   for (std::size_t m = 0; m < robot_.actuators.size(); ++m) {
     const auto [mode, reference] = motors_.ask(m, wanted, tension_N_[static_cast<Eigen::Index>(m)]);
-    erp::ActuatorReference one{};
-    erp::assign(one.name, robot_.actuators[m].name);
-    one.mode = static_cast<std::uint8_t>(mode);
-    one.reference = reference;
-    erp::append(command.actuators, one);
+    node::ask(command, robot_.actuators[m].name, mode, reference);
   }
   return command;
 }
@@ -166,12 +158,9 @@ void Experience::write() const {
   if (params_.save.empty()) return;
   BaseFile all = file_;
   all.experiences.all = rows_of(base_);
-  const std::string file = beside(params_, params_.save);
-  try {
-    sim::learner::keep(file, xml::write(all));
-  } catch (const std::exception& e) {
-    node_.report(erp::Severity::fault, file, "unwritten", e.what());
-  }
+  node::write_or_report(
+      node_, xml::resolved(params_.save, params_.place.file),
+      [&](const std::string& file) { sim::learner::keep(file, xml::write(all)); });
 }
 
 }  // namespace control

@@ -2,24 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
+#include "components/node/ask.hpp"
+#include "interfaces/xml/document.hpp"
 #include "sim/learner/keep.hpp"
 #include "sim/sensorimotor/learnt_file.hpp"
 
 namespace control {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace sim::sensorimotor;
 
-std::string beside(const Sensorimotor::Params& params, const std::string& file) {
-  return (fs::path(params.place.file).parent_path() / file).string();
-}
-
 Eye eye_of(const Sensorimotor::Params& params, const erp::Robot& robot) {
-  return Eye(xml::read<sim::cameras::ViewConfig>(beside(params, params.experiment.view)),
-             sim::RobotTree(robot));
+  return Eye(
+      xml::read<sim::cameras::ViewConfig>(xml::resolved(params.experiment.view, params.place.file)),
+      sim::RobotTree(robot));
 }
 
 Session session_of(const Sensorimotor::Params& params, const erp::Robot& robot, const Eye& eye) {
@@ -29,7 +25,7 @@ Session session_of(const Sensorimotor::Params& params, const erp::Robot& robot, 
   auto goals = goals_of(params.experiment, eye.senses());
   if (params.learnt.empty()) return {options, Learnt(eye.senses(), muscles), std::move(goals)};
   options.twitches = 0;
-  const auto file = xml::read<LearntFile>(beside(params, params.learnt));
+  const auto file = xml::read<LearntFile>(xml::resolved(params.learnt, params.place.file));
   auto before = goals_of(file, eye.senses());
   for (Goal& goal : before) goal.errors.clear();
   return {options, learnt_of(file, eye.senses(), muscles), std::move(before)};
@@ -67,12 +63,8 @@ erp::ActuatorCommand Sensorimotor::step(const erp::SensorFrame&, double dt_s,
   const Eigen::VectorXd& motors_N = session_.motors_N(time_s_);
   erp::ActuatorCommand command;
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
-    erp::ActuatorReference wanted{};
-    erp::assign(wanted.name, robot_.actuators[a].name);
-    wanted.mode = static_cast<std::uint8_t>(erp::Mode::force);
-    wanted.reference =
-        robot_.actuators[a].tendon.pretension_N + motors_N[static_cast<Eigen::Index>(a)];
-    erp::append(command.actuators, wanted);
+    node::ask(command, robot_.actuators[a].name, erp::Mode::force,
+              robot_.actuators[a].tendon.pretension_N + motors_N[static_cast<Eigen::Index>(a)]);
   }
   tell();
   return command;
@@ -112,12 +104,10 @@ void Sensorimotor::tell() {
 
 void Sensorimotor::write() const {
   if (params_.save.empty()) return;
-  const std::string file = beside(params_, params_.save);
-  try {
-    sim::learner::keep(file, xml::write(file_of(session_.learnt(), session_.goals())));
-  } catch (const std::exception& e) {
-    node_.report(erp::Severity::fault, file, "unwritten", e.what());
-  }
+  node::write_or_report(
+      node_, xml::resolved(params_.save, params_.place.file), [&](const std::string& file) {
+        sim::learner::keep(file, xml::write(file_of(session_.learnt(), session_.goals())));
+      });
 }
 
 }  // namespace control

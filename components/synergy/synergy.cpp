@@ -4,24 +4,19 @@
 
 #include <Eigen/Geometry>
 
-#include <filesystem>
-
+#include "components/node/ask.hpp"
+#include "interfaces/xml/document.hpp"
 #include "sim/learner/dice.hpp"
 #include "sim/learner/keep.hpp"
 
 namespace control {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace sim::synergy;
 using sim::Vec3;
 
-std::string beside(const Synergy::Params& params, const std::string& file) {
-  return (fs::path(params.place.file).parent_path() / file).string();
-}
-
 BankFile checked_bank(const Synergy::Params& params) {
-  auto file = xml::read<BankFile>(beside(params, params.bank));
+  auto file = xml::read<BankFile>(xml::resolved(params.bank, params.place.file));
   check(file);
   return file;
 }
@@ -62,7 +57,7 @@ std::optional<Vec3> Synergy::hand_m(const node::Latest<erp::BodyPose>& bodies) c
 
 void Synergy::begin() {
   Blend blend = bank_.blend(sim::vec(params_.targets[target_].at_m));
-  credits_ = std::move(blend.credits), seen_ = true, watched_ = false;
+  credits_ = std::move(blend.credits), seen_ = true, watched_ = displaced_ = false;
   trial_.emplace(std::move(blend.plan), file_.times, params_.noise,
                  sim::learner::dice(static_cast<std::uint64_t>(params_.seed), target_)());
 }
@@ -72,11 +67,14 @@ void Synergy::begin_watching(const Vec3& hand_m) {
   constexpr double most_m = 0.02;  // chosen
   watched_ = true;
   const double off_m = (hand_m - sim::vec(file_.rest_m)).norm();
-  if (off_m > most_m)
-    node_.report(erp::Severity::warning, "target " + std::to_string(target_ + 1), "displaced",
-                 fmt::format("the hand begins {:.0f} mm from where plans were learnt to begin: the "
-                             "robot has not come back; set it right, or what follows will miss",
-                             1e3 * off_m));
+  displaced_ = off_m > most_m;
+  if (displaced_)
+    node_.report(
+        erp::Severity::warning, "target " + std::to_string(target_ + 1), "displaced",
+        fmt::format(
+            "the hand begins {:.0f} mm from where plans were learnt to begin: the "
+            "robot has not come back; set it right, or it will miss; this is not learnt from",
+            1e3 * off_m));
 }
 
 void Synergy::end() {
@@ -90,7 +88,7 @@ void Synergy::end() {
                              "{} of {} struck",
                              outcome.struck ? "struck" : "missed", 1e3 * outcome.nearest_m,
                              outcome.reward, struck_, judged_));
-    learn(outcome);
+    learn(outcome, at_m);
   } else {
     node_.report(erp::Severity::info, name, "tried",
                  "not judged: \"" + params_.source + "\" did not say where the hand was");
@@ -100,21 +98,16 @@ void Synergy::end() {
     node_.report(erp::Severity::info, "targets", "done", "all are tried; the lines go back");
 }
 
-void Synergy::learn(const Outcome& outcome) {
-  if (params_.save.empty()) return;
+/// A trial that began elsewhere tells nothing of those that begin at rest.
+void Synergy::learn(const Outcome& outcome, const Vec3& target_m) {
+  if (params_.save.empty() || displaced_) return;
   bank_.credit(credits_, outcome.reward);
-  MotorPlan plan = trial_->plan();
-  plan.at_m = rest_of(trial_->path());
-  plan.value = judge(file_.bottle, plan.at_m, trial_->path(), trial_->end_s()).reward;
-  bank_.add(std::move(plan)), bank_.trim();
+  bank_.add(as_it_led(*trial_, file_.bottle, target_m)), bank_.trim();
   BankFile all = file_;
   all.plans.all = rows_of(bank_);
-  const std::string file = beside(params_, params_.save);
-  try {
-    sim::learner::keep(file, xml::write(all));
-  } catch (const std::exception& e) {
-    node_.report(erp::Severity::fault, file, "unwritten", e.what());
-  }
+  node::write_or_report(
+      node_, xml::resolved(params_.save, params_.place.file),
+      [&](const std::string& file) { sim::learner::keep(file, xml::write(all)); });
 }
 
 erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,
@@ -151,11 +144,7 @@ erp::ActuatorCommand Synergy::command(const Eigen::VectorXd& line_m) const {
     wanted_m[muscles_[m]] = line_m[static_cast<Eigen::Index>(m)];
   erp::ActuatorCommand command;
   for (std::size_t a = 0; a < wanted_m.size(); ++a) {
-    erp::ActuatorReference one{};
-    erp::assign(one.name, robot_.actuators[a].name);
-    one.mode = static_cast<std::uint8_t>(erp::Mode::length);
-    one.reference = wanted_m[a];
-    erp::append(command.actuators, one);
+    node::ask(command, robot_.actuators[a].name, erp::Mode::length, wanted_m[a]);
   }
   return command;
 }

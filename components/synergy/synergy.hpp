@@ -56,7 +56,7 @@ class Synergy {
   void begin();
   void end();
   void begin_watching(const sim::Vec3& hand_m);
-  void learn(const sim::synergy::Outcome& outcome);
+  void learn(const sim::synergy::Outcome& outcome, const sim::Vec3& target_m);
   erp::ActuatorCommand command(const Eigen::VectorXd& line_m) const;
 
   Params params_;
@@ -69,8 +69,9 @@ class Synergy {
   Eigen::VectorXd line_m_;          ///< by learnt muscle
   std::optional<sim::synergy::Trial> trial_;
   std::vector<double> credits_;
-  bool watched_ = false;  ///< the plan has begun and the hand was seen
-  bool seen_ = true;      ///< the hand, since the plan began, all the time
+  bool watched_ = false;    ///< the plan has begun and the hand was seen
+  bool displaced_ = false;  ///< then, elsewhere than plans were learnt to begin
+  bool seen_ = true;        ///< the hand, since the plan began, all the time
   std::size_t target_ = 0;
   int judged_ = 0, struck_ = 0;
   double time_s_ = 0;

@@ -20,6 +20,19 @@ void add_course(CLI::App* verb, CourseOptions& course) {
   verb->add_flag("--resume", course.resume, "go on with what is in the folder");
 }
 
+/// The verb's whole work, ended by Ctrl-C with all kept.
+template <class Options>
+void run_by(CLI::App* verb, std::shared_ptr<Options> o,
+            int (*learn)(const Options&, std::ostream&, std::ostream&), Chosen& chosen) {
+  verb->callback([=, &chosen] {
+    chosen = [=] {
+      const auto signals = std::make_shared<Signals>();
+      o->course.interrupted = [signals] { return signals->take() != 0; };
+      return learn(*o, std::cout, std::cerr);
+    };
+  });
+}
+
 void add_sensorimotor(CLI::App& learn, Chosen& chosen) {
   auto o = std::make_shared<SensorimotorOptions>();
   auto* verb = learn.add_subcommand(
@@ -29,53 +42,22 @@ void add_sensorimotor(CLI::App& learn, Chosen& chosen) {
       ->required();
   verb->add_option("--seed", o->seed, "default: the experiment's")->check(CLI::PositiveNumber);
   add_course(verb, o->course);
-  verb->callback([=, &chosen] {
-    chosen = [=] {
-      const auto signals = std::make_shared<Signals>();
-      o->course.interrupted = [signals] { return signals->take() != 0; };
-      return learn_sensorimotor(*o, std::cout, std::cerr);
-    };
-  });
+  run_by(verb, o, learn_sensorimotor, chosen);
 }
 
-void add_experience(CLI::App& learn, Chosen& chosen) {
-  auto o = std::make_shared<ExperienceOptions>();
-  auto* verb = learn.add_subcommand(
-      "experience", "Reaching with what was experienced, corrected by feedback (paper, 5.6)");
+/// A lesson that a task describes and fresh targets test.
+template <class Options>
+void add_tested(CLI::App* verb, int (*learn)(const Options&, std::ostream&, std::ostream&),
+                const std::string& task, const std::string& tests, Chosen& chosen) {
+  auto o = std::make_shared<Options>();
   verb->add_option("--robot", o->robot, "robot.xml")->required();
-  verb->add_option("--task", o->task, "<acquisition>: hand, zone, patterns …")->required();
-  verb->add_option("--tests", o->tests, "reaches to fresh targets, each way")
+  verb->add_option("--task", o->task, task)->required();
+  verb->add_option("--tests", o->tests, tests)
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--seed", o->seed, "default: the task's")->check(CLI::PositiveNumber);
   add_course(verb, o->course);
-  verb->callback([=, &chosen] {
-    chosen = [=] {
-      const auto signals = std::make_shared<Signals>();
-      o->course.interrupted = [signals] { return signals->take() != 0; };
-      return learn_experience(*o, std::cout, std::cerr);
-    };
-  });
-}
-
-void add_synergy(CLI::App& learn, Chosen& chosen) {
-  auto o = std::make_shared<SynergyOptions>();
-  auto* verb = learn.add_subcommand(
-      "synergy", "Striking a bottle by motor plans, by reinforcement (paper, 5.5)");
-  verb->add_option("--robot", o->robot, "robot.xml")->required();
-  verb->add_option("--task", o->task, "<striking>: hand, zone, bottle, muscles …")->required();
-  verb->add_option("--tests", o->tests, "fresh targets, for each size of the bank")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
-  verb->add_option("--seed", o->seed, "default: the task's")->check(CLI::PositiveNumber);
-  add_course(verb, o->course);
-  verb->callback([=, &chosen] {
-    chosen = [=] {
-      const auto signals = std::make_shared<Signals>();
-      o->course.interrupted = [signals] { return signals->take() != 0; };
-      return learn_synergy(*o, std::cout, std::cerr);
-    };
-  });
+  run_by(verb, o, learn, chosen);
 }
 
 void add_goals(CLI::App& learn, Chosen& chosen) {
@@ -111,8 +93,15 @@ void add_learn(CLI::App& app, Chosen& chosen) {
   learn->require_subcommand(1);
   learn->footer("Exit codes: 0 done, 1 interrupted: --resume goes on; 2 bad usage or input.");
   add_sensorimotor(*learn, chosen);
-  add_experience(*learn, chosen);
-  add_synergy(*learn, chosen);
+  add_tested(
+      learn->add_subcommand(
+          "experience", "Reaching with what was experienced, corrected by feedback (paper, 5.6)"),
+      learn_experience, "<acquisition>: hand, zone, patterns …",
+      "reaches to fresh targets, each way", chosen);
+  add_tested(learn->add_subcommand(
+                 "synergy", "Striking a bottle by motor plans, by reinforcement (paper, 5.5)"),
+             learn_synergy, "<striking>: hand, zone, bottle, muscles …",
+             "fresh targets, for each size of the bank", chosen);
   add_goals(*learn, chosen);
 }
 

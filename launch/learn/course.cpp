@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
@@ -47,6 +48,32 @@ bool run_course(sim::learner::Learner& learner, const CourseOptions& options, co
         "interrupted after round {} of {}; go on with the same command and --resume\n",
         learner.rounds(), options.rounds);
   return on;
+}
+
+std::vector<sim::Pool::Numbers> run_tests(
+    std::size_t count, const std::function<sim::Pool::Numbers(std::size_t)>& test,
+    const CourseOptions& options, const sim::Pool& pool, std::ostream& remarks) {
+  constexpr std::size_t at_once = 16;  // between two looks at Ctrl-C; chosen
+  std::vector<sim::Pool::Numbers> all;
+  bool on = true;
+  {
+    Progress progress(remarks);
+    while (on && all.size() < count) {
+      const std::size_t done = all.size();
+      for (auto& numbers :
+           pool.map(std::min(at_once, count - done), [&](std::size_t k) { return test(done + k); }))
+        all.push_back(std::move(numbers));
+      progress.tell(fmt::format("test {} of {}", all.size(), count),
+                    double(all.size()) / double(count));
+      on = pool.from_first(pool.first() && options.interrupted() ? "" : "on") == "on";
+    }
+  }
+  if (pool.first() && all.size() < count)
+    remarks << fmt::format(
+        "interrupted after test {} of {}; what is learnt is kept: test it with "
+        "the same command and --resume\n",
+        all.size(), count);
+  return all;
 }
 
 }  // namespace launch

@@ -2,6 +2,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "sim/learner/learner.hpp"
 
@@ -21,5 +22,11 @@ struct CourseOptions {
 /// said how to go on. Throws what sim::learner::learn does.
 bool run_course(sim::learner::Learner& learner, const CourseOptions& options, const sim::Pool& pool,
                 std::ostream& remarks);
+
+/// The parts of what is tested after a course, in their order, shown and interrupted alike; fewer than
+/// `count`: interrupted, what is learnt is kept.
+std::vector<sim::Pool::Numbers> run_tests(
+    std::size_t count, const std::function<sim::Pool::Numbers(std::size_t)>& test,
+    const CourseOptions& options, const sim::Pool& pool, std::ostream& remarks);
 
 }  // namespace launch

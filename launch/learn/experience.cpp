@@ -5,6 +5,7 @@
 #include <array>
 #include <ostream>
 
+#include "interfaces/xml/document.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "launch/learn/task_poses.hpp"
 #include "launch/text/gnuplot.hpp"
@@ -30,7 +31,7 @@ std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, con
   if (kind == FeedbackKind::linear)
     return linear_feedback(lesson.base(), start, target_m, task.closing_per_s);
   if (kind == FeedbackKind::fuzzy)
-    return fuzzy_feedback(lesson.base(), start, beside(task.place.file, task.rules));
+    return fuzzy_feedback(lesson.base(), start, xml::resolved(task.rules, task.place.file));
   return nullptr;
 }
 
@@ -42,12 +43,17 @@ class Tests {
     if (task.rules.empty()) kinds_.pop_back();
   }
 
-  void run(int count, const sim::Pool& pool) {
-    const auto n = static_cast<std::size_t>(count);
-    off_m_ = pool.map(n * kinds_.size(), [&](std::size_t k) {
-      const Vec3 off_m = ended(k / kinds_.size(), kinds_[k % kinds_.size()], nullptr);
-      return sim::Pool::Numbers(off_m.begin(), off_m.end());
-    });
+  /// False: interrupted.
+  bool run(const ExperienceOptions& options, const sim::Pool& pool, std::ostream& remarks) {
+    const auto all = static_cast<std::size_t>(options.tests) * kinds_.size();
+    off_m_ = run_tests(
+        all,
+        [&](std::size_t k) {
+          const Vec3 off_m = ended(k / kinds_.size(), kinds_[k % kinds_.size()], nullptr);
+          return sim::Pool::Numbers(off_m.begin(), off_m.end());
+        },
+        options.course, pool, remarks);
+    return off_m_.size() == all;
   }
   std::size_t count() const { return off_m_.size() / kinds_.size(); }
   std::size_t kinds() const { return kinds_.size(); }
@@ -70,7 +76,8 @@ class Tests {
     const Vec3 target = target_m(test);
     auto reach = lesson_.reach(start, target, feedback(kind, task_, lesson_, start, target));
     sim::lessons::HandTrack own, &track = kept ? *kept : own;
-    const auto seed = sim::learner::dice(static_cast<std::uint64_t>(task_.seed), test, 77)();
+    constexpr std::uint64_t of_noise = 77;  // apart from the dice that draw the target
+    const auto seed = sim::learner::dice(static_cast<std::uint64_t>(task_.seed), test, of_noise)();
     if (!play(reach, robot_, task_.hand, task_.noise_m, seed, &track))
       return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     return track.hand_m.back() - target;
@@ -161,13 +168,15 @@ int learn_experience(const ExperienceOptions& options, std::ostream& out, std::o
   CourseOptions course = options.course;
   course.rounds = task.rounds;
   if (!run_course(lesson, course, *pool, remarks)) return 1;
+  if (pool->first()) write_file(course.folder + "/base.xml", lesson.state());
   Tests tests(lesson, robot, task);
-  tests.run(options.tests, *pool);
+  if (!tests.run(options, *pool, remarks)) return 1;
   if (!pool->first()) return 0;
-  write_file(course.folder + "/base.xml", lesson.state());
-  write_file(course.folder + "/tests.csv", csv_of(tests));
-  if (options.tests > 0)
-    draw(figure(tests), course.folder + "/figure.svg"), print_offsets(tests, out);
+  if (options.tests > 0) {
+    write_file(course.folder + "/tests.csv", csv_of(tests));
+    draw(figure(tests), course.folder + "/figure.svg");
+    print_offsets(tests, out);
+  }
   if (lesson.tripped() > 0)
     out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n",
                        lesson.tripped());

@@ -47,15 +47,26 @@ Test test_of(const std::vector<double>& n) {
   return {{n[0], n[1], n[2]}, n[3] != 0, {n[4] != 0, n[5], n[6], n[7], n[8], n[9]}, n[10]};
 }
 
-Tested tested(const SynergyLesson& lesson, double share, int count, std::uint64_t seed,
-              const sim::Pool& pool) {
-  Tested result{.share = share, .bank = lesson.bank(), .tests = {}};
-  result.bank.cut(static_cast<std::size_t>(share * double(lesson.bank().plans().size()) + 0.5));
-  const auto all = pool.map(static_cast<std::size_t>(count), [&](std::size_t k) {
-    return numbers_of(lesson.test(result.bank, seed, k));
-  });
-  for (const auto& numbers : all) result.tests.push_back(test_of(numbers));
-  return result;
+/// With each share of the bank; nothing: interrupted.
+std::vector<Tested> tested(const SynergyLesson& lesson, std::uint64_t seed,
+                           const SynergyOptions& options, const sim::Pool& pool,
+                           std::ostream& remarks) {
+  std::vector<Tested> results;
+  for (const double share : kept_shares) {
+    results.push_back({.share = share, .bank = lesson.bank(), .tests = {}});
+    results.back().bank.cut(
+        static_cast<std::size_t>(share * double(lesson.bank().plans().size()) + 0.5));
+  }
+  const auto count = static_cast<std::size_t>(options.tests);
+  const auto all = run_tests(
+      count * results.size(),
+      [&](std::size_t k) {
+        return numbers_of(lesson.test(results[k / count].bank, seed, k % count));
+      },
+      options.course, pool, remarks);
+  if (all.size() < count * results.size()) return {};
+  for (std::size_t k = 0; k < all.size(); ++k) results[k / count].tests.push_back(test_of(all[k]));
+  return results;
 }
 
 double struck_percent(const std::vector<Test>& tests, double from_m = -HUGE_VAL,
@@ -162,18 +173,17 @@ int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream
   CourseOptions course = options.course;
   course.rounds = task.rounds;
   if (!run_course(lesson, course, *pool, remarks)) return 1;
-  std::vector<Tested> results;
-  if (options.tests > 0)
-    for (const double share : kept_shares)
-      results.push_back(
-          tested(lesson, share, options.tests, static_cast<std::uint64_t>(task.seed), *pool));
-  if (!pool->first()) return 0;
-  write_file(course.folder + "/bank.xml", lesson.state());
-  if (!results.empty()) {
+  if (pool->first()) write_file(course.folder + "/bank.xml", lesson.state());
+  if (options.tests > 0) {
+    const auto results =
+        tested(lesson, static_cast<std::uint64_t>(task.seed), options, *pool, remarks);
+    if (results.empty()) return 1;
+    if (!pool->first()) return 0;
     write_file(course.folder + "/tests.csv", csv_of(results));
     draw(figure(results), course.folder + "/figure.svg");
     print(results, out);
   }
+  if (!pool->first()) return 0;
   if (lesson.tripped() > 0)
     out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n",
                        lesson.tripped());

@@ -6,9 +6,6 @@
 
 namespace launch {
 
-/// The path of a file that another one names.
-std::string beside(const std::string& file, const std::string& named);
-
 /// The rows of the poses.csv that a task names; none named: where the robot starts.
 std::vector<sim::Pose> task_poses(const std::string& task_file, const std::string& poses,
                                   const erp::Robot& robot);

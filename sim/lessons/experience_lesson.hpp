@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "sim/experience/base_file.hpp"
 #include "sim/experience/task.hpp"
 #include "sim/learner/learner.hpp"
@@ -31,7 +33,7 @@ class ExperienceLesson : public learner::Learner {
   void round(const Pool& pool) override;
   int rounds() const override { return file_.rounds; }
   bool done() const override { return rounds() >= task_.rounds; }
-  /// Mean offsets of the round's tries without noise, settled, no feedback.
+  /// Mean offsets of the last round's tries without noise, settled, no feedback; NaN: no round yet.
   std::vector<learner::Metric> metrics() const override;
   /// An `<experience_base>`.
   std::string state() const override;
@@ -55,7 +57,7 @@ class ExperienceLesson : public learner::Learner {
   experience::Task task_;
   experience::BaseFile file_;
   experience::Base base_;
-  Vec3 offset_m_ = Vec3::Zero();
+  Vec3 offset_m_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< before a round
   int tripped_ = 0;
 };
 

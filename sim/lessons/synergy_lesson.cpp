@@ -1,6 +1,5 @@
 #include "sim/lessons/synergy_lesson.hpp"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "sim/actuator/holding.hpp"
@@ -15,10 +14,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr TrialTimes at_once{.way_s = 0, .still_s = 0.1};
-
-/// A plan that led far from where it was meant to tells little of what plans near it do: the torso
-/// gave way, or the shoulder. Half the zone's radius off it is worth 0.6 of one that led there; chosen.
-double trusted(double off_by_zone) { return std::exp(-2 * off_by_zone * off_by_zone); }
 
 TrialTimes from_rest(const TrialTimes& times) {
   return {at_once.way_s, at_once.still_s, times.watch_s};
@@ -94,10 +89,13 @@ std::vector<double> SynergyLesson::tried(Try one) const {
   Trial trial(one.plan, from_rest(task_.times), task_.noise, one.dice());
   if (!play(trial, robot_, task_.hand, muscles_, one.dice())) return {};
   const Outcome outcome = judge(task_.bottle, one.target_m, trial.path(), trial.end_s());
-  const Vec3 led_m = rest_of(trial.path());
-  const double value = trusted((led_m - one.target_m).norm() / task_.bottle.zone_m) *
-                       judge(task_.bottle, led_m, trial.path(), trial.end_s()).reward;
-  return {outcome.struck ? 1.0 : 0.0, outcome.reward, value, led_m.x(), led_m.y(), led_m.z()};
+  const MotorPlan led = as_it_led(trial, task_.bottle, one.target_m);
+  return {outcome.struck ? 1.0 : 0.0,
+          outcome.reward,
+          led.value,
+          led.at_m.x(),
+          led.at_m.y(),
+          led.at_m.z()};
 }
 
 void SynergyLesson::round(const Pool& pool) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "sim/learner/learner.hpp"
 #include "sim/synergy/task.hpp"
 
@@ -22,7 +24,8 @@ class SynergyLesson : public learner::Learner {
   void round(const Pool& pool) override;
   int rounds() const override { return file_.rounds; }
   bool done() const override { return rounds() >= task_.rounds; }
-  /// Of the round's plans that were not varied: how many struck, what they were rewarded with.
+  /// Of the last round's plans that were not varied: how many struck, what they were rewarded with;
+  /// NaN: no round yet.
   std::vector<learner::Metric> metrics() const override;
   /// A `<synergy_bank>`.
   std::string state() const override;
@@ -53,7 +56,7 @@ class SynergyLesson : public learner::Learner {
   synergy::BankFile file_;
   std::vector<std::size_t> muscles_;
   synergy::Bank bank_;
-  double struck_ = 0, reward_ = 0;
+  double struck_ = std::numeric_limits<double>::quiet_NaN(), reward_ = struck_;  ///< before a round
   int tripped_ = 0;
 };
 

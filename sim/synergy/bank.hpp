@@ -3,6 +3,7 @@
 #include <random>
 #include <vector>
 
+#include "interfaces/xml/fields.hpp"
 #include "sim/synergy/plan.hpp"
 
 /// The stored motor plans, and how new ones come from them (paper, 5.5).
@@ -21,6 +22,11 @@ struct BankOptions {
   double basis_m = 0.04;  ///< chosen
   double rate = 0.3;      ///< η; chosen
   int most = 200;         ///< plans kept; chosen
+  void visit(auto& v) {
+    v("basis_m", basis_m, xml::positive);
+    v("rate", rate, xml::Range{0, 1});
+    v("most", most, xml::Range{1, 1e5});
+  }
 };
 
 struct Blend {
@@ -34,6 +40,12 @@ struct Exploring {
   double weights_m = 2e-4;  ///< of each weight beside that
   double rise = 0.1;        ///< of T, a share
   double beyond = 0.05;
+  void visit(auto& v) {
+    v("explore_weights", weights, xml::at_least_zero);
+    v("explore_weights_m", weights_m, xml::at_least_zero);
+    v("explore_rise", rise, xml::at_least_zero);
+    v("explore_beyond", beyond, xml::at_least_zero);
+  }
 };
 
 class Bank {

@@ -50,9 +50,7 @@ struct BankFile {
     v("rounds", rounds);
     v("seed", seed);
     v.required("rest_m", rest_m);
-    v("basis_m", options.basis_m, xml::positive);
-    v("rate", options.rate, xml::Range{0, 1});
-    v("most", options.most, xml::Range{1, 1e5});
+    options.visit(v);
     times.visit(v);
     v.child(hand), v.child(bottle);
     v.child(muscles), v.child(plans);

@@ -26,13 +26,8 @@ struct Task {
     v("noise", noise, xml::at_least_zero);
     v("beyond_m", beyond_m, xml::at_least_zero);
     v("seed", seed, xml::Range{0, 1e9});
-    v("explore_weights", exploring.weights, xml::at_least_zero);
-    v("explore_weights_m", exploring.weights_m, xml::at_least_zero);
-    v("explore_rise", exploring.rise, xml::at_least_zero);
-    v("explore_beyond", exploring.beyond, xml::at_least_zero);
-    v("basis_m", options.basis_m, xml::positive);
-    v("rate", options.rate, xml::Range{0, 1});
-    v("most", options.most, xml::Range{1, 1e5});
+    exploring.visit(v);
+    options.visit(v);
     times.visit(v);
     v.child(hand), v.child(zone), v.child(bottle);
     v.child(muscles);

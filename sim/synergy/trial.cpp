@@ -43,4 +43,14 @@ void Trial::see(double time_s, const Eigen::Vector3d& hand_m) {
   path_.at_m.push_back(hand_m);
 }
 
+MotorPlan as_it_led(const Trial& trial, const BottleConfig& bottle,
+                    const Eigen::Vector3d& target_m) {
+  MotorPlan plan = trial.plan();
+  plan.at_m = rest_of(trial.path());
+  const double off = (plan.at_m - target_m).norm() / bottle.zone_m;
+  plan.value =
+      std::exp(-2 * off * off) * judge(bottle, plan.at_m, trial.path(), trial.end_s()).reward;
+  return plan;
+}
+
 }  // namespace sim::synergy

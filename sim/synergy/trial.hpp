@@ -58,4 +58,14 @@ class Trial {
   HandPath path_;
 };
 
+/// A plan to be stored as a trial has left it: with the place to which it brought the hand, valued as
+/// if that had been its target, and less the farther that is from where it was meant to:
+///
+///   v = exp(−2 |x_led − x|²/zone²) r(x_led)
+///
+/// A plan that led elsewhere tells little of what plans near it do: the torso gave way, or the
+/// shoulder. Half the zone's radius off it is worth 0.6 of one that led there; chosen.
+MotorPlan as_it_led(const Trial& trial, const BottleConfig& bottle,
+                    const Eigen::Vector3d& target_m);
+
 }  // namespace sim::synergy

@@ -145,6 +145,24 @@ TEST_CASE("the path with the least jerk has a relative jerk of one, and another 
   CHECK((rest_of(along({1, 2, 3}, 1, 0.5)) - Vector3d(1, 2, 3)).norm() < 1e-9);
 }
 
+TEST_CASE(
+    "a plan is stored where it led, and trusted the less the farther that is from its target") {
+  const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0}, {0, 0, 0}};
+  Trial trial(plan, {.way_s = 0, .still_s = 0, .watch_s = 1}, 0, 1);
+  for (double t = 0; !trial.done(); t += 0.002) {
+    trial.step(t, VectorXd::Zero(2));
+    trial.see(t, Vector3d(0.3 * sim::least_jerk(t / 0.8).done, 0, 0));
+  }
+  const BottleConfig bottle;
+  const MotorPlan there = as_it_led(trial, bottle, {0.3, 0, 0});
+  CHECK((there.at_m - Vector3d(0.3, 0, 0)).norm() < 1e-9);
+  CHECK(there.weights_m == plan.weights_m);
+  CHECK(there.value == Approx(1.5));
+  const MotorPlan beside = as_it_led(trial, bottle, {0.3, 0.06, 0});
+  CHECK(beside.at_m == there.at_m);
+  CHECK(beside.value == Approx(1.5 * std::exp(-0.5)));
+}
+
 TEST_CASE("a bank is written and read again; what does not fit is told with its place") {
   BankFile file;
   file.hand.body = "hand";
