@@ -31,7 +31,7 @@ Synergy::Synergy(const Params& params, const erp::Robot& robot, node::Node& node
       bank_(bank_of(file_)),
       muscles_(actuators_of(file_.muscles.all, robot)),
       all_line_m_(robot.actuators.size()) {
-  line_m_ = Eigen::VectorXd::Zero(std::ssize(muscles_));
+  line_m_ = start_m_ = Eigen::VectorXd::Zero(std::ssize(muscles_));
 }
 
 void Synergy::read(const erp::SensorFrame& frame) {
@@ -55,54 +55,72 @@ std::optional<Vec3> Synergy::hand_m(const node::Latest<erp::BodyPose>& bodies) c
   return std::nullopt;
 }
 
+/// First of all, and where the robot may have been left on its own.
+void Synergy::lead_back(double dt_s) {
+  if (trial_)
+    node_.report(erp::Severity::warning, target(), "begun_again",
+                 fmt::format("no frames for {:.2f} s", dt_s));
+  trial_.reset();
+  way_.emplace(file_.times, time_s_, line_m_);
+}
+
+/// True as well where nobody says where the hand is.
+bool Synergy::in_place(const std::optional<Vec3>& hand_m) {
+  const double off_m = hand_m ? (*hand_m - sim::vec(file_.rest_m)).norm() : 0;
+  const bool in_place = off_m <= back_m;
+  if (!in_place && !waiting_)
+    node_.report(erp::Severity::error, target(), "displaced",
+                 fmt::format("the hand is {:.0f} mm from where plans were learnt to begin, at most "
+                             "{:.0f} are allowed: no plan begins until the robot is set right",
+                             1e3 * off_m, 1e3 * back_m));
+  waiting_ = !in_place;
+  return in_place;
+}
+
 void Synergy::begin() {
   Blend blend = bank_.blend(sim::vec(params_.targets[target_].at_m));
-  credits_ = std::move(blend.credits), seen_ = true, watched_ = displaced_ = false;
+  credits_ = std::move(blend.credits), seen_ = true;
   trial_.emplace(std::move(blend.plan), file_.times, params_.noise,
                  sim::learner::dice(static_cast<std::uint64_t>(params_.seed), target_)());
 }
 
-/// A torso of floating bones may rest in more than one way with the same lines.
-void Synergy::begin_watching(const Vec3& hand_m) {
-  constexpr double most_m = 0.02;  // chosen
-  watched_ = true;
-  const double off_m = (hand_m - sim::vec(file_.rest_m)).norm();
-  displaced_ = off_m > most_m;
-  if (displaced_)
-    node_.report(
-        erp::Severity::warning, "target " + std::to_string(target_ + 1), "displaced",
-        fmt::format(
-            "the hand begins {:.0f} mm from where plans were learnt to begin: the "
-            "robot has not come back; set it right, or it will miss; this is not learnt from",
-            1e3 * off_m));
+void Synergy::watch(const std::optional<Vec3>& hand_m) {
+  if (hand_m) trial_->see(time_s_, *hand_m);
+  seen_ = seen_ && hand_m;
+  if (trial_->done()) end();
 }
 
 void Synergy::end() {
-  const std::string name = "target " + std::to_string(target_ + 1);
-  const Vec3 at_m = sim::vec(params_.targets[target_++].at_m);
   if (seen_) {
-    const Outcome outcome = judge(file_.bottle, at_m, trial_->path(), trial_->end_s());
-    ++judged_, struck_ += outcome.struck;
-    node_.report(erp::Severity::info, name, outcome.struck ? "struck" : "missed",
-                 fmt::format("{}, {:.0f} mm between hand and bottle at the nearest, reward {:.2f}; "
-                             "{} of {} struck",
-                             outcome.struck ? "struck" : "missed", 1e3 * outcome.nearest_m,
-                             outcome.reward, struck_, judged_));
-    learn(outcome, at_m);
+    Taught taught = taught_by(*trial_, file_.bottle, sim::vec(file_.rest_m),
+                              sim::vec(params_.targets[target_].at_m));
+    tell(taught);
+    if (!params_.save.empty()) learn(std::move(taught));
   } else {
-    node_.report(erp::Severity::info, name, "tried",
+    node_.report(erp::Severity::info, target(), "tried",
                  "not judged: \"" + params_.source + "\" did not say where the hand was");
   }
-  node_.show("targets", static_cast<double>(target_));
+  trial_.reset();
+  node_.show("targets", static_cast<double>(++target_));
   if (target_ == params_.targets.size())
-    node_.report(erp::Severity::info, "targets", "done", "all are tried; the lines go back");
+    node_.report(erp::Severity::info, "targets", "done", "all are tried");
 }
 
-/// A trial that began elsewhere tells nothing of those that begin at rest.
-void Synergy::learn(const Outcome& outcome, const Vec3& target_m) {
-  if (params_.save.empty() || displaced_) return;
-  bank_.credit(credits_, outcome.reward);
-  bank_.add(as_it_led(*trial_, file_.bottle, target_m)), bank_.trim();
+void Synergy::tell(const Taught& taught) {
+  const Outcome& outcome = taught.outcome;
+  ++judged_, struck_ += outcome.struck;
+  const char* said = outcome.struck ? "struck" : "missed";
+  node_.report(erp::Severity::info, target(), said,
+               fmt::format("{}, {:.0f} mm between hand and bottle at the nearest, reward {:.2f}, "
+                           "came back to {:.0f} mm; {} of {} struck",
+                           said, 1e3 * outcome.nearest_m, outcome.reward, 1e3 * taught.off_m,
+                           struck_, judged_));
+}
+
+void Synergy::learn(Taught taught) {
+  bank_.credit(credits_, taught.credit);
+  if (taught.plan) bank_.add(std::move(*taught.plan));
+  bank_.trim();
   BankFile all = file_;
   all.plans.all = rows_of(bank_);
   node::write_or_report(
@@ -112,29 +130,16 @@ void Synergy::learn(const Outcome& outcome, const Vec3& target_m) {
 
 erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,
                                    const node::Latest<erp::BodyPose>& bodies) {
-  constexpr double most_gap_s =
-      0.1;  // without frames: where the robot is now, nobody knows; chosen
+  constexpr double most_gap_s = 0.1;  // without frames; chosen
   read(frame);
   time_s_ += dt_s;
-  if (trial_ && dt_s > most_gap_s && target_ < params_.targets.size()) {
-    node_.report(erp::Severity::warning, "target " + std::to_string(target_ + 1), "begun_again",
-                 fmt::format("no frames for {:.2f} s", dt_s));
-    trial_.reset();
-  }
-  if (trial_ && trial_->done() && target_ < params_.targets.size()) {
-    end();
-    if (target_ == params_.targets.size())  // a plan that does nothing leads back
-      trial_.emplace(MotorPlan{Eigen::VectorXd::Zero(line_m_.size()), {}, Vec3::Zero()},
-                     file_.times, 0.0, 0);
-    else trial_.reset();
-  }
-  if (!trial_ && target_ < params_.targets.size()) begin();
-  if (!trial_) return command(Eigen::VectorXd::Zero(line_m_.size()));
+  if (!begun_ || dt_s > most_gap_s) begun_ = true, lead_back(dt_s);
   const auto hand = hand_m(bodies);
-  if (hand && !watched_ && trial_->planned(time_s_)) begin_watching(*hand);
-  if (hand) trial_->see(time_s_, *hand);
-  else if (trial_->planned(time_s_)) seen_ = false;
-  return command(trial_->step(time_s_, line_m_));
+  if (trial_) watch(hand);
+  if (way_ && way_->done(time_s_)) way_.reset();
+  if (!way_ && !trial_ && target_ < params_.targets.size() && in_place(hand)) begin();
+  if (way_) return command(way_->at(time_s_));
+  return command(trial_ ? trial_->step(time_s_) : start_m_);
 }
 
 /// Muscles that no plan drives stay as long as they were at the start.

@@ -9,8 +9,9 @@
 /// Striking targets by motor plans of a bank (paper, 5.5): open loop, target after target, each from
 /// the lengths that lines had at the start.
 ///
-/// Where somebody says where the hand's body is, each trial is judged, and the bank learns from it: its
-/// contributors are credited, and the plan is stored with the place to which it brought the hand.
+/// Where somebody says where the hand's body is, each trial is judged, and the bank learns from it as
+/// in the lesson; and no plan begins while the hand is not where plans were learnt to begin: bones that
+/// only muscles hold may rest otherwise with the same lines, and plans would lead elsewhere.
 namespace control {
 
 /// `<target at_m="0.35 -0.2 0.1"/>`: a bottle's middle, in the world.
@@ -53,10 +54,14 @@ class Synergy {
  private:
   void read(const erp::SensorFrame& frame);
   std::optional<sim::Vec3> hand_m(const node::Latest<erp::BodyPose>& bodies) const;
+  void lead_back(double dt_s);
+  void watch(const std::optional<sim::Vec3>& hand_m);
+  bool in_place(const std::optional<sim::Vec3>& hand_m);
   void begin();
   void end();
-  void begin_watching(const sim::Vec3& hand_m);
-  void learn(const sim::synergy::Outcome& outcome, const sim::Vec3& target_m);
+  void tell(const sim::synergy::Taught& taught);
+  void learn(sim::synergy::Taught taught);
+  std::string target() const { return "target " + std::to_string(target_ + 1); }
   erp::ActuatorCommand command(const Eigen::VectorXd& line_m) const;
 
   Params params_;
@@ -65,16 +70,17 @@ class Synergy {
   sim::synergy::BankFile file_;
   sim::synergy::Bank bank_;
   std::vector<std::size_t> muscles_;
-  std::vector<double> all_line_m_;  ///< by actuator
-  Eigen::VectorXd line_m_;          ///< by learnt muscle
+  std::vector<double> all_line_m_;            ///< by actuator
+  Eigen::VectorXd line_m_, start_m_;          ///< by learnt muscle; at the start
+  std::optional<sim::synergy::WayBack> way_;  ///< before the first target, and after a gap
   std::optional<sim::synergy::Trial> trial_;
   std::vector<double> credits_;
-  bool watched_ = false;    ///< the plan has begun and the hand was seen
-  bool displaced_ = false;  ///< then, elsewhere than plans were learnt to begin
-  bool seen_ = true;        ///< the hand, since the plan began, all the time
+  bool seen_ = true;      ///< the hand, since the trial began, all the time
+  bool waiting_ = false;  ///< for the hand to be where plans begin
   std::size_t target_ = 0;
   int judged_ = 0, struck_ = 0;
   double time_s_ = 0;
+  bool begun_ = false;
 };
 
 }  // namespace control

@@ -33,7 +33,7 @@ std::vector<double> numbers_of(const Test& test) {
   return {test.target_m.x(),
           test.target_m.y(),
           test.target_m.z(),
-          test.tripped ? 1.0 : 0.0,
+          test.came_back ? 1.0 : 0.0,
           o.struck ? 1.0 : 0.0,
           o.nearest_m,
           o.strike_s,
@@ -78,6 +78,11 @@ double struck_percent(const std::vector<Test>& tests, double from_m = -HUGE_VAL,
   return count > 0 ? 100.0 * struck / count : 0;
 }
 
+double came_back_percent(const std::vector<Test>& tests) {
+  return 100.0 * static_cast<double>(std::ranges::count_if(tests, &Test::came_back)) /
+         static_cast<double>(tests.size());
+}
+
 double middle(std::vector<double> numbers) {
   if (numbers.empty()) return 0;
   const auto k = static_cast<std::ptrdiff_t>(numbers.size() / 2);
@@ -114,14 +119,16 @@ void print(const std::vector<Tested>& results, std::ostream& out) {
       middle(speeds), middle(stayed), middle(jerks));
   for (const Tested& result : results)
     out << fmt::format(
-        "{:>4.0f} % of the bank, {:>3} plans of {:>2} synergies (90 %): struck{:>7.1f} %\n",
+        "{:>4.0f} % of the bank, {:>3} plans of {:>2} synergies (90 %): struck{:>6.1f} %, came "
+        "back from{:>6.1f} %\n",
         100 * result.share, result.bank.plans().size(), components(result.bank, 0.9),
-        struck_percent(result.tests));
+        struck_percent(result.tests), came_back_percent(result.tests));
 }
 
 std::string csv_of(const std::vector<Tested>& results) {
   std::string text =
-      "share,target_x_m,target_y_m,target_z_m,tripped,struck,nearest_m,strike_s,strike_speed_m_per_"
+      "share,target_x_m,target_y_m,target_z_m,came_back,struck,nearest_m,strike_s,strike_speed_m_"
+      "per_"
       "s,"
       "stayed,reward,relative_jerk\n";
   for (const Tested& result : results)
@@ -184,9 +191,6 @@ int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream
     print(results, out);
   }
   if (!pool->first()) return 0;
-  if (lesson.tripped() > 0)
-    out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n",
-                       lesson.tripped());
   out << fmt::format("{}/bank.xml is what the component synergy strikes with\n", course.folder);
   return 0;
 }

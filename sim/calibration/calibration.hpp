@@ -39,6 +39,7 @@ class Calibration : public learner::Learner {
   Task task_;
   Eigen::VectorXd best_;
   double best_error_rad_;
+  std::vector<learner::Metric> errors_;  ///< of the best
 };
 
 }  // namespace sim::calibration

@@ -11,26 +11,15 @@ namespace sim::lessons {
 using namespace synergy;
 using Eigen::VectorXd;
 
-namespace {
-
-constexpr TrialTimes at_once{.way_s = 0, .still_s = 0.1};
-
-TrialTimes from_rest(const TrialTimes& times) {
-  return {at_once.way_s, at_once.still_s, times.watch_s};
-}
-
-}  // namespace
-
 bool play(Trial& trial, const erp::Robot& robot, const HandConfig& hand_config,
-          const std::vector<std::size_t>& muscles, std::uint64_t seed) {
+          const std::vector<std::size_t>& muscles, std::uint64_t seed) try {
   constexpr double tick_s = 0.002;
   rehearsal::Puppet puppet(robot, seed);
   const Hand hand(hand_config, puppet.world().body_names());
   std::vector<rehearsal::Asked> asked(robot.actuators.size(), {erp::Mode::length, 0});
-  const VectorXd start_m = VectorXd::Zero(std::ssize(muscles));
   for (int k = 0; !trial.done(); ++k) {
     trial.see(tick_s * k, hand.in(puppet.world().poses()));
-    const VectorXd& line_m = trial.step(tick_s * k, start_m);
+    const VectorXd& line_m = trial.step(tick_s * k);
     for (std::size_t m = 0; m < muscles.size(); ++m)
       asked[muscles[m]].reference = line_m[static_cast<Eigen::Index>(m)];
     puppet.tick(asked);
@@ -38,6 +27,8 @@ bool play(Trial& trial, const erp::Robot& robot, const HandConfig& hand_config,
       if (static_cast<erp::EcuState>(said.state) == erp::EcuState::fault) return false;
   }
   return true;
+} catch (const rehearsal::Unsound&) {
+  return false;
 }
 
 SynergyLesson::SynergyLesson(const erp::Robot& robot, const Task& task,
@@ -52,7 +43,8 @@ SynergyLesson::SynergyLesson(const erp::Robot& robot, const Task& task,
     throw std::invalid_argument(task.place.file + ": no plan to begin with");
 }
 
-/// Where a rough plan leads it leads when it is played; one that trips an ECU is left out.
+/// Where a rough plan leads it leads when it is played; one that the hand does not come back from is
+/// left out.
 void SynergyLesson::add_rough_plans(const std::vector<Pose>& poses) {
   PoseHolder holder(robot_);
   bank_ = Bank(task_.options, {});
@@ -61,11 +53,16 @@ void SynergyLesson::add_rough_plans(const std::vector<Pose>& poses) {
     MotorPlan plan{.weights_m = VectorXd(std::ssize(muscles_)), .at_m = Vec3::Zero()};
     for (std::size_t m = 0; m < muscles_.size(); ++m)
       plan.weights_m[static_cast<Eigen::Index>(m)] = -line_m[muscles_[m]];
-    Trial trial(plan, from_rest(task_.times), 0, 0);
-    if (!play(trial, robot_, task_.hand, muscles_, seed())) continue;
+    Trial trial(plan, task_.times, 0, 0);
+    const bool came_back = played(trial, Vec3::Zero(), seed()).came_back;
     plan.at_m = rest_of(trial.path());
-    bank_.add(std::move(plan));
+    if (came_back) bank_.add(std::move(plan));
   }
+}
+
+Taught SynergyLesson::played(Trial& trial, const Vec3& target_m, std::uint64_t seed) const {
+  if (!play(trial, robot_, task_.hand, muscles_, seed)) return {};
+  return taught_by(trial, task_.bottle, vec(file_.rest_m), target_m);
 }
 
 struct SynergyLesson::Try {
@@ -84,18 +81,16 @@ SynergyLesson::Try SynergyLesson::planned(std::size_t place) const {
   return {target_m, std::move(blend), std::move(plan), std::move(dice)};
 }
 
-/// Whether it struck, its reward, its value where it led, that place; nothing: an ECU tripped.
+/// Whether it struck, what is to be credited; then, if the hand came back, the plan's value and where
+/// it led.
 std::vector<double> SynergyLesson::tried(Try one) const {
-  Trial trial(one.plan, from_rest(task_.times), task_.noise, one.dice());
-  if (!play(trial, robot_, task_.hand, muscles_, one.dice())) return {};
-  const Outcome outcome = judge(task_.bottle, one.target_m, trial.path(), trial.end_s());
-  const MotorPlan led = as_it_led(trial, task_.bottle, one.target_m);
-  return {outcome.struck ? 1.0 : 0.0,
-          outcome.reward,
-          led.value,
-          led.at_m.x(),
-          led.at_m.y(),
-          led.at_m.z()};
+  Trial trial(one.plan, task_.times, task_.noise, one.dice());
+  const Taught taught = played(trial, one.target_m, one.dice());
+  std::vector<double> numbers{taught.outcome.struck ? 1.0 : 0.0, taught.credit};
+  if (!taught.plan) return numbers;
+  const Vec3& at_m = taught.plan->at_m;
+  numbers.insert(numbers.end(), {taught.plan->value, at_m.x(), at_m.y(), at_m.z()});
+  return numbers;
 }
 
 void SynergyLesson::round(const Pool& pool) {
@@ -103,39 +98,37 @@ void SynergyLesson::round(const Pool& pool) {
   std::vector<Try> tries;
   for (std::size_t k = 0; k < count; ++k) tries.push_back(planned(k));
   const auto all = pool.map(count, [&](std::size_t k) { return tried(tries[k]); });
-  double struck = 0, reward = 0;
-  int plain = 0;
+  struck_ = came_back_ = reward_ = 0;
   std::vector<MotorPlan> fresh;
   for (std::size_t k = 0; k < count; ++k) {
-    if (k % 2 == 0) ++plain;
-    if (all[k].empty()) {
-      ++tripped_;
-      continue;
-    }
     Try& one = tries[k];
+    const bool came_back = all[k].size() > 2;
     bank_.credit(one.blend.credits, all[k][1]);
-    if (k % 2 == 0) struck += all[k][0], reward += all[k][1];
+    if (k % 2 == 0) struck_ += all[k][0], reward_ += all[k][1], came_back_ += came_back;
+    if (!came_back) continue;
     one.plan.value = all[k][2], one.plan.at_m = {all[k][3], all[k][4], all[k][5]};
     if (task_.zone.holds(one.plan.at_m, task_.beyond_m)) fresh.push_back(std::move(one.plan));
   }
   for (MotorPlan& plan : fresh) bank_.add(std::move(plan));
   bank_.trim();
-  struck_ = struck / plain, reward_ = reward / plain;
+  const int plain = (task_.batch + 1) / 2;
+  struck_ /= plain, came_back_ /= plain, reward_ /= plain;
   ++file_.rounds;
 }
 
 std::vector<learner::Metric> SynergyLesson::metrics() const {
-  return {{"struck_percent", 100 * struck_}, {"mean_reward", reward_}};
+  return {{"struck_percent", 100 * struck_},
+          {"came_back_percent", 100 * came_back_},
+          {"mean_reward", reward_}};
 }
 
 SynergyLesson::Test SynergyLesson::test(const Bank& bank, std::uint64_t seed,
                                         std::size_t number) const {
   auto dice = learner::dice(seed, ~std::uint64_t(0), number);
   Test test{.target_m = task_.zone.draw(dice)};
-  Trial trial(bank.blend(test.target_m).plan, from_rest(task_.times), task_.noise, dice());
-  test.tripped = !play(trial, robot_, task_.hand, muscles_, dice());
-  if (test.tripped) return test;
-  test.outcome = judge(task_.bottle, test.target_m, trial.path(), trial.end_s());
+  Trial trial(bank.blend(test.target_m).plan, task_.times, task_.noise, dice());
+  const Taught taught = played(trial, test.target_m, dice());
+  test.came_back = taught.came_back, test.outcome = taught.outcome;
   test.relative_jerk = relative_jerk(trial.path(), trial.end_s());
   return test;
 }

@@ -1,7 +1,5 @@
 #include "sim/rehearsal/puppet.hpp"
 
-#include <stdexcept>
-
 #include "sim/actuator/design.hpp"
 
 namespace sim::rehearsal {
@@ -45,7 +43,7 @@ void Puppet::tick(std::span<const Asked> asked) {
   send(asked);
   ecus_.tick(world_);
   ecus_.fill(frame_);
-  if (!world_.sound()) throw std::runtime_error("the simulated motion is not finite");
+  if (!world_.sound()) throw Unsound();
 }
 
 const erp::EcuChannelSample& Puppet::said_of(std::size_t actuator) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "interfaces/values.hpp"
@@ -16,14 +17,18 @@ struct Asked {
   double reference = 0;  ///< V, m, A or N
 };
 
+/// The motion is not finite.
+struct Unsound : std::runtime_error {
+  Unsound() : runtime_error("the simulated motion is not finite") {}
+};
+
 class Puppet {
  public:
   /// Starts at the initial pose, at pretension, ECUs armed with the gains that the plant would give
   /// them. Lends the robot. Throws as World does.
   explicit Puppet(const erp::Robot& robot, std::uint64_t seed = 1);
 
-  /// One tick of the ECUs, 2 ms, asked so much by actuator. Throws std::runtime_error where the
-  /// motion is not finite.
+  /// One tick of the ECUs, 2 ms, asked so much by actuator. Throws Unsound.
   void tick(std::span<const Asked> asked);
 
   const World& world() const { return world_; }

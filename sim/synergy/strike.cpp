@@ -50,7 +50,7 @@ double jerks(const std::vector<Vec3>& at_m) {
 
 Outcome judge(const BottleConfig& bottle, const Vec3& bottle_m, const HandPath& path,
               double end_s) {
-  Outcome outcome{.nearest_m = HUGE_VAL};
+  Outcome outcome;
   int after = 0, stayed = 0;
   for (std::size_t k = 0; k < path.at_m.size(); ++k) {
     const double time_s = path.sample_s * static_cast<double>(k);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "interfaces/xml/fields.hpp"
@@ -37,8 +38,8 @@ struct HandPath {
 
 struct Outcome {
   bool struck = false;
-  double nearest_m = 0;  ///< between hand and bottle; below zero where they would overlap
-  double strike_s = 0;   ///< when first; since the plan began
+  double nearest_m = HUGE_VAL;  ///< between hand and bottle; below zero where they would overlap
+  double strike_s = 0;          ///< when first; since the plan began
   double strike_speed_m_per_s = 0;  ///< of the hand, then
   double stayed = 0;                ///< share of the time after the signal's end, in the zone
   double reward = 0;

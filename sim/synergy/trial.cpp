@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 Trial::Trial(MotorPlan plan, const TrialTimes& times, double noise, std::uint64_t seed)
     : plan_(std::move(plan)), times_(times), noise_(noise), dice_(learner::dice(seed)) {
-  noises_ = VectorXd::Zero(plan_.weights_m.size());
+  line_m_ = noises_ = VectorXd::Zero(plan_.weights_m.size());
 }
 
 void Trial::add_noise(double dt_s) {
@@ -20,37 +20,39 @@ void Trial::add_noise(double dt_s) {
   for (double& n : noises_) n = kept * n + fresh * normal_(dice_);
 }
 
-const VectorXd& Trial::step(double time_s, const VectorXd& line_m) {
-  if (!begun_) begun_ = true, begin_s_ = last_s_ = time_s, from_m_ = line_m;
-  const double dt_s = time_s - last_s_, into_s = time_s - begin_s_;
-  const double planned_s = this->planned_s(time_s);
-  last_s_ = time_s;
-  if (planned_s < 0) {
-    const double done = times_.way_s > 0 ? least_jerk(into_s / times_.way_s).done : 1;
-    return line_m_ = (1 - done) * from_m_;
+const VectorXd& Trial::step(double time_s) {
+  if (!begun_) begun_ = true, begin_s_ = last_s_ = time_s;
+  if (!way_ && into_s(time_s) > end_s() + times_.watch_s) way_.emplace(times_, time_s, line_m_);
+  if (way_) {
+    done_ = way_->done(time_s);
+    return line_m_ = way_->at(time_s);
   }
-  done_ = planned_s > end_s() + times_.watch_s;
-  add_noise(dt_s);
-  line_m_ = -plan_.signal.at(planned_s) *
-            plan_.weights_m.cwiseProduct(VectorXd::Ones(noises_.size()) + noises_);
-  return line_m_;
+  add_noise(time_s - last_s_);
+  last_s_ = time_s;
+  return line_m_ = -plan_.signal.at(into_s(time_s)) *
+                   plan_.weights_m.cwiseProduct(VectorXd::Ones(noises_.size()) + noises_);
 }
 
 void Trial::see(double time_s, const Eigen::Vector3d& hand_m) {
-  if (!begun_ || done_ ||
-      planned_s(time_s) < path_.sample_s * static_cast<double>(path_.at_m.size()))
+  last_m_ = hand_m;
+  if (!begun_ || way_ || into_s(time_s) < path_.sample_s * static_cast<double>(path_.at_m.size()))
     return;
   path_.at_m.push_back(hand_m);
 }
 
-MotorPlan as_it_led(const Trial& trial, const BottleConfig& bottle,
-                    const Eigen::Vector3d& target_m) {
-  MotorPlan plan = trial.plan();
+Taught taught_by(const Trial& trial, const BottleConfig& bottle, const Eigen::Vector3d& rest_m,
+                 const Eigen::Vector3d& target_m) {
+  Taught taught{.outcome = judge(bottle, target_m, trial.path(), trial.end_s()),
+                .off_m = (trial.last_m() - rest_m).norm()};
+  taught.came_back = taught.off_m <= back_m;
+  if (!taught.came_back) return taught;
+  taught.credit = taught.outcome.reward;
+  MotorPlan& plan = taught.plan.emplace(trial.plan());
   plan.at_m = rest_of(trial.path());
-  const double off = (plan.at_m - target_m).norm() / bottle.zone_m;
+  const double missed = (plan.at_m - target_m).norm() / bottle.zone_m;
   plan.value =
-      std::exp(-2 * off * off) * judge(bottle, plan.at_m, trial.path(), trial.end_s()).reward;
-  return plan;
+      std::exp(-2 * missed * missed) * judge(bottle, plan.at_m, trial.path(), trial.end_s()).reward;
+  return taught;
 }
 
 }  // namespace sim::synergy

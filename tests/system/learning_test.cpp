@@ -122,7 +122,7 @@ TEST_CASE("on a live graph the torso strikes bottles by motor plans, and goes on
       << "<graph name=\"learning\" robot=\"" << configs << "robot.xml\" device=\"sim\">"
       << "<component name=\"synergy\" config=\"synergy.xml\"/></graph>";
   const auto outcome = run("erp launch " + (folder / "graph.xml") + over(device) +
-                           " --lockstep --for 13s --out " + (folder / "run"));
+                           " --lockstep --for 17.5s --out " + (folder / "run"));
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.output, Catch::Contains("2 of 2 struck"));

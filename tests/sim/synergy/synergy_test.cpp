@@ -90,28 +90,42 @@ TEST_CASE("a plan varied is near the plan, and within bounds") {
   CHECK(std::abs(wild.signal.beyond) == 0.4);
 }
 
-TEST_CASE("a trial leads lines back, plays its signal, and noise is in proportion to it") {
+TEST_CASE("lines are led back by paying out first what is wound up, then winding up the others") {
+  const WayBack way({.watch_s = 1, .way_s = 2, .still_s = 0.5}, 3, Eigen::Vector2d(-0.02, 0.01));
+  CHECK(way.at(3) == Eigen::Vector2d(-0.02, 0.01));
+  CHECK((way.at(3.5) - Eigen::Vector2d(-0.01, 0.01)).norm() < 1e-12);
+  CHECK((way.at(4) - Eigen::Vector2d(0, 0.01)).norm() < 1e-12);
+  CHECK((way.at(4.5) - Eigen::Vector2d(0, 0.005)).norm() < 1e-12);
+  CHECK(way.at(5).norm() == 0);
+  CHECK(!way.done(5.4));
+  CHECK(way.done(5.6));
+}
+
+TEST_CASE("a trial plays its signal, with noise in proportion to it, and leads lines back") {
   const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0.25}, {0, 0, 0}};
-  Trial quiet(plan, {.way_s = 1, .still_s = 0.5, .watch_s = 1}, 0, 1);
-  Trial noisy(plan, {.way_s = 1, .still_s = 0.5, .watch_s = 1}, 0.1, 1);
-  double most = 0, squares = 0;
+  const TrialTimes times{.watch_s = 1, .way_s = 1, .still_s = 0.5};
+  Trial quiet(plan, times, 0, 1), noisy(plan, times, 0.1, 1);
+  double most = 0, squares = 0, end = 0;
   int count = 0;
   for (double t = 3; !quiet.done(); t += 0.002) {
-    const VectorXd line = quiet.step(t, Eigen::Vector2d(0.02, -0.02));
-    const VectorXd with = noisy.step(t, Eigen::Vector2d(0.02, -0.02));
+    end = t;
+    const VectorXd line = quiet.step(t), with = noisy.step(t);
     quiet.see(t, Vector3d(t, 0, 0));
-    CHECK(quiet.planned(t) == (t - 3 >= 1.5));
-    if (t == 3) CHECK((line - Eigen::Vector2d(0.02, -0.02)).norm() == 0);
-    if (t > 4.01 && t < 4.5) CHECK(line.norm() + with.norm() < 1e-12);  // no signal, no noise
-    if (t > 4.6) most = std::max(most, -line[0]);
-    if (t > 6) squares += (with - line).squaredNorm() / 2, ++count;
-    if (t > 6) CHECK(line[0] == Approx(-0.04));
+    if (t == 3) CHECK(line.norm() + with.norm() == 0);  // no signal, no noise
+    most = std::max(most, -line[0]);
+    if (t > 4.5 && t < 5.2) {
+      CHECK(line[0] == Approx(-0.04));
+      squares += (with - line).squaredNorm() / 2, ++count;
+    }
+    if (t > 5.71) CHECK(line.norm() + with.norm() < 1e-12);
   }
   CHECK(most == Approx(0.05).epsilon(0.01));
   CHECK(std::sqrt(squares / count) == Approx(0.1 * 0.04).epsilon(0.5));
   CHECK(quiet.end_s() == Approx(1.2));
-  CHECK(quiet.path().at_m.front().x() == Approx(4.5).margin(0.003));
-  CHECK(quiet.path().at_m.size() == Approx(220).margin(2));
+  CHECK(quiet.path().at_m.front().x() == Approx(3).margin(0.003));
+  CHECK(quiet.path().at_m.size() == Approx(220).margin(2));  // nothing of the way back
+  CHECK(end == Approx(3 + 2.2 + 1.5).margin(0.01));
+  CHECK(quiet.last_m().x() == Approx(end));
 }
 
 TEST_CASE("striking is touching; staying in the zone is rewarded beside") {
@@ -145,22 +159,47 @@ TEST_CASE("the path with the least jerk has a relative jerk of one, and another 
   CHECK((rest_of(along({1, 2, 3}, 1, 0.5)) - Vector3d(1, 2, 3)).norm() < 1e-9);
 }
 
+namespace {
+
+/// The hand goes 0.3 m, and so far back.
+Trial tried(double back) {
+  const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0}, {0, 0, 0}};
+  Trial trial(plan, {.watch_s = 1, .way_s = 1, .still_s = 0.5}, 0, 1);
+  for (double t = 0; !trial.done(); t += 0.002) {
+    trial.step(t);
+    const double there = sim::least_jerk(t / 0.8).done - back * sim::least_jerk(t - 2.2).done;
+    trial.see(t, Vector3d(0.3 * there, 0, 0));
+  }
+  return trial;
+}
+
+}  // namespace
+
 TEST_CASE(
     "a plan is stored where it led, and trusted the less the farther that is from its target") {
-  const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0}, {0, 0, 0}};
-  Trial trial(plan, {.way_s = 0, .still_s = 0, .watch_s = 1}, 0, 1);
-  for (double t = 0; !trial.done(); t += 0.002) {
-    trial.step(t, VectorXd::Zero(2));
-    trial.see(t, Vector3d(0.3 * sim::least_jerk(t / 0.8).done, 0, 0));
-  }
   const BottleConfig bottle;
-  const MotorPlan there = as_it_led(trial, bottle, {0.3, 0, 0});
-  CHECK((there.at_m - Vector3d(0.3, 0, 0)).norm() < 1e-9);
-  CHECK(there.weights_m == plan.weights_m);
-  CHECK(there.value == Approx(1.5));
-  const MotorPlan beside = as_it_led(trial, bottle, {0.3, 0.06, 0});
-  CHECK(beside.at_m == there.at_m);
-  CHECK(beside.value == Approx(1.5 * std::exp(-0.5)));
+  const Taught there = taught_by(tried(1), bottle, {0, 0, 0}, {0.3, 0, 0});
+  REQUIRE(there.plan);
+  CHECK((there.plan->at_m - Vector3d(0.3, 0, 0)).norm() < 1e-9);
+  CHECK(there.plan->weights_m == VectorXd::Constant(2, 0.04));
+  CHECK(there.plan->value == Approx(1.5));
+  CHECK(there.credit == Approx(1.5));
+  const Taught beside = taught_by(tried(1), bottle, {0, 0, 0}, {0.3, 0.06, 0});
+  REQUIRE(beside.plan);
+  CHECK(beside.plan->at_m == there.plan->at_m);
+  CHECK(beside.plan->value == Approx(1.5 * std::exp(-0.5)));
+}
+
+TEST_CASE("a plan from which the hand does not come back is not stored, whatever it struck") {
+  const Taught lost = taught_by(tried(0.9), {}, {0, 0, 0}, {0.3, 0, 0});  // 30 mm off
+  CHECK(lost.outcome.struck);
+  CHECK(lost.off_m == Approx(0.03));
+  CHECK(!lost.came_back);
+  CHECK(lost.credit == 0);
+  CHECK(!lost.plan);
+  const Taught nearly = taught_by(tried(0.95), {}, {0, 0, 0}, {0.3, 0, 0});
+  CHECK(nearly.came_back);
+  CHECK(nearly.plan);
 }
 
 TEST_CASE("a bank is written and read again; what does not fit is told with its place") {
