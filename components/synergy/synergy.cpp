@@ -69,7 +69,7 @@ bool Synergy::in_place(const std::optional<Vec3>& hand_m) {
   const double off_m = hand_m ? (*hand_m - sim::vec(file_.rest_m)).norm() : 0;
   const bool in_place = off_m <= back_m;
   if (!in_place && !waiting_)
-    node_.report(erp::Severity::error, target(), "displaced",
+    node_.report(erp::Severity::warning, target(), "displaced",
                  fmt::format("the hand is {:.0f} mm from where plans were learnt to begin, at most "
                              "{:.0f} are allowed: no plan begins until the robot is set right",
                              1e3 * off_m, 1e3 * back_m));
