@@ -121,11 +121,9 @@ void Synergy::learn(Taught taught) {
   bank_.credit(credits_, taught.credit);
   if (taught.plan) bank_.add(std::move(*taught.plan));
   bank_.trim();
-  BankFile all = file_;
-  all.plans.all = rows_of(bank_);
   node::write_or_report(
       node_, xml::resolved(params_.save, params_.place.file),
-      [&](const std::string& file) { sim::learner::keep(file, xml::write(all)); });
+      [&](const std::string& file) { sim::learner::keep(file, text_of(file_, bank_)); });
 }
 
 erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,

@@ -140,6 +140,15 @@ std::string csv_of(const std::vector<Tested>& results) {
   return text;
 }
 
+/// What is left of the bank, each part a bank of its own.
+void write_parts(const std::vector<Tested>& results, const sim::synergy::BankFile& file,
+                 const std::string& folder) {
+  for (const Tested& part : results)
+    if (part.share < 1)
+      write_file(fmt::format("{}/bank_{:.0f}.xml", folder, 100 * part.share),
+                 text_of(file, part.bank));
+}
+
 /// Struck and missed targets from the side and from above, and how few plans do.
 PlotScript figure(const std::vector<Tested>& results) {
   std::string data = "$t << E\n";
@@ -187,11 +196,13 @@ int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream
     if (results.empty()) return 1;
     if (!pool->first()) return 0;
     write_file(course.folder + "/tests.csv", csv_of(results));
+    write_parts(results, lesson.file(), course.folder);
     draw(figure(results), course.folder + "/figure.svg");
     print(results, out);
   }
   if (!pool->first()) return 0;
-  out << fmt::format("{}/bank.xml is what the component synergy strikes with\n", course.folder);
+  out << fmt::format("{}/bank.xml is what the component synergy strikes with{}\n", course.folder,
+                     options.tests > 0 ? "; or bank_25.xml, a quarter of its plans" : "");
   return 0;
 }
 

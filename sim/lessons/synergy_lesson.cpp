@@ -133,11 +133,7 @@ SynergyLesson::Test SynergyLesson::test(const Bank& bank, std::uint64_t seed,
   return test;
 }
 
-std::string SynergyLesson::state() const {
-  BankFile file = file_;
-  file.plans.all = rows_of(bank_);
-  return xml::write(file);
-}
+std::string SynergyLesson::state() const { return text_of(file_, bank_); }
 
 void SynergyLesson::restore(const std::string& text, const std::string& name) {
   auto kept = xml::parse<BankFile>(text, name);

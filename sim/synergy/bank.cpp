@@ -42,7 +42,7 @@ std::vector<double> credits_of(const std::vector<MotorPlan>& plans, const Vector
 /// γ.
 std::vector<double> evened_out(const std::vector<double>& credits,
                                const std::vector<MotorPlan>& plans, const Vector3d& target_m,
-                               double basis_m) {
+                               double basis_m, double most_m) {
   constexpr double epsilon = 0.1;  // chosen
   Vector3d mean_m = Vector3d::Zero();
   for (std::size_t k = 0; k < plans.size(); ++k) mean_m += credits[k] * plans[k].at_m;
@@ -51,7 +51,9 @@ std::vector<double> evened_out(const std::vector<double>& credits,
     const Vector3d off_m = plans[k].at_m - mean_m;
     scatter += credits[k] * off_m * off_m.transpose();
   }
-  const Vector3d lean = scatter.ldlt().solve(target_m - mean_m);
+  const Vector3d wanted_m = target_m - mean_m;
+  const double share = std::min(1.0, most_m / std::max(wanted_m.norm(), 1e-9));
+  const Vector3d lean = scatter.ldlt().solve(share * wanted_m);
   std::vector<double> shares = credits;
   for (std::size_t k = 0; k < plans.size(); ++k) shares[k] *= 1 + lean.dot(plans[k].at_m - mean_m);
   return shares;
@@ -78,7 +80,7 @@ Blend Bank::blend(const Vector3d& target_m) const {
                        .at_m = target_m,
                        .value = 0},
               .credits = credits_of(plans_, target_m, basis_m)};
-  const auto shares = evened_out(blend.credits, plans_, target_m, basis_m);
+  const auto shares = evened_out(blend.credits, plans_, target_m, basis_m, options_.lean_m);
   for (std::size_t k = 0; k < plans_.size(); ++k) {
     blend.plan.weights_m += shares[k] * plans_[k].weights_m;
     blend.plan.signal.rise_s += blend.credits[k] * plans_[k].signal.rise_s;

@@ -14,16 +14,18 @@
 ///
 /// x is the target, x_k where plan k brought the hand, r the reward of the trial; x̄ and S are mean and
 /// scatter of the x_k by β. γ puts right that the plans near a target do not lie about it evenly: were
-/// all linear, Σ γ_k plan_k would lead there. σ is `basis_m`, or the distance to the fourth nearest
-/// plan where plans are few.
+/// all linear, Σ γ_k plan_k would lead there. Beyond what is known nothing is linear: of x − x̄ no more
+/// than `lean_m` counts. σ is `basis_m`, or the distance to the fourth nearest plan where plans are few.
 namespace sim::synergy {
 
 struct BankOptions {
   double basis_m = 0.04;  ///< chosen
   double rate = 0.3;      ///< η; chosen
+  double lean_m = 0.07;   ///< chosen: plans led farther out put the torso out of joint
   int most = 200;         ///< plans kept; chosen
   void visit(auto& v) {
     v("basis_m", basis_m, xml::positive);
+    v("lean_m", lean_m, xml::at_least_zero);
     v("rate", rate, xml::Range{0, 1});
     v("most", most, xml::Range{1, 1e5});
   }

@@ -35,6 +35,11 @@ std::vector<PlanRow> rows_of(const Bank& bank) {
   return rows;
 }
 
+std::string text_of(BankFile file, const Bank& bank) {
+  file.plans.all = rows_of(bank);
+  return xml::write(file);
+}
+
 std::vector<std::size_t> actuators_of(const std::vector<LearntMuscle>& muscles,
                                       const erp::Robot& robot) {
   std::vector<std::size_t> found;

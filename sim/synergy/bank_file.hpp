@@ -59,6 +59,8 @@ struct BankFile {
 
 Bank bank_of(const BankFile& file);
 std::vector<PlanRow> rows_of(const Bank& bank);
+/// A file's text with a bank's plans in place of its own.
+std::string text_of(BankFile file, const Bank& bank);
 /// Which actuators the learnt muscles are. Throws std::invalid_argument: one that there is not.
 std::vector<std::size_t> actuators_of(const std::vector<LearntMuscle>& muscles,
                                       const erp::Robot& robot);

@@ -49,6 +49,18 @@ TEST_CASE("a blend leads to its target, though the plans near it lie to one side
   CHECK_THROWS_WITH(Bank().blend({0, 0, 0}), Catch::Contains("without plans"));
 }
 
+TEST_CASE("a blend does not lead far beyond the plans it is of") {
+  const std::vector<MotorPlan> plans{plan_of(VectorXd::Unit(5, 0) * 0.1),
+                                     plan_of(VectorXd::Unit(5, 0) * 0.2)};
+  const auto x_m = [&](double lean_m, double target_m) {
+    const Bank two({.basis_m = 1, .lean_m = lean_m}, plans);
+    return (lead * two.blend({target_m, 0, 0}).plan.weights_m).x();
+  };
+  CHECK(x_m(9, 0.5) > x_m(9, 0.4));  // with ε of the prior's weight it goes on with the target
+  CHECK(x_m(0.05, 0.5) == Approx(x_m(0.05, 0.4)).margin(0.02));
+  CHECK(x_m(0, 0.4) == Approx(0.15).margin(0.02));
+}
+
 TEST_CASE("rewards are credited to those that contributed, and the valuable ones contribute more") {
   Bank two({.rate = 0.5},
            {plan_of(VectorXd::Constant(5, 0.1)), plan_of(VectorXd::Constant(5, 0.2))});
