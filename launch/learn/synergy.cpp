@@ -127,10 +127,8 @@ void print(const std::vector<Tested>& results, std::ostream& out) {
 
 std::string csv_of(const std::vector<Tested>& results) {
   std::string text =
-      "share,target_x_m,target_y_m,target_z_m,came_back,struck,nearest_m,strike_s,strike_speed_m_"
-      "per_"
-      "s,"
-      "stayed,reward,relative_jerk\n";
+      "share,target_x_m,target_y_m,target_z_m,came_back,struck,nearest_m,"
+      "strike_s,strike_speed_m_per_s,stayed,reward,relative_jerk\n";
   for (const Tested& result : results)
     for (const Test& test : result.tests) {
       text += fmt::format("{}", result.share);

@@ -15,8 +15,8 @@ struct SynergyOptions {
 
 /// `erp learn synergy`: motor plans learnt by reinforcement in the simulator, then struck at fresh
 /// targets with the whole bank and with parts of it. Leaves bank.xml for the component, its parts
-/// bank_50.xml, bank_25.xml, bank_10.xml, tests.csv,
-/// figure.svg, curve.csv, curve.svg, state.xml. Returns the exit code; throws as `calibrate_run` does.
+/// bank_50.xml, bank_25.xml, bank_10.xml, tests.csv, figure.svg, curve.csv, curve.svg, state.xml.
+/// Returns the exit code; throws as `calibrate_run` does.
 int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream& remarks);
 
 }  // namespace launch

@@ -11,7 +11,7 @@
 ///
 /// p goes from 0 to 1 with the least jerk. Led back all together, antagonists pull against muscles that
 /// still hold: a torso whose shoulder blades only muscles keep in place was dislocated by that after
-/// every fifth plan.
+/// one plan in six.
 namespace sim::synergy {
 
 struct TrialTimes {

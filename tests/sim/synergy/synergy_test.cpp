@@ -52,13 +52,15 @@ TEST_CASE("a blend leads to its target, though the plans near it lie to one side
 TEST_CASE("a blend does not lead far beyond the plans it is of") {
   const std::vector<MotorPlan> plans{plan_of(VectorXd::Unit(5, 0) * 0.1),
                                      plan_of(VectorXd::Unit(5, 0) * 0.2)};
-  const auto x_m = [&](double lean_m, double target_m) {
-    const Bank two({.basis_m = 1, .lean_m = lean_m}, plans);
+  const double target_m = 0.4;
+  const auto x_m = [&](double lean_m) {
+    const Bank two({.lean_m = lean_m}, plans);
     return (lead * two.blend({target_m, 0, 0}).plan.weights_m).x();
   };
-  CHECK(x_m(9, 0.5) > x_m(9, 0.4));  // with ε of the prior's weight it goes on with the target
-  CHECK(x_m(0.05, 0.5) == Approx(x_m(0.05, 0.4)).margin(0.02));
-  CHECK(x_m(0, 0.4) == Approx(0.15).margin(0.02));
+  const double mean_m = x_m(0), freely_m = x_m(9);
+  CHECK(freely_m > mean_m + 0.03);
+  CHECK(x_m(0.05) - mean_m == Approx(0.05 / (target_m - mean_m) * (freely_m - mean_m)));
+  CHECK(x_m(0.3) == freely_m);  // nearer than that
 }
 
 TEST_CASE("rewards are credited to those that contributed, and the valuable ones contribute more") {
