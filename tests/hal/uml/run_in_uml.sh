@@ -6,12 +6,12 @@
 # virtual CAN interfaces vcan0 and vcan1 (classic), vcan3 and vcan4 (CAN FD) up and vcan2 down; the
 # kernel's slcan, can-gw, tbf and netem are there as well. Its exit status is passed on.
 # With ERP_UML_SERIAL="/dev/pts/N /dev/pts/M" these terminals are its serial lines /run/ttyS0, ttyS1.
-# Debian: user-mode-linux kmod iproute2 can-utils. Sanitizers other than UBSan do not run in it.
+# Debian: user-mode-linux kmod iproute2 can-utils gcc. Sanitizers other than UBSan do not run in it.
 set -u
 [ $# -ge 1 ] || { echo "usage: run_in_uml.sh PROGRAM [ARGUMENT…]" >&2; exit 2; }
-for tool in linux.uml insmod ip cansend; do
+for tool in linux.uml insmod ip cansend cc; do
   PATH=$PATH:/usr/sbin:/sbin command -v "$tool" > /dev/null && continue
-  echo "run_in_uml.sh: no $tool; apt-get install user-mode-linux kmod iproute2 can-utils" >&2
+  echo "run_in_uml.sh: no $tool; apt-get install user-mode-linux kmod iproute2 can-utils gcc" >&2
   exit 1
 done
 
@@ -56,9 +56,12 @@ sleep 60
 INIT
 chmod +x "$exchange/init"
 
+registers=$exchange/whole_registers.so  # see there
+cc -shared -fPIC -O2 -o "$registers" "$(dirname "$0")/whole_registers.c" || exit 1
+
 lines=() && for terminal in ${ERP_UML_SERIAL:-}; do lines+=("ssl${#lines[@]}=tty:$terminal"); done
 
-PATH=$PATH:/usr/sbin:/sbin linux.uml mem=256M root=/dev/root rootfstype=hostfs rootflags=/ ro \
+PATH=$PATH:/usr/sbin:/sbin LD_PRELOAD=$registers linux.uml mem=256M root=/dev/root rootfstype=hostfs rootflags=/ ro \
   quiet loglevel=3 uml_dir="$exchange" umid=guest con=null con0=null,fd:1 ssl=null \
   "${lines[@]}" \
   init="$exchange/init" < /dev/null

@@ -1,0 +1,41 @@
+/* Lets user-mode Linux run on processors whose registers are more than it has room for.
+ *
+ * Its kernel 6.1 keeps 2696 bytes of a process's extended state, enough for AVX-512. A host kernel
+ * takes back only the whole of it (11008 bytes with AMX; else EFAULT), and so every process of the
+ * guest, the first among them, would end with SIGSEGV. Loaded before the C library this file fills
+ * up what is given back with what the process has. The guest uses no AMX itself.
+ * Reference: Linux, arch/x86/kernel/fpu/regset.c, xstateregs_set. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <elf.h>
+#include <stdarg.h>
+#include <string.h>
+#include <sys/ptrace.h>
+#include <sys/types.h>
+#include <sys/uio.h>
+
+typedef long (*Ptrace)(enum __ptrace_request request, ...);
+
+static long set_extended_state(Ptrace real, pid_t process, void* kind, struct iovec* part) {
+  /* Static: the guest kernel's stacks are small, and its thread is one. */
+  static char state[1 << 16];
+  struct iovec whole = {state, sizeof state};
+  if (real(PTRACE_GETREGSET, process, kind, &whole) < 0) return -1;
+  const size_t given = part->iov_len < whole.iov_len ? part->iov_len : whole.iov_len;
+  memcpy(state, part->iov_base, given);
+  return real(PTRACE_SETREGSET, process, kind, &whole);
+}
+
+long ptrace(enum __ptrace_request request, ...) {
+  static Ptrace real;
+  if (!real) real = (Ptrace)dlsym(RTLD_NEXT, "ptrace");
+  va_list rest;
+  va_start(rest, request);
+  const pid_t process = va_arg(rest, pid_t);
+  void* const address = va_arg(rest, void*);
+  void* const data = va_arg(rest, void*);
+  va_end(rest);
+  return request == PTRACE_SETREGSET && address == (void*)NT_X86_XSTATE
+             ? set_extended_state(real, process, address, data)
+             : real(request, process, address, data);
+}
