@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
 
 #include "interfaces/recording/csv.hpp"
+#include "sim/parallel/in_parallel.hpp"
 #include "sim/rehearsal/standing.hpp"
 
 namespace launch {
@@ -47,17 +49,19 @@ ErrorColumn errors_of(const std::string& name, const calibration::Candidate& can
 }
 
 ErrorColumn simulated_errors(const std::string& name, const erp::Robot& robot,
-                             const calibration::PoseSet& poses) {
-  const auto errors = [&](std::span<const calibration::StillPose> part) {
+                             const calibration::PoseSet& poses, int threads) {
+  ErrorColumn column{name, {}, {}};
+  const std::array parts{std::pair(&poses.learn, &column.learnt),
+                         std::pair(&poses.check, &column.checked)};
+  sim::in_parallel(poses.check.empty() ? 1 : 2, threads, [&](std::size_t k) {
+    const std::vector<calibration::StillPose>& part = *parts[k].first;
     std::vector<std::vector<double>> shafts_rad;
     for (const auto& still : part) shafts_rad.push_back(still.shaft_rad);
     std::vector<sim::Pose> there;
     for (const auto& standing : sim::rehearsal::standings(robot, shafts_rad))
       there.push_back(standing.pose);
-    return errors_between(robot, part, there);
-  };
-  ErrorColumn column{name, errors(poses.learn), {}};
-  if (!poses.check.empty()) column.checked = errors(poses.check);
+    *parts[k].second = errors_between(robot, part, there);
+  });
   return column;
 }
 

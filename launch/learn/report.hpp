@@ -15,9 +15,10 @@ struct ErrorColumn {
 /// By statics.
 ErrorColumn errors_of(const std::string& name, const sim::calibration::Candidate& candidate,
                       const sim::calibration::PoseSet& poses);
-/// In the simulator, one pose after the other.
+/// In the simulator, one pose after the other; those learnt from beside those that check. Throws as
+/// sim::rehearsal::standings does.
 ErrorColumn simulated_errors(const std::string& name, const erp::Robot& robot,
-                             const sim::calibration::PoseSet& poses);
+                             const sim::calibration::PoseSet& poses, int threads);
 /// A row a joint: mean angles off, degrees, in poses to learn from and to check with.
 void print_errors(const erp::Robot& robot, const sim::calibration::PoseSet& poses,
                   const std::vector<ErrorColumn>& columns, std::ostream& out);
