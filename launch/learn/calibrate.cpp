@@ -14,28 +14,14 @@ namespace launch {
 
 namespace calibration = sim::calibration;
 
-namespace {
-
-/// Beside them what the simulator makes of the robot, or why it makes nothing of it.
-void print_simulated_too(std::vector<ErrorColumn> columns, const erp::Robot& robot,
-                         const calibration::PoseSet& poses, int threads, std::ostream& out) {
-  std::string refusal;
-  try {
-    columns.push_back(simulated_errors("simulated", robot, poses, threads));
-  } catch (const std::exception& refused) {
-    refusal = fmt::format("the simulator does not run this robot: {}\n", refused.what());
-  }
-  print_errors(robot, poses, columns, out);
-  out << refusal;
-}
-
-}  // namespace
-
 int calibrate_check(const std::string& robot_file, const PoseFiles& files, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
   const calibration::Parameters none(robot, {});
   const auto poses = read_poses(robot, files);
-  print_simulated_too({errors_of("by statics", none.start(), poses)}, robot, poses, 2, out);
+  print_errors(robot, poses,
+               {errors_of("by statics", none.start(), poses),
+                simulated_errors("simulated", robot, poses, 2)},
+               out);
   return 0;
 }
 
@@ -54,9 +40,11 @@ int calibrate_run(const CalibrateOptions& options, std::ostream& out, std::ostre
   const erp::Robot calibrated = parameters.robot_at(learner->best());
   write_file(folder + "/robot.xml", erp::write_robot(calibrated));
   write_file(folder + "/parameters.csv", parameters_csv(parameters, learner->best(), identified));
-  print_simulated_too({errors_of("before", parameters.start(), poses),
-                       errors_of("after", parameters.at(learner->best()), poses)},
-                      calibrated, poses, options.course.threads, out);
+  print_errors(robot, poses,
+               {errors_of("before", parameters.start(), poses),
+                errors_of("after", parameters.at(learner->best()), poses),
+                simulated_errors("simulated", calibrated, poses, options.course.threads)},
+               out);
   out << fmt::format("after {} rounds, {} poses judged\n", learner->rounds(),
                      learner->judged_poses());
   print_identified(parameters, identified, out);

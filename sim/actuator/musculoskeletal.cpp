@@ -1,5 +1,7 @@
 #include "sim/actuator/musculoskeletal.hpp"
 
+#include "sim/actuator/of_actuator.hpp"
+
 namespace sim {
 namespace {
 
@@ -12,11 +14,12 @@ Vec3 gravity_of(const erp::Robot& robot) {
 
 Musculoskeletal::Musculoskeletal(const erp::Robot& robot)
     : tree_(robot), skeleton_(tree_, gravity_of(robot)) {
-  for (const erp::Actuator& actuator : robot.actuators) {
-    routings_.emplace_back(actuator.tendon, tree_.names);
-    levers_.push_back(levers_of(routings_.back(), skeleton_));
-    shapes_.push_back(routings_.back().solve(skeleton_.poses()));
-  }
+  for (const erp::Actuator& actuator : robot.actuators)
+    of_actuator(actuator, [&] {
+      routings_.emplace_back(actuator.tendon, tree_.names).require_outside(skeleton_.poses());
+      levers_.push_back(levers_of(routings_.back(), skeleton_));
+      shapes_.push_back(routings_.back().solve(skeleton_.poses()));
+    });
   const auto actuators = static_cast<Eigen::Index>(robot.actuators.size());
   length_m_.setZero(actuators);
   jacobian_.setZero(actuators, coordinates());

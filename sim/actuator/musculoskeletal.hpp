@@ -15,7 +15,8 @@ namespace sim {
 
 class Musculoskeletal {
  public:
-  /// Throws std::invalid_argument as RobotTree and Routing do.
+  /// Throws std::invalid_argument as RobotTree does, and with the actuator's name as Routing does or
+  /// for a point that lies inside its pulley where the robot starts.
   explicit Musculoskeletal(const erp::Robot& robot);
 
   /// Moves the bones there: by joint of `tree()`. No heap.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim/actuator/of_actuator.hpp"
 #include "sim/effects/library.hpp"
 
 namespace sim {
@@ -23,11 +24,8 @@ void World::reset() {
   bones_ = std::make_unique<BulletSkeleton>(tree_, gravity, options_.lock);
   model_ = std::make_unique<SkeletonModel>(tree_, gravity, options_.lock);
   chains_.clear();
-  for (const erp::Actuator& actuator : robot_.actuators) try {
-      chains_.push_back(make_chain(actuator));
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("actuator \"" + actuator.name + "\": " + error.what());
-    }
+  for (const erp::Actuator& actuator : robot_.actuators)
+    chains_.push_back(of_actuator(actuator, [&] { return make_chain(actuator); }));
   readings_.assign(chains_.size(), {});
   carried_.clear();
   make_solver();

@@ -1,5 +1,4 @@
-#include <stdexcept>
-
+#include "sim/actuator/of_actuator.hpp"
 #include "sim/actuator/path_line.hpp"
 #include "sim/world/world.hpp"
 
@@ -13,11 +12,7 @@ void World::make_ropes() {
     if (!actuator.rope) continue;
     chain.rope = std::make_unique<Rope>(*actuator.rope, chain.tendon, chain.routing,
                                         solids_of(robot_.bodies(), tree_.names));
-    try {
-      chain.rope->require_fine(chain.shape.length_m);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("actuator \"" + actuator.name + "\": " + error.what());
-    }
+    of_actuator(actuator, [&] { chain.rope->require_fine(chain.shape.length_m); });
     lay_rope(k, actuator.tendon.pretension_N);
   }
 }

@@ -164,6 +164,18 @@ TEST_CASE("a perturbed model is off by what was asked, joint by joint") {
   CHECK(x != perturbed(parameters, poses, off_rad, 4));
 }
 
+TEST_CASE("a candidate with a point inside its pulley is worse than all that can be built") {
+  const Task of = task();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(of.parameters.size());
+  const double at_first = error_rad(of, x);
+  const auto& list = of.parameters.list();
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (const auto name = of.parameters.name_of(list[k]);
+        name == "triceps_long B x" || name == "triceps_long B z")
+      x[static_cast<Eigen::Index>(k)] = 0.018 / list[k].spread;  // its end, into the elbow's pulley
+  CHECK(error_rad(of, x) > 1e3 * at_first);
+}
+
 TEST_CASE("still poses of a recording are where nothing moved, each once, its mean") {
   const erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   recording::Table table{{{"time_s", {}},
