@@ -6,23 +6,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+MatrixXd Learnt::moved_per_N() const {
+  MatrixXd moved = hebb_;
+  for (Index m = 0; m < moved.cols(); ++m)
+    if (squares_[m] > 0) moved.col(m) /= squares_[m];
+  return moved;
+}
+
 MatrixXd Learnt::q() const {
-  MatrixXd q = hebb_;
+  MatrixXd q = moved_per_N();
   for (Index j = 0; j < q.rows(); ++j)
     if (const double length = q.row(j).norm(); length > 0) q.row(j) /= length;
   return q;
 }
 
 VectorXd Learnt::force_per_sense_N() const {
-  const MatrixXd who = q();
-  VectorXd k = VectorXd::Zero(who.rows());
-  for (Index j = 0; j < k.size(); ++j) {
-    double moved_per_N = 0;
-    for (Index m = 0; m < who.cols(); ++m)
-      if (squares_[m] > 0) moved_per_N += who(j, m) * hebb_(j, m) / squares_[m];
-    if (moved_per_N > 0) k[j] = 1 / moved_per_N;
-  }
-  return k;
+  const VectorXd moved = moved_per_N().rowwise().norm();  // Σ Q_jm (H_jm / Σ M_m²)
+  return (moved.array() > 0).select(moved.cwiseInverse(), 0);
 }
 
 VectorXd Learnt::motors_N(const VectorXd& alpha, const VectorXd& goal) const {

@@ -7,7 +7,11 @@
 /// Unsupervised, from spontaneous twitches: what a muscle does and what is seen to move at the same
 /// time are tied to each other (Hebb),
 ///
-///   H ← H + Ṡ Mᵀ dt               senses × muscles; Q (Fig. 9b): its rows scaled to length 1
+///   H ← H + Ṡ Mᵀ dt               senses × muscles
+///   Q_jm ∝ H_jm / Σ M_m²          (Fig. 9b), rows scaled to length 1
+///
+/// so that a muscle which happened to twitch more is not recruited more: with H alone the marker strays
+/// across the way to its goal.
 ///
 /// Supervised, from try to try at a goal S* in the senses, of which S' was moved:
 ///
@@ -15,7 +19,7 @@
 ///   e = S* − S',   α_j ← α_j + η e_j S*_j / (S*_j² + ε²)
 ///
 /// k_j, N a sense, is how much force the twitches took to move sense j by one, so that α and η have
-/// no unit and α = 1 would do were all linear: k_j = 1 / Σ_m Q_jm H_jm / Σ M_m².
+/// no unit and α = 1 would do were all linear: k_j = 1 / Σ_m Q_jm (H_jm / Σ M_m²).
 namespace sim::sensorimotor {
 
 struct Goal {
@@ -54,6 +58,8 @@ class Learnt {
   Eigen::VectorXd motors_N(const Eigen::VectorXd& alpha, const Eigen::VectorXd& goal) const;
 
  private:
+  Eigen::MatrixXd moved_per_N() const;  ///< H_jm / Σ M_m²
+
   Eigen::MatrixXd hebb_;
   Eigen::VectorXd squares_;
 };
