@@ -29,6 +29,7 @@ struct Latest {
   bool received = false;
   double age_s = 0.0;  ///< since it arrived
   std::int64_t arrived_ns = 0;
+  std::int64_t period_ns = 0;  ///< between the instants of the last two; 0: there was one
   explicit operator bool() const { return received; }
   const M* operator->() const { return &message; }
 };
@@ -66,6 +67,7 @@ class Stepper {
     if constexpr (requires { component_.wants(message); })
       if (!component_.wants(message)) return;
     auto& latest = std::get<Latest<M>>(more_);
+    if (latest.received) latest.period_ns = message.stamp_ns - latest.message.stamp_ns;
     latest.message = message;
     latest.received = true;
     latest.arrived_ns = node_.clock().lockstep() ? message.stamp_ns : wall_ns();
@@ -85,6 +87,10 @@ class Stepper {
     // By its instant: over a gateway frames are numbered otherwise than the simulator's joints.
     if constexpr (std::same_as<M, erp::JointState> && !by_itself)
       return !waits(latest->stamp_ns >= pending_.stamp_ns);
+    // Images come evenly, not with each frame: the next is due a period after the last.
+    if constexpr (std::same_as<M, erp::ImagePoint>)
+      return latest.period_ns == 0 ||
+             !waits(latest->stamp_ns + latest.period_ns > pending_.stamp_ns);
     return true;
   }
 

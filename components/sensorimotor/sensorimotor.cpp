@@ -59,7 +59,8 @@ void Sensorimotor::see(const erp::ImagePoint& points) {
 erp::ActuatorCommand Sensorimotor::step(const erp::SensorFrame&, double dt_s,
                                         const node::Latest<erp::ImagePoint>& points) {
   time_s_ += dt_s;
-  if (points && points->stamp_ns != seen_ns_) seen_ns_ = points->stamp_ns, see(points.message);
+  if (points && points->stamp_ns != seen_ns_ && points.age_s <= params_.stale_s)
+    seen_ns_ = points->stamp_ns, see(points.message);
   const Eigen::VectorXd& motors_N = session_.motors_N(time_s_);
   erp::ActuatorCommand command;
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {

@@ -21,8 +21,10 @@ class Sensorimotor {
     std::string learnt;          ///< learnt.xml to begin with, beside this file: no twitches then
     std::string save;            ///< where what is learnt goes; "": nowhere
     std::string source = "eye";  ///< whose image_point is believed
+    double stale_s = 0.1;        ///< older than that, nothing is seen in it; chosen
     void visit(auto& v) {
       experiment.visit(v);
+      v("stale_s", stale_s, xml::positive);
       v("learnt", learnt);
       v("save", save);
       v("source", source);

@@ -36,11 +36,16 @@ std::optional<Pixel> Camera::project(const Vec3& world_m) const {
   return Pixel(config_.focal_px * stretched(config_, flat.squaredNorm()) * flat + centre_);
 }
 
-/// The distortion is undone by fixed-point steps, which halve the error and more for lenses in use.
+/// The distortion is undone by fixed-point steps, which halve the error and more for lenses in use,
+/// until they move it by less than 1e-12 of the focal length.
 Vec3 Camera::ray(const Pixel& pixel) const {
   const Pixel bent = (pixel - centre_) / config_.focal_px;
   Pixel flat = bent;
-  for (int k = 0; k < 20; ++k) flat = bent / stretched(config_, flat.squaredNorm());
+  for (int k = 0; k < 20; ++k) {
+    const Pixel before = flat;
+    flat = bent / stretched(config_, before.squaredNorm());
+    if ((flat - before).squaredNorm() < 1e-24) break;
+  }
   return (axes_ * Vec3(flat.x(), flat.y(), 1)).normalized();
 }
 

@@ -59,7 +59,7 @@ TEST_CASE(
     REQUIRE(goal.errors.size() == tries);
     std::cout << "over " << device << ": error " << goal.errors.front() << " at first, "
               << goal.errors.back() << " at last\n";
-    CHECK(goal.errors.back() < 0.35 * goal.errors.front());
+    CHECK(goal.errors.back() < 0.2 * goal.errors.front());
   }
 
   std::filesystem::rename(folder / "saved.xml", folder / "before.xml");
