@@ -88,8 +88,8 @@ PlotScript figure(const SensorimotorLesson& lesson, const erp::Robot& robot) {
           "set xrange [-0.7:{}]\nset yrange [{}:-0.7]\nset xtics ({}) rotate by -20\n"
           "set ytics ({})\n",
           double(q.cols()) - 0.3, double(q.rows()) - 0.3, muscles, senses) +
-      "plot $q using 1:2:($4 > 0 ? $3 : 1/0) with points pt 5 ps variable lc rgb '#0072B2' title "
-      "'recruited for +', $q using 1:2:($4 > 0 ? 1/0 : $3) with points pt 4 lw 2 ps variable lc "
+      "plot $q using 1:($4 > 0 ? $2 : 1/0):3 with points pt 5 ps variable lc rgb '#0072B2' title "
+      "'recruited for +', $q using 1:($4 > 0 ? 1/0 : $2):3 with points pt 4 lw 2 ps variable lc "
       "rgb "
       "'#D55E00' title 'recruited for -'\n"
       "set xtics autofreq norotate\nset ytics autofreq\nset xrange [0:*]\nset yrange [0:*]\n"
