@@ -56,10 +56,11 @@ void Sensorimotor::see(const erp::ImagePoint& points) {
   session_.see(time_s_, senses);
 }
 
-erp::ActuatorCommand Sensorimotor::step(const erp::SensorFrame&, double dt_s,
+erp::ActuatorCommand Sensorimotor::step(const erp::SensorFrame& frame, double dt_s,
                                         const node::Latest<erp::ImagePoint>& points) {
   time_s_ += dt_s;
-  if (points && points->stamp_ns != seen_ns_ && points.age_s <= params_.stale_s)
+  const double age_s = 1e-9 * static_cast<double>(frame.stamp_ns - points->stamp_ns);
+  if (points && points->stamp_ns != seen_ns_ && age_s <= params_.stale_s)
     seen_ns_ = points->stamp_ns, see(points.message);
   const Eigen::VectorXd& motors_N = session_.motors_N(time_s_);
   erp::ActuatorCommand command;

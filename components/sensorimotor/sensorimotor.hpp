@@ -21,7 +21,7 @@ class Sensorimotor {
     std::string learnt;          ///< learnt.xml to begin with, beside this file: no twitches then
     std::string save;            ///< where what is learnt goes; "": nowhere
     std::string source = "eye";  ///< whose image_point is believed
-    double stale_s = 0.1;        ///< older than that, nothing is seen in it; chosen
+    double stale_s = 0.1;        ///< of images older than the frame by more nothing is seen; chosen
     void visit(auto& v) {
       experiment.visit(v);
       v("stale_s", stale_s, xml::positive);
