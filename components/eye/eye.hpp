@@ -9,6 +9,7 @@ namespace eye {
 
 class Eye {
  public:
+  static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
     std::string view;  ///< cameras and markers, beside this file

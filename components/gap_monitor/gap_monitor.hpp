@@ -9,6 +9,7 @@
 /// event when a stage leaves its floor or comes back to it. It commands nothing.
 class GapMonitor {
  public:
+  static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
     std::string model;    ///< robot.xml to hold the robot against; empty: the graph's

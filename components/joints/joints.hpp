@@ -7,6 +7,7 @@
 
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/topics.hpp"
+#include "sim/skeleton/catch_up.hpp"
 #include "sim/skeleton/joint_path.hpp"
 #include "sim/skeleton/skeleton_model.hpp"
 
@@ -44,5 +45,10 @@ class Names {
 
 /// How far apart two places of the joints are: the largest turn of any, rad.
 double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointMotion> b);
+
+/// From where the joints are and as they move onto what is wanted of them, about as fast as that
+/// and in 0.2 s at least.
+sim::CatchUp onto(std::span<const sim::JointReading> now, std::span<const sim::JointMotion> wanted,
+                  double rad_per_s);
 
 }  // namespace joints

@@ -14,6 +14,7 @@ namespace logger {
 
 class LoggerNode {
  public:
+  static constexpr bool in_background = true;
   struct Params {
     std::string file = "recording.mcap";
     std::string attach;  ///< XML files to keep with the recording, separated by `:`

@@ -14,6 +14,7 @@ namespace capture {
 
 class MotionCapture {
  public:
+  static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
     images::FilmParams film;

@@ -46,7 +46,7 @@ Node::Node(Options options, std::string robot_name)
       clock_(options_.time),
       signals_(prepare_process()),
       self_(own_peer(options_.name, identity_.robot)),
-      participant_(join(self_)),
+      participant_(join_in_time()),
       peers_(participant_, wake_, self_),
       polled_{{wake_.descriptor(), POLLIN, 0}, {signals_, POLLIN, 0}} {
   if (!options_.managed) start_due_ns_ = monotonic_ns() + discovery_ns();
@@ -56,6 +56,14 @@ Node::Node(Options options, std::string robot_name)
       [this](const erp::LifecycleCommand& command) { obey(command); }, 4, Where::in_loop);
   state_.pid = getpid();
 }
+
+/// DDS's threads take over the priority of who starts them.
+Entity Node::join_in_time() {
+  const RealTime urgent(in_real_time());
+  return join(self_);
+}
+
+bool Node::in_real_time() const { return !clock_.lockstep() && !options_.background; }
 
 Node::~Node() {
   gate_.close();
@@ -225,6 +233,7 @@ void Node::serve() {
 }
 
 int Node::spin() try {
+  const RealTime urgent(in_real_time());
   enter(erp::Lifecycle::inactive);
   gate_.open();
   while (!finished_) {

@@ -14,6 +14,7 @@
 #include "components/node/options.hpp"
 #include "components/node/peers.hpp"
 #include "components/node/port.hpp"
+#include "components/node/real_time.hpp"
 #include "components/node/timer.hpp"
 #include "interfaces/values.hpp"
 
@@ -89,6 +90,8 @@ class Node {
     ports_.push_back(std::move(port));
     return lent;
   }
+  Entity join_in_time();
+  bool in_real_time() const;
   void set_lifecycle(erp::Lifecycle lifecycle);
   /// Sets it and tells everyone.
   void enter(erp::Lifecycle lifecycle);

@@ -18,6 +18,8 @@
 /// waits for the `More` that answer the same frame, so a repeated run is identical. Of messages that
 /// several may send, `bool wants(const More&) const` says which count; a class whose joint_state
 /// comes by itself, not once a frame, says so by a member `comes_by_itself`.
+/// Components run at real-time priority where they may; a class that no robot waits for says so by a
+/// member `in_background`.
 /// A constructor (Params, const erp::Robot&, node::Node&) may have more to say than its step returns;
 /// a class that has it and no `step` makes its own ports.
 namespace node {
@@ -193,8 +195,9 @@ int run_component(const Options& options) {
 template <class T>
 int run(int argc, char** argv) {
   int exit_code = -1;
-  const Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
+  Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
   if (exit_code >= 0) return exit_code;
+  options.background = requires { T::in_background; };
   try {
     if (options.check) return detail::check<T>(options), 0;
     if (options.robot.empty())

@@ -8,6 +8,8 @@
 namespace control {
 namespace {
 
+// As the plant has it, which takes slack up then.
+constexpr double slack_N = 0.5, hangs_s = 0.016;
 constexpr double lever_m = 1e-4;  // chosen: below, a tendon runs through the joint's axis
 
 /// The actuators that turn a hinge, the one towards positive angles first.
@@ -63,10 +65,15 @@ bool JointDrive::hear(const erp::SensorFrame& frame, double dt_s) {
       tendon.speed_rad_per_s = moves ? (found->shaft_rad - tendon.shaft_rad) / dt_s : 0;
       tendon.shaft_rad = found->shaft_rad;
       tendon.tension_N = found->tension_N;
+      tendon.slack_s = tendon.tension_N < slack_N ? tendon.slack_s + dt_s : 0;
     }
     tendon.seen = valid;
   }
   return tendons_[0].seen && tendons_[1].seen;
+}
+
+bool JointDrive::hangs() const {
+  return std::ranges::any_of(tendons_, [](const Tendon& t) { return t.slack_s > hangs_s; });
 }
 
 void JointDrive::begin(double torque_Nm) {

@@ -32,6 +32,8 @@ class JointDrive {
 
   /// False: tension or shaft of a tendon is not known.
   bool hear(const erp::SensorFrame& frame, double dt_s);
+  /// One of its tendons has been slack for longer than a follower may let go.
+  bool hangs() const;
   void begin(double torque_Nm);
   /// Adds both voltages. `acceleration`: that of the joint under this torque, rad/s².
   void drive(double torque_Nm, double acceleration, const sim::Musculoskeletal& model, double dt_s,
@@ -43,7 +45,7 @@ class JointDrive {
     std::string name;
     double supply_V, most_N;
     TensionLinearisation law;
-    double tension_N = 0, shaft_rad = 0, speed_rad_per_s = 0;
+    double tension_N = 0, shaft_rad = 0, speed_rad_per_s = 0, slack_s = 0;
     bool seen = false;
   };
   /// A signal and its smoothed derivatives.

@@ -38,6 +38,7 @@ PullerFollower::PullerFollower(const Params& params, const erp::Robot& robot)
       hinges_(sim::loop_shaping::hinges_of(model_)),
       now_(names_.size()),
       wanted_(names_.size()),
+      held_(names_.size()),
       errors_(model_.coordinates()),
       dynamics_(model_.coordinates()),
       factor_(model_.coordinates()),
@@ -55,18 +56,24 @@ std::optional<erp::ActuatorCommand> PullerFollower::step(
                      names_.read(state.message, frame.stamp_ns, now_) && target &&
                      target.age_s <= params_.stale_s &&
                      names_.read(target.message, frame.stamp_ns, wanted_);
-  const bool begins = known && !driving_;
-  driving_ = known;
+  const Phase before = std::exchange(phase_, !known    ? Phase::silent
+                                             : hangs() ? Phase::holds
+                                                       : Phase::leads);
   if (!known) return std::nullopt;
-  if (begins) law_->begin();
+  const bool goes_on = phase_ == before && dt_s <= params_.stale_s;
+  if (goes_on) led_s_ += dt_s;
+  else begin();
+  if (phase_ == Phase::holds) std::ranges::copy(held_, wanted_.begin());
+  else onto_target_.add(led_s_, wanted_);
   model_.place(now_);
   compare();
-  find_torques(dt_s);
+  const double since_s = goes_on ? dt_s : 0;
+  find_torques(since_s);
   erp::ActuatorCommand command;
   for (std::size_t k = 0; k < drives_.size(); ++k) {
     const int at = hinges_[k].coordinate;
-    if (begins) drives_[k].begin(torque_[at]);
-    drives_[k].drive(torque_[at], acceleration_[at], model_, dt_s, command);
+    if (!goes_on) drives_[k].begin(torque_[at]);
+    drives_[k].drive(torque_[at], acceleration_[at], model_, since_s, command);
   }
   return command;
 }
@@ -75,6 +82,18 @@ bool PullerFollower::hear(const erp::SensorFrame& frame, double dt_s) {
   bool all = true;
   for (JointDrive& drive : drives_) all = drive.hear(frame, dt_s) && all;
   return all;
+}
+
+bool PullerFollower::hangs() const { return std::ranges::any_of(drives_, &JointDrive::hangs); }
+
+void PullerFollower::begin() {
+  law_->begin();
+  led_s_ = 0;
+  onto_target_ = joints::onto(now_, wanted_, params_.start_rad_per_s);
+  for (std::size_t j = 0; j < now_.size(); ++j) {
+    held_[j].now = now_[j];
+    held_[j].now.velocity_rad_per_s = {};
+  }
 }
 
 void PullerFollower::compare() {

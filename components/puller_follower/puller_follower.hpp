@@ -15,6 +15,11 @@
 ///   2  torque → voltages   of both motors, joint by joint: joint_drive.hpp, antagonists.hpp
 ///
 /// The second step needs how the joints are about to move: a = H⁻¹ (τ − C − τ_G − τ_f).
+///
+/// Control begins from where the joints are and as they move, and leads them onto the target: at
+/// first, when frames have been missing, and when a tendon has hung slack. While one hangs, which the
+/// plant then takes up, the joints are held where that began: a loop that pushes on against a muscle
+/// that cannot answer winds itself up, and the limb swings.
 namespace control {
 
 class PullerFollower {
@@ -26,9 +31,10 @@ class PullerFollower {
                         ///< smooth_s counts then
     LawParams laws;
     DriveParams drives;
-    double friction = 1;         ///< share of robot.xml's joint friction that is compensated
-    std::string source = "sim";  ///< whose joint_state is believed
-    double stale_s = 0.05;       ///< older states and targets are no longer followed; chosen
+    double friction = 1;           ///< share of robot.xml's joint friction that is compensated
+    std::string source = "sim";    ///< whose joint_state is believed
+    double stale_s = 0.05;         ///< older states and targets are no longer followed; chosen
+    double start_rad_per_s = 0.5;  ///< about how fast joints are led onto the target; chosen
     void visit(auto& v) {
       v("law", law);
       v("low_N", drives.low_N, xml::at_least_zero);
@@ -49,6 +55,7 @@ class PullerFollower {
       v("friction", friction, xml::at_least_zero);
       v("source", source);
       v("stale_s", stale_s, xml::positive);
+      v("start_rad_per_s", start_rad_per_s, xml::positive);
     }
   };
 
@@ -64,6 +71,8 @@ class PullerFollower {
 
  private:
   bool hear(const erp::SensorFrame& frame, double dt_s);
+  bool hangs() const;
+  void begin();
   void compare();
   void find_torques(double dt_s);
 
@@ -74,12 +83,14 @@ class PullerFollower {
   std::vector<JointDrive> drives_;
   std::unique_ptr<JointLaw> law_;
   std::vector<sim::JointReading> now_;
-  std::vector<sim::JointMotion> wanted_;
+  std::vector<sim::JointMotion> wanted_, held_;
   JointErrors errors_;
   Dynamics dynamics_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::VectorXd torque_, acceleration_;
-  bool driving_ = false;
+  enum class Phase { silent, holds, leads } phase_ = Phase::silent;
+  sim::CatchUp onto_target_;
+  double led_s_ = 0;  ///< since it began
 };
 
 }  // namespace control

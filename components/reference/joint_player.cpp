@@ -11,8 +11,6 @@
 namespace reference {
 namespace {
 
-// Chosen: how long it takes even where it is there already, and to lose start_rad_per_s.
-constexpr double least_start_s = 0.2;
 constexpr double missing_s = 0.05;  // chosen: so long without a frame, and the robot went on alone
 
 std::vector<sim::TimedPose> poses_of(const JointPlayer::Params& params, const erp::Robot& robot) {
@@ -23,12 +21,6 @@ std::vector<sim::TimedPose> poses_of(const JointPlayer::Params& params, const er
     poses.push_back({poses.back().time_s + way_s, poses.front().pose});
   }
   return poses;
-}
-
-double top_speed(std::span<const sim::JointReading> joints) {
-  double most = 0;
-  for (const auto& joint : joints) most = std::max(most, sim::vec(joint.velocity_rad_per_s).norm());
-  return most;
 }
 
 void check_range(const sim::JointPath& path, std::span<const erp::Joint> joints) {
@@ -75,10 +67,7 @@ void JointPlayer::lead() {
 /// From where the robot is and as it moves, onto the path.
 void JointPlayer::pick_up() {
   path_.at(path_s_, led_);
-  const double way_s =
-      sim::least_jerk_top_speed * joints::apart_rad(now_, led_) / params_.start_rad_per_s;
-  const double slow_s = least_start_s * top_speed(now_) / params_.start_rad_per_s;
-  catch_up_ = sim::CatchUp(now_, led_, std::max({way_s, slow_s, least_start_s}));
+  catch_up_ = joints::onto(now_, led_, params_.start_rad_per_s);
   catching_up_s_ = 0;
   begun_ = true;
   lead();

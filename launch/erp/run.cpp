@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "components/node/clock.hpp"
+#include "components/node/real_time.hpp"
 #include "components/node/security.hpp"
 #include "launch/erp/duration.hpp"
 #include "launch/erp/run_folder.hpp"
@@ -73,6 +74,8 @@ int Run::execute() {
   if (const auto security = node::security_folder(); !security.empty())
     say("only who holds a certificate of " + security + " takes part, until " +
         node::security_expires());
+  if (graph_.time != erp::Time::lockstep && !node::may_run_in_real_time())
+    say("no real-time priority (ulimit -r): on a busy machine loops come late, and limbs may swing");
   supervisor_.start(time_.now_ns());
   carry_out();
   while (!supervisor_.done()) {

@@ -4,54 +4,15 @@
 #include <random>
 
 #include "sim/actuator/tendon.hpp"
+#include "tests/components/joint_bench.hpp"
 
 using control::ComputedForce;
 
 namespace {
 
-/// The arm in its starting pose, and what is asked of it.
-struct Bench {
-  erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
-  joints::Names names{robot};
-  sim::Musculoskeletal model{robot};
-  node::Latest<erp::JointState> state;
-  node::Latest<erp::JointTarget> target;
-  erp::SensorFrame frame;
-
-  Bench() {
-    std::vector<sim::JointMotion> still;
-    for (const auto& joint : names.list()) still.push_back({sim::start_of(joint), {}});
-    names.write(still, target.message);
-    for (const auto& sample : erp::samples(target->joints)) {
-      erp::JointStateSample now{};
-      erp::assign(now.name, sample.name);
-      now.dof = sample.dof;
-      std::ranges::copy(sample.position, now.position);
-      erp::append(state.message.joints, now);
-    }
-    for (const auto& actuator : robot.actuators) {
-      erp::ActuatorSample sample{};
-      erp::assign(sample.name, actuator.name);
-      sample.valid = erp::valid::all;
-      sample.tension_N = 5;
-      sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::running);
-      erp::append(frame.actuators, sample);
-    }
-    state.received = target.received = true;
-  }
-  Eigen::VectorXd gravity_Nm() {
-    Eigen::VectorXd torque;
-    model.skeleton().gravity_torques(torque);
-    return torque;
-  }
-  /// −Lᵀ f of a command.
-  Eigen::VectorXd torque_of(const std::optional<erp::ActuatorCommand>& command) {
-    REQUIRE(command);
-    Eigen::VectorXd f(model.length_m().size());
-    for (Eigen::Index a = 0; a < f.size(); ++a) f[a] = command->actuators._buffer[a].reference;
-    return -model.jacobian().transpose() * f;
-  }
-  auto step(ComputedForce& control) { return control.step(frame, 0.002, state, target); }
+/// The arm.
+struct Bench : JointBench {
+  Bench() : JointBench("arm/robot.xml") {}
 };
 
 /// Without what the force laws need beside the tension itself.

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "sim/actuator/motor.hpp"
+#include "tests/components/joint_bench.hpp"
 
 using namespace control;
 
@@ -106,4 +107,33 @@ TEST_CASE("loops of a shape that cannot be had are refused") {
 TEST_CASE("without a target, or with a tendon that is not measured, it says nothing") {
   PullerFollower control({}, rig());
   CHECK_FALSE(control.step({}, 0.002, {}, {}));
+}
+
+TEST_CASE("control begins where the joint is, and so it does anew after frames were missing") {
+  JointBench bench("hinge_rig/robot.xml");
+  PullerFollower control({}, bench.robot);
+  const auto first = bench.references(bench.step(control));
+  bench.target.message.joints._buffer[0].position[0] += 0.3;
+  Eigen::VectorXd on = first;
+  for (int k = 0; k < 100; ++k) on = bench.references(bench.step(control));
+  CHECK(on[0] > first[0] + 1);
+  CHECK((bench.references(bench.step(control, 0.3)) - first).norm() < 0.2);
+}
+
+TEST_CASE("while a tendon hangs slack the joint is held where it is, then led on from there") {
+  JointBench moves("hinge_rig/robot.xml"), stays("hinge_rig/robot.xml");
+  PullerFollower moved({}, moves.robot), stayed({}, stays.robot);
+  moves.target.message.joints._buffer[0].position[0] += 0.3;
+  const auto flexors_differ_V = [&](double extensor_N, int steps) {
+    Eigen::VectorXd differ;
+    for (JointBench* bench : {&moves, &stays})
+      bench->frame.actuators._buffer[1].tension_N = extensor_N;
+    for (int k = 0; k < steps; ++k)
+      differ = moves.references(moves.step(moved)) - stays.references(stays.step(stayed));
+    return differ[0];
+  };
+  CHECK(flexors_differ_V(5, 100) > 1);
+  CHECK(flexors_differ_V(0, 100) == Approx(0).margin(0.1));
+  CHECK(flexors_differ_V(5, 1) == Approx(0).margin(0.1));
+  CHECK(flexors_differ_V(5, 100) > 1);
 }

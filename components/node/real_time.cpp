@@ -1,0 +1,24 @@
+#include "components/node/real_time.hpp"
+
+#include <pthread.h>
+
+namespace node {
+namespace {
+
+constexpr sched_param urgent{.sched_priority =
+                                 60};  // chosen: above the kernel's own interrupts' 50
+
+}  // namespace
+
+RealTime::RealTime(bool wanted) {
+  pthread_getschedparam(pthread_self(), &policy_before_, &before_);
+  on_ = wanted && pthread_setschedparam(pthread_self(), SCHED_FIFO, &urgent) == 0;
+}
+
+RealTime::~RealTime() {
+  if (on_) pthread_setschedparam(pthread_self(), policy_before_, &before_);
+}
+
+bool may_run_in_real_time() { return RealTime(true).on(); }
+
+}  // namespace node
