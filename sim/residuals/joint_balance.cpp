@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/residuals/loose_joint.hpp"
 #include "sim/residuals/stages.hpp"
 
 namespace sim::residuals {
@@ -26,27 +27,6 @@ std::pair<double, double> range(const Signal& signal, const Bump& bump, std::siz
   const auto [low, high] =
       std::minmax_element(first, first + static_cast<std::ptrdiff_t>(2 * bump.reach() + 1));
   return {*low, *high};
-}
-
-/// A sensor whose shaft is loose trails the bone by half its looseness; while it rests after a
-/// reversal the bone crosses over, evenly as far as one can tell.
-void take_up(Signal& angle, double loose_rad, double period_s) {
-  if (loose_rad == 0 || angle.empty()) return;
-  constexpr double half_width_s = 0.016, still_rad_per_s = 0.03;
-  const Signal speed = Bump(half_width_s, period_s).rates(angle);
-  std::size_t moved = 0;  // the row after which it rests
-  double side = 0;
-  for (std::size_t k = 0; k < angle.size(); ++k) {
-    if (!(std::abs(speed[k]) > still_rad_per_s)) continue;
-    const double now = std::copysign(0.5, speed[k]);
-    for (std::size_t between = moved + 1; between < k; ++between) {
-      const double share = double(between - moved) / double(k - moved);
-      angle[between] += loose_rad * (side + share * (now - side));
-    }
-    angle[k] += loose_rad * now;
-    side = now, moved = k;
-  }
-  for (std::size_t k = moved + 1; k < angle.size(); ++k) angle[k] += loose_rad * side;
 }
 
 }  // namespace
@@ -95,6 +75,7 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   JointTrace trace;
   trace.signals.resize(joints.size());  // an effect may have added some
   const Bump bump(windows_.half_width_s, episode.period_s);
+  std::vector<LooseJoint> loose;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto recorded = std::ranges::find(recorded_joints_, joints[j].name);
     if (recorded != recorded_joints_.end())
@@ -108,10 +89,14 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
         angle[k] = acting.undo(effects::Sense::joint, said[k],
                                {episode.period_s * double(k), episode.period_s, 1,
                                 rate_of(said, k, episode.period_s)});
-      take_up(angle, acting.looseness_rad(), episode.period_s);
+      if (const double width = acting.looseness_rad(); width > 0 && !angle.empty()) {
+        loose.push_back({j, width, angle});
+        angle = taken_up(angle, width, episode.period_s);
+      }
     }
   }
   find_pose(episode, trace, guess);
+  find_crossings(episode, trace, loose);
   for (const JointSignals& joint : trace.signals)
     trace.speed_rad_per_s.push_back(bump.rates(joint.angle_rad));
   bend(episode, trace);

@@ -1,5 +1,6 @@
-// Where joints were that a recording leaves out.
+// Where joints were that a recording leaves out, or that a loose sensor tells too late.
 #include <algorithm>
+#include <cmath>
 
 #include "sim/residuals/indices.hpp"
 #include "sim/residuals/pose_from_tendons.hpp"
@@ -18,14 +19,6 @@ std::vector<std::size_t> telling(const Episode& episode, const erp::Robot& robot
   return lines;
 }
 
-/// Without what the motors do: it is of no matter here.
-Episode lines_alone(const Episode& episode) {
-  Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
-  for (const ActuatorSignals& s : episode.actuators)
-    lines.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
-  return lines;
-}
-
 }  // namespace
 
 std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
@@ -38,17 +31,24 @@ std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
   return missing;
 }
 
+std::vector<ChainTrace> Stages::pulls(const Episode& episode, std::span<const std::size_t> lines,
+                                      const JointTrace& joints) {
+  Episode pulled{episode.name, episode.period_s, episode.rows, {}, {}};
+  for (const ActuatorSignals& s : episode.actuators)
+    pulled.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
+  const auto paths = this->paths(episode, joints, lines);
+  std::vector<ChainTrace> all;
+  for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(pulled, lines[n], paths[n]));
+  return all;
+}
+
 void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
   const auto missing = missing_joints(trace), lines = telling(episode, equipped_.robot);
   if (missing.empty() || lines.empty()) return;
   const bool near = guess && guess->estimated;
   if (near) trace.nearby = guess->nearby;
-  const Episode pulled = lines_alone(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
-    const auto paths = this->paths(episode, {.signals = signals, .nearby = trace.nearby}, lines);
-    std::vector<ChainTrace> all;
-    for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(pulled, lines[n], paths[n]));
-    return all;
+    return pulls(episode, lines, {.signals = signals, .nearby = trace.nearby});
   };
   const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s);
   if (lines.size() < search.unknowns()) return;
@@ -59,6 +59,30 @@ void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTra
   search.better(trace.signals, near ? from_near : from_afar, near ? from_near : 1);
   trace.estimated = true;
   if (!trace.nearby) trace.nearby = nearby(episode, trace, missing);
+}
+
+void Stages::find_crossings(const Episode& episode, JointTrace& trace,
+                            std::span<const LooseJoint> loose) {
+  const auto lines = telling(episode, equipped_.robot);
+  if (loose.empty() || lines.empty() || trace.estimated) return;
+  std::vector<std::size_t> joints;
+  for (const LooseJoint& l : loose) joints.push_back(l.joint);
+  const auto chains = [&](const std::vector<JointSignals>& signals) {
+    return pulls(episode, lines, {.signals = signals});
+  };
+  const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s);
+  if (lines.size() < search.unknowns()) return;
+  auto told = trace.signals;
+  constexpr int steps = 2;  // chosen
+  search.better(told, steps, steps);
+  for (const LooseJoint& l : loose) {
+    const Signal& at = told[l.joint].angle_rad;
+    const auto may = may_cross(l.said_rad, episode.period_s);
+    for (std::size_t k = 0; k < may.size(); ++k)
+      if (may[k] && !std::isnan(at[k]))
+        trace.signals[l.joint].angle_rad[k] =
+            std::clamp(at[k], l.said_rad[k] - l.width_rad / 2, l.said_rad[k] + l.width_rad / 2);
+  }
 }
 
 std::shared_ptr<const PathsNearby> Stages::nearby(const Episode& episode, const JointTrace& trace,

@@ -5,6 +5,7 @@
 
 #include "sim/effects/library.hpp"
 #include "sim/residuals/explanation.hpp"
+#include "sim/residuals/loose_joint.hpp"
 
 /// Where model and recording part: the chain cut at every measured signal, each stage driven by
 /// what was measured at its ends, so that an error upstream cannot pose as one downstream.
@@ -64,6 +65,11 @@ class Stages {
   std::vector<std::size_t> missing_joints(const JointTrace& trace) const;
   /// Sets them, if enough tendons say where they are.
   void find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess);
+  /// Where loose sensors may rest, sets their joints to where the tendons pull as measured.
+  void find_crossings(const Episode& episode, JointTrace& trace, std::span<const LooseJoint> loose);
+  /// Of some lines, without what the motors do: it is of no matter to where joints are.
+  std::vector<ChainTrace> pulls(const Episode& episode, std::span<const std::size_t> lines,
+                                const JointTrace& joints);
   std::shared_ptr<const PathsNearby> nearby(const Episode& episode, const JointTrace& trace,
                                             std::span<const std::size_t> missing);
   ChainTrace chain(const Episode& episode, std::size_t actuator, const PathTrace& path) const;

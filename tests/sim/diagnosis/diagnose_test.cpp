@@ -54,6 +54,16 @@ TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings hel
   for (const std::string& name : d.held_out) CHECK(std::ranges::count(d.train, name) == 0);
 }
 
+TEST_CASE("a loose sensor of a joint is named: where it rests, the tendons tell of the bone") {
+  auto blind = nothing_hidden();
+  blind.quirks.joints[0].loose_rad = 0.03;
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  REQUIRE(d.verdict == Verdict::supported);
+  CHECK(d.answer[0].type == "joint_play");
+  CHECK(value_of(d.answer[0], "width_rad") == Approx(0.03).epsilon(0.05));
+  CHECK(d.overall.closed > 0.9);
+}
+
 TEST_CASE("withheld, it is none of the known, at its place") {
   auto blind = nothing_hidden();
   blind.quirks.chains[0].dead_V = 0.4;  // flexor

@@ -54,7 +54,7 @@ struct Sign {
 };
 
 // Not here: what this motion does not show (stiction, inductance, backlash, an attachment that lies
-// on its pulley), what cannot be undone (quantisation, play), and the bus.
+// on its pulley), what cannot be undone (quantisation), and the bus.
 const std::vector<Sign> signs{
     {"motor_resistance", {"motor flexor", "gearbox flexor"}},
     {"motor_torque_constant", {"motor flexor", "gearbox flexor"}},
@@ -82,6 +82,7 @@ const std::vector<Sign> signs{
     {"joint_coulomb", {"joint elbow"}},
     {"joint_viscous", {"joint elbow"}},
     {"joint_passive_stiffness", {"joint elbow"}},
+    {"joint_play", {"tendon flexor", "tendon extensor", "joint elbow"}},
     {"skeleton_mass", {"joint elbow"}},
     {"skeleton_com", {"joint elbow"}},
     {"skeleton_base_tilt", {"joint elbow"}},
