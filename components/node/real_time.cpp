@@ -5,8 +5,8 @@
 namespace node {
 namespace {
 
-constexpr sched_param urgent{.sched_priority =
-                                 60};  // chosen: above the kernel's own interrupts' 50
+// Chosen: behind ECUs that are processes (firmware/board/host), each with a processor to itself.
+constexpr sched_param urgent{.sched_priority = 5};
 
 }  // namespace
 

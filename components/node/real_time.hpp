@@ -20,7 +20,7 @@ class RealTime {
   sched_param before_{};
 };
 
-/// Whether this process may: of root, or `ulimit -r` of 60 or more.
+/// Whether this process may: of root, or `ulimit -r` of 5 or more.
 bool may_run_in_real_time();
 
 }  // namespace node

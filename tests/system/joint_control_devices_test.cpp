@@ -2,11 +2,11 @@
 // limbs move, and on a machine that has more to do than it can.
 #include <atomic>
 #include <iostream>
-
-#include "components/node/real_time.hpp"
+#include <memory>
 
 #include "tests/system/background.hpp"
 #include "tests/system/joint_runs.hpp"
+#include "tests/system/stalls.hpp"
 
 using namespace tests;
 
@@ -27,6 +27,16 @@ Led led() {
 std::string over_can() {
   const std::string bus = "udp:239.255.42.9:" + std::to_string(23000 + own_domain);
   return " --device can --set gateway.bus=" + bus + " --set sim.bus=" + bus;
+}
+
+/// How far the joints were off, which must be less than `allowed_deg` RMS.
+void judge(const std::string& run, const std::string& recording, double from_s,
+           double allowed_deg) {
+  for (const auto& e : errors(recording, "sim", "joint_target", from_s)) {
+    std::cout << run << ": " << e.joint << " " << e.rms_rad / degree << "° RMS, "
+              << e.largest_rad / degree << "° at most from " << from_s << " s on\n";
+    CHECK(e.rms_rad < allowed_deg * degree);
+  }
 }
 
 /// More threads than the machine has cores, that never rest.
@@ -56,48 +66,44 @@ TEST_CASE("over the gateway every controller of joints follows as it does beside
   CAPTURE(run.graph);
   Folder folder;
   const auto file = recorded(folder, "launch/" + run.graph + ".xml" + over_can(), run.for_s);
-  for (const auto& e : errors(file, "sim", "joint_target")) {
-    std::cout << run.graph << " over CAN: " << e.joint << " " << e.rms_rad / degree << "° RMS, "
-              << e.largest_rad / degree << "° at most\n";
-    CHECK(e.rms_rad < run.allowed_deg * degree);
-  }
+  judge(run.graph + " over CAN", file, 0.5, run.allowed_deg);
   CHECK(least_tension_N(file) > 0.5);
 }
 
 TEST_CASE("a plant that is killed and comes back: the joints are soon where they should be") {
   const Led run = led();
   CAPTURE(run.graph);
-  Folder folder;
-  Background graph({"launch", "launch/" + run.graph + ".xml", "--out", folder / "run"},
-                   folder / "run.txt");
-  REQUIRE(graph.says("all components are active"));
-  std::this_thread::sleep_for(3s);
-  const pid_t plant = graph.child("plant");
-  REQUIRE(plant > 0);
-  kill(plant, SIGKILL);
-  std::this_thread::sleep_for(9s);
-  INFO(graph.output());
-  CHECK(graph.stop() == 0);
-  const auto file = recording_in(folder / "run");
-  for (const auto& e : errors(file, "sim", "joint_target", 9)) {
-    std::cout << run.graph << ", plant killed: " << e.joint << " " << e.rms_rad / degree
-              << "° RMS, " << e.largest_rad / degree << "° at most from 9 s on\n";
-    CHECK(e.rms_rad < (run.allowed_deg + 0.5) * degree);
-  }
+  in_real_time([&] {
+    auto folder = std::make_shared<Folder>();
+    Background graph({"launch", "launch/" + run.graph + ".xml", "--out", *folder / "run"},
+                     *folder / "run.txt");
+    REQUIRE(graph.says("all components are active"));
+    std::this_thread::sleep_for(3s);
+    const pid_t plant = graph.child("plant");
+    REQUIRE(plant > 0);
+    kill(plant, SIGKILL);
+    std::this_thread::sleep_for(9s);
+    const int exit_code = graph.stop();
+    return [=, said = graph.output()] {
+      INFO(said);
+      CHECK(exit_code == 0);
+      judge(run.graph + ", plant killed", recording_in(*folder / "run"), 9, run.allowed_deg + 0.5);
+    };
+  });
 }
 
 TEST_CASE("on a machine that is busy the joints are led as on an idle one") {
-  REQUIRE(node::may_run_in_real_time());  // as root, or with ulimit -r 60
+  REQUIRE(node::may_run_in_real_time());  // as root, or with ulimit -r 20
   const Led run{"puller_follower_twin", 12, 1.5};
-  Folder folder;
   const Hogs hogs;
-  const auto outcome =
-      tests::run("erp launch launch/" + run.graph + ".xml --for 12s --out " + (folder / "run"));
-  INFO(outcome.output);
-  CHECK(outcome.exit_code == 0);
-  for (const auto& e : errors(recording_in(folder / "run"), "sim", "joint_target", 2)) {
-    std::cout << "busy machine: " << e.joint << " " << e.rms_rad / degree << "° RMS, "
-              << e.largest_rad / degree << "° at most\n";
-    CHECK(e.rms_rad < run.allowed_deg * degree);
-  }
+  in_real_time([&] {
+    auto folder = std::make_shared<Folder>();
+    const auto outcome = tests::run("erp launch launch/" + run.graph + ".xml --for " +
+                                    std::to_string(run.for_s) + "s --out " + (*folder / "run"));
+    return [=] {
+      INFO(outcome.output);
+      CHECK(outcome.exit_code == 0);
+      judge(run.graph + ", machine busy", recording_in(*folder / "run"), 2, run.allowed_deg);
+    };
+  });
 }

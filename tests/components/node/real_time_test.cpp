@@ -12,7 +12,7 @@ int policy() { return sched_getscheduler(0); }
 }  // namespace
 
 TEST_CASE("real-time priority goes over to threads that are started, and ends with its owner") {
-  REQUIRE(node::may_run_in_real_time());  // as root, or with ulimit -r 60
+  REQUIRE(node::may_run_in_real_time());  // as root, or with ulimit -r 20
   CHECK(policy() == SCHED_OTHER);
   int of_thread = -1;
   {
