@@ -5,35 +5,12 @@
 #include "components/pose_estimator/pose_estimator.hpp"
 #include "components/puller_follower/puller_follower.hpp"
 #include "tests/allocations.hpp"
+#include "tests/components/joint_bench.hpp"
 
 namespace {
 
-struct Bench {
-  erp::Robot robot;
-  node::Latest<erp::JointState> state;
-  node::Latest<erp::JointTarget> target;
-  erp::SensorFrame frame;
-
-  explicit Bench(const std::string& name)
-      : robot(erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml")) {
-    const joints::Names names(robot);
-    std::vector<sim::JointMotion> still;
-    for (const auto& joint : names.list()) still.push_back({sim::start_of(joint), {}});
-    names.write(still, target.message);
-    for (const auto& sample : erp::samples(target->joints)) {
-      erp::JointStateSample now{};
-      erp::assign(now.name, sample.name);
-      std::ranges::copy(sample.position, now.position);
-      erp::append(state.message.joints, now);
-    }
-    for (const auto& actuator : robot.actuators) {
-      erp::ActuatorSample sample{};
-      erp::assign(sample.name, actuator.name);
-      sample.valid = erp::valid::all, sample.tension_N = actuator.tendon.pretension_N;
-      erp::append(frame.actuators, sample);
-    }
-    state.received = target.received = true;
-  }
+struct Bench : JointBench {
+  explicit Bench(const std::string& name) : JointBench(name + "/robot.xml") {}
   /// Everything moves a little, so that bounds come and go.
   void wiggle(int k) {
     const double by = 0.02 * std::sin(0.3 * k);
