@@ -129,8 +129,7 @@ double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::Join
 
 sim::CatchUp onto(std::span<const sim::JointReading> now, std::span<const sim::JointMotion> wanted,
                   double rad_per_s) {
-  constexpr double least_s =
-      0.2;  // chosen: even where they are there already, or to lose that speed
+  constexpr double least_s = 0.2;  // chosen: where they are there already, or to lose that speed
   double top = 0;
   for (const auto& joint : now) top = std::max(top, sim::vec(joint.velocity_rad_per_s).norm());
   const double way_s = sim::least_jerk_top_speed * apart_rad(now, wanted) / rad_per_s;

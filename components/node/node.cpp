@@ -40,8 +40,9 @@ spdlog::level::level_enum level_of(erp::Severity severity) {
 
 }  // namespace
 
-Node::Node(Options options, std::string robot_name)
+Node::Node(Options options, std::string robot_name, Urgency urgency)
     : options_(std::move(options)),
+      urgency_(urgency),
       identity_{std::move(robot_name), options_.name, options_.priority},
       clock_(options_.time),
       signals_(prepare_process()),
@@ -63,7 +64,7 @@ Entity Node::join_in_time() {
   return join(self_);
 }
 
-bool Node::in_real_time() const { return !clock_.lockstep() && !options_.background; }
+bool Node::in_real_time() const { return urgency_ == Urgency::real_time && !clock_.lockstep(); }
 
 Node::~Node() {
   gate_.close();

@@ -30,7 +30,10 @@ namespace node {
 
 class Node {
  public:
-  Node(Options options, std::string robot_name);
+  /// Whether a robot waits for it: it then runs at real-time priority where it may (real_time.hpp).
+  enum class Urgency { usual, real_time };
+
+  Node(Options options, std::string robot_name, Urgency urgency = Urgency::real_time);
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -106,6 +109,7 @@ class Node {
   void leave_to(const Peer& predecessor);
 
   Options options_;
+  Urgency urgency_;
   Identity identity_;
   Clock clock_;
   int signals_;  // before the participant, whose threads inherit the mask

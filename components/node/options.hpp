@@ -16,11 +16,10 @@ struct Options {
   std::string config;
   std::vector<std::pair<std::string, std::string>> settings;  ///< --set key=value
   erp::Time time = erp::Time::realtime;
-  bool managed = false;     ///< wait for the launcher before becoming active
-  double duration_s = 0;    ///< for devices: end the run by yourself; 0: never
-  int priority = 0;         ///< of a controller: the higher number drives
-  bool check = false;       ///< only check config and settings, then exit
-  bool background = false;  ///< no robot waits for it: run.hpp
+  bool managed = false;   ///< wait for the launcher before becoming active
+  double duration_s = 0;  ///< for devices: end the run by yourself; 0: never
+  int priority = 0;       ///< of a controller: the higher number drives
+  bool check = false;     ///< only check config and settings, then exit
 };
 
 /// Reads the command line; prints help, or a mistake with its remedy, and sets `exit_code` when

@@ -173,7 +173,8 @@ template <class T>
 int run_component(const Options& options) {
   const auto params = read_params<typename T::Params>(options);
   const erp::Robot robot = erp::read_robot(options.robot);
-  Node node(options, robot.name);
+  constexpr bool waited_for = !requires { T::in_background; };
+  Node node(options, robot.name, waited_for ? Node::Urgency::real_time : Node::Urgency::usual);
   T component = [&] {
     if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&, Node&>)
       return T(params, robot, node);
@@ -195,9 +196,8 @@ int run_component(const Options& options) {
 template <class T>
 int run(int argc, char** argv) {
   int exit_code = -1;
-  Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
+  const Options options = parse_options(argc, argv, xml::describe<typename T::Params>(), exit_code);
   if (exit_code >= 0) return exit_code;
-  options.background = requires { T::in_background; };
   try {
     if (options.check) return detail::check<T>(options), 0;
     if (options.robot.empty())

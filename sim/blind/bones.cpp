@@ -14,7 +14,7 @@ namespace j = joint_state;
 
 constexpr double reach_rad = 2e-4, settles_s = 2e-3;  // of a bristle
 constexpr double stop_Nm_per_rad = 300, stop_Nm_s_per_rad = 1;
-constexpr double loose_s = 2e-4;  // how fast a loose shaft is taken along
+constexpr double loose_s = 2e-4;  // in which a loose shaft is taken along: twice the step
 
 /// Torque of the bearing along one of its axes; ds: of its bristle.
 double rub(const erp::Joint& joint, const JointQuirks& q, double speed, double v, double bristle,

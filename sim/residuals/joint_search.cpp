@@ -19,6 +19,14 @@ std::vector<std::size_t> telling(const Episode& episode, const erp::Robot& robot
   return lines;
 }
 
+/// Without what the motors do: it is of no matter here.
+Episode lines_alone(const Episode& episode) {
+  Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
+  for (const ActuatorSignals& s : episode.actuators)
+    lines.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
+  return lines;
+}
+
 }  // namespace
 
 std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
@@ -31,14 +39,12 @@ std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
   return missing;
 }
 
-std::vector<ChainTrace> Stages::pulls(const Episode& episode, std::span<const std::size_t> lines,
-                                      const JointTrace& joints) {
-  Episode pulled{episode.name, episode.period_s, episode.rows, {}, {}};
-  for (const ActuatorSignals& s : episode.actuators)
-    pulled.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
+std::vector<ChainTrace> Stages::chains_of(const Episode& episode,
+                                          std::span<const std::size_t> lines,
+                                          const JointTrace& joints) {
   const auto paths = this->paths(episode, joints, lines);
   std::vector<ChainTrace> all;
-  for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(pulled, lines[n], paths[n]));
+  for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(episode, lines[n], paths[n]));
   return all;
 }
 
@@ -47,8 +53,9 @@ void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTra
   if (missing.empty() || lines.empty()) return;
   const bool near = guess && guess->estimated;
   if (near) trace.nearby = guess->nearby;
+  const Episode pulled = lines_alone(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
-    return pulls(episode, lines, {.signals = signals, .nearby = trace.nearby});
+    return chains_of(pulled, lines, {.signals = signals, .nearby = trace.nearby});
   };
   const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s);
   if (lines.size() < search.unknowns()) return;
@@ -67,8 +74,9 @@ void Stages::find_crossings(const Episode& episode, JointTrace& trace,
   if (loose.empty() || lines.empty() || trace.estimated) return;
   std::vector<std::size_t> joints;
   for (const LooseJoint& l : loose) joints.push_back(l.joint);
+  const Episode pulled = lines_alone(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
-    return pulls(episode, lines, {.signals = signals});
+    return chains_of(pulled, lines, {.signals = signals});
   };
   const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s);
   if (lines.size() < search.unknowns()) return;

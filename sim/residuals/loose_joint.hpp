@@ -8,7 +8,7 @@
 ///   the sensor turns one way   q = said ± w/2: the bone takes it along
 ///   it rests, or turns back    |q − said| ≤ w/2: the bone crosses unseen
 ///
-/// Ignores: bones that swing within w while the sensor rests, unless tendons tell of it
+/// Source: the effect's, sim/effects/joint/play.hpp. Ignores: bones that swing within w while the sensor rests, unless tendons tell of it
 /// (joint_search.cpp).
 namespace sim::residuals {
 

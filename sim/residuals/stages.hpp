@@ -67,9 +67,9 @@ class Stages {
   void find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess);
   /// Where loose sensors may rest, sets their joints to where the tendons pull as measured.
   void find_crossings(const Episode& episode, JointTrace& trace, std::span<const LooseJoint> loose);
-  /// Of some lines, without what the motors do: it is of no matter to where joints are.
-  std::vector<ChainTrace> pulls(const Episode& episode, std::span<const std::size_t> lines,
-                                const JointTrace& joints);
+  /// Of some actuators, in their order.
+  std::vector<ChainTrace> chains_of(const Episode& episode, std::span<const std::size_t> lines,
+                                    const JointTrace& joints);
   std::shared_ptr<const PathsNearby> nearby(const Episode& episode, const JointTrace& trace,
                                             std::span<const std::size_t> missing);
   ChainTrace chain(const Episode& episode, std::size_t actuator, const PathTrace& path) const;
