@@ -7,15 +7,17 @@
 /// without differentiating noise: both sides of an equation are weighed alike, and derivatives fall
 /// on the window (weak form).
 ///
-///   ⟨x⟩ = ∫ φ x dt     ⟨ẋ⟩ = −∫ φ̇ x dt     ⟨ẍ⟩ = ∫ φ̈ x dt          φ(t) ~ (1 − (t/T)²)³, |t| < T
+///   ⟨x⟩ = Σ φ_j x_k+j     φ(t) ~ (1 − (t/T)²)³, |t| < T, Σ φ_j = 1
+///   ⟨ẋ⟩ = ⟨(x_k+1 − x_k−1)/2Δ⟩     ⟨ẍ⟩ = ⟨(x_k+1 − 2 x_k + x_k−1)/Δ²⟩
 ///
-/// Weights are those of the samples, set so that parabolas come out exactly.
+/// with the differences' weights on φ instead of x. Differences, not derivatives of φ: a motion
+/// whose acceleration is held between samples obeys them exactly, however sudden.
 /// Source: weak-form identification (Messenger, Bortz 2021); modulating functions (Shinbrot 1957).
 namespace sim::residuals {
 
 class Bump {
  public:
-  /// `half_width_s` T, at least two periods.
+  /// `half_width_s` T, at least three periods.
   Bump(double half_width_s, double period_s);
 
   /// Samples on each side of the middle.

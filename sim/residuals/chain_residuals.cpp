@@ -17,34 +17,54 @@ struct Chain {
   const Bump& bump;
 };
 
-/// V − R i without the current's start within each period.
-Signal resistive_V(const Chain& c) {
+/// V − R i at the end of each period, without the current's start within it.
+Signal settled_V(const Chain& c) {
   const ChainTrace& t = c.trace;
   Signal left(t.terminal_V.size(), nan);
   for (std::size_t k = 1; k < left.size(); ++k) {
     // of the current before, so much is left at the end of a period
     const double kept = std::exp(-c.period_s * t.resistance_ohm[k] / c.motor.inductance_H);
     const double settled_A = (t.current_A[k] - kept * t.current_A[k - 1]) / (1 - kept);
-    const double a = t.current_averaged;
-    const double next_V = k + 1 < left.size() ? t.terminal_V[k + 1] : t.terminal_V[k];
-    left[k] = t.terminal_V[k] + a / 2 * (next_V - t.terminal_V[k]) -
-              t.resistance_ohm[k] * ((1 - a) * settled_A + a * t.current_A[k]);
+    left[k] = t.terminal_V[k] - t.resistance_ohm[k] * settled_A;
+  }
+  return left;
+}
+
+/// V − R i over each period: what K_E N (θ_k − θ_k−1)/T answers to.
+Signal over_period_V(const Chain& c) {
+  const Signal settled = settled_V(c);
+  Signal left(settled.size(), nan);
+  erp::MotorType motor = c.motor;
+  double d = earlier_share(motor, c.period_s);
+  for (std::size_t k = 1; k < left.size(); ++k) {
+    const double ohm = c.trace.resistance_ohm[k];
+    if (ohm != motor.resistance_ohm && ohm > 0)
+      motor.resistance_ohm = ohm, d = earlier_share(motor, c.period_s);
+    left[k] = (1 - d) * settled[k] + d * settled[k - 1];
+  }
+  return left;
+}
+
+/// V − R i over the two periods around each row: what K_E N (θ_k+1 − θ_k−1)/2T answers to.
+Signal around_V(const Chain& c) {
+  const ChainTrace& t = c.trace;
+  const Signal over = over_period_V(c);
+  const double a = t.current_averaged;
+  Signal left(over.size(), nan);
+  for (std::size_t k = 1; k + 1 < left.size(); ++k) {
+    const double averaged =
+        (t.terminal_V[k] + t.terminal_V[k + 1]) / 2 - t.resistance_ohm[k] * t.current_A[k];
+    left[k] = (1 - a) * (over[k] + over[k + 1]) / 2 + a * averaged;
   }
   return left;
 }
 
 std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
-  const Signal left = resistive_V(c);
-  erp::MotorType motor = c.motor;
+  const Signal left = around_V(c);
   const double back_emf = c.motor.back_emf_V_s_per_rad * c.motor.gear_ratio;
   std::vector<double> value;
-  for (const std::size_t k : rows) {
-    motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
-    const double lag_s = (1 - c.trace.current_averaged) * current_lag_s(motor, c.period_s);
-    value.push_back(c.bump.mean(left, k) -
-                    back_emf * (c.bump.rate(c.trace.shaft_rad, k) -
-                                lag_s * c.bump.acceleration(c.trace.shaft_rad, k)));
-  }
+  for (const std::size_t k : rows)
+    value.push_back(c.bump.mean(left, k) - back_emf * c.bump.rate(c.trace.shaft_rad, k));
   return value;
 }
 

@@ -169,10 +169,10 @@ class Tracer {
     return now + trailing_ * (current_A(k - 1) - now);
   }
 
-  /// ī over the two periods around row k.
+  /// ī over the two periods around row k, so weighed that it drives the change of their mean speeds.
   double around_A(std::size_t k) const {
     const double a = out_.current_averaged;
-    return (1 - a) * 0.5 * (mean_A(k) + mean_A(k + 1)) + a * current_A(k);
+    return (1 - a) * (earlier_ * mean_A(k) + (1 - earlier_) * mean_A(k + 1)) + a * current_A(k);
   }
 
   void find_drive() {
@@ -207,6 +207,7 @@ class Tracer {
   const PathTrace& path_;
   double period_s_;
   double trailing_ = trail_s(m_.motor, period_s_) / period_s_;
+  double earlier_ = mean_speed_share(m_.motor, period_s_);
   Bump bump_;
   TendonLaw law_;
   bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission

@@ -28,9 +28,13 @@ double trail_s(const erp::MotorType& m, double period_s) {
   return period_s * (lag - 1 / std::expm1(1 / lag));
 }
 
-double current_lag_s(const erp::MotorType& m, double period_s) {
+double mean_speed_share(const erp::MotorType& m, double period_s) {
+  return settling(m, period_s).share;
+}
+
+double earlier_share(const erp::MotorType& m, double period_s) {
   const Settling s = settling(m, period_s);
-  return s.end * trail_s(m, period_s) + (0.5 - s.share) * period_s;
+  return s.share - s.end * trail_s(m, period_s) / period_s;
 }
 
 double balance_inertia(const erp::MotorType& m, double period_s, double sampled) {
