@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <limits>
 
@@ -35,6 +36,26 @@ std::vector<Knob> knobs_of(effects::AnyEffect& effect) {
 
 using Effects = std::vector<effects::Placed>;
 
+/// Answers given last. Ceres asks for each again: in its line search, for the cost of the step, and
+/// for derivatives there.
+class Lately {
+ public:
+  using Vector = std::vector<double>;
+
+  const Vector* answer(const Vector& u) const {
+    const auto found = std::ranges::find(all_, u, &std::pair<Vector, Vector>::first);
+    return found == all_.end() ? nullptr : &found->second;
+  }
+  void keep(Vector u, Vector z) {
+    constexpr std::size_t kept = 16;  // more than a step and its derivatives
+    if (all_.size() == kept) all_.pop_front();
+    all_.emplace_back(std::move(u), std::move(z));
+  }
+
+ private:
+  std::deque<std::pair<Vector, Vector>> all_;
+};
+
 /// Σ z² of a trial as a cost for Ceres.
 struct Cost {
   std::function<Trial(const Effects&)> tried;
@@ -43,14 +64,23 @@ struct Cost {
   Effects& effects;
   std::vector<Knob>& knobs;
   std::size_t residuals;
+  mutable Lately lately = {};
 
-  bool operator()(double const* const* u, double* z) const {
-    for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(u[0][k]);
-    const Trial trial = tried(effects);
-    std::size_t n = 0;
-    for (const std::size_t e : episodes)
-      for (const double one : trials.whitened(trial, e)) z[n++] = std::isnan(one) ? 0 : one;
+  bool operator()(double const* const* at, double* z) const {
+    const std::vector<double> u(at[0], at[0] + knobs.size());
+    if (!lately.answer(u)) lately.keep(u, of(u));
+    std::ranges::copy(*lately.answer(u), z);
     return true;
+  }
+
+ private:
+  std::vector<double> of(const std::vector<double>& u) const {
+    for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(u[k]);
+    const Trial trial = tried(effects);
+    std::vector<double> z;
+    for (const std::size_t e : episodes)
+      for (const double one : trials.whitened(trial, e)) z.push_back(std::isnan(one) ? 0 : one);
+    return z;
   }
 };
 
@@ -140,6 +170,34 @@ std::vector<std::vector<double>> starts(const std::vector<Knob>& knobs, bool giv
   return all;
 }
 
+std::vector<double> values_of(effects::Placed placed) {
+  std::vector<double> values;
+  for (const effects::Parameter& p : effects::parameters(placed.effect)) values.push_back(*p.value);
+  return values;
+}
+
+/// Several effects at values of which mostly one effect's differ from those before: derivatives
+/// change one at a time.
+class OneByOne {
+ public:
+  OneByOne(const Trials& trials, std::span<const std::size_t> episodes)
+      : trials_(trials), episodes_(episodes) {}
+
+  Trial operator()(const Effects& now) {
+    std::vector<std::size_t> other;
+    for (std::size_t k = 0; k < middle_.effects.size(); ++k)
+      if (values_of(now[k]) != values_of(middle_.effects[k])) other.push_back(k);
+    if (other.size() == 1) return trials_.changed(middle_, other[0], now[other[0]], episodes_);
+    if (middle_.effects.empty() || !other.empty()) middle_ = trials_.with(now, episodes_);
+    return middle_;
+  }
+
+ private:
+  const Trials& trials_;
+  std::span<const std::size_t> episodes_;
+  Trial middle_;
+};
+
 std::size_t count_residuals(const Trials& trials, std::span<const std::size_t> episodes) {
   std::size_t count = 0;
   for (const std::size_t e : episodes) count += trials.whitened(trials.bare(), e).size();
@@ -183,12 +241,9 @@ std::vector<Fit> fit_together(const Trials& trials, std::span<const effects::Pla
     for (const Knob& knob : knobs_of(placed.effect)) knobs.push_back(knob);
   }
   first.push_back(knobs.size());
-  const Cost cost{[&](const Effects& e) { return trials.with(e, episodes); },
-                  trials,
-                  episodes,
-                  effects,
-                  knobs,
-                  count_residuals(trials, episodes)};
+  OneByOne tried(trials, episodes);
+  const Cost cost{std::ref(tried), trials, episodes,
+                  effects,         knobs,  count_residuals(trials, episodes)};
   std::vector<double> u;
   for (const Knob& knob : knobs) u.push_back(knob.to_u(*knob.value));
   const Least least = minimise(cost, u, options.iterations);

@@ -38,12 +38,25 @@ std::vector<double> Trials::floor_under(const Trial& trial, std::size_t episode)
 
 Trial Trials::with(const Trial& base, const effects::Placed& more,
                    std::span<const std::size_t> episodes) const {
-  Trial trial{base.effects, std::vector<residuals::Explanation>(episodes_.size())};
-  trial.effects.push_back(more);
+  std::vector<effects::Placed> all = base.effects;
+  all.push_back(more);
+  return beside(base, std::move(all), more, episodes);
+}
+
+Trial Trials::changed(const Trial& base, std::size_t k, const effects::Placed& other,
+                      std::span<const std::size_t> episodes) const {
+  std::vector<effects::Placed> all = base.effects;
+  all[k] = other;
+  return beside(base, std::move(all), other, episodes);
+}
+
+Trial Trials::beside(const Trial& base, std::vector<effects::Placed> all,
+                     const effects::Placed& differs, std::span<const std::size_t> episodes) const {
+  Trial trial{std::move(all), std::vector<residuals::Explanation>(episodes_.size())};
   residuals::Stages stages(robot_with(trial.effects));
-  const residuals::Reach reach = stages.reach(more);
-  for (const std::size_t k : episodes)
-    trial.of_episode[k] = stages.explain(episodes_[k], base.of_episode[k], reach);
+  const residuals::Reach reach = stages.reach(differs);
+  for (const std::size_t e : episodes)
+    trial.of_episode[e] = stages.explain(episodes_[e], base.of_episode[e], reach);
   return trial;
 }
 

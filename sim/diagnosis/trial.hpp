@@ -43,6 +43,10 @@ class Trials {
   Trial with(const Trial& base, const effects::Placed& more,
              std::span<const std::size_t> episodes) const;
   Trial with(std::span<const effects::Placed> all, std::span<const std::size_t> episodes) const;
+  /// The same effects as those of `base`, on the same recordings, but that number k has other
+  /// values.
+  Trial changed(const Trial& base, std::size_t k, const effects::Placed& other,
+                std::span<const std::size_t> episodes) const;
 
   /// z of one recording: stages one after the other, NaN where the nominal robot cannot judge.
   std::vector<double> whitened(const Trial& trial, std::size_t episode) const;
@@ -60,6 +64,10 @@ class Trials {
   erp::Robot robot_with(std::span<const effects::Placed> all) const;
 
  private:
+  /// All those effects, of which only one differs from what `base` has.
+  Trial beside(const Trial& base, std::vector<effects::Placed> all, const effects::Placed& differs,
+               std::span<const std::size_t> episodes) const;
+
   erp::Robot nominal_;
   std::vector<residuals::Episode> episodes_;
   std::uint64_t seed_;

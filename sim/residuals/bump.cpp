@@ -1,5 +1,6 @@
 #include "sim/residuals/bump.hpp"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
@@ -23,10 +24,9 @@ Bump::Bump(double half_width_s, double period_s) {
 
 double Bump::sum(const std::vector<double>& weights, std::span<const double> x,
                  std::size_t k) const {
-  const std::size_t first = k - reach();
-  double sum = 0;
-  for (std::size_t j = 0; j < weights.size(); ++j) sum += weights[j] * x[first + j];
-  return sum;
+  using Vector = Eigen::Map<const Eigen::VectorXd>;
+  const auto count = static_cast<Eigen::Index>(weights.size());
+  return Vector(weights.data(), count).dot(Vector(&x[k - reach()], count));
 }
 
 std::vector<double> Bump::rates(std::span<const double> x) const {
