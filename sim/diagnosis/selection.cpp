@@ -180,8 +180,10 @@ Selection select(const Evidence& evidence, const Trials& trials,
   else
     for (const std::size_t k : confusable(first, evidence.which_options()))
       s.answer[0].alike.push_back(s.ranked[k]);
-  s.left = together.left(alone ? evidence.options.alone : evidence.options.together);
+  const Tolerance& kept = alone ? evidence.options.alone : evidence.options.together;
+  s.left = together.left(kept);
   s.trial = std::move(together.trial());
+  open_what_is_bent(evidence, trials, s.trial, kept, s.left);
   return s;
 }
 

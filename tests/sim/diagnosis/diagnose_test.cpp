@@ -75,6 +75,19 @@ TEST_CASE("withheld, it is none of the known, at its place") {
   CHECK(d.unexplained[0].shape.has_value());
 }
 
+TEST_CASE("a law of another shape is not known, however much of it an effect closes") {
+  auto blind = nothing_hidden();
+  blind.quirks.joints[0].drag = 0.1;  // grows with the square of the speed
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 12));
+  CHECK(d.verdict == Verdict::none_of_the_known);
+  REQUIRE(d.answer.size() == 1);
+  CHECK(d.answer[0].type == "joint_viscous");
+  CHECK(d.overall.closed > 0.9);
+  REQUIRE(d.unexplained.size() == 1);
+  REQUIRE(d.unexplained[0].shape.has_value());
+  CHECK(d.unexplained[0].shape->variable == "joint speed");
+}
+
 TEST_CASE("two effects at once are both named") {
   auto blind = nothing_hidden();
   blind.quirks.chains[0].ohm = 0.3;
