@@ -11,15 +11,15 @@ out=erp_runs/gap_rows
 
 # name        robot      kind      cases  first seed  signals left out
 rows="
-single        hinge_rig  single    300    110001
-null          hinge_rig  null      100    20001
-withheld      hinge_rig  withheld   60    30001
-outside       hinge_rig  outside    60    40001
-pair          hinge_rig  pair       60    50001
-arm           arm        single     60    60001
-no_tension    hinge_rig  single     60    70001       tension
-no_joint      hinge_rig  single     60    71001       joint
-no_current    hinge_rig  single     60    72001       current
+single        hinge_rig  single    300    210001
+null          hinge_rig  null      100    120001
+withheld      hinge_rig  withheld   60    130001
+outside       hinge_rig  outside    60    140001
+pair          hinge_rig  pair       60    150001
+arm           arm        single     60    160001
+no_tension    hinge_rig  single     60    170001       tension
+no_joint      hinge_rig  single     60    171001       joint
+no_current    hinge_rig  single     60    172001       current
 "
 
 run_row() {  # name robot kind cases seed without

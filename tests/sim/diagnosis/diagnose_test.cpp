@@ -77,8 +77,8 @@ TEST_CASE("withheld, it is none of the known, at its place") {
 
 TEST_CASE("a law of another shape is not known, however much of it an effect closes") {
   auto blind = nothing_hidden();
-  blind.quirks.joints[0].drag = 0.1;  // grows with the square of the speed
-  const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 12));
+  blind.quirks.joints[0].drag = 0.12;  // grows with the square of the speed
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 12, 4));
   CHECK(d.verdict == Verdict::none_of_the_known);
   REQUIRE(d.answer.size() == 1);
   CHECK(d.answer[0].type == "joint_viscous");
