@@ -39,27 +39,14 @@ std::vector<Louder> louder(const Evidence& evidence, const Trials& trials, const
   return all;
 }
 
-/// Of a stage that keeps so much excess, and such a share of what it was, nothing was explained.
-constexpr double kept_excess = 1.5, kept_share = 0.25;  // chosen on development cases
-/// One that keeps so much, and whose windows held out follow a map of those trained on, has a law
-/// that no effect of the answer has the shape of: the effects' own simplifications follow nothing.
-constexpr double bent_excess = 1, bent_share = 0.5;  // chosen on development cases
+/// Of these a stage is open all the same, chosen on development cases: a small one that keeps a
+/// quarter of what it was; and one whose rest is a function of a variable, half of it at least, and
+/// so a law of a shape that no effect of the answer has.
+constexpr double quarter_excess = 1.5, quarter = 0.25;
+constexpr double bent_excess = 1, bent = 0.5;
 
 std::vector<StageGap> held_out(const Evidence& evidence, const Trials& trials, const Trial& trial) {
   return where(trials, trial, evidence.sets.held_out, evidence.where_options());
-}
-
-double most_excess(const std::vector<StageGap>& gaps) {
-  double most = 0;
-  for (const StageGap& gap : gaps) most = std::max(most, gap.excess);
-  return most;
-}
-
-bool follows_a_variable(const Evidence& evidence, const Trials& trials, const Trial& trial,
-                        const StageGap& gap) {
-  const auto shape =
-      shape_of(trials, trial, gap.stage, gap.on, evidence.sets.train, evidence.sets.held_out);
-  return shape && shape->explained > bent_share;
 }
 
 }  // namespace
@@ -67,25 +54,23 @@ bool follows_a_variable(const Evidence& evidence, const Trials& trials, const Tr
 std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,
                                 const Tolerance& tolerance) {
   const auto before = held_out(evidence, trials, trials.bare());
-  const double least = tolerance.of_most * most_excess(before);
+  double most = 0;
+  for (const StageGap& b : before) most = std::max(most, b.excess);
   const auto noise = louder(evidence, trials, trial);
   auto gaps = held_out(evidence, trials, trial);
   for (StageGap& gap : gaps) {
     const double was = find_stage(before, gap.stage, gap.on)->excess;
     gap.excess -= find_stage(noise, gap.stage, gap.on)->excess();
-    const bool too_much = gap.excess > std::max(tolerance.excess, tolerance.share * was);
-    const bool as_it_was = gap.excess > std::max(kept_excess, kept_share * was);
-    gap.open = gap.open && gap.excess > least && (too_much || as_it_was);
+    if (!gap.open || gap.excess <= tolerance.of_most * most) {
+      gap.open = false;
+      continue;
+    }
+    gap.open = gap.excess > std::max(tolerance.excess, tolerance.share * was) ||
+               gap.excess > std::max(quarter_excess, quarter * was) ||
+               (gap.excess > bent_excess &&
+                follows(trials, trial, gap.stage, gap.on, evidence.sets) > bent);
   }
   return gaps;
-}
-
-void open_what_is_bent(const Evidence& evidence, const Trials& trials, const Trial& trial,
-                       const Tolerance& tolerance, std::vector<StageGap>& gaps) {
-  const double most = most_excess(held_out(evidence, trials, trials.bare()));
-  for (StageGap& gap : gaps)
-    if (!gap.open && gap.judged && gap.excess > std::max(bent_excess, tolerance.of_most * most))
-      gap.open = follows_a_variable(evidence, trials, trial, gap);
 }
 
 }  // namespace sim::diagnosis

@@ -180,10 +180,8 @@ Selection select(const Evidence& evidence, const Trials& trials,
   else
     for (const std::size_t k : confusable(first, evidence.which_options()))
       s.answer[0].alike.push_back(s.ranked[k]);
-  const Tolerance& kept = alone ? evidence.options.alone : evidence.options.together;
-  s.left = together.left(kept);
+  s.left = together.left(alone ? evidence.options.alone : evidence.options.together);
   s.trial = std::move(together.trial());
-  open_what_is_bent(evidence, trials, s.trial, kept, s.left);
   return s;
 }
 

@@ -27,8 +27,5 @@ Selection select(const Evidence& evidence, const Trials& trials,
 /// The stages that `trial` leaves open on the held-out recordings.
 std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,
                                 const Tolerance& tolerance);
-/// Opens those of `gaps`, left by `trial`, that keep little but follow one variable.
-void open_what_is_bent(const Evidence& evidence, const Trials& trials, const Trial& trial,
-                       const Tolerance& tolerance, std::vector<StageGap>& gaps);
 
 }  // namespace sim::diagnosis

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t bins = 16;
 constexpr std::size_t fewest = 5;  // windows a bin
+constexpr const char* time_name = "time";
 
 /// The residuals of one stage with their variables, some recordings in a row.
 struct Sample {
@@ -25,10 +26,16 @@ Sample sample(const Trials& trials, const Trial& trial, effects::Stage stage, co
     if (all.variables.empty())
       for (const Variable& v : own) all.variables.push_back({v.name, v.unit, {}});
     std::size_t first = 0;
-    for (const residuals::Residual& r : trials.bare().of_episode[e].residuals) {
+    const auto& bare = trials.bare().of_episode[e].residuals;
+    const auto& tried = trial.of_episode[e].residuals;
+    for (std::size_t n = 0; n < bare.size(); ++n) {
+      const residuals::Residual& r = bare[n];
       if (r.stage == stage && r.on == on)
         for (std::size_t k = 0; k < r.value.size(); ++k) {
-          if (std::isnan(z[first + k]) || (residuals::banded(r, k) && r.value[k] == 0)) continue;
+          const bool tells = n < tried.size() && !std::isnan(tried[n].value[k]);
+          const residuals::Residual& told = tells ? tried[n] : r;
+          const bool says_nothing = residuals::banded(told, k) && told.value[k] == 0;
+          if (std::isnan(z[first + k]) || says_nothing) continue;
           all.residual.push_back(z[first + k]);
           for (std::size_t v = 0; v < own.size(); ++v)
             all.variables[v].value.push_back(own[v].value[k]);
@@ -68,13 +75,19 @@ Map map_of(const std::vector<double>& x, const std::vector<double>& r) {
   return map;
 }
 
+/// Σ (r − m)²
+double left_by(const Map& map, const std::vector<double>& x, const std::vector<double>& r) {
+  double left = 0;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    left += std::pow(r[k] - (std::isnan(x[k]) ? 0 : map.mean(map.bin(x[k]))), 2);
+  return left;
+}
+
 double explained(const Map& map, const std::vector<double>& x, const std::vector<double>& r) {
-  double before = 0, after = 0, n = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double left = r[k] - (std::isnan(x[k]) ? 0 : map.mean(map.bin(x[k])));
-    before += r[k] * r[k], after += left * left, ++n;
-  }
-  return before > 1.05 * n ? (before - after) / (before - n) : 0;
+  double before = 0;
+  for (const double one : r) before += one * one;
+  const auto n = static_cast<double>(r.size());
+  return before > 1.05 * n ? (before - left_by(map, x, r)) / (before - n) : 0;
 }
 
 }  // namespace
@@ -93,15 +106,15 @@ std::vector<Variable> variables(const Trials& trials, std::size_t episode, effec
       v.value.push_back(rate ? bump.rate(signal, row) : bump.mean(signal, row));
     all.push_back(std::move(v));
   };
-  Variable time{"time", "s", {}};
+  Variable time{time_name, "s", {}};
   for (const std::size_t row : e.rows) time.value.push_back(double(row) * recorded.period_s);
   const erp::Robot& robot = trials.nominal();
   if (stage == effects::Stage::joint) {
     const auto joints = robot.joints();
     for (std::size_t j = 0; j < joints.size(); ++j)
       if (joints[j].name == on) {
-        add("joint angle", "rad", recorded.joints[j].angle_rad, false);
-        add("joint speed", "rad/s", recorded.joints[j].angle_rad, true);
+        add("joint angle", "rad", e.joints->signals[j].angle_rad, false);
+        add("joint speed", "rad/s", e.joints->signals[j].angle_rad, true);
       }
   } else {
     for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
@@ -138,6 +151,26 @@ std::optional<Shape> shape_of(const Trials& trials, const Trial& trial, effects:
     }
   }
   return best;
+}
+
+double follows(const Trials& trials, const Trial& trial, effects::Stage stage,
+               const std::string& on, const Sets& sets) {
+  if (sets.held_out == sets.train) return 0;
+  const Sample known = sample(trials, trial, stage, on, sets.train);
+  const Sample unseen = sample(trials, trial, stage, on, sets.held_out);
+  if (known.residual.empty() || unseen.residual.empty()) return 0;
+  double mean = 0, plain = 0, whole = 0;
+  for (const double r : known.residual) mean += r / static_cast<double>(known.residual.size());
+  for (const double r : unseen.residual) plain += std::pow(r - mean, 2), whole += r * r;
+  const double beyond_noise = whole - static_cast<double>(unseen.residual.size());
+  double most = 0;
+  for (std::size_t v = 0; v < known.variables.size(); ++v) {
+    if (known.variables[v].name == time_name) continue;
+    const Map map = map_of(known.variables[v].value, known.residual);
+    const double left = left_by(map, unseen.variables[v].value, unseen.residual);
+    most = std::max(most, beyond_noise > 0 ? (plain - left) / beyond_noise : 0);
+  }
+  return most;
 }
 
 std::vector<Region> regions(const Trials& trials, const Trial& trial, effects::Stage stage,

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/diagnosis/split.hpp"
 #include "sim/diagnosis/trial.hpp"
 
 /// On what a residual depends, without a law: a map of bins over one variable.
@@ -31,6 +32,12 @@ struct Shape {
 std::optional<Shape> shape_of(const Trials& trials, const Trial& trial, effects::Stage stage,
                               const std::string& on, std::span<const std::size_t> train,
                               std::span<const std::size_t> held_out);
+
+/// How much of what `trial` leaves at a stage, noise aside, is a function of one variable: of angles,
+/// speeds, tensions …, not of the time. What a constant explains does not count, and where the
+/// windows that teach are those that judge nothing does.
+double follows(const Trials& trials, const Trial& trial, effects::Stage stage,
+               const std::string& on, const Sets& sets);
 
 /// Where a residual lives: of each variable, how much of Σ r² falls into which fifth of its
 /// windows.

@@ -47,6 +47,10 @@ Trial Trials::changed(const Trial& base, std::size_t k, const effects::Placed& o
                       std::span<const std::size_t> episodes) const {
   std::vector<effects::Placed> all = base.effects;
   all[k] = other;
+  const auto estimated = [&](std::size_t e) { return base.of_episode[e].joints->estimated; };
+  if (residuals::Stages(robot_with(all)).reach(other).line &&
+      std::ranges::any_of(episodes, estimated))
+    return with(all, episodes);  // looked for from the same start, or steps would differ
   return beside(base, std::move(all), other, episodes);
 }
 

@@ -17,10 +17,10 @@ namespace sim::residuals {
 
 class Bump {
  public:
-  /// `half_width_s` T, at least three periods.
+  /// `half_width_s` T, three periods if it is shorter.
   Bump(double half_width_s, double period_s);
 
-  /// Samples on each side of the middle.
+  /// Samples on each side of the middle; the outermost count in derivatives alone.
   std::size_t reach() const { return mean_.size() / 2; }
   /// Around row k; reach() ≤ k < x.size() − reach(). NaN if a sample in the window was not taken.
   double mean(std::span<const double> x, std::size_t k) const { return sum(mean_, x, k); }

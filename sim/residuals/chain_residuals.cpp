@@ -45,15 +45,17 @@ Signal over_period_V(const Chain& c) {
   return left;
 }
 
-/// V − R i over the two periods around each row: what K_E N (θ_k+1 − θ_k−1)/2T answers to.
+/// V − R i − L di/dt over the two periods around each row: what K_E N (θ_k+1 − θ_k−1)/2T answers to.
 Signal around_V(const Chain& c) {
   const ChainTrace& t = c.trace;
   const Signal over = over_period_V(c);
   const double a = t.current_averaged;
   Signal left(over.size(), nan);
   for (std::size_t k = 1; k + 1 < left.size(); ++k) {
-    const double averaged =
-        (t.terminal_V[k] + t.terminal_V[k + 1]) / 2 - t.resistance_ohm[k] * t.current_A[k];
+    const double rise_A_per_s = (t.current_A[k + 1] - t.current_A[k - 1]) / (2 * c.period_s);
+    const double averaged = (t.terminal_V[k] + t.terminal_V[k + 1]) / 2 -
+                            t.resistance_ohm[k] * t.current_A[k] -
+                            c.motor.inductance_H * rise_A_per_s;
     left[k] = (1 - a) * (over[k] + over[k + 1]) / 2 + a * averaged;
   }
   return left;

@@ -169,7 +169,8 @@ class Tracer {
     return now + trailing_ * (current_A(k - 1) - now);
   }
 
-  /// ī over the two periods around row k, so weighed that it drives the change of their mean speeds.
+  /// ī over the two periods around row k, so weighed that it drives the change of their mean speeds;
+  /// a current that is a mean itself stays as it is.
   double around_A(std::size_t k) const {
     const double a = out_.current_averaged;
     return (1 - a) * (earlier_ * mean_A(k) + (1 - earlier_) * mean_A(k + 1)) + a * current_A(k);

@@ -43,6 +43,8 @@ struct JointTrace {
   std::vector<Signal> speed_rad_per_s;  ///< of revolute joints
   std::vector<Motion> motions;          ///< one a window; empty: a joint was not measured
   bool estimated = false;               ///< some were told by the tendons (pose_from_tendons.hpp)
+  bool by_lines = false;  ///< estimated, or loose: they move with what is known of a line
+  bool by_bones = false;  ///< some bend under the bones: they move with what those weigh
   std::shared_ptr<const PathsNearby> nearby;  ///< of those; none where a ball joint is among them
 };
 

@@ -17,7 +17,8 @@ double trail_s(const erp::MotorType& motor, double period_s);
 ///   (1 − s) (ω_k+1 − ω_k) + s (ω_k − ω_k−1) = (θ_k+1 − 2 θ_k + θ_k−1)/T
 double mean_speed_share(const erp::MotorType& motor, double period_s);
 
-/// The share d of a period's beginning in what the current answers with over all of it,
+/// The share d of a period's beginning in what the current answers with over all of it, i without
+/// what is left of the current before, but for second differences of ω,
 ///
 ///   (1 − d) (V − R i)_k + d (V − R i)_k−1 = K_E N (θ_k − θ_k−1)/T
 ///

@@ -46,6 +46,7 @@ void Stages::bend(const Episode& episode, JointTrace& trace) {
     const double stiffness = -acting.joint_torque(0).slope;
     Signal& bent = trace.signals[j].angle_rad;
     bent.assign(episode.rows, 0.0);
+    trace.by_bones = true;
     if (!(stiffness > 0) || !bones_.measured(trace.signals)) continue;
     double angle = 0, speed = 0;
     bool started = false;

@@ -64,7 +64,7 @@ void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTra
     for (const std::size_t j : missing) trace.signals[j] = guess->signals[j];
   else search.start(trace.signals, episode.rows);
   search.better(trace.signals, near ? from_near : from_afar, near ? from_near : 1);
-  trace.estimated = true;
+  trace.estimated = trace.by_lines = true;
   if (!trace.nearby) trace.nearby = nearby(episode, trace, missing);
 }
 
@@ -80,6 +80,7 @@ void Stages::find_crossings(const Episode& episode, JointTrace& trace,
   };
   const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s);
   if (lines.size() < search.unknowns()) return;
+  trace.by_lines = true;
   auto told = trace.signals;
   constexpr int steps = 2;  // chosen
   search.better(told, steps, steps);

@@ -17,7 +17,7 @@ constexpr double farthest_rad = 1;  // that a step goes
 constexpr double least_N_per_rad = 5;  // held less firmly, a pose is not told; chosen
 
 void smooth(Signal& signal, double period_s) {
-  const Bump bump(std::max(smooth_s, 3 * period_s), period_s);
+  const Bump bump(smooth_s, period_s);
   const Signal rough = signal;
   for (std::size_t k = bump.reach(); k + bump.reach() < rough.size(); ++k)
     signal[k] = bump.mean(rough, k);

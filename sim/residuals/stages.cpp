@@ -69,9 +69,11 @@ Explanation Stages::explain(const Episode& episode, std::shared_ptr<const JointT
 }
 
 Explanation Stages::explain(const Episode& episode, const Explanation& base, const Reach& reach) {
-  if (reach.joints) return explain(episode);
-  if (reach.line && base.joints->estimated)
-    return explain(episode, reach.path ? without_nearby(*base.joints) : base.joints);
+  const JointTrace& joints = *base.joints;
+  if (reach.line && joints.estimated)
+    return explain(episode, reach.path ? without_nearby(joints) : base.joints);
+  if (reach.joints || (reach.line && joints.by_lines) || (reach.bones && joints.by_bones))
+    return explain(episode);
   Touched touched{false, reach.bones, {}, {}};
   if (reach.path) touched.paths = {*reach.path};
   if (reach.chain) touched.chains = {*reach.chain};
