@@ -10,19 +10,19 @@
 /// Where model and recording part: the chain cut at every measured signal, each stage driven by
 /// what was measured at its ends, so that an error upstream cannot pose as one downstream.
 ///
-///   motor     V − R i − L di/dt − K_E N ω,  where V is held di/dt = −K_E N ω̇/R  (V)
+///   motor     V − R i − L di/dt − K_E N ω                                   (V)
 ///   gearbox   J_M N² ω̇ − N (K_T ī − µ_M N ω − s τ_CM) + X/e                 (Nm),
 ///             X = µ_G ω + s τ_CG + r F, e as in motor.hpp
 ///   tendon    F − [f(Δx) + D dΔx/dt],  Δx from q and θ                       (N)
 ///   joint     H q̈ + C + τ_G + friction + Σ F ∂L/∂q                          (Nm), one a coordinate
 ///
 /// each as a mean under a window (bump.hpp). The current at a row is that at the end of a period
-/// over which the voltage was held. Where a joint rests or turns back, friction is anything within
-/// a band, and a stop within reach may push: what remains beyond counts, and such a window never
-/// as less than noise. Windows in which a shaft rests are left out. Spindle and routing act within
-/// the tendon's stage, bodies within the joint's. Without a tension sensor the spring's law takes
-/// its place and the tendon's stage is part of those that use it; without a current the motor's
-/// law does.
+/// over which the voltage was held (held_voltage.hpp). Where a joint rests or turns back, friction
+/// is anything within a band, and a stop within reach may push: what remains beyond counts, and
+/// such a window never as less than noise. Windows in which a shaft rests are left out. Spindle and
+/// routing act within the tendon's stage, bodies within the joint's. Without a tension sensor the
+/// spring's law takes its place and the tendon's stage is part of those that use it; without a
+/// current the motor's law does.
 namespace sim::residuals {
 
 struct Windows {

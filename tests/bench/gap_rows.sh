@@ -13,8 +13,8 @@ out=erp_runs/gap_rows
 rows="
 single        hinge_rig  single    300    210001
 null          hinge_rig  null      100    120001
-withheld      hinge_rig  withheld   60    130001
-outside       hinge_rig  outside    60    140001
+withheld      hinge_rig  withheld   60    230001
+outside       hinge_rig  outside    60    240001
 pair          hinge_rig  pair       60    150001
 arm           arm        single     60    160001
 no_tension    hinge_rig  single     60    170001       tension
