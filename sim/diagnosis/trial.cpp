@@ -48,8 +48,8 @@ Trial Trials::changed(const Trial& base, std::size_t k, const effects::Placed& o
   std::vector<effects::Placed> all = base.effects;
   all[k] = other;
   const auto estimated = [&](std::size_t e) { return base.of_episode[e].joints->estimated; };
-  if (residuals::Stages(robot_with(all)).reach(other).line &&
-      std::ranges::any_of(episodes, estimated))
+  if (std::ranges::any_of(episodes, estimated) &&
+      residuals::Stages(robot_with(all)).reach(other).line)
     return with(all, episodes);  // looked for from the same start, or steps would differ
   return beside(base, std::move(all), other, episodes);
 }
