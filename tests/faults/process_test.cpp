@@ -44,7 +44,7 @@ TEST_CASE("gateway killed") {
   Row::head();
   Bench bench;
   Row said("gateway killed", "ECU's emergency frame", 52), off("gateway killed", "PWM 0", 52);
-  for (int k = 0; k < injections(); ++k) {
+  while (off.wants()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
     const auto from = node::wall_ns();
@@ -59,7 +59,7 @@ TEST_CASE("gateway killed") {
 TEST_CASE("gateway stopped, and no burst when it goes on") {
   Bench bench;
   Row said("gateway stopped", "ECU's emergency frame", 52), off("gateway stopped", "PWM 0", 52);
-  for (int k = 0; k < injections(); ++k) {
+  while (off.wants()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
     const auto from = node::wall_ns();
@@ -87,7 +87,7 @@ TEST_CASE("ECU silent") {
       lost("ECU silent", "gateway: lost", 50 + 2),
       safe("ECU silent", "its limb in the safe action", 60);
   int others = 0;  // of which the same was said
-  for (int k = 0; k < injections(); ++k) {
+  for (int k = 0; safe.wants(); ++k) {
     if (k % 6 == 0 && k > 0) std::this_thread::sleep_for(5s);  // said thrice in 10 s at most
     bench.settle();
     const int address = k % 6;
@@ -117,7 +117,7 @@ TEST_CASE("brown-out") {
   Bench bench;
   Row said("brown-out, reset", "boot frame with the cause", 100),
       off("brown-out, reset", "PWM 0", 2);
-  for (int k = 0; k < injections(); ++k) {
+  while (off.wants()) {
     bench.settle();
     const pid_t ecu = bench.ecu(0);
     const auto from = node::wall_ns();
@@ -140,7 +140,7 @@ TEST_CASE("brown-out") {
 TEST_CASE("CPU hang") {
   Bench bench;
   Row off("CPU hang", "PWM 0", 12), said("CPU hang", "boot frame with the cause", 100);
-  for (int k = 0; k < injections(); ++k) {
+  while (off.wants()) {
     bench.settle();
     const auto from = bench.pins().befall(0, WIRE_MISHAP_HANG);
     said.add(from, bench.await([&] { return bench.boot(from, FRAME_RESET_WATCHDOG); }));
@@ -160,7 +160,7 @@ TEST_CASE("controller killed, and stopped") {
   for (const int signal : {SIGKILL, SIGSTOP}) {
     const std::string fault = signal == SIGKILL ? "controller killed" : "controller stopped";
     Row safe(fault, "safe action on the bus", 22);
-    for (int k = 0; k < injections(); ++k) {
+    while (safe.wants()) {
       bench.settle();
       const pid_t controller = bench.process("length_control");
       const auto from = node::wall_ns();
@@ -178,7 +178,7 @@ TEST_CASE("controller killed, and stopped") {
 TEST_CASE("plant killed") {
   Bench bench;
   Row plant("plant killed", "ECU's emergency frame", 52), off("plant killed", "PWM 0", 52);
-  for (int k = 0; k < injections(); ++k) {
+  while (off.wants()) {
     bench.settle();
     const pid_t pid = bench.process("plant");
     const auto from = node::wall_ns();
