@@ -94,6 +94,7 @@ int launch_graph(const LaunchOptions& options) {
   const std::string graph_folder = fs::absolute(options.graph_file).parent_path().string();
   const auto find = [&](const std::string& type) { return find_program(type, graph_folder); };
 
+  const double patience_s = parse_duration_s(options.patience);
   Wishes wishes{{}, ".", sources(graph, robot)};
   for (const auto& setting : options.settings) wishes.settings.push_back(parse_setting(setting));
   ask_components(make_plan(graph, wishes, find));  // refuses bad input before a folder is made
@@ -101,6 +102,7 @@ int launch_graph(const LaunchOptions& options) {
   const FolderClaim claim(wishes.folder);
   Plan plan = make_plan(graph, wishes, find);
   plan.most_restarts = options.most_restarts;
+  plan.patience_s = patience_s;
   const auto since = fs::file_time_type::clock::now();
   Run run(graph, robot.name, plan, wishes.folder);
   const int exit_code = run.execute();

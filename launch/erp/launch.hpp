@@ -15,6 +15,7 @@ struct LaunchOptions {
   std::string duration;                 ///< "20s"; empty: the graph's
   std::vector<std::string> settings;    ///< component.key=value
   std::size_t most_restarts = 5;        ///< of one component within 30 s; then it is given up
+  std::string patience = "60s";         ///< until all components are ready; then it is given up
   std::string folder;                   ///< of the run; empty: erp_runs/<graph>/<UTC time>
   std::optional<std::string> security;  ///< folder of erp security make; absent: ERP_SECURITY's
 };

@@ -43,6 +43,7 @@ struct Plan {
   std::vector<PlannedProcess> processes;
   std::string recording;  ///< what the first logger writes; empty: no logger
   std::size_t most_restarts = BackOff::Tuning{}.most;  ///< of one component within 30 s
+  double patience_s = 60;                              ///< until all components are ready
 };
 
 /// The program of a component type, or "".

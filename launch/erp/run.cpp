@@ -46,6 +46,7 @@ std::string rival_text(const std::string& component, const std::string& robot, l
 Tuning tuning_of(const Plan& plan) {
   Tuning tuning;
   tuning.restart.most = plan.most_restarts;
+  tuning.start_patience_ns = static_cast<std::int64_t>(1e9 * plan.patience_s);
   return tuning;
 }
 

@@ -36,6 +36,9 @@ void add_launch(CLI::App& app, Chosen& chosen) {
   verb->add_option("--restarts", options->most_restarts,
                    "how often within 30 s a component is started again before it is given up")
       ->capture_default_str();
+  verb->add_option("--patience", options->patience,
+                   "how long components may take to be ready before the launch is given up")
+      ->capture_default_str();
   verb->add_option("--out", options->folder,
                    "folder for logs and recording (default: erp_runs/<graph>/<UTC time>)");
   verb->add_option("--security", options->security,

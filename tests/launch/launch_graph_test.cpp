@@ -224,3 +224,17 @@ TEST_CASE("bad input is refused with exit code 2 before anything starts") {
   CHECK_THAT(graph.screen(), Contains("did you mean \"worker\"?"));
   CHECK_FALSE(fs::exists(graph.folder / "run"));
 }
+
+TEST_CASE("a launch whose components are not ready in time is given up, in order") {
+  const Graph graph;
+  CHECK(graph.run({"--patience", "1ms"}) == 1);
+  CHECK_THAT(graph.screen(), Contains("not ready after 0.0 s: ") && Contains("worker"));
+  CHECK(graph.processes().empty());
+}
+
+TEST_CASE("a patience that is no time is refused before anything is made") {
+  const Graph graph;
+  CHECK(graph.run({"--patience", "soon"}) == 2);
+  CHECK_THAT(graph.screen(), Contains("\"soon\" is not a duration"));
+  CHECK_FALSE(fs::exists(graph.folder / "run"));
+}

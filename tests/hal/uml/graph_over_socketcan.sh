@@ -18,7 +18,7 @@ cat > "$exchange/run" << RUN
 cd "$source"
 bin="$bin"
 . "$here/same_rows.sh"
-"$bin/erp" launch launch/$graph.xml --lockstep --for 1s --out "\$TMPDIR/out" "\$@" \
+"$bin/erp" launch launch/$graph.xml --lockstep --for 1s --out "\$TMPDIR/out" --patience 5min "\$@" \
   < /dev/null > "\$TMPDIR/said" 2>&1 || { cat "\$TMPDIR/said"; exit 1; }
 recorded "\$TMPDIR/out/$graph.mcap"
 RUN

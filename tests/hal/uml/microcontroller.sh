@@ -22,7 +22,7 @@ cd "$source"
 bin="$bin"
 . "$here/same_rows.sh"
 out=\$1 && shift
-"$bin/erp" launch launch/force_step.xml --device can --lockstep --for 1s --out "\$out" "\$@" \
+"$bin/erp" launch launch/force_step.xml --device can --lockstep --for 1s --out "\$out" --patience 2min "\$@" \
   < /dev/null > "\$out.txt" 2>&1 || { cat "\$out.txt"; exit 1; }
 recorded "\$out/force_step.mcap"
 RUN
