@@ -5,6 +5,7 @@
 #include <optional>
 #include <ostream>
 
+#include "interfaces/xml/words.hpp"
 #include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
 #include "launch/text/progress.hpp"
@@ -54,10 +55,13 @@ Sorted sort(const DiagnoseOptions& options) {
 }
 
 void check_types(const std::vector<std::string>& types) {
+  std::vector<std::string> known;
+  for (const auto& effect : sim::effects::library())
+    known.emplace_back(sim::effects::about(effect).type);
   for (const std::string& type : types)
     if (!sim::effects::neutral(type))
-      throw std::invalid_argument("--withhold " + type +
-                                  ": no such effect; erp model effects lists them");
+      throw std::invalid_argument("--withhold " + type + ": no such effect: " +
+                                  xml::did_you_mean(type, known) + " erp model effects lists them");
 }
 
 std::string told(const diagnosis::Named& n) {
@@ -92,9 +96,11 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
   for (const auto& u : d.unexplained) {
     out << fmt::format("left over   {} of {}, {:.3g} times its noise", sim::effects::word(u.stage),
                        u.on, std::sqrt(1 + u.excess));
-    if (u.shape && u.shape->explained > 0.1)
-      out << fmt::format("; {:.0f} % of it goes with the {}", 100 * u.shape->explained,
-                         u.shape->variable);
+    if (u.shape && u.shape->constant > 0.1)
+      out << fmt::format("; {:.0f} % of it is always there", 100 * u.shape->constant);
+    if (u.shape && u.shape->explained - u.shape->constant > 0.1)
+      out << fmt::format("; {:.0f} % of it goes with the {}",
+                         100 * (u.shape->explained - u.shape->constant), u.shape->variable);
     out << "\n";
   }
   if (d.overall.before > 0 && !d.answer.empty())
@@ -110,7 +116,7 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
 
 /// What was mended in the recordings was told at the start.
 void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
-           const std::vector<std::string>& odd, std::ostream& out) {
+           std::ostream& out) {
   print_answer(d, out);
   if (!free_run.channels.empty())
     out << fmt::format(
@@ -118,10 +124,11 @@ void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_ru
         "closed\n",
         free_run.all.before, free_run.all.after, 100 * free_run.all.closed);
   for (const std::string& warning : d.warnings) out << "warning     " << warning << "\n";
-  for (const std::string& sign : odd) out << "mend first  " << sign << ", and ask again\n";
+  for (const std::string& odd : d.mend_first) out << "mend first  " << odd << "\n";
   out << "verdict     " << diagnosis::word(d.verdict);
   if (d.verdict == diagnosis::Verdict::no_gap && !d.not_judged.empty())
     out << ", in what could be judged";
+  if (!d.mend_first.empty()) out << ", of recordings that want mending first";
   out << "\n";
 }
 
@@ -189,7 +196,8 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   const auto free_run = run_freely(d, read.episodes, robot, found, options, *progress);
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
-  print(d, free_run, read.odd, out);
+  d.mend_first = read.odd;
+  print(d, free_run, out);
   d.warnings.insert(d.warnings.begin(), read.odd.begin(), read.odd.end());
   d.warnings.insert(d.warnings.begin(), read.mended.begin(), read.mended.end());
   if (!options.out.empty()) {

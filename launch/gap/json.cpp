@@ -135,6 +135,7 @@ std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& fr
     if (u.shape) {
       one["depends_on"] = u.shape->variable, one["unit"] = u.shape->unit;
       one["explained"] = rounded(u.shape->explained);
+      one["constant"] = rounded(u.shape->constant);
       one["map"] = {
           {"at", u.shape->middle}, {"mean", u.shape->mean}, {"deviation", u.shape->deviation}};
     }

@@ -18,6 +18,7 @@ constexpr const char* head = R"(<!DOCTYPE html>
 body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.5rem;margin:0}h2{font-size:1.15rem;margin:2rem 0 .4rem;border-bottom:1px solid #ddd}
 .verdict{font-size:1.2rem;padding:.6rem 1rem;border-left:6px solid #1e5aa0;background:#f3f6fa;margin:1rem 0}
+.mend{padding:.6rem 1rem;border-left:6px solid #c0392b;background:#fbf0ee;margin:1rem 0}
 table{border-collapse:collapse;margin:.5rem 0}td,th{padding:.2rem .7rem;text-align:right}
 th{border-bottom:1px solid #999;font-weight:600}td:first-child,th:first-child{text-align:left}
 svg{max-width:100%;height:auto;display:block;margin:.6rem 0}svg text{font-size:12px}
@@ -33,7 +34,9 @@ std::string title_of(const Diagnosis& d) {
           "No gap{}: robot and model differ by no more than the noise of the sensors.",
           d.not_judged.empty() ? "" : " in what could be judged");
     case Verdict::supported:
-      return "An explanation that recordings held out support.";
+      return d.train == d.held_out
+                 ? "An explanation, judged by the recording that it was found on: record another."
+                 : "An explanation that recordings held out support.";
     case Verdict::none_of_the_known:
       return "There is a gap, and none of the known effects explains it.";
     case Verdict::not_identifiable:
@@ -50,12 +53,26 @@ std::string parameters_of(const Named& n) {
   return text;
 }
 
+/// What nothing that follows may be believed before.
+std::string mend_first(const Diagnosis& d) {
+  if (d.mend_first.empty()) return "";
+  std::string html =
+      "<div class=\"mend\">Mend these recordings first and ask again: until then nothing below is "
+      "of "
+      "the robot.\n<ul>\n";
+  for (const std::string& odd : d.mend_first) html += "<li>" + escaped(odd) + "</li>\n";
+  return html + "</ul></div>\n";
+}
+
 std::string summary(const Diagnosis& d) {
-  std::string html = fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d));
-  if (!d.answer.empty()) html += "<ul>\n";
+  std::string html = mend_first(d);
+  html += fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d));
+  const bool whole = d.verdict == Verdict::supported;
+  if (!d.answer.empty())
+    html += whole ? "<ul>\n" : "<p>A part of it goes with these, which are no answer:</p>\n<ul>\n";
   for (const Named& n : d.answer)
-    html += fmt::format("<li><b>{}</b>: {}</li>\n", escaped(page::name_of(n)),
-                        escaped(parameters_of(n)));
+    html += fmt::format("<li>{0}{2}{1}: {3}</li>\n", whole ? "<b>" : "", whole ? "</b>" : "",
+                        escaped(page::name_of(n)), escaped(parameters_of(n)));
   if (!d.answer.empty()) html += "</ul>\n";
   for (const Named& n : d.answer) {
     if (n.alike.empty()) continue;

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "launch/gap/report_parts.hpp"
 #include "launch/gap/svg.hpp"
 
@@ -7,6 +9,20 @@ namespace launch::gap {
 
 using namespace sim::diagnosis;
 using svg::escaped;
+
+namespace {
+
+/// How far a channel was closed, in words where a share says nothing.
+std::string closed_of(const Closed& c, bool with_interval) {
+  if (!c.gapes())
+    return c.after > 1.5 * std::max(c.before, c.floor) ? "was no gap, is one now" : "–";
+  if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
+  if (!with_interval) return fmt::format("{:.1f} %", 100 * c.closed);
+  return fmt::format("{:.1f} % ({:.1f} … {:.1f})", 100 * c.closed, 100 * c.interval.low,
+                     100 * c.interval.high);
+}
+
+}  // namespace
 
 std::string page::stages(const Diagnosis& d) {
   std::string html =
@@ -16,10 +32,7 @@ std::string page::stages(const Diagnosis& d) {
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
         "<td>{:.2f} %</td><td>{:.2f} %</td></tr>\n",
-        escaped(c.channel), c.before, c.unit, c.floor, c.after,
-        c.gapes() ? fmt::format("{:.1f} % ({:.1f} … {:.1f})", 100 * c.closed,
-                                               100 * c.interval.low, 100 * c.interval.high)
-                                 : "–",
+        escaped(c.channel), c.before, c.unit, c.floor, c.after, closed_of(c, true),
         100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
   return html + "</table>\n";
 }
@@ -38,8 +51,7 @@ std::string page::free_running(const sim::rehearsal::FreeRun& run) {
   for (const Closed& c : run.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",
-        escaped(c.channel), c.before, c.unit, c.floor, c.after,
-        c.gapes() ? fmt::format("{:.1f} %", 100 * c.closed) : "–");
+        escaped(c.channel), c.before, c.unit, c.floor, c.after, closed_of(c, false));
   return html + "</table>\n";
 }
 

@@ -49,8 +49,11 @@ std::string page::unexplained(const Diagnosis& d) {
       html += "</p>\n";
       continue;
     }
-    html += fmt::format(" A map over the {} foretells {:.0f} % of it.</p>\n",
-                        escaped(u.shape->variable), 100 * std::max(0.0, u.shape->explained));
+    html += fmt::format(
+        " A map over the {} foretells {:.0f} % of it, a constant {:.0f} %. Grey: its spread; noise "
+        "alone stays within the green band.</p>\n",
+        escaped(u.shape->variable), 100 * std::max(0.0, u.shape->explained),
+        100 * u.shape->constant);
     std::vector<double> low = u.shape->mean, high = u.shape->mean;
     for (std::size_t k = 0; k < low.size(); ++k)
       low[k] -= u.shape->deviation[k], high[k] += u.shape->deviation[k];

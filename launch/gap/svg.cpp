@@ -68,7 +68,7 @@ std::string escaped(const std::string& words) {
 }
 
 std::string plot(const Axes& axes, const std::vector<Line>& lines) {
-  constexpr double left = 64, right = 16, top = 30, bottom = 40;
+  constexpr double left = 64, right = 16, top = 44, bottom = 40, legend_y = 34;
   const double w = axes.width - left - right, h = axes.height - top - bottom;
   Range x, y;
   for (const Line& line : lines) {
@@ -92,7 +92,9 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
   svg += text(left + w / 2, axes.height - 6, axes.x_label, "middle");
   svg += text(axes.width - right, 16, axes.y_label, "end");
   double legend = left + w;
+  // From the last, which is drawn widest, to the first: where they are one, all of them are seen.
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    const double wide = 1.4 + 1.2 * double(lines.rend() - line - 1);
     std::string path;
     bool drawn = false;
     for (std::size_t k = 0; k < line->x.size(); ++k) {
@@ -103,9 +105,9 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
       path += fmt::format("{}{:.1f} {:.1f}", drawn ? "L" : "M", px(line->x[k]), py(line->y[k]));
       drawn = true;
     }
-    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\"/>\n", path,
-                       line->colour);
-    svg += text(legend, top + 12, line->label, "end",
+    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.1f}\"/>\n",
+                       path, line->colour, wide);
+    svg += text(legend, legend_y, line->label, "end",
                 fmt::format("fill=\"{}\"", line->colour).c_str());
     legend -= 9.0 * double(line->label.size()) + 12;
   }

@@ -8,6 +8,7 @@
 #include "sim/diagnosis/where.hpp"
 #include "sim/residuals/common_signals.hpp"
 #include "sim/residuals/drives.hpp"
+#include "sim/residuals/odd_table.hpp"
 #include "sim/residuals/units.hpp"
 
 namespace launch::gap {
@@ -50,11 +51,11 @@ erp::Robot read_chains(const std::string& robot_file) {
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings) {
   Reading read;
   for (const std::string& file : recordings) {
-    read.episodes.push_back(
-        residuals::lay_out(recording::read_table(file, {.robot = robot.name, .sequences = true}),
-                           robot, file, read.mended));
-    for (std::string& odd : residuals::odd_units(read.episodes.back(), robot))
-      read.odd.push_back(std::move(odd));
+    const auto table = recording::read_table(file, {.robot = robot.name, .sequences = true});
+    read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
+    for (const auto& odd : {residuals::odd_table(table, robot, file),
+                            residuals::odd_units(read.episodes.back(), robot)})
+      read.odd.insert(read.odd.end(), odd.begin(), odd.end());
   }
   residuals::keep_common(read.episodes, robot, read.mended);
   return read;

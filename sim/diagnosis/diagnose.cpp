@@ -48,10 +48,10 @@ Verdict judge(const Selection& selection, const Observed& observed,
     return selection.explained() ? Verdict::supported
            : selection.told      ? Verdict::none_of_the_known
                                  : Verdict::not_identifiable;
-  if (observed.any()) return Verdict::supported;
+  if (observed.bus_differs()) return Verdict::supported;
   if (observed.bus_unexplained()) return Verdict::none_of_the_known;
-  return std::ranges::any_of(stages, &StageGap::judged) ? Verdict::no_gap
-                                                        : Verdict::not_identifiable;
+  if (std::ranges::none_of(stages, &StageGap::judged)) return Verdict::not_identifiable;
+  return observed.sensors.empty() ? Verdict::no_gap : Verdict::supported;
 }
 
 /// What was seen without a fit comes first where it is all there is to say, the bus last where

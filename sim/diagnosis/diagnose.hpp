@@ -30,6 +30,8 @@ struct Diagnosis {
   Closed overall;
   std::vector<Closed> channels;
   std::vector<std::string> recordings, train, held_out, warnings;
+  std::vector<std::string>
+      mend_first;  ///< what is odd about the recordings; whoever read them tells
   std::vector<std::string> not_judged;  ///< stages and the bus, in words
   std::vector<Shared> shared;           ///< those that are in train and in held_out
 };

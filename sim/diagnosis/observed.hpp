@@ -17,7 +17,6 @@ struct Observed {
   bool bus_differs() const { return !bus.empty() && bus[0].supported; }
   /// Commands are late as no effect of the bus has it.
   bool bus_unexplained() const { return late > practical_late && !bus_differs(); }
-  bool any() const { return bus_differs() || !sensors.empty(); }
 };
 
 Observed observe(const Evidence& evidence, const Trials& plain);

@@ -83,11 +83,24 @@ double left_by(const Map& map, const std::vector<double>& x, const std::vector<d
   return left;
 }
 
-double explained(const Map& map, const std::vector<double>& x, const std::vector<double>& r) {
-  double before = 0;
-  for (const double one : r) before += one * one;
+/// Σ (r − m)², m the same everywhere.
+double left_by(double mean, const std::vector<double>& r) {
+  double left = 0;
+  for (const double one : r) left += std::pow(one - mean, 2);
+  return left;
+}
+
+double mean_of(const std::vector<double>& r) {
+  double sum = 0;
+  for (const double one : r) sum += one;
+  return r.empty() ? 0 : sum / static_cast<double>(r.size());
+}
+
+/// Of what is beyond the noise of r, which leaves `left` where something explains it.
+double explained(double left, const std::vector<double>& r) {
+  const double before = left_by(0, r);
   const auto n = static_cast<double>(r.size());
-  return before > 1.05 * n ? (before - left_by(map, x, r)) / (before - n) : 0;
+  return before > 1.05 * n ? std::min(1.0, (before - left) / (before - n)) : 0;
 }
 
 }  // namespace
@@ -136,12 +149,16 @@ std::optional<Shape> shape_of(const Trials& trials, const Trial& trial, effects:
                               std::span<const std::size_t> held_out) {
   const Sample known = sample(trials, trial, stage, on, train);
   const Sample unseen = sample(trials, trial, stage, on, held_out);
+  const double constant =
+      std::max(0.0, explained(left_by(mean_of(known.residual), unseen.residual), unseen.residual));
   std::optional<Shape> best;
   for (std::size_t v = 0; v < known.variables.size() && v < unseen.variables.size(); ++v) {
     const Map map = map_of(known.variables[v].value, known.residual);
-    const double share = explained(map, unseen.variables[v].value, unseen.residual);
+    const double share =
+        explained(left_by(map, unseen.variables[v].value, unseen.residual), unseen.residual);
     if (best && share <= best->explained) continue;
-    best = Shape{known.variables[v].name, known.variables[v].unit, {}, {}, {}, share};
+    best = Shape{known.variables[v].name,         known.variables[v].unit, {}, {}, {}, share,
+                 std::clamp(share, 0.0, constant)};
     for (std::size_t b = 0; b < bins; ++b) {
       if (map.count[b] < fewest) continue;
       const double mean = map.mean(b), n = static_cast<double>(map.count[b]);
@@ -159,10 +176,9 @@ double follows(const Trials& trials, const Trial& trial, effects::Stage stage,
   const Sample known = sample(trials, trial, stage, on, sets.train);
   const Sample unseen = sample(trials, trial, stage, on, sets.held_out);
   if (known.residual.empty() || unseen.residual.empty()) return 0;
-  double mean = 0, plain = 0, whole = 0;
-  for (const double r : known.residual) mean += r / static_cast<double>(known.residual.size());
-  for (const double r : unseen.residual) plain += std::pow(r - mean, 2), whole += r * r;
-  const double beyond_noise = whole - static_cast<double>(unseen.residual.size());
+  const double plain = left_by(mean_of(known.residual), unseen.residual);
+  const double beyond_noise =
+      left_by(0, unseen.residual) - static_cast<double>(unseen.residual.size());
   double most = 0;
   for (std::size_t v = 0; v < known.variables.size(); ++v) {
     if (known.variables[v].name == time_name) continue;

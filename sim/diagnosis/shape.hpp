@@ -9,7 +9,7 @@
 /// On what a residual depends, without a law: a map of bins over one variable.
 ///
 ///   m(x) = mean of r over the training windows whose variable falls into x's bin
-///   explained = 1 − Σ (r − m)²/Σ r²                       on the held-out windows, less the noise
+///   explained = (Σ r² − Σ (r − m)²)/(Σ r² − n)            on the held-out windows, n: the noise
 namespace sim::diagnosis {
 
 /// What a window looks like: the variables that a residual may depend on.
@@ -24,7 +24,8 @@ std::vector<Variable> variables(const Trials& trials, std::size_t episode, effec
 struct Shape {
   std::string variable, unit;
   std::vector<double> middle, mean, deviation;  ///< by bin: where, residual, its spread
-  double explained = 0;
+  double explained = 0;                         ///< 1 at most
+  double constant = 0;  ///< of that, what the mean of the training windows explains alone
 };
 
 /// The map that explains most of what `trial` leaves at a stage; nothing if no variable was

@@ -56,8 +56,6 @@ Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
   return grid;
 }
 
-constexpr double tick_s = 0.002;  // the firmware's period
-
 /// The frames are numbered by the firmware's ticks, without a restart.
 bool counts_ticks(const recording::Column& tick, const recording::Column& time) {
   std::vector<double> period;
@@ -174,6 +172,16 @@ DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
 }
 
 }  // namespace
+
+double row_period_s(const recording::Table& table) {
+  const recording::Column* time = table.find("time_s");
+  const recording::Column* tick = table.find("sequence");
+  if (!time || time->values.size() < 2) return 0;
+  const auto times = tick && counts_ticks(*tick, *time) ? times_of(*tick) : time->values;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
+  return median(std::move(steps));
+}
 
 Episode lay_out(const recording::Table& table, const erp::Robot& robot, const std::string& name,
                 std::vector<std::string>& remarks) {

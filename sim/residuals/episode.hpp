@@ -20,6 +20,11 @@ inline double rate_of(const Signal& signal, std::size_t row, double period_s) {
   return (signal[row + 1] - signal[row - 1]) / (2 * period_s);
 }
 
+inline constexpr double tick_s = 0.002;  ///< the firmware's period
+
+/// The usual time between two rows; 0: there are not two.
+double row_period_s(const recording::Table& table);
+
 struct ActuatorSignals {
   Signal mode, reference, voltage_V, current_A, shaft_rad, tension_N;
   bool current_around = false;  ///< it is the mean around a row, not what was at its instant

@@ -37,12 +37,13 @@ std::string looks_like(double times, double gear_ratio) {
     double times;
     const char* what;
   };
-  const Unit units[] = {{180 / std::numbers::pi, "it looks like degrees"},
-                        {1000, "it looks like thousandths of its unit (mA, mN, mV, mm)"},
-                        {1e-3, "it looks like thousands of its unit"},
-                        {1 / 9.81, "it looks like kilograms"},
-                        {gear_ratio, "it looks like the motor's shaft before the gearbox"},
-                        {1 / gear_ratio, "it looks as if divided by the gear ratio once more"}};
+  const Unit units[] = {
+      {180 / std::numbers::pi, "it looks like degrees: divide by 57.29578"},
+      {1000, "it looks like thousandths of its unit (mA, mN, mV, mm): divide by 1000"},
+      {1e-3, "it looks like thousands of its unit: multiply by 1000, or the time by 0.001"},
+      {1 / 9.81, "it looks like kilograms: multiply by 9.81"},
+      {gear_ratio, "it looks like the motor's shaft before the gearbox: divide by its ratio"},
+      {1 / gear_ratio, "it looks as if divided by the gear ratio once more: multiply by it"}};
   for (const Unit& unit : units)
     if (std::abs(std::log(times / unit.times)) < 0.25) return unit.what;
   return times > beyond_all || times < 1 / beyond_all ? "check its unit" : "";
@@ -134,9 +135,10 @@ class Check {
     for (const double x : angle)
       if (!std::isnan(x)) largest = std::max(largest, std::abs(x));
     if (largest > far_off * widest)
-      odd_.push_back(fmt::format(
-          "{}: {}.angle_rad: goes to {:.3g}, its stops are at {:g} and {:g} rad: degrees?", e_.name,
-          joint.name, largest, joint.min_rad, joint.max_rad));
+      odd_.push_back(
+          fmt::format("{}: {}.angle_rad: goes to {:.3g}, its stops are at {:g} and {:g} rad: if "
+                      "these are degrees, divide by 57.29578",
+                      e_.name, joint.name, largest, joint.min_rad, joint.max_rad));
   }
 
   const Episode& e_;

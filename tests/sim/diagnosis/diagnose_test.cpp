@@ -232,3 +232,11 @@ TEST_CASE("where nothing can be judged there is no word of no gap") {
   CHECK(d.verdict == Verdict::not_identifiable);
   CHECK_THAT(d.warnings.back(), Catch::Contains("nothing could be judged"));
 }
+
+TEST_CASE("where nothing can be judged, readings that look coarse explain nothing") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[1].current.step = 0.03;
+  const auto short_ones = episodes(blind, 0.3, 1);
+  REQUIRE_FALSE(coarse_sensors(short_ones, hinge_rig()).empty());
+  CHECK(diagnose(hinge_rig(), short_ones).verdict == Verdict::not_identifiable);
+}

@@ -1,0 +1,63 @@
+#include "sim/residuals/odd_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interfaces/xml/words.hpp"
+#include "sim/residuals/drives.hpp"
+#include "sim/residuals/episode.hpp"
+
+namespace sim::residuals {
+namespace {
+
+std::vector<std::string> parts_of(const erp::Robot& robot) {
+  std::vector<std::string> names;
+  for (const auto& drive : robot.drives) names.push_back(drive.name);
+  for (const auto& actuator : robot.actuators) names.push_back(actuator.name);
+  for (const auto& joint : robot.joints()) names.push_back(joint.name);
+  return names;
+}
+
+/// Whom a column is of; empty: of nobody, as the time.
+std::string owner_of(const std::string& column) {
+  const auto dot = column.rfind('.');
+  return dot == column.npos ? "" : column.substr(0, dot);
+}
+
+std::vector<std::string> strangers(const recording::Table& table, const erp::Robot& robot,
+                                   const std::string& name) {
+  const auto known = parts_of(robot);
+  std::vector<std::string> owners, odd;
+  for (const auto& column : table.columns) {
+    const std::string owner = owner_of(column.name);
+    if (owner.empty() || std::ranges::count(known, owner) || std::ranges::count(owners, owner))
+      continue;
+    owners.push_back(owner);
+    const auto columns = std::ranges::count_if(
+        table.columns, [&](const auto& c) { return owner_of(c.name) == owner; });
+    odd.push_back(fmt::format("{}: {}{}: robot \"{}\" has no \"{}\": {}", name, column.name,
+                              columns > 1 ? fmt::format(" and {} more", columns - 1) : "",
+                              robot.name, owner, xml::did_you_mean(owner, known)));
+  }
+  return odd;
+}
+
+}  // namespace
+
+std::vector<std::string> odd_table(const recording::Table& table, const erp::Robot& robot,
+                                   const std::string& name) {
+  std::vector<std::string> odd = strangers(table, robot, name);
+  const bool has_ecus =
+      std::ranges::any_of(robot.actuators, [&](const auto& a) { return !drive_of(robot, a.name); });
+  const double period_s = row_period_s(table);
+  if (has_ecus && period_s > 1.5 * tick_s)
+    odd.push_back(
+        fmt::format("{}: time_s: a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors "
+                    "and gearboxes "
+                    "may be what is missing between the rows: record one each {:g} ms",
+                    name, 1e3 * period_s, 1e3 * tick_s, 1e3 * tick_s));
+  return odd;
+}
+
+}  // namespace sim::residuals
