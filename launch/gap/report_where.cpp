@@ -12,15 +12,19 @@ using svg::escaped;
 
 namespace {
 
-/// The places that share the largest part, for the sensors cannot tell them apart.
+/// How many places share as much as this one, for the sensors cannot tell them apart; it is in it.
+std::ptrdiff_t alike(const Diagnosis& d, const Located& one) {
+  return std::ranges::count_if(d.where, [&](const Located& p) { return p.share == one.share; });
+}
+
+/// The places that share the largest part.
 std::string alike(const Diagnosis& d) {
   std::string names;
-  std::size_t count = 0;
+  if (d.where.empty() || alike(d, d.where[0]) < 2) return "";
   for (const Located& place : d.where)
     if (place.share == d.where[0].share)
-      names += fmt::format("{}{} of {}", count++ ? ", " : "", sim::effects::word(place.stage),
+      names += fmt::format("{}{} of {}", names.empty() ? "" : ", ", sim::effects::word(place.stage),
                            escaped(place.on));
-  if (count < 2) return "";
   return "<p>It is in one of these, which recordings of these sensors do not tell apart: " + names +
          ".</p>\n";
 }
@@ -50,18 +54,27 @@ std::string page::chains(const Diagnosis& d) {
   for (const Located& place : d.where)
     if (!std::ranges::count(places, place.on)) places.push_back(place.on);
   std::string html = "<h2>Where</h2>\n";
+  const std::vector<double> none(names.size(), 0.0);
+  const std::vector<std::string> quiet(names.size(), "–");
   if (places.empty())
     html += svg::chain(d.not_judged.empty() ? "every stage is at its floor"
                                             : "every stage that could be judged is at its floor",
-                       names, std::vector<double>(9, 0.0));
+                       names, none, quiet);
   if (!d.not_judged.empty())
     html += fmt::format("<p class=\"note\">Not judged: {}.</p>\n",
                         escaped(fmt::format("{}", fmt::join(d.not_judged, ", "))));
   for (const std::string& on : places) {
-    std::vector<double> shares(names.size(), 0.0);
-    for (const Located& place : d.where)
-      if (place.on == on) shares[static_cast<std::size_t>(place.stage)] += place.share;
-    html += svg::chain(on, names, shares);
+    auto shares = none;
+    auto notes = quiet;
+    for (const Located& place : d.where) {
+      if (place.on != on || !(place.share > 0)) continue;
+      const auto stage = static_cast<std::size_t>(place.stage);
+      const auto count = alike(d, place);
+      shares[stage] += place.share;
+      notes[stage] = count > 1 ? fmt::format("one of {}", count)
+                               : fmt::format("{:.0f} %", 100 * shares[stage]);
+    }
+    html += svg::chain(on, names, shares, notes);
   }
   return html + alike(d) + when(d);
 }

@@ -162,7 +162,7 @@ std::string matrix(const std::string& title, const std::vector<std::string>& row
 }
 
 std::string chain(const std::string& title, const std::vector<std::string>& boxes,
-                  const std::vector<double>& shares) {
+                  const std::vector<double>& shares, const std::vector<std::string>& notes) {
   constexpr int step = 98, box = 82, height = 96;
   std::string svg = opened(step * static_cast<int>(boxes.size()) + 10, height) +
                     text(0, 16, title, "start", "class=\"t\"");
@@ -172,8 +172,7 @@ std::string chain(const std::string& title, const std::vector<std::string>& boxe
         rect(x, 30, box, 52, fmt::format("rx=\"5\" fill=\"{}\" stroke=\"#888\"", shade(shares[k])));
     const char* ink = shares[k] > 0.55 ? "fill=\"#fff\"" : "";
     svg += text(x + box / 2.0, 52, boxes[k], "middle", ink);
-    svg += text(x + box / 2.0, 70, shares[k] > 0 ? fmt::format("{:.0f} %", 100 * shares[k]) : "–",
-                "middle", ink);
+    svg += text(x + box / 2.0, 70, notes[k], "middle", ink);
     if (k + 1 < boxes.size()) svg += text(x + box + 8, 60, "→", "middle");
   }
   return svg + "</svg>\n";

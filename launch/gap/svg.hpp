@@ -34,8 +34,8 @@ std::string matrix(const std::string& title, const std::vector<std::string>& row
                    const std::vector<std::string>& columns,
                    const std::vector<std::vector<double>>& cells);
 
-/// Boxes in a row with an arrow between, each with a share in 0 … 1.
+/// Boxes in a row with an arrow between, each with a share in 0 … 1 as its shade and a note of it.
 std::string chain(const std::string& title, const std::vector<std::string>& boxes,
-                  const std::vector<double>& shares);
+                  const std::vector<double>& shares, const std::vector<std::string>& notes);
 
 }  // namespace launch::gap::svg

@@ -30,17 +30,18 @@ run_row() {  # name robot kind cases seed without
   fi
   $erp gap blind run "$cases"
   $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
+  $erp --version >"$out/$1.version"
 }
 
 tell() {  # every row that has a score, with what was missed, case by case
   echo "# How well the diagnosis finds what it is not told"
-  echo "By \`tests/bench/gap_rows.sh\` with $($erp --version), 4 recordings of 25 s a case."
+  echo "By \`tests/bench/gap_rows.sh\`, 4 recordings of 25 s a case."
   local name robot cases seed without
   while read -r name robot _ cases seed without; do
     [ -f "$out/$name.score" ] || continue
     echo
     echo "## $name"
-    echo "$cases cases of $robot, seeds from $seed${without:+, without $without}."
+    echo "$cases cases of $robot, seeds from $seed${without:+, without $without}; $(cat "$out/$name.version")."
     echo '```'
     cat "$out/$name.score"
     echo '```'
