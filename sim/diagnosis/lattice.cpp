@@ -31,6 +31,15 @@ double in_step(const std::vector<double>& values, double s) {
   return std::hypot(c, i) / static_cast<double>(values.size());
 }
 
+/// How well n readings must be in step that chance would seldom do it: anywhere over a length L
+/// they are as much as r with a probability of exp(−n r²), and steps s₀ … s₁ hold (s₁ − s₀) L/s² that
+/// differ.
+double beyond_chance(std::size_t n, double length, double steps_wide, double s) {
+  constexpr double chance = 2e-3;  // chosen: eight readings that are wholly in step are believed
+  const double tries = std::max(1.0, steps_wide * length / (s * s));
+  return std::sqrt(std::log(tries / chance) / static_cast<double>(n));
+}
+
 }  // namespace
 
 double lattice_step(std::span<const residuals::Signal* const> readings, double finest) {
@@ -55,9 +64,13 @@ double lattice_step(std::span<const residuals::Signal* const> readings, double f
   values.erase(values.begin(), std::ranges::lower_bound(values, last - steps * guess));
   if (values.size() < fewest) return finest;
   double best = 0, step = finest;
-  for (double s = guess - 1; s < guess + 1.5; s += of_a_step / steps * guess)
+  const double narrowest = guess - 1, widest = guess + 1.5;
+  for (double s = narrowest; s < widest; s += of_a_step / steps * guess)
     if (const double fits = in_step(values, s); fits > best) best = fits, step = s * finest;
-  constexpr double convincing = 0.7;  // of 1; values anywhere give about 1/sqrt(count); chosen
+  constexpr double least = 0.7;  // of 1; strays and rounding leave more; chosen
+  const double convincing = std::max(
+      least,
+      beyond_chance(values.size(), values.back() - values.front(), widest - narrowest, guess));
   return best > convincing ? step : finest;
 }
 

@@ -10,7 +10,7 @@
 namespace sim::diagnosis {
 
 /// The step between readings that are neighbours; 0: too few to tell. Robust to steps that the
-/// converter rounds.
+/// converter rounds; what chance may do as well is no step: `finest` then.
 double lattice_step(std::span<const residuals::Signal* const> readings, double finest);
 
 /// A sensor_…_quantisation effect for each sensor whose step is at least 1.8 times its data

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
+#include <random>
 
 #include "sim/diagnosis/lattice.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
@@ -204,6 +205,20 @@ TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
   CHECK(d.verdict == Verdict::supported);
   CHECK(d.answer.at(0).type == "sensor_current_quantisation");
   CHECK(d.answer.size() == 1);
+}
+
+TEST_CASE("a few readings anywhere are on no lattice, as many on one are") {
+  std::mt19937_64 random(1);
+  for (const unsigned count : {14, 20, 40, 200})
+    for (int k = 0; k < 50; ++k) {
+      Signal anywhere, on_one;
+      for (unsigned n = 0; n < 4 * count; ++n) on_one.push_back(7.0 * double(random() % count));
+      for (unsigned n = 0; n < count; ++n) anywhere.push_back(double(random() % (30 * count)));
+      const Signal* readings[] = {&anywhere};
+      CHECK(lattice_step(readings, 1) < 1.8);
+      readings[0] = &on_one;
+      CHECK(lattice_step(readings, 1) == Approx(7).margin(0.1));
+    }
 }
 
 TEST_CASE("a gap that only the training recordings show is not identifiable") {
