@@ -57,6 +57,39 @@ Json truth_of(const std::string& name, const sim::blind::Case& blind) {
           {"hidden", hidden}};
 }
 
+/// A case as it was recorded: one CSV a recording.
+struct Recorded {
+  sim::blind::Case blind;
+  std::vector<std::string> csv;
+  int not_finite = 0;  ///< drawn before it, whose motion was not finite
+};
+
+/// Draws a case and records it; one whose motion is not finite is no robot's, and drawn anew.
+Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64_t seed,
+                     const BlindMakeOptions& options, const sim::blind::Shows& shows) {
+  constexpr std::uint64_t next_draw = 1'000'003;
+  constexpr int most = 20;
+  for (int draw = 0;; ++draw) {
+    Recorded found{sim::blind::draw_case(robot, kind, seed + next_draw * std::uint64_t(draw),
+                                         options.only, shows),
+                   {},
+                   draw};
+    try {
+      for (int r = 0; r < options.recordings; ++r) {
+        const auto excitation = sim::excitation(robot, r, options.seconds, seed);
+        const auto table = sim::blind::record(robot, found.blind, excitation,
+                                              seed * 1000 + static_cast<std::uint64_t>(r));
+        std::ostringstream text;
+        recording::write_csv(as_recorded(table, options.without), text);
+        found.csv.push_back(text.str());
+      }
+      return found;
+    } catch (const sim::blind::NotFinite&) {
+      if (draw == most) throw;
+    }
+  }
+}
+
 /// Which part of the work is this process's, of how many: under Open MPI, else all.
 std::pair<std::size_t, std::size_t> part_of_work() {
   const auto number = [](const char* name, std::size_t otherwise) {
@@ -80,29 +113,22 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   const auto count = static_cast<std::size_t>(options.cases);
   std::vector<Json> truths(count), cases(count);
   const sim::blind::Shows shows(robot);
-  std::atomic<int> drawn_anew = 0;
+  std::atomic<int> drawn_anew = 0, not_finite = 0;
   std::size_t done = 0;
   std::mutex telling;
   Progress progress(remarks);
   sim::in_parallel(count, options.threads, [&](std::size_t k) {
     const std::string name = fmt::format("case_{:04}", k + 1);
-    const auto blind = sim::blind::draw_case(robot, kind, options.seed + k, options.only, shows);
-    drawn_anew += blind.drawn_anew;
+    const Recorded made = record_case(robot, kind, options.seed + k, options, shows);
+    drawn_anew += made.blind.drawn_anew, not_finite += made.not_finite;
     fs::create_directories(options.out + "/" + name);
     Json files = Json::array();
-    for (int r = 0; r < options.recordings; ++r) {
-      const auto excitation = sim::excitation(robot, r, options.seconds, options.seed + k);
-      const auto table =
-          as_recorded(sim::blind::record(robot, blind, excitation,
-                                         (options.seed + k) * 1000 + static_cast<std::uint64_t>(r)),
-                      options.without);
-      std::ostringstream text;
-      recording::write_csv(table, text);
+    for (std::size_t r = 0; r < made.csv.size(); ++r) {
       files.push_back(fmt::format("{}/{}.csv", name, r + 1));
-      write_file(options.out + "/" + files.back().get<std::string>(), text.str());
+      write_file(options.out + "/" + files.back().get<std::string>(), made.csv[r]);
     }
-    cases[k] = {{"case", name}, {"recordings", files}, {"withhold", blind.withhold}};
-    truths[k] = truth_of(name, blind);
+    cases[k] = {{"case", name}, {"recordings", files}, {"withhold", made.blind.withhold}};
+    truths[k] = truth_of(name, made.blind);
     const std::lock_guard lock(telling);
     progress.tell("cases", double(++done) / double(count));
   });
@@ -118,6 +144,8 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   if (drawn_anew > 0)
     out << fmt::format("drawn anew  {} that would not have shown in any reading\n",
                        drawn_anew.load());
+  if (not_finite > 0)
+    out << fmt::format("drawn anew  {} whose motion was not finite\n", not_finite.load());
   return 0;
 }
 

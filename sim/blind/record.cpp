@@ -165,7 +165,7 @@ class Run {
     }
     gust_ += period_s / 0.15 * -gust_ + std::sqrt(2 * period_s / 0.15) * normal_(random_);
     if (!plant_.run(volts, period_s, gust_))
-      throw std::runtime_error("the motion of a blind case is not finite");
+      throw NotFinite("the motion of a blind case is not finite: take other seeds");
     measure();
   }
   std::vector<double> said() {

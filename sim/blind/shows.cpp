@@ -54,7 +54,7 @@ bool Shows::operator()(const Quirks& quirks) const {
             rms(now.columns[c].values, walk.plain.columns[c].values) > walk.noise[c])
           return true;
       return false;
-    } catch (const std::runtime_error&) {
+    } catch (const NotFinite&) {
       return true;
     }
   });

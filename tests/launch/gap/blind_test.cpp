@@ -56,6 +56,24 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   CHECK_THAT(out.str(), Catch::Contains("hash"));
 }
 
+TEST_CASE("a robot that begins beyond its stops flies apart: drawn anew, and said") {
+  const Folder folder;
+  std::string robot = erp::write_robot(erp::read_robot(robot_file));
+  const std::string wide = R"(min_rad="-1.2" max_rad="1.6")";
+  REQUIRE(robot.find(wide) != robot.npos);
+  robot.replace(robot.find(wide), wide.size(), R"(min_rad="-0.01" max_rad="0.01")");
+  std::ofstream(folder.path / "robot.xml") << robot;
+  std::ostringstream out, remarks;
+  launch::gap::BlindMakeOptions make{.robot = folder.path / "robot.xml",
+                                     .out = folder.path / "cases",
+                                     .truth = folder.path / "truth.json"};
+  make.cases = 1, make.recordings = 1, make.seconds = 2, make.seed = 2;
+  make.only = {"joint_early_stop"};
+  REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("whose motion was not finite"));
+  CHECK(fs::exists(folder.path / "cases/case_0001/1.csv"));
+}
+
 TEST_CASE("pairs: both found, and F1 of all that was named") {
   const Folder folder;
   const auto effect = [](const char* type) {
