@@ -67,7 +67,8 @@ ModelFigures figures_of(const erp::Robot& robot) {
 }
 
 int model_info(const std::string& robot_file, bool json, std::ostream& out) {
-  const ModelFigures f = figures_of(erp::read_robot(robot_file));
+  const erp::Robot robot = erp::read_robot(robot_file);
+  const ModelFigures f = figures_of(robot);
   out << fmt::format(
       fmt::runtime(json ? "{{\"robot\": \"{}\", \"bodies\": {}, \"joints\": {}, "
                           "\"degrees_of_freedom\": {}, \"actuators\": {}, \"muscles\": {}, "
@@ -78,6 +79,9 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
                           "buses               {}\n"),
       f.name, f.bodies, f.joints, f.degrees_of_freedom, f.actuators, f.muscles, f.mass_kg, f.ecus,
       f.buses);
+  if (!json)
+    for (const erp::Effect& effect : robot.effects)
+      out << fmt::format("effect              {} on {}\n", effect.type, effect.on);
   return 0;
 }
 

@@ -22,6 +22,17 @@ TEST_CASE("a robot in figures") {
   CHECK_THAT(json.str(), Catch::Contains("\"muscles\": 11") && Catch::EndsWith("}\n"));
 }
 
+TEST_CASE("the effects that a robot is simulated with are told") {
+  const auto file = (fs::temp_directory_path() / ("erp_info_" + std::to_string(getpid()))).string();
+  std::ofstream(file)
+      << "<robot name=\"arm\"><include file=\"" << arm
+      << "\"/><effect type=\"joint_coulomb\" on=\"elbow\" extra_Nm=\"0.1\"/></robot>";
+  std::ostringstream words;
+  CHECK(launch::model_info(file, false, words) == 0);
+  fs::remove(file);
+  CHECK_THAT(words.str(), Catch::EndsWith("effect              joint_coulomb on elbow\n"));
+}
+
 TEST_CASE("an ending that names no format is refused with those that do") {
   CHECK_THROWS_WITH(launch::model_export(arm, "arm.obj"), Catch::Contains(".mjcf.xml"));
   CHECK_THROWS_AS(launch::model_export(arm, "/no/such/folder/arm.mjcf.xml"), std::invalid_argument);
