@@ -67,8 +67,8 @@ struct Recorded {
 /// Draws a case and records it; one whose motion is not finite is no robot's, and drawn anew.
 Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64_t seed,
                      const BlindMakeOptions& options, const sim::blind::Shows& shows) {
-  constexpr std::uint64_t next_draw = 1'000'003;
-  constexpr int most = 20;
+  constexpr std::uint64_t next_draw = 1'000'003;  // beyond the seeds of the other cases
+  constexpr int most = 20;                        // chosen
   for (int draw = 0;; ++draw) {
     Recorded found{sim::blind::draw_case(robot, kind, seed + next_draw * std::uint64_t(draw),
                                          options.only, shows),

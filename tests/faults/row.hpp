@@ -20,8 +20,8 @@ inline int injections() {
 class Row {
  public:
   static constexpr double scheduling_ms = 10;  ///< what a busy machine may add to a wake-up; chosen
-  static constexpr double stood_still_ms =
-      5;  ///< the machine: an injection says nothing then; chosen
+  /// The machine: an injection says nothing then. Half of what scheduling may add; chosen.
+  static constexpr double stood_still_ms = 5;
 
   Row(std::string fault, std::string what, double limit_ms)
       : fault_(std::move(fault)), what_(std::move(what)), limit_ms_(limit_ms) {}

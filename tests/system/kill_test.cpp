@@ -86,34 +86,33 @@ Complaints in_time(const std::string& what, std::optional<double> after_ms, doub
 
 std::string file_in(const Folder& folder) { return folder / "run/hinge_rig.mcap"; }
 
-}  // namespace
-
-TEST_CASE("a killed controller leaves its actuators in their safe action within 22 ms") {
-  in_real_time([] {
+/// Kills that program of the rig: every channel must be safe in time, and the graph go on.
+template <class IsSafe>
+void safe_in_time(const std::string& program, const std::string& what, double limit_ms,
+                  IsSafe is_safe) {
+  in_real_time([&] {
     const Folder folder;
-    const auto killed = run_and_kill("force_control", folder / "run");
+    const auto killed = run_and_kill(program, folder / "run");
     CHECK(killed.exit_code == 0);
     const Recorded frames(file_in(folder), "ecu_frame");
-    // hinge_rig relaxes: force mode at relax_tension_N, 2 N; the controller asked for 5 N and more.
-    const auto after_ms = safe_after_ms(frames, killed.at_ns, [](const recording::Members& c) {
-      return number(c, "request") == int{ECU_REQUEST_FORCE} && number(c, "setpoint") == 2000;
-    });
     check_resumed(file_in(folder));
-    return in_time("controller killed: safe action", after_ms, 22);
+    return in_time(what, safe_after_ms(frames, killed.at_ns, is_safe), limit_ms);
   });
 }
 
+}  // namespace
+
+TEST_CASE("a killed controller leaves its actuators in their safe action within 22 ms") {
+  // hinge_rig relaxes: force mode at relax_tension_N, 2 N; the controller asked for 5 N and more.
+  safe_in_time(
+      "force_control", "controller killed: safe action", 22, [](const recording::Members& c) {
+        return number(c, "request") == int{ECU_REQUEST_FORCE} && number(c, "setpoint") == 2000;
+      });
+}
+
 TEST_CASE("a killed plant leaves every ECU at PWM 0 within 52 ms") {
-  in_real_time([] {
-    const Folder folder;
-    const auto killed = run_and_kill("plant", folder / "run");
-    CHECK(killed.exit_code == 0);
-    const Recorded frames(file_in(folder), "ecu_frame");
-    const auto after_ms = safe_after_ms(frames, killed.at_ns, [](const recording::Members& c) {
-      return number(c, "state") == int{ECU_STATE_FAULT} && number(c, "duty_counts") == 0;
-    });
-    check_resumed(file_in(folder));
-    return in_time("plant killed: PWM 0", after_ms, 52);
+  safe_in_time("plant", "plant killed: PWM 0", 52, [](const recording::Members& c) {
+    return number(c, "state") == int{ECU_STATE_FAULT} && number(c, "duty_counts") == 0;
   });
 }
 

@@ -27,7 +27,7 @@ chmod +x "$exchange/run"
 TMPDIR=$exchange "$exchange/run" > "$exchange/without" 2>&1
 [ "$(grep -c '^[0-9]' "$exchange/without")" = 500 ] || { cat "$exchange/without"; exit 1; }
 
-# On a busy machine that kernel may come to nothing within the launcher's minute, or its logger may
+# On a busy machine that kernel may come to nothing within the launcher's patience, or its logger may
 # miss a message (it counts them): it gets three goes. A row that differs is a failure at once.
 for go in 1 2 3; do
   "$here/run_in_uml.sh" "$exchange/run" --device can \

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
-#include <random>
 
-#include "sim/diagnosis/lattice.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
 
 using namespace sim::diagnosis;
@@ -193,34 +191,6 @@ TEST_CASE("late, jittering and lost commands are told apart by their ages") {
   }
 }
 
-TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
-  auto blind = nothing_hidden();
-  CHECK(coarse_sensors(episodes(blind, 3, 1), hinge_rig()).empty());
-  blind.quirks.chains[1].current.step = 0.2;
-  const auto coarse = coarse_sensors(episodes(blind, 3, 1), hinge_rig());
-  REQUIRE(coarse.size() == 1);
-  CHECK(sim::effects::about(coarse[0].effect).type == "sensor_current_quantisation");
-  CHECK(coarse[0].on == "extensor");
-  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
-  CHECK(d.verdict == Verdict::supported);
-  CHECK(d.answer.at(0).type == "sensor_current_quantisation");
-  CHECK(d.answer.size() == 1);
-}
-
-TEST_CASE("a few readings anywhere are on no lattice, as many on one are") {
-  std::mt19937_64 random(1);
-  for (const unsigned count : {14, 20, 40, 200})
-    for (int k = 0; k < 50; ++k) {
-      Signal anywhere, on_one;
-      for (unsigned n = 0; n < 4 * count; ++n) on_one.push_back(7.0 * double(random() % count));
-      for (unsigned n = 0; n < count; ++n) anywhere.push_back(double(random() % (30 * count)));
-      const Signal* readings[] = {&anywhere};
-      CHECK(lattice_step(readings, 1) < 1.8);
-      readings[0] = &on_one;
-      CHECK(lattice_step(readings, 1) == Approx(7).margin(0.1));
-    }
-}
-
 TEST_CASE("a gap that only the training recordings show is not identifiable") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 6, 2);
@@ -246,12 +216,4 @@ TEST_CASE("where nothing can be judged there is no word of no gap") {
   const Diagnosis d = diagnose(hinge_rig(), episodes(nothing_hidden(), 0.1, 1));
   CHECK(d.verdict == Verdict::not_identifiable);
   CHECK_THAT(d.warnings.back(), Catch::Contains("nothing could be judged"));
-}
-
-TEST_CASE("where nothing can be judged, readings that look coarse explain nothing") {
-  auto blind = nothing_hidden();
-  blind.quirks.chains[1].current.step = 0.03;
-  const auto short_ones = episodes(blind, 0.3, 1);
-  REQUIRE_FALSE(coarse_sensors(short_ones, hinge_rig()).empty());
-  CHECK(diagnose(hinge_rig(), short_ones).verdict == Verdict::not_identifiable);
 }

@@ -1,0 +1,49 @@
+#include "sim/diagnosis/lattice.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "sim/diagnosis/diagnose.hpp"
+#include "tests/sim/diagnosis/blind_recording.hpp"
+
+using namespace sim::diagnosis;
+using blind_recording::episodes;
+using blind_recording::hinge_rig;
+using blind_recording::nothing_hidden;
+using sim::residuals::Signal;
+
+TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
+  auto blind = nothing_hidden();
+  CHECK(coarse_sensors(episodes(blind, 3, 1), hinge_rig()).empty());
+  blind.quirks.chains[1].current.step = 0.2;
+  const auto coarse = coarse_sensors(episodes(blind, 3, 1), hinge_rig());
+  REQUIRE(coarse.size() == 1);
+  CHECK(sim::effects::about(coarse[0].effect).type == "sensor_current_quantisation");
+  CHECK(coarse[0].on == "extensor");
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
+  CHECK(d.verdict == Verdict::supported);
+  CHECK(d.answer.at(0).type == "sensor_current_quantisation");
+  CHECK(d.answer.size() == 1);
+}
+
+TEST_CASE("a few readings anywhere are on no lattice, as many on one are") {
+  std::mt19937_64 random(1);
+  for (const unsigned count : {14, 20, 40, 200})
+    for (int k = 0; k < 50; ++k) {
+      Signal anywhere, on_one;
+      for (unsigned n = 0; n < 4 * count; ++n) on_one.push_back(7.0 * double(random() % count));
+      for (unsigned n = 0; n < count; ++n) anywhere.push_back(double(random() % (30 * count)));
+      const Signal* readings[] = {&anywhere};
+      CHECK(lattice_step(readings, 1) < 1.8);
+      readings[0] = &on_one;
+      CHECK(lattice_step(readings, 1) == Approx(7).margin(0.1));
+    }
+}
+
+TEST_CASE("where nothing can be judged, readings that look coarse explain nothing") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[1].current.step = 0.03;
+  const auto short_ones = episodes(blind, 0.3, 1);
+  REQUIRE_FALSE(coarse_sensors(short_ones, hinge_rig()).empty());
+  CHECK(diagnose(hinge_rig(), short_ones).verdict == Verdict::not_identifiable);
+}
