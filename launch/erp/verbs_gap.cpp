@@ -76,6 +76,9 @@ void add_twins(CLI::App& gap, Chosen& chosen) {
       ->check(CLI::Range(2.0, 600.0));
   twins->add_option("--share", o->share, "of an effect that another leaves, at most; default 0.1")
       ->check(CLI::Range(0.0, 1.0));
+  twins->add_option("--together", o->together, "others that stand for one, at most; default 1")
+      ->check(CLI::Range(1, 9));
+  twins->add_option("--withhold", o->withhold, "types of effects to do without");
   twins->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
   twins->callback([=, &chosen] { chosen = [=] { return gap::twins(*o, std::cout, std::cerr); }; });
 }

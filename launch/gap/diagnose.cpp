@@ -54,16 +54,6 @@ Sorted sort(const DiagnoseOptions& options) {
   return sorted;
 }
 
-void check_types(const std::vector<std::string>& types) {
-  std::vector<std::string> known;
-  for (const auto& effect : sim::effects::library())
-    known.emplace_back(sim::effects::about(effect).type);
-  for (const std::string& type : types)
-    if (!sim::effects::neutral(type))
-      throw std::invalid_argument("--withhold " + type + ": no such effect: " +
-                                  xml::did_you_mean(type, known) + " erp model effects lists them");
-}
-
 std::string told(const diagnosis::Named& n) {
   std::string text = fmt::format("{} on {}", n.type, n.on);
   for (std::size_t k = 0; k < n.names.size(); ++k)
@@ -162,6 +152,16 @@ sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
 
 }  // namespace
 
+void check_withheld(const std::vector<std::string>& types) {
+  std::vector<std::string> known;
+  for (const auto& effect : sim::effects::library())
+    known.emplace_back(sim::effects::about(effect).type);
+  for (const std::string& type : types)
+    if (!sim::effects::neutral(type))
+      throw std::invalid_argument("--withhold " + type + ": no such effect: " +
+                                  xml::did_you_mean(type, known) + " erp model effects lists them");
+}
+
 int exit_code(diagnosis::Verdict verdict) {
   switch (verdict) {
     case diagnosis::Verdict::supported:
@@ -178,7 +178,7 @@ int exit_code(diagnosis::Verdict verdict) {
 
 int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(options.robot);
-  check_types(options.withhold);
+  check_withheld(options.withhold);
   const Sorted sorted = sort(options);
   const Reading read = read_episodes(robot, sorted.files);
   tell(read, remarks);

@@ -24,6 +24,9 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
 /// What there is to say of it, a line each.
 void tell(const Reading& reading, std::ostream& remarks);
 
+/// Throws std::invalid_argument of a type that the library has not.
+void check_withheld(const std::vector<std::string>& types);
+
 /// Prints a row a stage, the largest share of the gap first, and the stages that leave their noise
 /// floor in words; what was mended in the recordings goes to `remarks`. Throws xml::Errors,
 /// RecordingError, std::invalid_argument. Returns the exit code.
@@ -48,11 +51,13 @@ struct TwinsOptions {
   std::vector<std::string> without = {};     ///< "tension", "current", "joint": as if not recorded
   double seconds = 20;                       ///< of those that the simulator records
   double share = 0.1;                        ///< of what is hidden, at most left
+  int together = 1;                          ///< so many that stand for one, at most
+  std::vector<std::string> withhold = {};    ///< types of effects to do without
   int threads = 2;
 };
 
-/// Prints which effects the robot's sensors cannot tell apart, a row a pair. Throws as where,
-/// std::runtime_error. Returns the exit code.
+/// Prints which effects the robot's sensors cannot tell apart, a row a pair; of several that stand
+/// for one together, a row an effect. Throws as where, std::runtime_error. Returns the exit code.
 int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks);
 
 struct PlanOptions {

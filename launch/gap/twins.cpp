@@ -6,7 +6,7 @@
 
 #include "launch/gap/gap.hpp"
 #include "launch/text/columns.hpp"
-#include "sim/diagnosis/twins.hpp"
+#include "sim/diagnosis/stand_ins.hpp"
 #include "sim/rehearsal/rehearse.hpp"
 
 namespace launch::gap {
@@ -46,9 +46,25 @@ std::string size_of(Placed p) {
   return fmt::format("{} = {:.2g}", first.name, *first.value);
 }
 
+std::vector<diagnosis::Twin> found(const diagnosis::Trials& trials, const TwinsOptions& options) {
+  if (options.together < 2)
+    return diagnosis::twins(trials, options.share, options.withhold, options.threads);
+  return diagnosis::stand_ins(trials, {.share = options.share,
+                                       .most = std::size_t(options.together),
+                                       .withhold = options.withhold,
+                                       .threads = options.threads});
+}
+
+std::string names_of(const std::vector<Placed>& others) {
+  std::string names;
+  for (const Placed& other : others) names += (names.empty() ? "" : " + ") + name_of(other);
+  return names;
+}
+
 }  // namespace
 
 int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks) {
+  check_withheld(options.withhold);
   const erp::Robot robot = read_chains(options.robot);
   if (options.recordings.empty() && !robot.drives.empty())
     throw std::invalid_argument(options.robot +
@@ -60,8 +76,8 @@ int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks)
   const diagnosis::Trials trials(robot, std::move(episodes));
   std::vector<std::vector<std::string>> rows{
       {"hidden", "as small as", "would pass for", "shows, sigma", "left, sigma", "likeness"}};
-  for (const auto& twin : diagnosis::twins(trials, options.share, options.threads))
-    rows.push_back({name_of(twin.hidden), size_of(twin.hidden), name_of(twin.other),
+  for (const auto& twin : found(trials, options))
+    rows.push_back({name_of(twin.hidden), size_of(twin.hidden), names_of(twin.others),
                     fmt::format("{:.1f}", twin.shows), fmt::format("{:.2g}", twin.left),
                     fmt::format("{:.4f}", std::sqrt(1 - std::pow(twin.left / twin.shows, 2)))});
   for (const std::string& line : align(rows, {false, false, false, true, true, true}))

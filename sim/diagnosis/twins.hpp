@@ -14,13 +14,15 @@
 namespace sim::diagnosis {
 
 struct Twin {
-  effects::Placed hidden, other;  ///< 0.3 % of the range, or 10 % where that does not show
-  double shows = 0;               ///< |δz| of what is hidden
-  double left = 0;                ///< of it, once the other stands for it
+  effects::Placed hidden;               ///< 0.3 % of the range, or 10 % where that does not show
+  std::vector<effects::Placed> others;  ///< one; of `stand_ins` several, who stand for it together
+  double shows = 0;                     ///< |δz| of what is hidden
+  double left = 0;                      ///< of it, once the others stand for it
 };
 
-/// Those of which at most `share` is left, the exact ones first. Bus and coarse steps, which change
-/// no residual, are in none.
-std::vector<Twin> twins(const Trials& trials, double share, int threads = 2);
+/// Those of which at most `share` is left, the exact ones first. Types withheld are not looked at.
+/// Bus and coarse steps, which change no residual, are in none.
+std::vector<Twin> twins(const Trials& trials, double share,
+                        const std::vector<std::string>& withhold = {}, int threads = 2);
 
 }  // namespace sim::diagnosis

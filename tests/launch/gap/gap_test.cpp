@@ -64,3 +64,14 @@ TEST_CASE("what the sensors of a robot cannot tell apart is told without a recor
   CHECK_THAT(out.str(), Catch::Contains("tendon_kite_line"));
   CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // does not show
 }
+
+TEST_CASE("what several effects do together for one is told, and of what types is checked") {
+  std::ostringstream out, remarks;
+  launch::gap::TwinsOptions options{.robot = robot_file, .seconds = 4, .together = 2};
+  CHECK(launch::gap::twins(options, out, remarks) == 0);
+  CHECK_THAT(out.str(),
+             Catch::Matches("[^]*sensor_joint_offset on elbow [^\n]* on [^\n]* \\+ [^]*"));
+  options.withhold = {"sensor_joint_ofset"};
+  CHECK_THROWS_WITH(launch::gap::twins(options, out, remarks),
+                    Catch::Contains("did you mean \"sensor_joint_offset\""));
+}

@@ -14,7 +14,8 @@ namespace {
 bool has(const std::vector<Twin>& all, const std::string& hidden, const std::string& other) {
   return std::ranges::any_of(all, [&](const Twin& twin) {
     return sim::effects::about(twin.hidden.effect).type == hidden &&
-           sim::effects::about(twin.other.effect).type == other && twin.hidden.on == twin.other.on;
+           sim::effects::about(twin.others[0].effect).type == other &&
+           twin.hidden.on == twin.others[0].on;
   });
 }
 
@@ -29,7 +30,7 @@ TEST_CASE("springs in a row pass for each other; friction and springs do not") {
   CHECK(has(all, "routing_pulley_radius", "routing_moment_arm"));
   for (const Twin& twin : all) {
     CHECK(sim::effects::about(twin.hidden.effect).type != "gearbox_viscous");
-    CHECK(twin.hidden.on == twin.other.on);  // two tendons are told apart
+    CHECK(twin.hidden.on == twin.others[0].on);  // two tendons are told apart
   }
   CHECK(twins(trials, 1e-12).size() < all.size());
 }
