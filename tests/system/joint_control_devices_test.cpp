@@ -7,7 +7,7 @@
 #include "components/node/real_time.hpp"
 #include "tests/system/background.hpp"
 #include "tests/system/joint_runs.hpp"
-#include "tests/system/stalls.hpp"
+#include "tests/stalls.hpp"
 
 using namespace tests;
 

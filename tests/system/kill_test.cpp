@@ -8,7 +8,7 @@
 #include "firmware/core/ecu.h"
 #include "tests/system/background.hpp"
 #include "tests/system/recorded.hpp"
-#include "tests/system/stalls.hpp"
+#include "tests/stalls.hpp"
 
 using namespace tests;
 

@@ -11,7 +11,8 @@ here=$(dirname "$(realpath "$0")")
 . "$here/same_rows.sh"
 exchange=$(mktemp -d)
 started=()
-trap 'kill "${started[@]}" 2> /dev/null; wait; rm -rf "$exchange"' EXIT
+# KILL: what they leave is nothing, and an emulator that waits for its serial line may not hear TERM.
+trap 'kill -KILL "${started[@]}" 2> /dev/null; wait; rm -rf "$exchange"' EXIT
 export ERP_DOMAIN=$((1 + $$ % 200))
 bus=udp:239.255.42.1:$((20000 + 16 * ERP_DOMAIN)) converters=$((24000 + ERP_DOMAIN))
 
@@ -22,7 +23,7 @@ cd "$source"
 bin="$bin"
 . "$here/same_rows.sh"
 out=\$1 && shift
-"$bin/erp" launch launch/force_step.xml --device can --lockstep --for 1s --out "\$out" --patience 2min "\$@" \
+"$bin/erp" launch launch/force_step.xml --device can --lockstep --for 1s --out "\$out" --patience 5min "\$@" \
   < /dev/null > "\$out.txt" 2>&1 || { cat "\$out.txt"; exit 1; }
 recorded "\$out/force_step.mcap"
 RUN
@@ -59,8 +60,8 @@ with_microcontroller() {
     sleep 0.1
   done
   ERP_UML_SERIAL=$(grep -o '/dev/pts/[0-9]*' "$exchange/qemu.txt" | xargs) \
-    timeout -k 5 150 "$here/run_in_uml.sh" "$exchange/guest" > "$exchange/guest.txt" 2>&1
-  kill $qemu
+    timeout -k 5 400 "$here/run_in_uml.sh" "$exchange/guest" > "$exchange/guest.txt" 2>&1
+  kill -KILL $qemu && wait $qemu 2> /dev/null
 }
 
 with_process || exit 1

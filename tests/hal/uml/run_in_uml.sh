@@ -16,7 +16,10 @@ for tool in linux.uml insmod ip cansend cc; do
 done
 
 exchange=$(mktemp -d /var/tmp/erp_uml.XXXXXX) || exit 1
-trap 'rm -rf "$exchange"' EXIT
+uml=
+trap '[ -z "$uml" ] || kill -KILL -- "-$uml" 2> /dev/null; rm -rf "$exchange"' EXIT
+trap 'exit 143' TERM
+trap 'exit 130' INT
 printf '%q ' "$@" > "$exchange/command"
 
 # The first and only process of the guest.
@@ -61,10 +64,13 @@ cc -shared -fPIC -O2 -o "$registers" "$(dirname "$0")/whole_registers.c" || exit
 
 lines=() && for terminal in ${ERP_UML_SERIAL:-}; do lines+=("ssl${#lines[@]}=tty:$terminal"); done
 
-PATH=$PATH:/usr/sbin:/sbin LD_PRELOAD=$registers linux.uml mem=256M root=/dev/root rootfstype=hostfs rootflags=/ ro \
+# A group of its own: its processes do not end with it, nor of SIGTERM.
+PATH=$PATH:/usr/sbin:/sbin LD_PRELOAD=$registers setsid linux.uml mem=256M root=/dev/root rootfstype=hostfs rootflags=/ ro \
   quiet loglevel=3 uml_dir="$exchange" umid=guest con=null con0=null,fd:1 ssl=null \
   "${lines[@]}" \
-  init="$exchange/init" < /dev/null
+  init="$exchange/init" < /dev/null &
+uml=$!
+wait "$uml"
 status=$(cat "$exchange/status" 2> /dev/null)
 [ -n "$status" ] || { echo "run_in_uml.sh: the guest did not reach the end" >&2; exit 1; }
 exit "$status"
