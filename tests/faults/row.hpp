@@ -31,16 +31,21 @@ class Row {
     return counted() < wanted && counted() + set_aside_ < 10 * wanted;
   }
   /// One injection: when it was done, and when that was noticed or safe (0: never). One that is late,
-  /// or never was, is set aside if the machine stood still in the time for it, or just before.
+  /// or never was, is set aside if the machine did not keep time.
   void add(std::int64_t from_ns, std::int64_t to_ns) {
-    const auto due_ns = from_ns + std::int64_t(1e6 * (limit_ms_ + scheduling_ms));
-    const auto seen_ns = to_ns ? to_ns : due_ns;
-    const double took_ms = 1e-6 * double(seen_ns - from_ns);
-    const bool late = to_ns == 0 || took_ms > limit_ms_;
-    if (late && stalls_.together_ms(from_ns - just_before_ns, seen_ns) >= stood_still_ms)
-      ++set_aside_;
-    else if (to_ns == 0) ++missed_;
+    const double took_ms = 1e-6 * double(to_ns - from_ns);
+    const bool never = to_ns == 0, late = never || took_ms > limit_ms_;
+    if (late && !kept_time(from_ns, never ? due_ns(from_ns) : to_ns)) return set_aside();
+    if (never) ++missed_;
     else ms_.push_back(took_ms);
+  }
+  /// One of which nothing can be said.
+  void set_aside() { ++set_aside_; }
+  /// Whether the machine kept time while an injection was due: what else it did counts only then.
+  bool judges(std::int64_t from_ns) const { return kept_time(from_ns, due_ns(from_ns)); }
+  /// Whether the machine stood still neither in that time nor just before.
+  bool kept_time(std::int64_t from_ns, std::int64_t to_ns) const {
+    return stalls_.together_ms(from_ns - just_before_ns, to_ns) < stood_still_ms;
   }
   /// Prints the row, and checks it: none missed, all within the limit and what scheduling adds, and
   /// of twenty injections half within the limit itself. Of what was always set aside it judges nothing.
@@ -70,6 +75,9 @@ class Row {
  private:
   static constexpr std::int64_t just_before_ns = 20'000'000;
 
+  std::int64_t due_ns(std::int64_t from_ns) const {
+    return from_ns + std::int64_t(1e6 * (limit_ms_ + scheduling_ms));
+  }
   int counted() const { return int(ms_.size()) + missed_; }
   double at(double share) const {
     if (ms_.empty()) return 0;
