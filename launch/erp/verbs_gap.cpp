@@ -14,6 +14,7 @@ void add_where(CLI::App& gap, Chosen& chosen) {
   auto recordings = std::make_shared<std::vector<std::string>>();
   auto* where = gap.add_subcommand(
       "where", "Which stages of the chain recordings contradict: motor, gearbox, tendon, joint");
+  where->footer("Exit codes: 0 told, 5 nothing could be judged; 1 failed, 2 bad usage or input.");
   where->add_option("--robot", *robot, "robot.xml, the model")->required();
   where->add_option("--real", *recordings, "recordings of the robot, MCAP or CSV")->required();
   where->callback([=, &chosen] {

@@ -128,6 +128,32 @@ void print(const rehearsal::Experiment& experiment, const erp::Robot& robot,
                        sim::excitation_word(robot, c.kind), c.seed, c.least,
                        100 * c.extremes.of_max_tension, c.unsafe);
   }
+  if (suspects.size() < 3) return;  // with two the table says it
+  const auto& split = experiment.candidates.front().split;
+  for (std::size_t k = 0; k < split.size(); ++k)
+    out << fmt::format("{:<12}{:.1f} sigma from {}\n", k ? "" : "of the first", split[k],
+                       name_of(suspects[k + 1]));
+}
+
+/// Which of them no safe excitation tells from the first.
+std::vector<std::string> never_split(const rehearsal::Experiment& experiment,
+                                     const std::vector<Placed>& suspects) {
+  std::vector<std::string> names;
+  if (suspects.size() == 1) return {"the robot without it"};
+  for (std::size_t k = 1; k < suspects.size(); ++k)
+    if (std::ranges::none_of(experiment.candidates, [&](const rehearsal::Candidate& c) {
+          return c.unsafe.empty() && c.split[k - 1] >= telling;
+        }))
+      names.push_back(name_of(suspects[k]));
+  return names;
+}
+
+void print_unsplit(const std::vector<std::string>& names, const Placed& first, std::ostream& out) {
+  if (names.empty())
+    out << "none of these excitations splits all of them at once: try more with --candidates\n";
+  else
+    out << fmt::format("none of these excitations tells {} from {}: that needs another sensor\n",
+                       name_of(first), fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -163,7 +189,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   const auto& best = experiment.candidates.front();
   if (best.least < telling) {
-    out << "none of these excitations would split them: that needs another sensor\n";
+    print_unsplit(never_split(experiment, suspects), suspects[0], out);
     return 5;
   }
   write_graph(options.out, options.robot, robot, experiment.chosen);

@@ -24,7 +24,8 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
                      gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);
 }
 
-void print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>& gaps,
+/// Whether anything could be judged.
+bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>& gaps,
                  std::ostream& out) {
   std::string open;
   for (const auto& gap : gaps)
@@ -40,6 +41,7 @@ void print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
   else if (!some) out << "nothing could be judged\n";
   else if (unjudged.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
   else out << "no gap in the others: they are left with the noise of their sensors\n";
+  return some;
 }
 
 }  // namespace
@@ -75,8 +77,7 @@ int where(const std::string& robot_file, const std::vector<std::string>& recordi
   out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
                      "floor", "times", "share", "windows");
   for (const auto& gap : gaps) print_row(gap, out);
-  print_words(robot, gaps, out);
-  return 0;
+  return print_words(robot, gaps, out) ? 0 : 5;
 }
 
 }  // namespace launch::gap

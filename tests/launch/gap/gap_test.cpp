@@ -54,6 +54,19 @@ TEST_CASE("a stage without its signals is named, not passed over") {
   std::filesystem::remove(file);
 }
 
+TEST_CASE("where nothing can be judged, the exit code says so as well") {
+  const auto file = recorded("erp_gap_nothing.csv", {});
+  recording::Table table = recording::read_table(file);
+  for (auto& column : table.columns) column.values.resize(15);  // shorter than any window
+  std::ofstream out(file);
+  recording::write_csv(table, out);
+  out.close();
+  std::ostringstream said, remarks;
+  CHECK(launch::gap::where(robot_file, {file}, said, remarks) == 5);
+  CHECK_THAT(said.str(), Catch::Contains("nothing could be judged"));
+  std::filesystem::remove(file);
+}
+
 TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {
   std::ostringstream out, remarks, less;
   launch::gap::TwinsOptions options{.robot = robot_file, .seconds = 4};

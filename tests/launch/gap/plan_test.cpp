@@ -75,12 +75,17 @@ TEST_CASE("what else is known of the robot is in it when the next motion is rehe
   CHECK(beside.said != alone.said);                               // but felt
 }
 
-TEST_CASE("twins are split by no motion, and no graph is written") {
+TEST_CASE("twins are split by no motion: which they are is said, and no graph is written") {
   const Folder folder;
-  const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
-                               effect("sensor_shaft_offset", "offset_rad", -0.0889));
+  const Planned planned =
+      plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
+           effect("gearbox_coulomb", "extra_Nm", 0.05) + ", " +
+               effect("sensor_shaft_offset", "offset_rad", -0.0889));
   INFO(planned.said);
   CHECK(planned.code == 5);
+  CHECK_THAT(planned.said, Catch::Contains("tells tendon_length_offset on flexor from "
+                                           "sensor_shaft_offset on flexor: that needs"));
+  CHECK_THAT(planned.said, Catch::Contains(" sigma from gearbox_coulomb on flexor"));
   CHECK_FALSE(fs::exists(folder.path / "next/graph.xml"));
 }
 
