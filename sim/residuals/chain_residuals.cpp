@@ -17,46 +17,22 @@ struct Chain {
   const Bump& bump;
 };
 
-/// V − R i at the end of each period, without the current's start within it.
-Signal settled_V(const Chain& c) {
-  const ChainTrace& t = c.trace;
-  Signal left(t.terminal_V.size(), nan);
-  for (std::size_t k = 1; k < left.size(); ++k) {
-    // of the current before, so much is left at the end of a period
-    const double kept = std::exp(-c.period_s * t.resistance_ohm[k] / c.motor.inductance_H);
-    const double settled_A = (t.current_A[k] - kept * t.current_A[k - 1]) / (1 - kept);
-    left[k] = t.terminal_V[k] - t.resistance_ohm[k] * settled_A;
-  }
-  return left;
-}
-
-/// V − R i over each period: what K_E N (θ_k − θ_k−1)/T answers to.
-Signal over_period_V(const Chain& c) {
-  const Signal settled = settled_V(c);
-  Signal left(settled.size(), nan);
-  erp::MotorType motor = c.motor;
-  double d = earlier_share(motor, c.period_s);
-  for (std::size_t k = 1; k < left.size(); ++k) {
-    const double ohm = c.trace.resistance_ohm[k];
-    if (ohm != motor.resistance_ohm && ohm > 0)
-      motor.resistance_ohm = ohm, d = earlier_share(motor, c.period_s);
-    left[k] = (1 - d) * settled[k] + d * settled[k - 1];
-  }
-  return left;
-}
-
 /// V − R i − L di/dt over the two periods around each row: what K_E N (θ_k+1 − θ_k−1)/2T answers to.
 Signal around_V(const Chain& c) {
   const ChainTrace& t = c.trace;
-  const Signal over = over_period_V(c);
   const double a = t.current_averaged;
-  Signal left(over.size(), nan);
+  TwoPeriodsAt around(c.motor, c.period_s);
+  Signal left(t.terminal_V.size(), nan);
   for (std::size_t k = 1; k + 1 < left.size(); ++k) {
-    const double rise_A_per_s = (t.current_A[k + 1] - t.current_A[k - 1]) / (2 * c.period_s);
-    const double averaged = (t.terminal_V[k] + t.terminal_V[k + 1]) / 2 -
-                            t.resistance_ohm[k] * t.current_A[k] -
-                            c.motor.inductance_H * rise_A_per_s;
-    left[k] = (1 - a) * (over[k] + over[k + 1]) / 2 + a * averaged;
+    const double ohm = t.resistance_ohm[k], before = t.current_A[k - 1], now = t.current_A[k],
+                 next = t.current_A[k + 1];
+    const auto& [volts, amperes, drives, inertia] = around.ohm(ohm);
+    const double held =
+        volts[0] * t.terminal_V[k] + volts[1] * t.terminal_V[k + 1] -
+        ohm * (amperes[0] * before + amperes[1] * now + amperes[2] * next);
+    const double averaged = (t.terminal_V[k] + t.terminal_V[k + 1]) / 2 - ohm * now -
+                            c.motor.inductance_H * (next - before) / (2 * c.period_s);
+    left[k] = (1 - a) * held + a * averaged;
   }
   return left;
 }
@@ -71,14 +47,16 @@ std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
 }
 
 std::vector<double> gearbox_Nm(const Chain& c, std::span<const std::size_t> rows) {
-  erp::MotorType motor = c.motor;
-  const double viscous = motor.rotor_viscous_Nm_s_per_rad * motor.gear_ratio * motor.gear_ratio;
+  const double viscous =
+      c.motor.rotor_viscous_Nm_s_per_rad * c.motor.gear_ratio * c.motor.gear_ratio;
+  const double a = c.trace.current_averaged, turned = turned_inertia_kg_m2(c.motor);
+  TwoPeriodsAt around(c.motor, c.period_s);
   std::vector<double> value;
   for (const std::size_t k : rows) {
-    if (!c.trace.resistance_ohm.empty())
-      motor.resistance_ohm = c.bump.mean(c.trace.resistance_ohm, k);
-    value.push_back(balance_inertia(motor, c.period_s, 1 - c.trace.current_averaged) *
-                        c.bump.acceleration(c.trace.shaft_rad, k) +
+    const double ohm = c.trace.resistance_ohm.empty() ? c.motor.resistance_ohm
+                                                      : c.bump.mean(c.trace.resistance_ohm, k);
+    const double inertia = (1 - a) * around.ohm(ohm).inertia_kg_m2 + a * turned;
+    value.push_back(inertia * c.bump.acceleration(c.trace.shaft_rad, k) +
                     viscous * c.bump.rate(c.trace.shaft_rad, k) - c.bump.mean(c.trace.drive_Nm, k));
   }
   return value;

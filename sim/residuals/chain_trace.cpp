@@ -163,17 +163,14 @@ class Tracer {
     return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * answered) /
            out_.resistance_ohm[k];
   }
-  /// ī over the period that ends at row k, but for what the speed changes.
-  double mean_A(std::size_t k) const {
-    const double now = current_A(k);
-    return now + trailing_ * (current_A(k - 1) - now);
-  }
-
   /// ī over the two periods around row k, so weighed that it drives the change of their mean speeds;
   /// a current that is a mean itself stays as it is.
   double around_A(std::size_t k) const {
     const double a = out_.current_averaged;
-    return (1 - a) * (earlier_ * mean_A(k) + (1 - earlier_) * mean_A(k + 1)) + a * current_A(k);
+    const auto& share = around_.drives;
+    double weighed = 0;
+    for (std::size_t j = 0; j < share.size(); ++j) weighed += share[j] * current_A(k - 1 + j);
+    return (1 - a) * weighed + a * current_A(k);
   }
 
   void find_drive() {
@@ -207,8 +204,7 @@ class Tracer {
   const ActuatorSignals& in_;
   const PathTrace& path_;
   double period_s_;
-  double trailing_ = trail_s(m_.motor, period_s_) / period_s_;
-  double earlier_ = mean_speed_share(m_.motor, period_s_);
+  TwoPeriods around_ = two_periods(m_.motor, period_s_);
   Bump bump_;
   TendonLaw law_;
   bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission

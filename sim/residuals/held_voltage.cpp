@@ -1,46 +1,95 @@
 #include "sim/residuals/held_voltage.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
 
 namespace sim::residuals {
 namespace {
 
-/// While the voltage is held the speed settles, as e^(−t damping/inertia).
-struct Settling {
-  double inertia, damping;
-  double share;  ///< ω_k − mean ω as a share of ω_k − ω_k−1
-  double end;    ///< ω̇ at the period's end as a share of the mean ω̇
+/// Of the state, what period 0 begins with and what acts are unknown or given: i_0, V_1, V_2, ω_0, τ.
+/// A row is how something depends on these.
+using Row = Eigen::Matrix<double, 1, 5>;
+enum Cause { from_i, from_V1, from_V2, from_speed, from_load };
+
+/// A state: current, speed, angle, and y = ∫ e^(−(t_k − t)R/L) ω dt over the period that ends.
+struct State {
+  Row current = Row::Zero(), speed = Row::Zero(), angle = Row::Zero(), weighed = Row::Zero();
 };
 
-Settling settling(const erp::MotorType& m, double period_s) {
-  const double n2 = m.gear_ratio * m.gear_ratio;
-  const double inertia = m.rotor_inertia_kg_m2 * n2 + m.gear_inertia_kg_m2 / m.gear_efficiency;
-  const double damping = n2 * m.torque_Nm_per_A * m.back_emf_V_s_per_rad / m.resistance_ohm;
-  const double x = damping / inertia * period_s, left = std::exp(-x);
-  if (x < 1e-6) return {inertia, damping, 0.5, 1};
-  return {inertia, damping, ((1 - left) / x - left) / (1 - left), x * left / (1 - left)};
-}
+class Motor {
+ public:
+  Motor(const erp::MotorType& m, double period_s)
+      : rate_per_s_(m.resistance_ohm / m.inductance_H), period_s_(period_s) {
+    const double inertia = turned_inertia_kg_m2(m), n = m.gear_ratio;
+    Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Zero();  // state; V, τ
+    a(0, 0) = -rate_per_s_, a(0, 1) = -m.back_emf_V_s_per_rad * n / m.inductance_H;
+    a(0, 4) = 1 / m.inductance_H;
+    a(1, 0) = m.torque_Nm_per_A * n / inertia, a(1, 5) = -1 / inertia;
+    a(2, 1) = 1;
+    a(3, 1) = 1, a(3, 3) = -rate_per_s_;
+    step_ = (a * period_s).exp();
+  }
+
+  State after(const State& before, Cause voltage) const {
+    Eigen::Matrix<double, 6, 5> x = Eigen::Matrix<double, 6, 5>::Zero();
+    x.row(0) = before.current, x.row(1) = before.speed, x.row(2) = before.angle;
+    x(4, voltage) = 1, x(5, from_load) = 1;
+    const Eigen::Matrix<double, 6, 5> end = step_ * x;
+    return {end.row(0), end.row(1), end.row(2), end.row(3)};
+  }
+  /// The part of a current that is left after a period.
+  double kept() const { return std::exp(-rate_per_s_ * period_s_); }
+  /// The mean of ω that the current at a period's end answers to.
+  Row answered(const State& end) const { return rate_per_s_ / (1 - kept()) * end.weighed; }
+
+ private:
+  double rate_per_s_, period_s_;
+  Eigen::Matrix<double, 6, 6> step_;
+};
 
 }  // namespace
 
-double trail_s(const erp::MotorType& m, double period_s) {
-  const double lag = m.inductance_H / m.resistance_ohm / period_s;
-  return period_s * (lag - 1 / std::expm1(1 / lag));
+double turned_inertia_kg_m2(const erp::MotorType& m) {
+  return m.rotor_inertia_kg_m2 * m.gear_ratio * m.gear_ratio +
+         m.gear_inertia_kg_m2 / m.gear_efficiency;
 }
 
-double mean_speed_share(const erp::MotorType& m, double period_s) {
-  return settling(m, period_s).share;
+TwoPeriods two_periods(const erp::MotorType& m, double period_s) {
+  const Motor motor(m, period_s);
+  State start;
+  start.current[from_i] = 1, start.speed[from_speed] = 1;
+  const State middle = motor.after(start, from_V1), end = motor.after(middle, from_V2);
+  TwoPeriods two;
+
+  // K_E N ω as each current answers to it: V_k − R (i_k − kept i_k−1)/(1 − kept), exactly. From two
+  // such means of ω its course, and so its plain mean.
+  Eigen::Matrix<double, 2, 5> means;
+  means << motor.answered(middle), motor.answered(end);
+  const Row turn = end.angle / (2 * period_s);
+  const Eigen::RowVector2d share = turn.tail<2>() * means.rightCols<2>().inverse();
+  const double emf = m.back_emf_V_s_per_rad * m.gear_ratio, kept = motor.kept();
+  const Eigen::RowVector3d rest = emf * (turn.head<3>() - share * means.leftCols<3>());
+  two.volts = {share[0] + rest[from_V1], share[1] + rest[from_V2]};
+  two.amperes = {-(share[0] * kept) / (1 - kept) - rest[from_i] / m.resistance_ohm,
+                 (share[0] - share[1] * kept) / (1 - kept), share[1] / (1 - kept)};
+
+  // Currents and turns are four, as are V_1, V_2, ω_0 and τ.
+  Eigen::Matrix<double, 4, 5> seen;
+  seen << middle.current, end.current, middle.angle, end.angle - middle.angle;
+  const Eigen::RowVector4d load = seen.rightCols<4>().inverse().row(3);
+  const double torque = m.torque_Nm_per_A * m.gear_ratio;
+  two.drives = {-load.dot(seen.col(from_i).transpose()) / torque, load[0] / torque, load[1] / torque};
+  two.inertia_kg_m2 = (load[2] - load[3]) / 2 * period_s * period_s;
+  return two;
 }
 
-double earlier_share(const erp::MotorType& m, double period_s) {
-  const Settling s = settling(m, period_s);
-  return s.share - s.end * trail_s(m, period_s) / period_s;
-}
-
-double balance_inertia(const erp::MotorType& m, double period_s, double sampled) {
-  const Settling s = settling(m, period_s);
-  const double start_s = s.end * trail_s(m, period_s);
-  return s.inertia - sampled * s.damping * (s.share * period_s - start_s);
+const TwoPeriods& TwoPeriodsAt::ohm(double ohm) {
+  if (ohm > 0 && std::abs(ohm - motor_.resistance_ohm) > 1e-3 * motor_.resistance_ohm) {
+    motor_.resistance_ohm = ohm;
+    two_ = two_periods(motor_, period_s_);
+  }
+  return two_;
 }
 
 }  // namespace sim::residuals

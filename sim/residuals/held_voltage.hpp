@@ -1,34 +1,45 @@
 #pragma once
+#include <array>
+
 #include "interfaces/robot/robot.hpp"
 
-/// What current and speed do within a period over which the voltage is held, seen from its end,
-/// where they are sampled.
+/// What current and speed do within periods over which the voltage is held, seen from the rows at
+/// their ends, where currents and angles are sampled.
 namespace sim::residuals {
 
-/// How far the current trails a voltage that is held and a speed that changes evenly: of the
-/// current that a period began with, a part is still there at its end.
+/// A motor over two periods, exactly, if its load τ stays:
 ///
-///   t = L/R − T / (e^(T R/L) − 1),  of small L/R: L/R itself; of large: T/2
-double trail_s(const erp::MotorType& motor, double period_s);
+///   L di/dt = V − R i − K_E N ω      J dω/dt = K_T N i − τ      J = J_M N² + J_G/η
+///
+/// From the currents at rows 0, 1 and 2 and the voltages between them follow the speed and the load,
+/// and so how far the shaft turns; from the currents and the turns follows the load, whatever the
+/// voltages were:
+///
+///   K_E N (θ_2 − θ_0)/2T = Σ volts_j V_j − R Σ amperes_j i_j
+///   τ = K_T N Σ drives_j i_j − inertia (θ_2 − 2 θ_1 + θ_0)/T²
+///
+/// Ignores: viscous friction within a period.
+struct TwoPeriods {
+  std::array<double, 2> volts;
+  std::array<double, 3> amperes, drives;  ///< sum to 1
+  double inertia_kg_m2;
+};
+TwoPeriods two_periods(const erp::MotorType& motor, double period_s);
 
-/// The mean speed over a period, (θ_k − θ_k−1)/T = (1 − s) ω_k + s ω_k−1: s, a half where the speed
-/// rises evenly, less where it settles. Periods weighed so make ω into differences of θ:
-///
-///   (1 − s) (ω_k+1 − ω_k) + s (ω_k − ω_k−1) = (θ_k+1 − 2 θ_k + θ_k−1)/T
-double mean_speed_share(const erp::MotorType& motor, double period_s);
+/// The same where the winding warms: anew when its resistance has moved by a thousandth.
+class TwoPeriodsAt {
+ public:
+  TwoPeriodsAt(const erp::MotorType& motor, double period_s)
+      : motor_(motor), period_s_(period_s), two_(two_periods(motor, period_s)) {}
+  const TwoPeriods& ohm(double resistance_ohm);
 
-/// The share d of a period's beginning in what the current answers with over all of it, i without
-/// what is left of the current before, but for second differences of ω,
-///
-///   (1 − d) (V − R i)_k + d (V − R i)_k−1 = K_E N (θ_k − θ_k−1)/T
-///
-/// a half where the speed rises evenly; less by the winding's L/R, and where it settles.
-double earlier_share(const erp::MotorType& motor, double period_s);
+ private:
+  erp::MotorType motor_;
+  double period_s_;
+  TwoPeriods two_;
+};
 
-/// What multiplies ω̇ in the gearbox's balance: J_M N² + J_G/η, less what the current changes within
-/// a period, seen from its end. It falls as the motor speeds up, i = i_k + (K_E N/R)(ω_k − ω),
-/// after a start from the last period's end that is over in L/R.
-/// `sampled`: the share in which currents are those at the rows, not means around them.
-double balance_inertia(const erp::MotorType& motor, double period_s, double sampled = 1);
+/// J, as above.
+double turned_inertia_kg_m2(const erp::MotorType& motor);
 
 }  // namespace sim::residuals

@@ -112,6 +112,16 @@ TEST_CASE("without effects each stage is left with the noise of its sensors") {
   }
 }
 
+TEST_CASE("a winding whose current takes a period to settle is left with that noise as well") {
+  erp::Robot slow = hinge_rig();
+  for (auto& motor : slow.motor_types) motor.inductance_H *= 12;
+  const auto quick = rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
+  for (const auto& [stage, value] : rms(Stages(slow), rig_recording::record(slow, slow, {}))) {
+    INFO(stage);
+    CHECK(value < 1.1 * quick.at(stage));
+  }
+}
+
 TEST_CASE("an effect shows at its own stages alone, and is gone where the robot has it") {
   const Episode plain = rig_recording::record(hinge_rig(), hinge_rig(), {});
   const auto floor = rms(Stages(hinge_rig()), plain);
