@@ -104,9 +104,17 @@ class Parser {
         (signal.size() == name.size() || std::ranges::find(known, signal) == known.end()))
       fail(cell.column, "unknown column " + xml::quote(name),
            signal.size() == name.size() ? "name it <actuator or joint>.<signal>"
-                                        : xml::did_you_mean(signal, {known.begin(), known.end()}));
+                                        : xml::did_you_mean(name, known_of(name, signal)));
     order_.push_back(order_.size());
     table_.columns.push_back({name, {}});
+  }
+
+  /// Of that owner, the signals that there are.
+  static std::vector<std::string> known_of(const std::string& name, std::string_view signal) {
+    const std::string owner = name.substr(0, name.size() - signal.size());
+    std::vector<std::string> all;
+    for (const auto& known : known_signals()) all.push_back(owner + std::string(known));
+    return all;
   }
 
   void take_row(const std::vector<Cell>& cells) {
@@ -136,7 +144,7 @@ class Parser {
                             erp::Mode::current, erp::Mode::force})
       if (cell.text == erp::name_of(mode)) return static_cast<double>(mode);
     fail(cell.column, "unknown mode \"" + cell.text + "\"",
-         "use voltage, length, current, force or leave it empty");
+         "use off, voltage, length, current, force or leave it empty");
   }
 
   double number(const Cell& cell) const {

@@ -8,6 +8,7 @@
 #include "interfaces/xml/words.hpp"
 #include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
+#include "launch/gap/words.hpp"
 #include "launch/text/progress.hpp"
 #include "launch/text/text_files.hpp"
 
@@ -95,9 +96,8 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
   }
   if (d.overall.before > 0 && !d.answer.empty())
     out << fmt::format(
-        "how far     {:.3g} times the noise before, {:.3g} after: {:.1f} % closed on "
-        "held-out recordings\n",
-        d.overall.before, d.overall.after, 100 * d.overall.closed);
+        "how far     {:.3g} times the noise before, {:.3g} after: {}, on held-out recordings\n",
+        d.overall.before, d.overall.after, closed_words(d.overall));
   for (const auto& c : d.channels)
     if (c.gapes() && !d.answer.empty())
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
@@ -110,9 +110,8 @@ void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_ru
   print_answer(d, out);
   if (!free_run.channels.empty())
     out << fmt::format(
-        "free run    {:.3g} times what noise alone would do before, {:.3g} after: {:.1f} % "
-        "closed\n",
-        free_run.all.before, free_run.all.after, 100 * free_run.all.closed);
+        "free run    {:.3g} times what noise alone would do before, {:.3g} after: {}\n",
+        free_run.all.before, free_run.all.after, closed_words(free_run.all));
   for (const std::string& warning : d.warnings) out << "warning     " << warning << "\n";
   for (const std::string& odd : d.mend_first) out << "mend first  " << odd << "\n";
   out << "verdict     " << diagnosis::word(d.verdict);

@@ -131,56 +131,78 @@ void print(const rehearsal::Experiment& experiment, const erp::Robot& robot,
   if (suspects.size() < 3) return;  // with two the table says it
   const auto& split = experiment.candidates.front().split;
   for (std::size_t k = 0; k < split.size(); ++k)
-    out << fmt::format("{:<12}{:.1f} sigma from {}\n", k ? "" : "of the first", split[k],
+    out << fmt::format("{:<12}{:.1f} sigma from {}\n", k ? "" : "the first", split[k],
                        name_of(suspects[k + 1]));
 }
 
-/// Which of them no safe excitation tells from the first.
-std::vector<std::string> never_split(const rehearsal::Experiment& experiment,
-                                     const std::vector<Placed>& suspects) {
-  std::vector<std::string> names;
-  if (suspects.size() == 1) return {"the robot without it"};
+/// Those that no safe excitation tells from the first.
+std::vector<Placed> never_split(const rehearsal::Experiment& experiment,
+                                const std::vector<Placed>& suspects) {
+  std::vector<Placed> never;
   for (std::size_t k = 1; k < suspects.size(); ++k)
     if (std::ranges::none_of(experiment.candidates, [&](const rehearsal::Candidate& c) {
           return c.unsafe.empty() && c.split[k - 1] >= telling;
         }))
-      names.push_back(name_of(suspects[k]));
-  return names;
+      never.push_back(suspects[k]);
+  return never;
 }
 
-void print_unsplit(const std::vector<std::string>& names, const Placed& first, std::ostream& out) {
-  if (names.empty())
-    out << "none of these excitations splits all of them at once: try more with --candidates\n";
-  else
-    out << fmt::format("none of these excitations tells {} from {}: that needs another sensor\n",
-                       name_of(first), fmt::join(names, ", "));
+std::string joined(const std::vector<Placed>& effects) {
+  std::vector<std::string> names;
+  for (const Placed& effect : effects) names.push_back(name_of(effect));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+rehearsal::Experiment rehearsed(const erp::Robot& robot, const std::vector<Placed>& suspects,
+                                const PlanOptions& options, std::ostream& remarks) {
+  Progress progress(remarks);
+  std::mutex telling_mutex;
+  rehearsal::ExperimentOptions how{.seconds = options.seconds,
+                                   .candidates = options.candidates,
+                                   .threads = options.threads,
+                                   .seed = options.seed};
+  how.progress = [&](double share) {
+    const std::lock_guard lock(telling_mutex);
+    progress.tell("rehearsals", share);
+  };
+  return rehearsal::next_experiment(robot, suspects, how);
+}
+
+/// Throws std::invalid_argument where an effect is on nothing of this robot.
+void check_is_of(const erp::Robot& robot, const std::vector<Placed>& effects,
+                 const PlanOptions& options) {
+  for (const Placed& placed : effects) {
+    const auto places = sim::effects::places(robot, sim::effects::about(placed.effect).seat);
+    if (std::ranges::find(places, placed.on) == places.end())
+      throw std::invalid_argument(options.diagnosis + ": " + name_of(placed) + ": " + options.robot +
+                                  " has no such place; give the robot that was diagnosed");
+  }
 }
 
 }  // namespace
 
 int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
+  fs::remove(options.out + "/graph.xml");  // nobody launches that of another plan
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  const auto [suspects, known] = question_of(read_diagnosis(options.diagnosis), options.diagnosis);
+  auto [suspects, known] = question_of(read_diagnosis(options.diagnosis), options.diagnosis);
+  check_is_of(robot, suspects, options), check_is_of(robot, known, options);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
     out << "nothing to split: the diagnosis names no effect whose residuals could\n";
     return 1;
   }
-  rehearsal::Experiment experiment;
-  {
-    Progress progress(remarks);
-    std::mutex telling_mutex;
-    rehearsal::ExperimentOptions how{.seconds = options.seconds,
-                                     .candidates = options.candidates,
-                                     .threads = options.threads,
-                                     .seed = options.seed};
-    how.progress = [&](double share) {
-      const std::lock_guard lock(telling_mutex);
-      progress.tell("rehearsals", share);
-    };
-    experiment = rehearsal::next_experiment(robot, suspects, how);
+  auto experiment = rehearsed(robot, suspects, options, remarks);
+  const auto never = never_split(experiment, suspects);
+  if (!experiment.chosen.reference.empty() && !never.empty()) {
+    out << fmt::format("no excitation tells {} from {}: that needs another sensor\n",
+                       name_of(suspects[0]), joined(never));
+    if (never.size() + 1 == suspects.size()) return 5;
+    std::erase_if(suspects, [&](const Placed& s) {
+      return std::ranges::any_of(never, [&](const Placed& n) { return name_of(n) == name_of(s); });
+    });
+    experiment = rehearsed(robot, suspects, options, remarks);  // of the others
   }
   print(experiment, robot, suspects, out);
   if (experiment.chosen.reference.empty()) {
@@ -189,7 +211,10 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   const auto& best = experiment.candidates.front();
   if (best.least < telling) {
-    print_unsplit(never_split(experiment, suspects), suspects[0], out);
+    out << (suspects.size() == 1
+                ? "no excitation tells it from the robot without it: that needs another sensor\n"
+                : "none of these excitations splits all of them at once: try more with "
+                  "--candidates\n");
     return 5;
   }
   write_graph(options.out, options.robot, robot, experiment.chosen);

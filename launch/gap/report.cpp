@@ -5,6 +5,7 @@
 #include "launch/gap/files.hpp"
 #include "launch/gap/report_parts.hpp"
 #include "launch/gap/svg.hpp"
+#include "launch/gap/words.hpp"
 
 namespace launch::gap {
 namespace {
@@ -85,8 +86,8 @@ std::string summary(const Diagnosis& d) {
   if (d.overall.before > 0)
     html += fmt::format(
         "<p>Error on held-out recordings, in units of noise: {:.3g} before, {:.3g} "
-        "after. Closed: {:.1f} % ({:.1f} … {:.1f}).</p>\n",
-        d.overall.before, d.overall.after, 100 * d.overall.closed, 100 * d.overall.interval.low,
+        "after: {} ({:.1f} … {:.1f} %).</p>\n",
+        d.overall.before, d.overall.after, closed_words(d.overall), 100 * d.overall.interval.low,
         100 * d.overall.interval.high);
   if (d.verdict == Verdict::supported)
     html += "<p>Beside this page: robot.xml, the model with it; diagnosis.json, all figures.</p>\n";

@@ -4,6 +4,7 @@
 
 #include "launch/gap/report_parts.hpp"
 #include "launch/gap/svg.hpp"
+#include "launch/gap/words.hpp"
 
 namespace launch::gap {
 
@@ -17,8 +18,9 @@ std::string closed_of(const Closed& c, bool with_interval) {
   if (!c.gapes())
     return c.after > 1.5 * std::max(c.before, c.floor) ? "was no gap, is one now" : "–";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
-  if (!with_interval) return fmt::format("{:.1f} %", 100 * c.closed);
-  return fmt::format("{:.1f} % ({:.1f} … {:.1f})", 100 * c.closed, 100 * c.interval.low,
+  const double share = 100 * std::min(1.0, c.closed);  // beyond is noise
+  if (!with_interval) return fmt::format("{:.1f} %", share);
+  return fmt::format("{:.1f} % ({:.1f} … {:.1f})", share, 100 * c.interval.low,
                      100 * c.interval.high);
 }
 
@@ -42,11 +44,11 @@ std::string page::free_running(const sim::rehearsal::FreeRun& run) {
   std::string html = fmt::format(
       "<h2>The simulator let run freely</h2>\n<p>On the held-out recordings' references, in closed "
       "loop with the firmware: {:.3g} times what noise alone would do before, {:.3g} after. "
-      "Closed: "
-      "{:.1f} % ({:.1f} … {:.1f}).</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
+      "That is: "
+      "{} ({:.1f} … {:.1f} %).</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
       "alone</th>"
       "<th>after</th><th>closed</th></tr>\n",
-      run.all.before, run.all.after, 100 * run.all.closed, 100 * run.all.interval.low,
+      run.all.before, run.all.after, closed_words(run.all), 100 * run.all.interval.low,
       100 * run.all.interval.high);
   for (const Closed& c : run.channels)
     html += fmt::format(

@@ -190,10 +190,10 @@ void print(const std::string& kind, const Score& score, std::ostream& out) {
 int blind_score(const std::string& folder, const std::string& truth_file, std::ostream& out) {
   const Json manifest = Json::parse(read_text(folder + "/cases.json"));
   const std::string sealed = read_text(truth_file);
-  if (sha256(sealed) != manifest["truth_sha256"]) {
-    out << truth_file << ": is not the truth of " << folder << ", its hash is another\n";
-    return 1;
-  }
+  if (sha256(sealed) != manifest["truth_sha256"])
+    throw std::invalid_argument(truth_file + ": is not the truth of " + folder +
+                                ", its hash is another; give the file that --truth named when the "
+                                "cases were made");
   const Json truths = Json::parse(sealed);
   std::map<std::string, Score> scores;
   for (const Json& truth : truths) {

@@ -38,7 +38,7 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
     out << fmt::format("not judged, for want of signals or of windows in which they move: {}\n",
                        fmt::join(unjudged, ", "));
   if (!open.empty()) out << "the gap is in: " << open << "\n";
-  else if (!some) out << "nothing could be judged\n";
+  else if (!some) out << "nothing could be judged; record some seconds in which everything moves\n";
   else if (unjudged.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
   else out << "no gap in the others: they are left with the noise of their sensors\n";
   return some;

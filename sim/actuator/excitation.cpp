@@ -135,7 +135,7 @@ Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration
 }  // namespace
 
 const char* excitation_word(const erp::Robot& robot, int recording) {
-  constexpr const char* postures[] = {"slow, end to end", "each muscle in turn", "fast postures",
+  constexpr const char* postures[] = {"end to end", "each muscle in turn", "fast postures",
                                       "each muscle in turn, stiff"};
   if (robot.joints().size() != 1 || recording % 2 == 0) return postures[recording % 4];
   return recording % 4 == 1 ? "gentle tensions" : "strong tensions";

@@ -87,7 +87,7 @@ TEST_CASE("the report shows where, which and how far, and needs no other file") 
   diagnosed(folder,
             {.recordings = {folder.recorded("1.csv", true, 1), folder.recorded("2.csv", true, 2)}});
   const std::string report = folder.read("report.html");
-  for (const char* part : {"<h2>Where</h2>", "<h2>Which</h2>", "Closed: ", "Signatures",
+  for (const char* part : {"<h2>Where</h2>", "<h2>Which</h2>", "% closed (", "Signatures",
                            "<h2>The simulator let run freely</h2>", "<h2>The worst moments</h2>",
                            "gearbox_coulomb on extensor", "1.csv", "2.csv"})
     CHECK_THAT(report, Catch::Contains(part));

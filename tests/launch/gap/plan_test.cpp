@@ -75,18 +75,40 @@ TEST_CASE("what else is known of the robot is in it when the next motion is rehe
   CHECK(beside.said != alone.said);                               // but felt
 }
 
-TEST_CASE("twins are split by no motion: which they are is said, and no graph is written") {
+TEST_CASE("twins are split by no motion: which they are is said, and no graph is left") {
   const Folder folder;
-  const Planned planned =
-      plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
-           effect("gearbox_coulomb", "extra_Nm", 0.05) + ", " +
-               effect("sensor_shaft_offset", "offset_rad", -0.0889));
+  fs::create_directories(folder.path / "next");
+  std::ofstream(folder.path / "next/graph.xml") << "<graph/>";  // of an earlier plan
+  const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
+                               effect("sensor_shaft_offset", "offset_rad", -0.0889));
   INFO(planned.said);
   CHECK(planned.code == 5);
   CHECK_THAT(planned.said, Catch::Contains("tells tendon_length_offset on flexor from "
                                            "sensor_shaft_offset on flexor: that needs"));
-  CHECK_THAT(planned.said, Catch::Contains(" sigma from gearbox_coulomb on flexor"));
   CHECK_FALSE(fs::exists(folder.path / "next/graph.xml"));
+}
+
+TEST_CASE("beside twins, what can be split is") {
+  const Folder folder;
+  const Planned planned =
+      plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
+           effect("sensor_shaft_offset", "offset_rad", -0.0889) + ", " +
+               effect("gearbox_coulomb", "extra_Nm", 0.05));
+  INFO(planned.said);
+  CHECK(planned.code == 0);
+  CHECK_THAT(planned.said, Catch::Contains("from sensor_shaft_offset on flexor: that needs") &&
+                               Catch::Contains("to split    tendon_length_offset on flexor, "
+                                               "gearbox_coulomb on flexor"));
+  CHECK(fs::exists(folder.path / "next/graph.xml"));
+}
+
+TEST_CASE("a diagnosis of another robot is refused with the place that this one has not") {
+  const Folder folder;
+  auto other = effect("gearbox_coulomb", "extra_Nm", 0.05);
+  other.replace(other.find("flexor"), 6, "biceps");
+  CHECK_THROWS_WITH(plan(folder.path, other, other),
+                    Catch::Contains("gearbox_coulomb on biceps") &&
+                        Catch::Contains("give the robot that was diagnosed"));
 }
 
 TEST_CASE("a plan without a diagnosis says which file it misses") {

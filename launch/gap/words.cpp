@@ -1,0 +1,15 @@
+#include "launch/gap/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launch::gap {
+
+std::string closed_words(const sim::diagnosis::Closed& c) {
+  if (c.before <= c.floor) return "there was nothing to close";
+  if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
+  return fmt::format("{:.1f} % closed", 100 * std::min(1.0, c.closed));
+}
+
+}  // namespace launch::gap
