@@ -26,18 +26,6 @@ using sim::effects::Placed;
 constexpr std::size_t most_suspects = 4;
 constexpr double telling = 3;  // standard deviations: below, an excitation splits nothing; chosen
 
-Json read_diagnosis(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw std::invalid_argument(file + ": cannot be read");
-  try {
-    Json d = Json::parse(in);
-    d.at("effects"), d.at("confusable"), d.at("verdict");
-    return d;
-  } catch (const Json::exception&) {
-    throw std::invalid_argument(file + ": is no diagnosis.json of erp gap diagnose; give one");
-  }
-}
-
 Placed placed_of(const Json& effect, const std::string& file) {
   const auto type = effect.at("type").get<std::string>();
   auto neutral = sim::effects::neutral(type);
@@ -65,12 +53,12 @@ Question question_of(const Json& d, const std::string& file) {
     return effect.at("type").get<std::string>().starts_with("bus_");
   };
   std::vector<Json> set;
-  for (const Json& one : d["confusable"])
+  for (const Json& one : d.at("confusable"))
     if (!on_bus(one) && (set.empty() || one.value("set", 0) == set[0].value("set", 0)))
       set.push_back(one);
-  const bool split = !set.empty(), answered = d["verdict"] == "supported";
+  const bool split = !set.empty(), answered = d.at("verdict") == "supported";
   Question question;
-  for (const Json& effect : d["effects"]) {
+  for (const Json& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
     if (!split && (!answered || (supported && set.empty()))) set.push_back(effect);
@@ -80,6 +68,17 @@ Question question_of(const Json& d, const std::string& file) {
   for (const Json& one : set)
     if (question.suspects.size() < most_suspects) question.suspects.push_back(placed_of(one, file));
   return question;
+}
+
+Question read_question(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::invalid_argument(file + ": cannot be read");
+  try {
+    return question_of(Json::parse(in), file);
+  } catch (const Json::exception& e) {
+    throw std::invalid_argument(file + ": is no diagnosis.json of erp gap diagnose (" + e.what() +
+                                "); give one");
+  }
 }
 
 recording::Table trajectory_of(const sim::Excitation& excitation, const erp::Robot& robot) {
@@ -186,7 +185,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  auto [suspects, known] = question_of(read_diagnosis(options.diagnosis), options.diagnosis);
+  auto [suspects, known] = read_question(options.diagnosis);
   check_is_of(robot, suspects, options), check_is_of(robot, known, options);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
@@ -223,6 +222,9 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   if (!best.extremes.nearest.empty())
     out << fmt::format(", {:.3f} rad to a stop ({})", best.extremes.to_stop_rad,
                        best.extremes.nearest);
+  if (!best.extremes.slowest.empty())
+    out << fmt::format(", at full voltage for {:.0f} % of the time ({})",
+                       100 * best.extremes.saturated, best.extremes.slowest);
   out << fmt::format(
       "\nrun it      erp launch {}/graph.xml --for {:g}s        on the robot: --device can\n",
       options.out, options.seconds);

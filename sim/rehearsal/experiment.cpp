@@ -23,6 +23,15 @@ erp::Robot with(const erp::Robot& robot, const Placed& placed) {
   return changed;
 }
 
+/// The share of the time for which a motor gets all the voltage that there is.
+double saturated(const recording::Table& table, const erp::Robot& robot,
+                 const erp::Actuator& actuator) {
+  const auto& volts = table.find(actuator.name + ".voltage_V")->values;
+  const double most_V = 0.99 * robot.motor_of(actuator).supply_V;
+  const auto at_most = std::ranges::count_if(volts, [&](double v) { return std::abs(v) >= most_V; });
+  return volts.empty() ? 0 : double(at_most) / double(volts.size());
+}
+
 Extremes extremes_of(const recording::Table& table, const erp::Robot& robot) {
   Extremes e;
   e.to_stop_rad = std::numeric_limits<double>::infinity();
@@ -30,6 +39,9 @@ Extremes extremes_of(const recording::Table& table, const erp::Robot& robot) {
     for (const double tension : table.find(actuator.name + ".tension_N")->values)
       if (const double share = tension / actuator.max_tension_N; share > e.of_max_tension)
         e.of_max_tension = share, e.tightest = actuator.name;
+  for (const erp::Actuator& actuator : robot.actuators)
+    if (const double share = saturated(table, robot, actuator); share > e.saturated)
+      e.saturated = share, e.slowest = actuator.name;
   for (const erp::Joint& joint : robot.joints())
     if (const auto* angle = table.find(joint.name + ".angle_rad"))
       for (const double q : angle->values)
@@ -42,6 +54,7 @@ Extremes extremes_of(const recording::Table& table, const erp::Robot& robot) {
 void worse_of(const Extremes& a, Extremes& into) {
   if (a.of_max_tension > into.of_max_tension)
     into.of_max_tension = a.of_max_tension, into.tightest = a.tightest;
+  if (a.saturated > into.saturated) into.saturated = a.saturated, into.slowest = a.slowest;
   if (a.to_stop_rad < into.to_stop_rad) into.to_stop_rad = a.to_stop_rad, into.nearest = a.nearest;
 }
 

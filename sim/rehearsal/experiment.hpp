@@ -35,6 +35,8 @@ struct Extremes {
   std::string tightest;
   double to_stop_rad = 0;  ///< between a hinge and its stop, negative: beyond; and whose
   std::string nearest;
+  double saturated = 0;  ///< share of the time at the supply's voltage, and whose
+  std::string slowest;
 };
 
 struct Candidate {

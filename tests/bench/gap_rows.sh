@@ -11,15 +11,15 @@ out=erp_runs/gap_rows
 
 # name        robot      kind      cases  first seed  signals left out
 rows="
-single        hinge_rig  single    300    210001
-null          hinge_rig  null      100    120001
-withheld      hinge_rig  withheld   60    230001
-outside       hinge_rig  outside    60    240001
-pair          hinge_rig  pair       60    150001
-arm           arm        single     60    160001
-no_tension    hinge_rig  single     60    170001       tension
-no_joint      hinge_rig  single     60    171001       joint
-no_current    hinge_rig  single     60    172001       current
+single        hinge_rig  single    300    310001
+null          hinge_rig  null      100    220001
+withheld      hinge_rig  withheld   60    330001
+outside       hinge_rig  outside    60    340001
+pair          hinge_rig  pair       60    250001
+arm           arm        single     60    260001
+no_tension    hinge_rig  single     60    270001       tension
+no_joint      hinge_rig  single     60    271001       joint
+no_current    hinge_rig  single     60    272001       current
 "
 
 run_row() {  # name robot kind cases seed without

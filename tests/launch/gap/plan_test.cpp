@@ -111,6 +111,13 @@ TEST_CASE("a diagnosis of another robot is refused with the place that this one 
                         Catch::Contains("give the robot that was diagnosed"));
 }
 
+TEST_CASE("what is no diagnosis is refused with what it lacks") {
+  const Folder folder;
+  CHECK_THROWS_WITH(plan(folder.path, R"({"type": "gearbox_coulomb", "on": "flexor"})", "{}"),
+                    Catch::Contains("diagnosis.json: is no diagnosis.json") &&
+                        Catch::Contains("'type' not found"));
+}
+
 TEST_CASE("a plan without a diagnosis says which file it misses") {
   const Folder folder;
   std::ostringstream out, remarks;

@@ -93,6 +93,11 @@ TEST_CASE(
     CHECK(apart.chosen.reference[0][a] == (force ? robot.actuators[a].tendon.pretension_N : 0.0));
   }
   CHECK(apart.candidates.front().extremes.of_max_tension < 0.85);
+  for (const Candidate& c : apart.candidates) {
+    CAPTURE(c.kind, c.extremes.saturated);
+    if (c.kind == 0) CHECK(c.extremes.saturated > 0.5);  // from end to end faster than motors go
+    if (c.kind == 1) CHECK(c.extremes.saturated < 0.2);  // gentle tensions
+  }
 
   const auto offset = placed("tendon_length_offset", "flexor", 4e-4);
   const auto shaft = placed("sensor_shaft_offset", "flexor", 4e-4 / 0.0045);
