@@ -57,8 +57,10 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
   plan->add_option("--robot", o->robot, "robot.xml, the model")->required();
   plan->add_option("--diagnosis", o->diagnosis, "diagnosis.json of erp gap diagnose")->required();
   plan->add_option("--out", o->out, "folder for the graph to launch")->required();
-  plan->add_option("--seconds", o->seconds, "of the recording; default: 20")->check(CLI::Range(2.0, 600.0));
-  plan->add_option("--candidates", o->candidates, "that are rehearsed; default: 24")->check(CLI::PositiveNumber);
+  plan->add_option("--seconds", o->seconds, "of the recording; default: 20")
+      ->check(CLI::Range(2.0, 600.0));
+  plan->add_option("--candidates", o->candidates, "that are rehearsed; default: 24")
+      ->check(CLI::PositiveNumber);
   plan->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
   plan->add_option("--seed", o->seed, "of the candidates");
   plan->callback([=, &chosen] { chosen = [=] { return gap::plan(*o, std::cout, std::cerr); }; });

@@ -173,7 +173,8 @@ void check_is_of(const erp::Robot& robot, const std::vector<Placed>& effects,
   for (const Placed& placed : effects) {
     const auto places = sim::effects::places(robot, sim::effects::about(placed.effect).seat);
     if (std::ranges::find(places, placed.on) == places.end())
-      throw std::invalid_argument(options.diagnosis + ": " + name_of(placed) + ": " + options.robot +
+      throw std::invalid_argument(options.diagnosis + ": " + name_of(placed) + ": " +
+                                  options.robot +
                                   " has no such place; give the robot that was diagnosed");
   }
 }
@@ -181,12 +182,12 @@ void check_is_of(const erp::Robot& robot, const std::vector<Placed>& effects,
 }  // namespace
 
 int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
-  fs::remove(options.out + "/graph.xml");  // nobody launches that of another plan
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
   auto [suspects, known] = read_question(options.diagnosis);
   check_is_of(robot, suspects, options), check_is_of(robot, known, options);
+  fs::remove(options.out + "/graph.xml");  // nobody launches that of another plan
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
     out << "nothing to split: the diagnosis names no effect whose residuals could\n";

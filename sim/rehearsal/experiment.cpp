@@ -28,7 +28,8 @@ double saturated(const recording::Table& table, const erp::Robot& robot,
                  const erp::Actuator& actuator) {
   const auto& volts = table.find(actuator.name + ".voltage_V")->values;
   const double most_V = 0.99 * robot.motor_of(actuator).supply_V;
-  const auto at_most = std::ranges::count_if(volts, [&](double v) { return std::abs(v) >= most_V; });
+  const auto at_most =
+      std::ranges::count_if(volts, [&](double v) { return std::abs(v) >= most_V; });
   return volts.empty() ? 0 : double(at_most) / double(volts.size());
 }
 

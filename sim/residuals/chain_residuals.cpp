@@ -27,9 +27,8 @@ Signal around_V(const Chain& c) {
     const double ohm = t.resistance_ohm[k], before = t.current_A[k - 1], now = t.current_A[k],
                  next = t.current_A[k + 1];
     const auto& [volts, amperes, drives, inertia] = around.ohm(ohm);
-    const double held =
-        volts[0] * t.terminal_V[k] + volts[1] * t.terminal_V[k + 1] -
-        ohm * (amperes[0] * before + amperes[1] * now + amperes[2] * next);
+    const double held = volts[0] * t.terminal_V[k] + volts[1] * t.terminal_V[k + 1] -
+                        ohm * (amperes[0] * before + amperes[1] * now + amperes[2] * next);
     const double averaged = (t.terminal_V[k] + t.terminal_V[k + 1]) / 2 - ohm * now -
                             c.motor.inductance_H * (next - before) / (2 * c.period_s);
     left[k] = (1 - a) * held + a * averaged;

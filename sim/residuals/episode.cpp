@@ -30,7 +30,8 @@ struct Grid {
 };
 
 Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
-  if (time_s.size() < 10) throw std::invalid_argument(name + ": fewer than ten rows; record some seconds of motion");
+  if (time_s.size() < 10)
+    throw std::invalid_argument(name + ": fewer than ten rows; record some seconds of motion");
   std::vector<double> steps(time_s.size() - 1);
   for (std::size_t k = 0; k < steps.size(); ++k) steps[k] = time_s[k + 1] - time_s[k];
   Grid grid{median(steps), 0, {}, 0, 0};

@@ -7,8 +7,7 @@
 namespace sim::residuals {
 namespace {
 
-/// Of the state, what period 0 begins with and what acts are unknown or given: i_0, V_1, V_2, ω_0, τ.
-/// A row is how something depends on these.
+/// All follows from five quantities: i_0, V_1, V_2, ω_0 and τ. A row is how something depends on them.
 using Row = Eigen::Matrix<double, 1, 5>;
 enum Cause { from_i, from_V1, from_V2, from_speed, from_load };
 
@@ -79,7 +78,8 @@ TwoPeriods two_periods(const erp::MotorType& m, double period_s) {
   seen << middle.current, end.current, middle.angle, end.angle - middle.angle;
   const Eigen::RowVector4d load = seen.rightCols<4>().inverse().row(3);
   const double torque = m.torque_Nm_per_A * m.gear_ratio;
-  two.drives = {-load.dot(seen.col(from_i).transpose()) / torque, load[0] / torque, load[1] / torque};
+  two.drives = {-load.dot(seen.col(from_i).transpose()) / torque, load[0] / torque,
+                load[1] / torque};
   two.inertia_kg_m2 = (load[2] - load[3]) / 2 * period_s * period_s;
   return two;
 }

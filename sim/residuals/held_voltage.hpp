@@ -18,11 +18,12 @@ namespace sim::residuals {
 ///   K_E N (θ_2 − θ_0)/2T = Σ volts_j V_j − R Σ amperes_j i_j
 ///   τ = K_T N Σ drives_j i_j − inertia (θ_2 − 2 θ_1 + θ_0)/T²
 ///
-/// Ignores: viscous friction within a period.
+/// Indices count periods and rows; J_G turns behind a gearbox of efficiency η. Ignores: viscous
+/// friction within a period. Source: paper, eq. 3, as linear equations with V and τ held.
 struct TwoPeriods {
   std::array<double, 2> volts;
   std::array<double, 3> amperes, drives;  ///< sum to 1
-  double inertia_kg_m2;
+  double inertia_kg_m2;                   ///< less than J: the current falls as the motor speeds up
 };
 TwoPeriods two_periods(const erp::MotorType& motor, double period_s);
 

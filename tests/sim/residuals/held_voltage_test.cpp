@@ -26,9 +26,9 @@ Seen run(const erp::MotorType& m, const double (&volts)[2], double load_Nm) {
   const double n = m.gear_ratio, inertia = turned_inertia_kg_m2(m), dt = 2e-8;
   double i = 1.3, w = 2, angle = 0;
   const auto rates = [&](double v, double amps, double speed) {
-    return std::pair{(v - m.resistance_ohm * amps - m.back_emf_V_s_per_rad * n * speed) /
-                         m.inductance_H,
-                     (m.torque_Nm_per_A * n * amps - load_Nm) / inertia};
+    return std::pair{
+        (v - m.resistance_ohm * amps - m.back_emf_V_s_per_rad * n * speed) / m.inductance_H,
+        (m.torque_Nm_per_A * n * amps - load_Nm) / inertia};
   };
   Seen seen{{i}, {angle}};
   for (int k = 0; k < 2; ++k) {
