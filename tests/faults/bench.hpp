@@ -113,20 +113,7 @@ class Bench {
   bool recovers() {
     const auto patience = node::monotonic_ns() + 5000 * ms;
     bool well = false;
-    tests::wait_until([&] {
-      const auto from = node::wall_ns() - 300 * ms;
-      std::map<std::uint16_t, int> running;
-      bool all = true;
-      for (const auto& heard : ear_->since(from)) {
-        frame_status said;
-        if (!frame_unpack_status(&heard.frame, &said)) continue;
-        all = all && said.state == ECU_STATE_RUNNING;
-        ++running[heard.frame.id];
-      }
-      for (const auto& [id, count] : running) all = all && count > 100;
-      well = all && running.size() == robot_.actuators.size();
-      return well || node::monotonic_ns() > patience;
-    });
+    tests::wait_until([&] { return (well = all_run()) || node::monotonic_ns() > patience; });
     return well;
   }
   /// Begins a new injection: all is well, and what was heard so far is forgotten. What latched, and
@@ -205,6 +192,22 @@ class Bench {
   void say_off();
 
  private:
+  /// Whether every channel runs, has done so for 300 ms, and speaks at both ends of that time.
+  bool all_run() {
+    const auto to = node::wall_ns(), from = to - 300 * ms;
+    std::map<std::uint16_t, bool> ran_long, speaks;
+    for (const auto& heard : ear_->since(from)) {
+      frame_status said;
+      if (!frame_unpack_status(&heard.frame, &said)) continue;
+      if (said.state != ECU_STATE_RUNNING) return false;
+      ran_long[heard.frame.id] |= heard.at_ns < from + 50 * ms;
+      speaks[heard.frame.id] = heard.at_ns > to - 50 * ms;
+    }
+    const auto yes = [](const auto& channel) { return channel.second; };
+    return ran_long.size() == robot_.actuators.size() && std::ranges::all_of(ran_long, yes) &&
+           std::ranges::all_of(speaks, yes);
+  }
+
   static inline const int relay_port = 31000 + 2 * own_domain, robot_port = relay_port + 1;
 
   tests::Folder folder_;

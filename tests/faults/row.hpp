@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,20 +36,29 @@ class Row {
   void add(std::int64_t from_ns, std::int64_t to_ns) {
     const double took_ms = 1e-6 * double(to_ns - from_ns);
     const bool never = to_ns == 0, late = never || took_ms > limit_ms_;
+    noticed_ = noticed_ || !never;
     if (late && !kept_time(from_ns, never ? due_ns(from_ns) : to_ns)) return set_aside();
     if (never) ++missed_;
     else ms_.push_back(took_ms);
   }
   /// One of which nothing can be said.
   void set_aside() { ++set_aside_; }
-  /// Whether the machine kept time while an injection was due: what else it did counts only then.
+  /// What else must hold of an injection. Where it does not, the machine must have kept time while that
+  /// was due, and `may_judge` be true, for it to count.
+  void also(const std::string& what, std::int64_t from_ns, bool holds, bool may_judge = true) {
+    INFO(fault_ << ": " << what);
+    also_[what] |= holds;
+    if (may_judge && judges(from_ns)) CHECK(holds);
+  }
+  /// Whether the machine kept time while an injection was due.
   bool judges(std::int64_t from_ns) const { return kept_time(from_ns, due_ns(from_ns)); }
   /// Whether the machine stood still neither in that time nor just before.
   bool kept_time(std::int64_t from_ns, std::int64_t to_ns) const {
     return stalls_.together_ms(from_ns - just_before_ns, to_ns) < stood_still_ms;
   }
   /// Prints the row, and checks it: none missed, all within the limit and what scheduling adds, and
-  /// of twenty injections half within the limit itself. Of what was always set aside it judges nothing.
+  /// of twenty injections half within the limit itself. What was always set aside is not judged; but
+  /// what was not so a single time has failed, however the machine was.
   void check() {
     std::ranges::sort(ms_);
     std::printf("| %-34s | %-34s | %2zu | %6.1f | %6.1f | %6.1f | %5.0f |\n", fault_.c_str(),
@@ -57,6 +67,11 @@ class Row {
       std::printf("  (and %d that were late while the machine stood still)\n", set_aside_);
     std::fflush(stdout);
     INFO(fault_ << ": " << what_);
+    for (const auto& [what, held] : also_) {
+      INFO(what);
+      CHECK(held);
+    }
+    CHECK(noticed_);
     if (counted() == 0 && set_aside_ > 0) return tests::not_judged(fault_ + ": " + what_);
     CHECK(counted() > 0);
     CHECK(missed_ == 0);
@@ -85,8 +100,10 @@ class Row {
   }
   std::string fault_, what_;
   double limit_ms_;
+  std::map<std::string, bool> also_;  ///< whether it held a single time
   std::vector<double> ms_;
   int missed_ = 0, set_aside_ = 0;
+  bool noticed_ = false;
   tests::Stalls& stalls_ = tests::Stalls::watch();
 };
 

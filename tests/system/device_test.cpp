@@ -6,6 +6,7 @@
 #include <set>
 
 #include "firmware/core/ecu.h"
+#include "tests/stalls.hpp"
 #include "tests/system/background.hpp"
 #include "tests/system/recorded.hpp"
 
@@ -114,8 +115,9 @@ TEST_CASE("the force step rises within 318 ms and rests within 0.236 N") {
   CHECK(steady <= 0.236);
 }
 
-TEST_CASE("the arm holds 15 poses under length control without drift") {
-  Folder folder;
+/// Whether the arm holds its poses; complains where its log lacks one of them.
+Complaints holds_poses() {
+  const Folder folder;
   const auto file = record(folder, "arm", "launch/arm.xml", "--lockstep --for 45s");
   const Recorded joints(file, "joint_state");
   // poses.csv: 1.5 s on the way, 1.5 s held. Drift: over the last half second of each hold.
@@ -123,11 +125,13 @@ TEST_CASE("the arm holds 15 poses under length control without drift") {
   for (const auto& state : joints.messages())
     if (text(state, "source") == "sim")
       at_tick[static_cast<int>(number(state, "sequence"))] = &state;
+  Complaints wrong;
   const auto elbow_rad = [&](double time_s) {
     const auto tick = static_cast<int>(std::lround(time_s * 500));
-    const auto next = at_tick.upper_bound(tick);  // a busy machine may lose some: 0.2 s at most
+    const auto next = at_tick.upper_bound(tick);  // a busy machine may lose one
     REQUIRE(next != at_tick.begin());
-    REQUIRE(tick - std::prev(next)->first < 100);
+    if (const int lost = tick - std::prev(next)->first; lost >= 5)
+      wrong.push_back(std::to_string(lost) + " ticks are lost at " + std::to_string(time_s) + " s");
     const auto& all = elements(*std::prev(next)->second, "joints");
     for (const auto& joint : all)
       if (text(*joint.members(), "name") == "elbow")
@@ -138,8 +142,15 @@ TEST_CASE("the arm holds 15 poses under length control without drift") {
   std::set<int> poses;
   for (int pose = 0; pose < 15; ++pose) {
     const double end_s = 3.0 * (pose + 1) - 0.01;
-    CHECK(std::abs(elbow_rad(end_s) - elbow_rad(end_s - 0.5)) < 0.2 * 3.14159 / 180);
+    const double drift_rad = elbow_rad(end_s) - elbow_rad(end_s - 0.5);
     poses.insert(static_cast<int>(std::lround(elbow_rad(end_s) * 50)));
+    if (!wrong.empty()) return wrong;
+    CHECK(std::abs(drift_rad) < 0.2 * 3.14159 / 180);
   }
   CHECK(poses.size() >= 5);
+  return wrong;
+}
+
+TEST_CASE("the arm holds 15 poses under length control without drift") {
+  in_real_time(holds_poses);
 }

@@ -4,6 +4,7 @@
 
 #include "components/node/bus.hpp"
 #include "components/node/clock.hpp"
+#include "firmware/core/ecu.h"
 #include "interfaces/robot/robot.hpp"
 #include "tests/system/background.hpp"
 
@@ -11,7 +12,7 @@ using namespace tests;
 
 namespace {
 
-constexpr double wound_m = -0.004;  // both tendons: they pull against each other
+constexpr double wound_m = -0.02;  // both tendons: they pull against each other, by 30 steps of PWM
 
 /// A controller by hand: holds both lines shorter than they are, and looks at the flexor.
 class Hand {
@@ -44,12 +45,17 @@ class Hand {
     gains_.write(command);
   }
   /// V per rad of what is missing at the shaft: the law's kp, as it shows.
-  double gain_of(const erp::ActuatorSample& s) const {
-    const double missing_rad = -wound_m / robot_.actuators[0].spindle.radius_m - s.shaft_rad;
-    return s.voltage_V / missing_rad;
+  double gain_of(const erp::ActuatorSample& s) const { return s.voltage_V / missing_rad(s); }
+  /// The voltage that the law gives with this gain; the ECU sends whole steps of PWM.
+  Approx with_gain(double V_per_rad, const erp::ActuatorSample& s) const {
+    const double step_V = robot_.motor_of(robot_.actuators[0]).supply_V / ECU_DUTY_MAX;
+    return Approx(V_per_rad * missing_rad(s)).margin(step_V);
   }
 
  private:
+  double missing_rad(const erp::ActuatorSample& s) const {
+    return -wound_m / robot_.actuators[0].spindle.radius_m - s.shaft_rad;
+  }
   void answer(const erp::SensorFrame& frame) {
     erp::ActuatorCommand command;
     erp::assign(command.robot, robot_.name);
@@ -88,11 +94,11 @@ TEST_CASE("a gain of a running ECU is halved from outside, a mistaken one is ref
   hand.set_gain("flexor", "length_gain_V_per_rad", gain / 2);
   const auto after = hand.hold(2);
   CHECK(int{after.ecu_state} == static_cast<int>(erp::EcuState::running));
-  CHECK(hand.gain_of(after) == Approx(gain / 2).epsilon(0.05));
+  CHECK(after.voltage_V == hand.with_gain(gain / 2, after));
   hand.set_gain("flexor", "charm", 1);
   hand.set_gain("flexor", "charm", 2);
   const auto last = hand.hold(0.5);
-  CHECK(hand.gain_of(last) == Approx(gain / 2).epsilon(0.05));
+  CHECK(last.voltage_V == hand.with_gain(gain / 2, last));
   CHECK(graph.stop() == 0);
   const auto said = graph.output();
   const auto first = said.find("there is no gain charm of flexor");

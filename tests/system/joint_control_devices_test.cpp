@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "components/node/real_time.hpp"
+#include "tests/stalls.hpp"
 #include "tests/system/background.hpp"
 #include "tests/system/joint_runs.hpp"
-#include "tests/stalls.hpp"
 
 using namespace tests;
 

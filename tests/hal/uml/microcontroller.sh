@@ -59,8 +59,8 @@ with_microcontroller() {
     [ "$(grep -c /dev/pts "$exchange/qemu.txt")" = 2 ] && break
     sleep 0.1
   done
-  ERP_UML_SERIAL=$(grep -o '/dev/pts/[0-9]*' "$exchange/qemu.txt" | xargs) \
-    timeout -k 5 400 "$here/run_in_uml.sh" "$exchange/guest" > "$exchange/guest.txt" 2>&1
+  ERP_UML_SERIAL=$(grep -o '/dev/pts/[0-9]*' "$exchange/qemu.txt" | xargs) ERP_UML_SECONDS=400 \
+    "$here/run_in_uml.sh" "$exchange/guest" > "$exchange/guest.txt" 2>&1
   kill -KILL $qemu && wait $qemu 2> /dev/null
 }
 
