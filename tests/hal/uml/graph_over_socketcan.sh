@@ -18,9 +18,7 @@ cat > "$exchange/run" << RUN
 cd "$source"
 bin="$bin"
 . "$here/same_rows.sh"
-"$bin/erp" launch launch/$graph.xml --lockstep --for 1s --out "\$TMPDIR/out" --patience 5min "\$@" \
-  < /dev/null > "\$TMPDIR/said" 2>&1 || { cat "\$TMPDIR/said"; exit 1; }
-recorded "\$TMPDIR/out/$graph.mcap"
+launched launch/$graph.xml "\$TMPDIR/out" "\$@" && recorded "\$TMPDIR/out/$graph.mcap"
 RUN
 chmod +x "$exchange/run"
 
@@ -35,6 +33,7 @@ for go in 1 2 3; do
   printf '%s over vcan, go %d: ' "$graph" "$go"
   same_rows "$exchange/without" "$exchange/guest"
   case $? in 0) exit 0 ;; 1) break ;; esac
+  tail -n 5 "$exchange/guest"
 done
 cat "$exchange/guest"
 exit 1

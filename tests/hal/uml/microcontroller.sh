@@ -23,9 +23,7 @@ cd "$source"
 bin="$bin"
 . "$here/same_rows.sh"
 out=\$1 && shift
-"$bin/erp" launch launch/force_step.xml --device can --lockstep --for 1s --out "\$out" --patience 5min "\$@" \
-  < /dev/null > "\$out.txt" 2>&1 || { cat "\$out.txt"; exit 1; }
-recorded "\$out/force_step.mcap"
+launched launch/force_step.xml "\$out" --device can "\$@" && recorded "\$out/force_step.mcap"
 RUN
 cat > "$exchange/guest" << GUEST
 #!/bin/bash
@@ -72,6 +70,7 @@ for go in 1 2 3; do
   printf 'around the microcontroller, go %d: ' "$go"
   same_rows "$exchange/process" "$exchange/guest.txt"
   case $? in 0) exit 0 ;; 1) break ;; esac
+  tail -n 5 "$exchange/guest.txt"
 done
 cat "$exchange/guest.txt"
 exit 1

@@ -1,5 +1,13 @@
 # To be sourced. Two recordings of one graph in lockstep must hold the same rows, bit by bit.
 
+# launched GRAPH OUT SETTING…: one second of it. What it says begins with a blank, unlike a row.
+launched() {
+  local graph=$1 out=$2 && shift 2
+  set -o pipefail
+  "$bin/erp" launch "$graph" --lockstep --for 1s --out "$out" --patience 5min "$@" < /dev/null 2>&1 |
+    sed -u 's/^/ /'
+}
+
 # recorded FILE: a recording's rows, and how many messages it lacks.
 recorded() {
   "$bin/erp" log info "$1" | awk '$2 ~ /^erp\/msg\// { lacks += $5 } END { print "lacks", lacks }'
