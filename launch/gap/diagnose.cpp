@@ -122,11 +122,13 @@ void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_ru
 }
 
 void write_found(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
-                 const erp::Robot& robot, const erp::Robot& found, const std::string& folder) {
-  write_file(folder + "/diagnosis.json", diagnosis_json(d, free_run, robot));
-  write_file(folder + "/report.html", diagnosis_report(d, free_run, robot));
-  const std::string mended = folder + "/robot.xml";
-  if (d.verdict == diagnosis::Verdict::supported) write_file(mended, erp::write_robot(found));
+                 const erp::Robot& robot, const erp::Robot& found, const DiagnoseOptions& options) {
+  write_file(options.out + "/diagnosis.json", diagnosis_json(d, free_run, robot));
+  write_file(options.out + "/report.html", diagnosis_report(d, free_run, robot));
+  const std::string mended = options.out + "/robot.xml";
+  const auto added = found.effects.end() - std::ptrdiff_t(d.answer.size());
+  if (d.verdict == diagnosis::Verdict::supported)
+    write_mended(mended, options.robot, found, {added, found.effects.end()});
   else std::filesystem::remove(mended);  // of an earlier diagnosis
 }
 
@@ -200,7 +202,7 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   d.warnings.insert(d.warnings.begin(), read.odd.begin(), read.odd.end());
   d.warnings.insert(d.warnings.begin(), read.mended.begin(), read.mended.end());
   if (!options.out.empty()) {
-    write_found(d, free_run, robot, found, options.out);
+    write_found(d, free_run, robot, found, options);
     out << fmt::format(
         "report      {0}/report.html, {0}/diagnosis.json{1}\n", options.out,
         d.verdict == diagnosis::Verdict::supported ? ", " + options.out + "/robot.xml" : "");

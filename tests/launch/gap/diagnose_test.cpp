@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
+#include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
 #include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
@@ -53,6 +54,17 @@ Told diagnosed(const Folder& folder, launch::gap::DiagnoseOptions how) {
 
 }  // namespace
 
+TEST_CASE("a model that is put together from parts is mended as one file") {
+  const Folder folder;
+  const std::string model = rigs::config("ecce4/robot.xml"), mended = folder.path / "robot.xml";
+  erp::Robot robot = erp::read_robot(model);
+  const erp::Effect rubs{
+      {}, "gearbox_coulomb", robot.actuators[0].name, {{{}, "extra_Nm", "0.03"}}};
+  robot.effects.push_back(rubs);
+  launch::gap::write_mended(mended, model, robot, {rubs});
+  CHECK(erp::write_robot(erp::read_robot(mended)) == erp::write_robot(robot));
+}
+
 TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is explained") {
   const Folder folder;
   const auto plain = folder.recorded("plain.csv", false, 1);
@@ -66,6 +78,7 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
   const erp::Robot with = erp::read_robot(folder.found("robot.xml"));
   REQUIRE(with.effects.size() == 1);
   CHECK(with.effects[0].type == "gearbox_coulomb");
+  CHECK_THAT(folder.read("robot.xml"), Catch::Contains("<!-- One joint, two antagonistic"));
 
   CHECK(diagnosed(folder, {.recordings = {plain}}).code == 3);
   CHECK_FALSE(fs::exists(folder.found("robot.xml")));
