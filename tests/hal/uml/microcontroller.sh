@@ -54,10 +54,10 @@ with_microcontroller() {
   local qemu=$!
   started+=($qemu)
   for try in {1..50}; do
-    [ "$(grep -c /dev/pts "$exchange/qemu.txt")" = 2 ] && break
+    [ "$(grep -cs /dev/pts "$exchange/qemu.txt")" = 2 ] && break
     sleep 0.1
   done
-  ERP_UML_SERIAL=$(grep -o '/dev/pts/[0-9]*' "$exchange/qemu.txt" | xargs) ERP_UML_SECONDS=400 \
+  ERP_UML_SERIAL=$(grep -o '/dev/pts/[0-9]*' "$exchange/qemu.txt" | xargs) \
     "$here/run_in_uml.sh" "$exchange/guest" > "$exchange/guest.txt" 2>&1
   kill -KILL $qemu && wait $qemu 2> /dev/null
 }
