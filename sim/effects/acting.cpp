@@ -1,6 +1,7 @@
 #include "sim/effects/acting.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <type_traits>
 
 #include "sim/effects/library.hpp"
@@ -25,16 +26,20 @@ Acting::Acting(std::span<const Placed> all, const std::string& on, Seat seat) {
   empty_ = items_.empty();
 }
 
-/// Calls `use(effect, memory)` for those that it takes.
+/// Calls `use(effect, memory)` for those of `items` that it takes.
 template <class Use>
-void Acting::each(Use use) {
-  for (Item& item : items_)
+void Acting::each(auto&& items, Use use) {
+  for (Item& item : items)
     std::visit(
         [&](auto& effect) {
           if constexpr (std::is_invocable_v<Use&, decltype(effect), Memory&>)
             use(effect, item.memory);
         },
         item.effect);
+}
+template <class Use>
+void Acting::each(Use use) {
+  each(items_, use);
 }
 
 void Acting::save(std::vector<Memory>& memories) const {
@@ -145,6 +150,7 @@ double Acting::looseness_rad() {
 
 double Acting::read(Sense sense, double value, const SensorSample& s) {
   each(
+      std::views::reverse(items_),  // that `undo` finds them in their order
       [&](auto& e, Memory& m) requires requires { e.read(value, s, m); } {
         if (e.sense == sense) value = e.read(value, s, m);
       });

@@ -42,6 +42,8 @@ class Acting {
   Sloped joint_torque(double angle_rad);
   double bearing_rad(double angle_rad);
   double looseness_rad();
+  /// What a sensor says. Of several effects on it the last meets the quantity first; `undo` takes them
+  /// away from the first on.
   double read(Sense sense, double value, const SensorSample& s);
   double undo(Sense sense, double said, const SensorSample& s);
   double averaged(Sense sense, const SensorSample& s);
@@ -51,6 +53,8 @@ class Acting {
 
  private:
   struct Item;
+  template <class Use>
+  void each(auto&& items, Use use);
   template <class Use>
   void each(Use use);
   std::vector<Item> items_;

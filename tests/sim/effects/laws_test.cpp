@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "sim/effects/acting.hpp"
 #include "sim/effects/all.hpp"
+#include "sim/effects/library.hpp"
 
 using namespace sim::effects;
 
@@ -159,6 +161,20 @@ TEST_CASE("what a sensor's effect does, its inverse undoes") {
   CHECK(round_trip(SensorGain<Sense::current>{0.2}) < 1e-12);
   CHECK(round_trip(SensorDrift<Sense::joint>{0.01}) < 1e-12);
   CHECK(round_trip(SensorEccentricity<Sense::shaft>{0.2, 0.1}) < 1e-9);
+}
+
+TEST_CASE("what several effects of one sensor do is undone whatever their order") {
+  const std::vector<AnyEffect> all{SensorOffset<Sense::joint>{0.1}, SensorGain<Sense::joint>{0.2},
+                                   SensorDrift<Sense::joint>{0.01},
+                                   SensorEccentricity<Sense::joint>{0.2, 0.1}};
+  for (const AnyEffect& one : all)
+    for (const AnyEffect& other : all) {
+      Acting there(std::vector<Placed>{{"elbow", one}, {"elbow", other}}, "elbow", Seat::joint);
+      Acting back = there;
+      const SensorSample s{3, 0.002, 1};
+      INFO(about(one).type << ", " << about(other).type);
+      CHECK(back.undo(Sense::joint, there.read(Sense::joint, 0.7, s), s) == Approx(0.7));
+    }
 }
 
 TEST_CASE("a slow sensor answers as its law does, and its rate undoes it") {
