@@ -1,6 +1,7 @@
 #include "interfaces/recording/csv.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -100,6 +101,9 @@ class Parser {
     const auto& known = known_signals();
     if (table_.find(name))
       fail(cell.column, "column \"" + name + "\" stands there twice", "remove one");
+    constexpr std::array other_times{"t", "time", "time_ms", "time_us", "time_ns"};
+    if (std::ranges::find(other_times, name) != other_times.end())
+      fail(cell.column, "unknown column " + xml::quote(name), "name it time_s, in seconds");
     if (name != "time_s" &&
         (signal.size() == name.size() || std::ranges::find(known, signal) == known.end()))
       fail(cell.column, "unknown column " + xml::quote(name),

@@ -104,6 +104,19 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
 
+/// How to go on where several are left, or none is enough.
+void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
+                const DiagnoseOptions& options, std::ostream& out) {
+  const bool told_apart =
+      std::ranges::all_of(d.answer, [](const auto& n) { return n.alike.empty(); });
+  const bool done = d.verdict == diagnosis::Verdict::no_gap ||
+                    (d.verdict == diagnosis::Verdict::supported && told_apart);
+  if (done || !robot.drives.empty()) return;
+  out << fmt::format(
+      "next        erp gap plan --robot {} --diagnosis {}/diagnosis.json --out {}/next\n",
+      options.robot, options.out, options.out);
+}
+
 /// What was mended in the recordings was told at the start.
 void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
            std::ostream& out) {
@@ -198,6 +211,8 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
   d.mend_first = read.odd;
+  if (!options.withhold.empty())
+    out << fmt::format("withheld    {}\n", fmt::join(options.withhold, ", "));
   print(d, free_run, out);
   d.warnings.insert(d.warnings.begin(), read.odd.begin(), read.odd.end());
   d.warnings.insert(d.warnings.begin(), read.mended.begin(), read.mended.end());
@@ -206,6 +221,7 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
     out << fmt::format(
         "report      {0}/report.html, {0}/diagnosis.json{1}\n", options.out,
         d.verdict == diagnosis::Verdict::supported ? ", " + options.out + "/robot.xml" : "");
+    print_next(d, robot, options, out);
   }
   return exit_code(d.verdict);
 }

@@ -44,6 +44,7 @@ bool same(const Json& a, const Json& b) {
 /// What is to be split, and what is taken for true beside it. The bus is in neither: the stages'
 /// residuals do not show it.
 struct Question {
+  std::string robot;  ///< that was diagnosed
   std::vector<Placed> suspects, known;
 };
 
@@ -57,7 +58,7 @@ Question question_of(const Json& d, const std::string& file) {
     if (!on_bus(one) && (set.empty() || one.value("set", 0) == set[0].value("set", 0)))
       set.push_back(one);
   const bool split = !set.empty(), answered = d.at("verdict") == "supported";
-  Question question;
+  Question question{d.at("robot"), {}, {}};
   for (const Json& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
@@ -71,13 +72,13 @@ Question question_of(const Json& d, const std::string& file) {
 }
 
 Question read_question(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw std::invalid_argument(file + ": cannot be read");
+  const std::string text = read_text(file);
   try {
-    return question_of(Json::parse(in), file);
+    return question_of(Json::parse(text), file);
   } catch (const Json::exception& e) {
-    throw std::invalid_argument(file + ": is no diagnosis.json of erp gap diagnose (" + e.what() +
-                                "); give one");
+    const std::string why = e.what();  // behind the library's own name for it
+    throw std::invalid_argument(file + ": is no diagnosis.json of erp gap diagnose (" +
+                                why.substr(why.find("] ") + 2) + "); give one");
   }
 }
 
@@ -185,7 +186,11 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  auto [suspects, known] = read_question(options.diagnosis);
+  auto [diagnosed, suspects, known] = read_question(options.diagnosis);
+  if (diagnosed != robot.name)
+    throw std::invalid_argument(options.diagnosis + ": is of robot \"" + diagnosed + "\", " +
+                                options.robot + " is \"" + robot.name +
+                                "\"; give the robot that was diagnosed");
   check_is_of(robot, suspects, options), check_is_of(robot, known, options);
   fs::remove(options.out + "/graph.xml");  // nobody launches that of another plan
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));

@@ -86,9 +86,8 @@ std::string summary(const Diagnosis& d) {
   if (d.overall.before > 0)
     html += fmt::format(
         "<p>Error on held-out recordings, in units of noise: {:.3g} before, {:.3g} "
-        "after: {} ({:.1f} … {:.1f} %).</p>\n",
-        d.overall.before, d.overall.after, closed_words(d.overall), 100 * d.overall.interval.low,
-        100 * d.overall.interval.high);
+        "after: {} ({}).</p>\n",
+        d.overall.before, d.overall.after, closed_words(d.overall), closed_interval(d.overall));
   if (d.verdict == Verdict::supported)
     html += "<p>Beside this page: robot.xml, the model with it; diagnosis.json, all figures.</p>\n";
   return html;

@@ -20,8 +20,7 @@ std::string closed_of(const Closed& c, bool with_interval) {
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
   const double share = 100 * std::min(1.0, c.closed);  // beyond is noise
   if (!with_interval) return fmt::format("{:.1f} %", share);
-  return fmt::format("{:.1f} % ({:.1f} … {:.1f})", share, 100 * c.interval.low,
-                     100 * c.interval.high);
+  return fmt::format("{:.1f} % ({})", share, closed_interval(c));
 }
 
 }  // namespace
@@ -45,11 +44,10 @@ std::string page::free_running(const sim::rehearsal::FreeRun& run) {
       "<h2>The simulator let run freely</h2>\n<p>On the held-out recordings' references, in closed "
       "loop with the firmware: {:.3g} times what noise alone would do before, {:.3g} after. "
       "That is: "
-      "{} ({:.1f} … {:.1f} %).</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
+      "{} ({}).</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
       "alone</th>"
       "<th>after</th><th>closed</th></tr>\n",
-      run.all.before, run.all.after, closed_words(run.all), 100 * run.all.interval.low,
-      100 * run.all.interval.high);
+      run.all.before, run.all.after, closed_words(run.all), closed_interval(run.all));
   for (const Closed& c : run.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",

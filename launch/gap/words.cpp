@@ -12,4 +12,9 @@ std::string closed_words(const sim::diagnosis::Closed& c) {
   return fmt::format("{:.1f} % closed", 100 * std::min(1.0, c.closed));
 }
 
+std::string closed_interval(const sim::diagnosis::Closed& c) {
+  return fmt::format("{:.1f} … {:.1f} %", 100 * std::min(1.0, c.interval.low),
+                     100 * std::min(1.0, c.interval.high));
+}
+
 }  // namespace launch::gap

@@ -8,6 +8,8 @@
 namespace launch {
 
 std::string read_text(const std::string& file) {
+  if (std::filesystem::is_directory(file))
+    throw std::invalid_argument(file + ": is a folder; name a file in it");
   std::ifstream in(file);
   if (!in) throw std::invalid_argument(file + ": cannot be read; check the name");
   return {std::istreambuf_iterator<char>(in), {}};

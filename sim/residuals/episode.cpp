@@ -13,6 +13,7 @@ namespace sim::residuals {
 namespace {
 
 constexpr double longest_gap_s = 60;
+constexpr double slowest_s = 0.5;  // from row to row; chosen: nobody records so slowly
 constexpr std::size_t longest_filled = 3;
 
 double median(std::vector<double> x) {
@@ -29,12 +30,28 @@ struct Grid {
   std::size_t repeated = 0, missing = 0;
 };
 
+/// What time is told in that is no second, and how many of it are one: by how far rows lie apart.
+std::pair<const char*, double> unit_of_time(double period) {
+  if (period < 500) return {"milliseconds", 1e3};
+  if (period < 5e5) return {"microseconds", 1e6};
+  return {"nanoseconds", 1e9};
+}
+
+void check_seconds(double period_s, const std::string& name) {
+  if (!(period_s > slowest_s)) return;
+  const auto [unit, in_a_second] = unit_of_time(period_s);
+  throw std::invalid_argument(name + ": time_s: rows " + xml::write_number(period_s) +
+                              " s apart; they look like " + unit + ": divide by " +
+                              xml::write_number(in_a_second));
+}
+
 Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
   if (time_s.size() < 10)
     throw std::invalid_argument(name + ": fewer than ten rows; record some seconds of motion");
   std::vector<double> steps(time_s.size() - 1);
   for (std::size_t k = 0; k < steps.size(); ++k) steps[k] = time_s[k + 1] - time_s[k];
   Grid grid{median(steps), 0, {}, 0, 0};
+  check_seconds(grid.period_s, name);
   std::ptrdiff_t row = -1;
   double due_s = time_s[0];  // follows a clock that is a little off
   for (std::size_t k = 0; k < time_s.size(); ++k) {

@@ -43,26 +43,6 @@ std::vector<std::string> strangers(const recording::Table& table, const erp::Rob
   return odd;
 }
 
-/// What time is told in that is no second, and how many of it are one: by how far rows lie apart.
-std::pair<const char*, double> unit_of_time(double period) {
-  if (period < 500) return {"milliseconds", 1e3};
-  if (period < 5e5) return {"microseconds", 1e6};
-  return {"nanoseconds", 1e9};
-}
-
-std::string odd_time(double period_s, bool has_ecus) {
-  if (period_s > 0.5) {  // nobody records so slowly
-    const auto [unit, a_second] = unit_of_time(period_s);
-    return fmt::format("rows {:.3g} s apart: it looks like {}: divide by {:g}", period_s, unit,
-                       a_second);
-  }
-  if (!has_ecus || period_s <= 1.5 * tick_s) return "";
-  return fmt::format(
-      "a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors and gearboxes may be what "
-      "is missing between the rows: record one each {:g} ms",
-      1e3 * period_s, 1e3 * tick_s, 1e3 * tick_s);
-}
-
 }  // namespace
 
 std::vector<std::string> odd_table(const recording::Table& table, const erp::Robot& robot,
@@ -70,8 +50,13 @@ std::vector<std::string> odd_table(const recording::Table& table, const erp::Rob
   std::vector<std::string> odd = strangers(table, robot, name);
   const bool has_ecus =
       std::ranges::any_of(robot.actuators, [&](const auto& a) { return !drive_of(robot, a.name); });
-  const std::string time = odd_time(row_period_s(table), has_ecus);
-  if (!time.empty()) odd.push_back(name + ": time_s: " + time);
+  const double period_s = row_period_s(table);
+  if (has_ecus && period_s > 1.5 * tick_s)
+    odd.push_back(
+        fmt::format("{}: time_s: a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors "
+                    "and gearboxes "
+                    "may be what is missing between the rows: record one each {:g} ms",
+                    name, 1e3 * period_s, 1e3 * tick_s, 1e3 * tick_s));
   return odd;
 }
 

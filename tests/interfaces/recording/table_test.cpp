@@ -220,8 +220,11 @@ TEST_CASE("a mistake in a CSV is refused with file, line, column, value and reme
   };
   refused("", ":1:1: there is no column time_s");
   refused("time_s;m.mode\n", "separate the columns with commas");
-  refused("time_s,m.tension\n", ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");
-  refused("time_s,m.force_N\n", ":1:8: unknown column \"m.force_N\"; known here: m.mode, m.reference");
+  refused("time_ms,m.tension_N\n", ":1:1: unknown column \"time_ms\"; name it time_s, in seconds");
+  refused("time_s,m.tension\n",
+          ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");
+  refused("time_s,m.force_N\n",
+          ":1:8: unknown column \"m.force_N\"; known here: m.mode, m.reference");
   refused("time_s,tension_N\n", ":1:8: unknown column \"tension_N\"; name it <actuator or joint>.");
   refused("time_s,m.mode,m.mode\n", ":1:15: column \"m.mode\" stands there twice");
   refused("time_s,m.mode\n0,fast\n", ":2:3: unknown mode \"fast\"; use off, voltage");

@@ -23,7 +23,7 @@ Planned plan(const fs::path& folder, const std::string& one, const std::string& 
              const std::string& sure = "") {
   fs::create_directories(folder);
   std::ofstream(folder / "diagnosis.json")
-      << R"({"verdict": "supported", "effects": [)" << one << ", " << other
+      << R"({"robot": "hinge_rig", "verdict": "supported", "effects": [)" << one << ", " << other
       << (sure.empty() ? "" : ", ") << sure << R"(], "confusable": [)" << one << ", " << other
       << "]}";
   std::ostringstream out, remarks;
@@ -90,10 +90,9 @@ TEST_CASE("twins are split by no motion: which they are is said, and no graph is
 
 TEST_CASE("beside twins, what can be split is") {
   const Folder folder;
-  const Planned planned =
-      plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
-           effect("sensor_shaft_offset", "offset_rad", -0.0889) + ", " +
-               effect("gearbox_coulomb", "extra_Nm", 0.05));
+  const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
+                               effect("sensor_shaft_offset", "offset_rad", -0.0889) + ", " +
+                                   effect("gearbox_coulomb", "extra_Nm", 0.05));
   INFO(planned.said);
   CHECK(planned.code == 0);
   CHECK_THAT(planned.said, Catch::Contains("from sensor_shaft_offset on flexor: that needs") &&
@@ -116,6 +115,20 @@ TEST_CASE("what is no diagnosis is refused with what it lacks") {
   CHECK_THROWS_WITH(plan(folder.path, R"({"type": "gearbox_coulomb", "on": "flexor"})", "{}"),
                     Catch::Contains("diagnosis.json: is no diagnosis.json") &&
                         Catch::Contains("'type' not found"));
+}
+
+TEST_CASE("a plan is for the robot that was diagnosed, though another has places of these names") {
+  const Folder folder;
+  fs::create_directories(folder.path);
+  std::ofstream(folder.path / "diagnosis.json")
+      << R"({"robot": "hinge_rig", "verdict": "supported", "confusable": [], "effects": [{"type":
+          "sensor_joint_gain", "on": "elbow", "supported": true, "parameters": {}}]})";
+  std::ostringstream out, remarks;
+  CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("arm/robot.xml"),
+                                       .diagnosis = folder.path / "diagnosis.json",
+                                       .out = folder.path / "next"},
+                                      out, remarks),
+                    Catch::Contains("hinge_rig") && Catch::Contains("\"arm\""));
 }
 
 TEST_CASE("a plan without a diagnosis says which file it misses") {

@@ -46,6 +46,18 @@ TEST_CASE("rows that repeat are dropped, rows that are missing are left open or 
   CHECK(remarks[1] == "run.csv: 22 rows are missing");
 }
 
+TEST_CASE("a time that is not in seconds is refused, with what to divide it by") {
+  for (const auto& [in_a_second, unit] : {std::pair{1e3, "milliseconds: divide by 1000"},
+                                          {1e6, "microseconds: divide by 1000000"},
+                                          {1e9, "nanoseconds: divide by 1000000000"}}) {
+    recording::Table table = sine(100);
+    for (double& time : table.columns[0].values) time *= in_a_second;
+    std::vector<std::string> remarks;
+    CHECK_THROWS_WITH(lay_out(table, hinge_rig(), "run.csv", remarks),
+                      Catch::StartsWith("run.csv: time_s: rows ") && Catch::EndsWith(unit));
+  }
+}
+
 TEST_CASE("a quaternion changes its sign nowhere, and short gaps in it are bridged") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const auto joints = robot.joints();

@@ -46,14 +46,3 @@ TEST_CASE("rows further apart than the ECUs' ticks are told, of a drive, which h
              Catch::Contains("a row each 4 ms") && Catch::Contains("record one each 2 ms"));
   CHECK(odd(table_of(0.004, {"drive.control_V", "drive.position_m"}), "drive").empty());
 }
-
-TEST_CASE("a time that is not in seconds is told, with what to divide it by") {
-  for (const auto& [in_a_second, unit] : {std::pair{1e3, "milliseconds: divide by 1000"},
-                                          {1e6, "microseconds: divide by 1e+06"},
-                                          {1e9, "nanoseconds: divide by 1e+09"}})
-    for (const char* robot : {"hinge_rig", "drive"}) {
-      const auto said = odd(table_of(0.002 * in_a_second, {}), robot);
-      REQUIRE(said.size() == 1);
-      CHECK_THAT(said[0], Catch::Contains(unit));
-    }
-}
