@@ -1,6 +1,11 @@
+#include <unistd.h>
+
+#include <cerrno>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
+#include "launch/erp/program.hpp"
 #include "launch/erp/verb_parts.hpp"
 #include "launch/erp/verbs.hpp"
 #include "launch/gap/blind.hpp"
@@ -126,6 +131,26 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
       [=, &chosen] { chosen = [=] { return gap::blind_score(*folder, *truth, std::cout); }; });
 }
 
+/// Becomes the component. Throws std::system_error if it cannot.
+[[noreturn]] void become(const std::string& program, std::vector<std::string> words) {
+  const std::string file = find_program(program, ".");
+  words.insert(words.begin(), file);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execv(file.c_str(), argv.data());
+  throw std::system_error(errno, std::generic_category(), program + " cannot be started");
+}
+
+void add_monitor(CLI::App& gap, Chosen& chosen) {
+  auto* monitor = gap.add_subcommand(
+      "monitor", "Beside the running robot: tells when a stage leaves its noise (gap_monitor)");
+  monitor->set_help_flag();  // that of the component, as all that follows
+  monitor->prefix_command();
+  monitor->callback(
+      [=, &chosen] { chosen = [=]() -> int { become("gap_monitor", monitor->remaining()); }; });
+}
+
 }  // namespace
 
 void add_gap(CLI::App& app, Chosen& chosen) {
@@ -135,6 +160,7 @@ void add_gap(CLI::App& app, Chosen& chosen) {
   add_diagnose(*gap, chosen);
   add_plan(*gap, chosen);
   add_twins(*gap, chosen);
+  add_monitor(*gap, chosen);
   add_blind(*gap, chosen);
 }
 

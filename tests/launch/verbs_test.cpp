@@ -118,6 +118,17 @@ TEST_CASE("a component without a robot says so, with exit code 2") {
   fs::remove_all(folder);
 }
 
+TEST_CASE("erp gap monitor is the component, with its options and its exit codes") {
+  const Bus bus;
+  const auto help = bus.erp({"gap", "monitor", "--help"});
+  CHECK(help.code == 0);
+  CHECK_THAT(help.text, Contains("gap_monitor: a component") && Contains("window_s"));
+  const auto checked =
+      bus.erp({"gap", "monitor", "--robot", bus.robot(), "--set", "times=0", "--check"});
+  CHECK(checked.code == 2);
+  CHECK_THAT(checked.text, Contains("times"));
+}
+
 TEST_CASE("an unknown verb ends with exit code 2 and the nearest name") {
   const Bus bus;
   const auto result = bus.erp({"lunch"});
