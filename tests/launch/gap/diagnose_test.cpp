@@ -90,7 +90,9 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
                          .free_run = false});
   INFO(withheld.text);
   CHECK(withheld.code == 4);
-  CHECK_THAT(withheld.text, Catch::Contains("left over   gearbox of extensor"));
+  CHECK_THAT(withheld.text, Catch::Contains("left over   gearbox of extensor") &&
+                                Catch::Contains("withheld    gearbox_coulomb, ") &&
+                                Catch::Contains("next        erp gap plan --robot "));
 
   CHECK(diagnosed(folder, {.train = {rubs}, .held_out = {plain}}).code == 5);
 }
