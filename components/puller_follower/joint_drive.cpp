@@ -36,6 +36,14 @@ std::array<std::size_t, 2> antagonists(const erp::Robot& robot, const sim::Muscu
   return {found[0], found[1]};
 }
 
+void add(const std::string& name, erp::Mode mode, double wanted, erp::ActuatorCommand& message) {
+  erp::ActuatorReference reference{};
+  erp::assign(reference.name, name);
+  reference.mode = static_cast<std::uint8_t>(mode);
+  reference.reference = wanted;
+  erp::append(message.actuators, reference);
+}
+
 }  // namespace
 
 JointDrive::Tendon JointDrive::tendon_of(const erp::Robot& robot, std::size_t a) const {
@@ -65,6 +73,7 @@ bool JointDrive::hear(const erp::SensorFrame& frame, double dt_s) {
       tendon.speed_rad_per_s = moves ? (found->shaft_rad - tendon.shaft_rad) / dt_s : 0;
       tendon.shaft_rad = found->shaft_rad;
       tendon.tension_N = found->tension_N;
+      tendon.line_m = found->line_m;
       tendon.slack_s = tendon.tension_N < slack_N ? tendon.slack_s + dt_s : 0;
     }
     tendon.seen = valid;
@@ -76,8 +85,27 @@ bool JointDrive::hangs() const {
   return std::ranges::any_of(tendons_, [](const Tendon& t) { return t.slack_s > hangs_s; });
 }
 
+double JointDrive::torque_Nm(const sim::Musculoskeletal& model) const {
+  double sum = 0;
+  for (const Tendon& tendon : tendons_) sum -= lever_m(tendon, model) * tendon.tension_N;
+  return sum;
+}
+
 void JointDrive::begin(double torque_Nm) {
-  torque_ = {torque_Nm}, raised_N_ = params_.low_N, reference_ = {raised_N_};
+  const double slacker_N = std::min(tendons_[0].tension_N, tendons_[1].tension_N);
+  torque_ = {torque_Nm}, raised_N_ = std::max(params_.low_N, slacker_N), reference_ = {raised_N_};
+}
+
+void JointDrive::stop() {
+  for (Tendon& tendon : tendons_) tendon.stopped_m = tendon.line_m;
+  strain_ = 0;
+}
+
+void JointDrive::brake(const sim::Musculoskeletal& model, erp::ActuatorCommand& message) const {
+  const double speed = model.skeleton().velocity()[coordinate_];
+  for (const Tendon& tendon : tendons_)
+    add(tendon.name, erp::Mode::length,
+        tendon.stopped_m - params_.brake_s * lever_m(tendon, model) * speed, message);
 }
 
 void JointDrive::follow(double torque_Nm, double dt_s) {
@@ -91,20 +119,20 @@ void JointDrive::follow(double torque_Nm, double dt_s) {
 void JointDrive::drive(double torque_Nm, double acceleration, const sim::Musculoskeletal& model,
                        double dt_s, erp::ActuatorCommand& message) {
   follow(torque_Nm, dt_s);
-  std::array<double, 2> lever_m;
-  for (std::size_t k = 0; k < 2; ++k)
-    lever_m[k] = model.jacobian()(static_cast<Eigen::Index>(tendons_[k].actuator), coordinate_);
-  const Pair pair{{std::abs(lever_m[0]), std::abs(lever_m[1])}};
+  const std::array levers_m{lever_m(tendons_[0], model), lever_m(tendons_[1], model)};
+  const Pair pair{{std::abs(levers_m[0]), std::abs(levers_m[1])}};
   const auto tension_N = pair.tensions_N(torque_.value, reference_.value);
   const double speed = model.skeleton().velocity()[coordinate_];
+  bool within = true;
   for (std::size_t k = 0; k < 2; ++k) {
     const bool pulls = pair.positive_pulls(torque_.value) == (k == 0);
     const double share = pulls ? (k == 0 ? 1 : -1) / pair.arm_m[k] : 0;  // dF_d/dτ
-    command(k, tension_N[k], share, speed, lever_m[k], acceleration, message);
+    within = command(k, tension_N[k], share, speed, levers_m[k], acceleration, message) && within;
   }
+  strain_ += dt_s / (1 + dt_s) * ((within ? 0 : 1) - strain_);
 }
 
-void JointDrive::command(std::size_t which, double tension_N, double share, double speed,
+bool JointDrive::command(std::size_t which, double tension_N, double share, double speed,
                          double lever_m, double acceleration, erp::ActuatorCommand& message) const {
   const Tendon& t = tendons_[which];
   const TensionLinearisation::Wanted wanted{std::min(tension_N, t.most_N),
@@ -112,11 +140,8 @@ void JointDrive::command(std::size_t which, double tension_N, double share, doub
                                             reference_.acceleration + share * torque_.acceleration};
   const double asked_V = t.law.voltage_V(
       {t.tension_N, t.speed_rad_per_s, lever_m * speed, lever_m * acceleration}, wanted);
-  erp::ActuatorReference reference{};
-  erp::assign(reference.name, t.name);
-  reference.mode = static_cast<std::uint8_t>(erp::Mode::voltage);
-  reference.reference = std::clamp(asked_V, -t.supply_V, t.supply_V);
-  erp::append(message.actuators, reference);
+  add(t.name, erp::Mode::voltage, std::clamp(asked_V, -t.supply_V, t.supply_V), message);
+  return std::abs(asked_V) <= t.supply_V;
 }
 
 /// Two first-order lags in a row: value, and its first and second derivative.

@@ -21,6 +21,7 @@ struct DriveParams {
   double raise_s = 0.05;          ///< how gently that begins and ends; chosen
   double smooth_s = 0.01;         ///< of the torque; chosen
   double tension_per_s = 60;      ///< b of the tensions; chosen
+  double brake_s = 0.05;          ///< g of the brake; chosen
 };
 
 class JointDrive {
@@ -34,10 +35,23 @@ class JointDrive {
   bool hear(const erp::SensorFrame& frame, double dt_s);
   /// One of its tendons has been slack for longer than a follower may let go.
   bool hangs() const;
+  /// What its tendons give now.
+  double torque_Nm(const sim::Musculoskeletal& model) const;
+  /// From that torque, and as taut as it is.
   void begin(double torque_Nm);
   /// Adds both voltages. `acceleration`: that of the joint under this torque, rad/s².
   void drive(double torque_Nm, double acceleration, const sim::Musculoskeletal& model, double dt_s,
              erp::ActuatorCommand& command);
+
+  /// Its motors were asked for more than their supply for much of the last second: it has outrun
+  /// them, and a loop around motors that cannot follow swings.
+  bool outrun() const { return strain_ > 0.4; }  // chosen: 0.37 is what catching 0.2 kg takes
+  /// Its lines stay where they are now, but give and take as the joint moves: damping that slow
+  /// motors can give.
+  ///
+  ///   line = line₀ − g dl/dt
+  void stop();
+  void brake(const sim::Musculoskeletal& model, erp::ActuatorCommand& command) const;
 
  private:
   struct Tendon {
@@ -46,6 +60,7 @@ class JointDrive {
     double supply_V, most_N;
     TensionLinearisation law;
     double tension_N = 0, shaft_rad = 0, speed_rad_per_s = 0, slack_s = 0;
+    double line_m = 0, stopped_m = 0;
     bool seen = false;
   };
   /// A signal and its smoothed derivatives.
@@ -53,9 +68,13 @@ class JointDrive {
     double value = 0, rate = 0, acceleration = 0;
     void follow(double to, double dt_s, double smooth_s);
   };
+  double lever_m(const Tendon& tendon, const sim::Musculoskeletal& model) const {
+    return model.jacobian()(static_cast<Eigen::Index>(tendon.actuator), coordinate_);
+  }
   Tendon tendon_of(const erp::Robot& robot, std::size_t actuator) const;
   void follow(double torque_Nm, double dt_s);
-  void command(std::size_t which, double tension_N, double share, double speed, double lever_m,
+  /// True: within the supply.
+  bool command(std::size_t which, double tension_N, double share, double speed, double lever_m,
                double acceleration, erp::ActuatorCommand& command) const;
 
   DriveParams params_;
@@ -63,6 +82,7 @@ class JointDrive {
   std::array<Tendon, 2> tendons_;  ///< [0] pulls towards positive angles
   Smooth torque_, reference_;
   double raised_N_ = 0;
+  double strain_ = 0;  ///< share of the last second
 };
 
 }  // namespace control

@@ -1,5 +1,6 @@
 #include "components/puller_follower/joint_laws.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,13 +13,25 @@ using Eigen::VectorXd;
 class Linearised : public JointLaw {
  public:
   Linearised(const LawParams& params, int n)
-      : params_(params), sum_(VectorXd::Zero(n)), acceleration_(sum_), torque_(sum_) {}
+      : params_(params),
+        factor_(n),
+        sum_(VectorXd::Zero(n)),
+        acceleration_(sum_),
+        torque_(sum_) {}
 
-  void begin() override { sum_.setZero(); }
+  void begin(const VectorXd& torque_Nm, const Dynamics& dynamics) override {
+    sum_.setZero();
+    if (params_.ki_per_s3 <= 0) return;
+    torque_ = torque_Nm - dynamics.bias;
+    factor_.compute(dynamics.inertia);
+    factor_.solveInPlace(torque_);
+    sum_ = torque_ / params_.ki_per_s3;
+    bound();
+  }
   const VectorXd& torque_Nm(const JointErrors& errors, const Dynamics& dynamics,
                             double dt_s) override {
-    const double most = params_.integral_rad_s;
-    sum_ = (sum_ + dt_s * errors.error_rad).cwiseMax(-most).cwiseMin(most);
+    sum_ += dt_s * errors.error_rad;
+    bound();
     acceleration_ = errors.wanted_rad_per_s2 + params_.kd_per_s * errors.error_rad_per_s +
                     params_.kp_per_s2 * errors.error_rad + params_.ki_per_s3 * sum_;
     torque_ = dynamics.bias;
@@ -27,21 +40,29 @@ class Linearised : public JointLaw {
   }
 
  private:
+  void bound() {
+    const double most = params_.integral_rad_s;
+    sum_ = sum_.cwiseMax(-most).cwiseMin(most);
+  }
+
   LawParams params_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
   VectorXd sum_, acceleration_, torque_;
 };
 
 class LoopShaping : public JointLaw {
  public:
   LoopShaping(const LawParams& params, sim::Musculoskeletal& model)
-      : params_(params),
-        hinges_(sim::loop_shaping::hinges_of(model)),
-        loops_(sim::loop_shaping::joint_loops(model, params.shape).core(), period_s),
-        asked_(VectorXd::Zero(model.coordinates())),
-        alignment_(model.coordinates(), model.coordinates()),
-        torque_(VectorXd::Zero(model.coordinates())) {}
+      : LoopShaping(params, model, sim::loop_shaping::joint_loops(model, params.shape)) {}
 
-  void begin() override { loops_.reset(); }
+  void begin(const VectorXd& torque_Nm, const Dynamics& dynamics) override {
+    sim::loop_shaping::align(dynamics.inertia, hinges_, params_.shape, alignment_);
+    asked_ = torque_Nm - params_.gravity * dynamics.gravity;
+    factor_.compute(alignment_);
+    factor_.solveInPlace(asked_);
+    rest_.noalias() = holding_ * asked_;
+    loops_.begin(rest_);
+  }
   const VectorXd& torque_Nm(const JointErrors& errors, const Dynamics& dynamics,
                             double dt_s) override {
     // Frames that were lost: what is known now was so since.
@@ -55,13 +76,25 @@ class LoopShaping : public JointLaw {
   }
 
  private:
+  LoopShaping(const LawParams& params, sim::Musculoskeletal& model,
+              const sim::loop_shaping::JointLoops& loops)
+      : params_(params),
+        hinges_(sim::loop_shaping::hinges_of(model)),
+        loops_(loops.core(), period_s),
+        holding_(loops.holding()),
+        alignment_(model.coordinates(), model.coordinates()),
+        factor_(model.coordinates()),
+        asked_(VectorXd::Zero(model.coordinates())),
+        rest_(VectorXd::Zero(holding_.rows())),
+        torque_(asked_) {}
+
   static constexpr double period_s = 0.002;  ///< of sensor frames
   LawParams params_;
   std::vector<sim::loop_shaping::Hinge> hinges_;
   sim::loop_shaping::Sampled loops_;
-  VectorXd asked_;
-  Eigen::MatrixXd alignment_;
-  VectorXd torque_;
+  Eigen::MatrixXd holding_, alignment_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  VectorXd asked_, rest_, torque_;
 };
 
 class Pd : public JointLaw {
@@ -72,7 +105,7 @@ class Pd : public JointLaw {
     model.skeleton().inertia(inertia);
     inertia_ = inertia.diagonal(), torque_ = inertia_;
   }
-  void begin() override {}
+  void begin(const VectorXd&, const Dynamics&) override {}
   const VectorXd& torque_Nm(const JointErrors& errors, const Dynamics& dynamics, double) override {
     torque_ = params_.gravity * dynamics.gravity +
               inertia_.cwiseProduct(params_.kp_per_s2 * errors.error_rad +

@@ -49,8 +49,9 @@ struct Dynamics {
 class JointLaw {
  public:
   virtual ~JointLaw() = default;
-  /// Forgets what it has summed up: control begins.
-  virtual void begin() = 0;
+  /// Control begins with the torque that acts, Nm: what it sums up starts at what that has beyond
+  /// the bones' own. No heap.
+  virtual void begin(const Eigen::VectorXd& torque_Nm, const Dynamics& dynamics) = 0;
   /// τ, without joint friction, Nm. No heap.
   virtual const Eigen::VectorXd& torque_Nm(const JointErrors& errors, const Dynamics& dynamics,
                                            double dt_s) = 0;

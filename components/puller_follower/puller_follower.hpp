@@ -7,6 +7,7 @@
 #include "components/node/run.hpp"
 #include "components/puller_follower/joint_drive.hpp"
 #include "components/puller_follower/joint_laws.hpp"
+#include "components/puller_follower/unmodelled.hpp"
 
 /// Puller-follower control of hinges with two antagonists each (paper, 5.2 and Fig. 7): the puller
 /// answers for the joint's angle, the follower for its own tension; the two change roles.
@@ -14,12 +15,14 @@
 ///   1  angles → torques    a law of joint_laws.hpp, and the joints' friction at the wanted speed
 ///   2  torque → voltages   of both motors, joint by joint: joint_drive.hpp, antagonists.hpp
 ///
-/// The second step needs how the joints are about to move: a = H⁻¹ (τ − C − τ_G − τ_f).
+/// The second step needs how the joints are about to move: a = H⁻¹ (τ − C − τ_G − τ_f) and what else
+/// they seem to accelerate by, unmodelled.hpp: under a load tendons would go slack without it.
 ///
-/// Control begins from where the joints are and as they move, and leads them onto the target: at
-/// first, when frames have been missing, and when a tendon has hung slack. While one hangs, which the
-/// plant then takes up, the joints are held where that began: a loop that pushes on against a muscle
-/// that cannot answer winds itself up, and the limb swings.
+/// Control begins from where the joints are, as they move and with the torque that acts, and leads
+/// them onto the target: at first, when frames have been missing, and when a tendon has hung slack.
+/// While one hangs, which the plant then takes up, the joints are held where that began. A joint that
+/// outruns its motors, under a load or after a machine stood still, is braked until all are at rest:
+/// a loop around motors that cannot follow would swing it from stop to stop.
 namespace control {
 
 class PullerFollower {
@@ -44,6 +47,7 @@ class PullerFollower {
       v("raise_N_per_s", drives.raise_N_per_s, xml::positive);
       v("raise_s", drives.raise_s, xml::positive);
       v("smooth_s", drives.smooth_s, xml::positive);
+      v("brake_s", drives.brake_s, xml::at_least_zero);
       v("tension_per_s", drives.tension_per_s, xml::positive);
       v("kp_per_s2", laws.kp_per_s2, xml::at_least_zero);
       v("kd_per_s", laws.kd_per_s, xml::at_least_zero);
@@ -61,6 +65,11 @@ class PullerFollower {
 
   /// Throws std::invalid_argument as hinges_of, JointDrive and law_of.
   PullerFollower(const Params& params, const erp::Robot& robot);
+  /// As a component: it says when it brakes.
+  PullerFollower(const Params& params, const erp::Robot& robot, node::Node& node)
+      : PullerFollower(params, robot) {
+    node_ = &node;
+  }
 
   bool wants(const erp::JointState& state) const { return params_.source == state.source; }
   /// Nothing while joints, tendons or target are not known or stale: the plant then takes its safe
@@ -70,11 +79,16 @@ class PullerFollower {
                                            const node::Latest<erp::JointTarget>& target);
 
  private:
+  enum class Phase { silent, brakes, holds, leads };
   bool hear(const erp::SensorFrame& frame, double dt_s);
-  bool hangs() const;
+  Phase next() const;
+  erp::ActuatorCommand brake(bool goes_on, double dt_s);
+  void say_outrun() const;
+  erp::ActuatorCommand lead(bool goes_on, double dt_s);
   void begin();
   void compare();
   void find_torques(double dt_s);
+  void find_acceleration(double dt_s);
 
   Params params_;
   joints::Names names_;
@@ -87,10 +101,13 @@ class PullerFollower {
   JointErrors errors_;
   Dynamics dynamics_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd torque_, acceleration_;
-  enum class Phase { silent, holds, leads } phase_ = Phase::silent;
+  Eigen::VectorXd acting_Nm_, torque_Nm_, friction_Nm_;  ///< by the tendons, asked for, of joints
+  Eigen::VectorXd acceleration_;
+  Unmodelled unmodelled_;
+  Phase phase_ = Phase::silent;
   sim::CatchUp onto_target_;
-  double led_s_ = 0;  ///< since it began
+  double led_s_ = 0, rested_s_ = 0;  ///< since it began; while it brakes
+  node::Node* node_ = nullptr;
 };
 
 }  // namespace control

@@ -1,6 +1,7 @@
 #include "sim/loop_shaping/joint_loops.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 #include <complex>
@@ -111,6 +112,16 @@ JointLoops joint_loops(Musculoskeletal& model, const JointShape& shape) {
       hinge_plant(model, shape), side_by_side(weights), alignment_of(model, shape), {}};
   loops.robust = stabilised(in_series(loops.weight(), loops.plant));
   return loops;
+}
+
+MatrixXd JointLoops::holding() const {
+  const Index first = robust.controller.states(), n = shape.states(), m = shape.outputs();
+  MatrixXd rests(n + m, n), asks = MatrixXd::Zero(n + m, m);
+  rests << shape.a, shape.c;
+  asks.bottomRows(m).setIdentity();
+  MatrixXd states = MatrixXd::Zero(first + n, m);
+  states.bottomRows(n) = rests.completeOrthogonalDecomposition().solve(asks);
+  return states;
 }
 
 JointLoops moved(const JointLoops& loops, Musculoskeletal& model, const JointShape& shape) {

@@ -57,6 +57,9 @@ struct JointLoops {
   StateSpace weight() const { return in_series(shape, constant(alignment)); }  ///< W₁
   /// From rad to what A turns into Nm.
   StateSpace core() const { return in_series(robust.controller, shape); }
+  /// The core's states of rest, A x = 0, that ask for 1 of an output: what W₁'s integrators hold. A
+  /// column for each output; zero without integrators.
+  Eigen::MatrixXd holding() const;
   StateSpace controller() const { return in_series(robust.controller, weight()); }  ///< K
 };
 

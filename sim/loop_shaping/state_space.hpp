@@ -42,7 +42,8 @@ class Sampled {
 
   /// y of this instant; then on to the next.
   const Eigen::VectorXd& step(const Eigen::VectorXd& u);
-  void reset() { state_.setZero(); }
+  /// It begins in a state of rest, A x = 0.
+  void begin(const Eigen::VectorXd& rest) { state_ = rest; }
 
  private:
   StateSpace discrete_;

@@ -9,21 +9,39 @@ using namespace tests;
 
 namespace {
 
-const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
+using Components = std::vector<std::pair<std::string, std::string>>;  ///< each, and its config
+
+/// A graph in the folder, of these and a logger.
+std::string graph(const Folder& folder, const std::string& robot, const Components& components) {
+  std::ofstream out(folder / "graph.xml");
+  out << "<graph name=\"off\" robot=\"" << robot << "\" device=\"sim\">\n";
+  for (const auto& [name, config] : components)
+    out << "  <component name=\"" << name << "\" config=\"" << config << "\"/>\n";
+  out << "  <component name=\"logger\"/>\n</graph>\n";
+  return folder / "graph.xml";
+}
 
 /// The arm with something that its controllers do not know.
 std::string arm_with(const Folder& folder, const std::string& type, const std::string& on,
                      const std::string& parameter, const std::string& value) {
+  const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
   erp::Robot robot = erp::read_robot(configs + "robot.xml");
   robot.effects = {{{}, type, on, {{{}, parameter, value}}}};
   std::ofstream(folder / "robot.xml") << erp::write_robot(robot);
-  std::ofstream(folder / "graph.xml")
-      << "<graph name=\"off\" robot=\"robot.xml\" device=\"sim\">\n  <component "
-         "name=\"joint_target\" "
-         "config=\""
-      << configs << "figure_8.xml\"/>\n  <component name=\"computed_force\" config=\"" << configs
-      << "computed_force.xml\"/>\n  <component name=\"logger\"/>\n</graph>\n";
-  return folder / "graph.xml";
+  return graph(folder, "robot.xml",
+               {{"joint_target", configs + "figure_8.xml"},
+                {"computed_force", configs + "computed_force.xml"}});
+}
+
+/// `twin_joint`, which on its way grasps as much.
+std::string twin_grasps(const Folder& folder, double mass_kg) {
+  const std::string configs = ERP_SOURCE_DIR "/configs/twin_joint/";
+  std::ofstream(folder / "sim.xml") << "<sim><grasp body=\"forearm\" at_m=\"0 0 -0.26\" mass_kg=\""
+                                    << mass_kg << "\" at_s=\"1\"/></sim>\n";
+  return graph(folder, configs + "robot.xml",
+               {{"sim", "sim.xml"},
+                {"joint_target", configs + "reach.xml"},
+                {"puller_follower", configs + "puller_follower.xml"}});
 }
 
 }  // namespace
@@ -110,4 +128,14 @@ TEST_CASE("a limb that grasps 0.2 kg on its way is soon back where it should be;
   };
   CHECK(off("") < 1 * degree);
   CHECK(off("--set puller_follower.law=pd --set puller_follower.smooth_s=0.005") > 5 * degree);
+}
+
+TEST_CASE("a limb that catches more than its motors can follow is braked, then led on") {
+  for (const double mass_kg : {0.3, 0.4, 0.6, 0.8}) {
+    CAPTURE(mass_kg);
+    Folder folder;
+    const auto file = recorded(folder, twin_grasps(folder, mass_kg), 12);
+    CHECK_THAT(content(folder / "run/erp.log"), Catch::Contains("asks more of its motors"));
+    for (const auto& e : errors(file, "sim", "joint_target", 9)) CHECK(e.rms_rad < 0.5 * degree);
+  }
 }

@@ -87,13 +87,62 @@ TEST_CASE(
     INFO(int(kind));
     const auto law = law_of(kind, {}, model);
     JointErrors errors(n);
-    law->begin();
+    law->begin(dynamics.gravity, dynamics);
     CHECK((law->torque_Nm(errors, dynamics, 0.002) - dynamics.gravity).norm() < 1e-9);
     errors.error_rad[3] = 0.1;
     Eigen::VectorXd torque = law->torque_Nm(errors, dynamics, 0.002);
     for (int k = 0; k < 20; ++k) torque = law->torque_Nm(errors, dynamics, 0.002);
     CHECK(torque[3] > dynamics.gravity[3] + 0.01);
   }
+}
+
+TEST_CASE("a law that sums up begins with the torque that acts, and holds it") {
+  const erp::Robot seven = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
+  sim::Musculoskeletal model(seven);
+  Dynamics dynamics(model.coordinates());
+  dynamics.take(model.skeleton());
+  const JointErrors none(model.coordinates());
+  Eigen::VectorXd acts = dynamics.gravity;
+  acts[3] += 0.2;
+  for (const Law kind : {Law::linearised, Law::loop_shaping}) {
+    INFO(int(kind));
+    const auto law = law_of(kind, {}, model);
+    law->begin(acts, dynamics);
+    for (int k = 0; k < 100; ++k)
+      CHECK((law->torque_Nm(none, dynamics, 0.002) - acts).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("what a model of the bones does not know is seen from how they move") {
+  Unmodelled load(1);
+  Eigen::VectorXd speed = Eigen::VectorXd::Zero(1), model = speed;
+  load.begin(speed, model);
+  model[0] = 3;  // the model says so, the joint falls all the same
+  for (int k = 0; k < 5000; ++k) speed[0] -= 0.002 * 2, load.see(speed, model, 0.002);
+  CHECK(load.acceleration_rad_per_s2()[0] == Approx(-5).epsilon(0.01));
+  load.begin(speed, model);
+  CHECK(load.acceleration_rad_per_s2()[0] == -3);
+}
+
+TEST_CASE("a joint that outruns its motors is braked until it is at rest, then led again") {
+  JointBench bench("hinge_rig/robot.xml");
+  PullerFollower control({}, bench.robot);
+  auto& joint = bench.state.message.joints._buffer[0];
+  const auto mode_after = [&](double error_rad, double speed_rad_per_s, int steps) {
+    bench.target.message.joints._buffer[0].position[0] = joint.position[0] + error_rad;
+    joint.velocity_rad_per_s[0] = speed_rad_per_s;
+    std::optional<erp::ActuatorCommand> command;
+    for (int k = 0; k < steps; ++k) command = bench.step(control);
+    return erp::Mode(command->actuators._buffer[0].mode);
+  };
+  CHECK(mode_after(0, 0, 500) == erp::Mode::voltage);
+  CHECK(mode_after(2, 0.5, 100) == erp::Mode::voltage);
+  CHECK(mode_after(2, 0.5, 400) == erp::Mode::length);
+  const double still_m = bench.references(bench.step(control))[0];
+  CHECK(mode_after(2, -0.5, 400) == erp::Mode::length);
+  CHECK(bench.references(bench.step(control))[0] < still_m);  // the flexor gave way, now it takes up
+  CHECK(mode_after(0, 0, 40) == erp::Mode::length);
+  CHECK(mode_after(0, 0, 20) == erp::Mode::voltage);
 }
 
 TEST_CASE("loops of a shape that cannot be had are refused") {

@@ -110,10 +110,11 @@ inline void runs_in_lockstep(const std::string& specification,
   const auto gains = gains_for(robot);
   direct.apply(gains);
   const auto all = gateway.parameters(gains);
-  for (std::size_t at = 0; at < all.size();) {  // as much as the bus takes
-    at += host_side->send(all.subspan(at, std::min<std::size_t>(64, all.size() - at)));
-    while (const auto count = robot_side->receive(frames, 0))
-      for (std::size_t i = 0; i < count; ++i) ecus.hear(frames[i]);
+  for (std::size_t sent = 0, heard = 0; heard < all.size();) {  // as much as the bus takes
+    sent += host_side->send(all.subspan(sent, std::min<std::size_t>(64, all.size() - sent)));
+    const auto count = robot_side->receive(frames, 10);
+    for (std::size_t i = 0; i < count; ++i) ecus.hear(frames[i]);
+    heard += count;
   }
   for (int tick = 0; tick < 500; ++tick) {
     INFO("tick " << tick);
