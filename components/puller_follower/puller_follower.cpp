@@ -79,8 +79,8 @@ erp::ActuatorCommand PullerFollower::brake(bool goes_on, double dt_s) {
     std::ranges::for_each(drives_, &JointDrive::stop);
     rested_s_ = 0;
   }
-  rested_s_ = model_.skeleton().velocity().cwiseAbs().maxCoeff() < rest_rad_per_s ? rested_s_ + dt_s
-                                                                                 : 0;
+  const bool rests = model_.skeleton().velocity().cwiseAbs().maxCoeff() < rest_rad_per_s;
+  rested_s_ = rests ? rested_s_ + dt_s : 0;
   erp::ActuatorCommand command;
   for (const JointDrive& drive : drives_) drive.brake(model_, command);
   return command;
