@@ -13,11 +13,7 @@ using Eigen::VectorXd;
 class Linearised : public JointLaw {
  public:
   Linearised(const LawParams& params, int n)
-      : params_(params),
-        factor_(n),
-        sum_(VectorXd::Zero(n)),
-        acceleration_(sum_),
-        torque_(sum_) {}
+      : params_(params), factor_(n), sum_(VectorXd::Zero(n)), acceleration_(sum_), torque_(sum_) {}
 
   void begin(const VectorXd& torque_Nm, const Dynamics& dynamics) override {
     sum_.setZero();

@@ -26,7 +26,8 @@ class Unmodelled {
   const Eigen::VectorXd& acceleration_rad_per_s2() const { return unmodelled_; }
 
  private:
-  static constexpr double w_per_s = 1;  // chosen: faster, and motors wind up later for what is caught
+  static constexpr double w_per_s =
+      1;  // chosen: faster, and motors wind up later for what is caught
   Eigen::VectorXd speed_, unmodelled_, off_;
 };
 
