@@ -45,7 +45,7 @@ class JointDrive {
 
   /// Its motors were asked for more than their supply for much of the last second: it has outrun
   /// them, and a loop around motors that cannot follow swings.
-  bool outrun() const { return strain_ > 0.4; }  // chosen: 0.37 is what catching 0.2 kg takes
+  bool outrun() const { return strain_ > 0.4; }  // chosen: a catch of 0.2 kg stays below
   /// Its lines stay where they are now, but give and take as the joint moves: damping that slow
   /// motors can give.
   ///

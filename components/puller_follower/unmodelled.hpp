@@ -26,8 +26,7 @@ class Unmodelled {
   const Eigen::VectorXd& acceleration_rad_per_s2() const { return unmodelled_; }
 
  private:
-  static constexpr double w_per_s =
-      1;  // chosen: faster, and motors wind up later for what is caught
+  static constexpr double w_per_s = 1;  // chosen: faster, and motors wind up late for a catch
   Eigen::VectorXd speed_, unmodelled_, off_;
 };
 

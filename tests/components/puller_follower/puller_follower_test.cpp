@@ -140,8 +140,7 @@ TEST_CASE("a joint that outruns its motors is braked until it is at rest, then l
   CHECK(mode_after(2, 0.5, 400) == erp::Mode::length);
   const double still_m = bench.references(bench.step(control))[0];
   CHECK(mode_after(2, -0.5, 400) == erp::Mode::length);
-  CHECK(bench.references(bench.step(control))[0] <
-        still_m);  // the flexor gave way, now it takes up
+  CHECK(bench.references(bench.step(control))[0] < still_m);  // it gave way, now it takes up
   CHECK(mode_after(0, 0, 40) == erp::Mode::length);
   CHECK(mode_after(0, 0, 20) == erp::Mode::voltage);
 }
