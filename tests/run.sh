@@ -24,6 +24,11 @@ if [ "${1:-}" = faults ]; then
 fi
 [ "${1:-}" = soak ] && exec build/release/tests/erp_soak
 failed=0
+log=build/$preset/Testing/Temporary
 ctest --preset "$preset" --output-on-failure -j2 || failed=$?
-grep -ahE '^not judged' "build/$preset/Testing/Temporary/LastTest.log" || true  # no failures, but told
+grep -ahE '^not judged' "$log/LastTest.log" || true  # no failures, but told
+[ $failed = 0 ] || for test in $(cut -d: -f2 "$log/LastTestsFailed.log"); do
+  printf '\n%s said last:\n' "$test"
+  sed -n "/ Testing: $test\$/,/^<end of output>/p" "$log/LastTest.log" | tail -n 12
+done
 exit $failed

@@ -10,7 +10,7 @@ launched() {
 
 # recorded FILE: a recording's rows, and how many messages it lacks.
 recorded() {
-  "$bin/erp" log info "$1" | awk '$2 ~ /^erp\/msg\// { lacks += $5 } END { print "lacks", lacks }'
+  "$bin/erp" log info "$1" | awk '$2 ~ /^erp\/msg\// { lacks += $(NF - 2) } END { print "lacks", lacks }'
   "$bin/erp" log export "$1"
 }
 
