@@ -15,8 +15,9 @@
 namespace logger {
 namespace {
 
-// Deep enough for 0.5 s of the fastest topic (chosen): the disk may stall, the bus does not wait.
-constexpr int depth = 2000;
+// 40 s of the fastest topic, some seconds of it where lockstep hurries (chosen): the disk may stall,
+// the bus does not wait.
+constexpr int depth = 20'000;
 constexpr std::int64_t take_ns = 2'000'000;
 constexpr std::int64_t discover_ns = 250'000'000;
 

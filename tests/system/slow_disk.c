@@ -1,0 +1,36 @@
+/* Preloaded into a graph: the third chunk that its logger writes takes ERP_STALL_MS. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/uio.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { chunk_bytes = 20000, slow_chunk = 3 }; /* smaller writes are no chunks */
+
+static void stall_once(size_t bytes) {
+  static int chunks;
+  if (bytes < chunk_bytes || strcmp(program_invocation_short_name, "logger") != 0) return;
+  if (++chunks != slow_chunk) return;
+  const long stall_ms = strtol(getenv("ERP_STALL_MS"), NULL, 10);
+  fprintf(stderr, "the disk stalls for %ld ms\n", stall_ms);
+  const struct timespec stall = {stall_ms / 1000, stall_ms % 1000 * 1000000};
+  nanosleep(&stall, NULL);
+}
+
+ssize_t write(int file, const void* data, size_t bytes) {
+  ssize_t (*const real)(int, const void*, size_t) = dlsym(RTLD_NEXT, "write");
+  stall_once(bytes);
+  return real(file, data, bytes);
+}
+
+ssize_t writev(int file, const struct iovec* parts, int count) {
+  ssize_t (*const real)(int, const struct iovec*, int) = dlsym(RTLD_NEXT, "writev");
+  size_t bytes = 0;
+  for (int i = 0; i < count; ++i) bytes += parts[i].iov_len;
+  stall_once(bytes);
+  return real(file, parts, count);
+}

@@ -1,0 +1,20 @@
+// Lockstep hurries, and does not wait for its logger: what it says while the disk stalls must wait.
+#include <catch2/catch.hpp>
+
+#include "tests/system/command.hpp"
+
+using namespace tests;
+
+TEST_CASE("a disk that stalls costs a recording nothing, in lockstep either") {
+  const Folder folder;
+  const auto graph = run("ERP_STALL_MS=1000 LD_PRELOAD=" ERP_SLOW_DISK
+                         " erp launch launch/hinge_rig.xml --lockstep --for 20s --out " +
+                         folder / "run");
+  INFO(graph.output);
+  REQUIRE(graph.exit_code == 0);
+  REQUIRE(content(folder / "run/logger.log").find("the disk stalls for 1000 ms") !=
+          std::string::npos);
+  CHECK(graph.output.find("never came") == std::string::npos);
+  const auto rows = run("erp log export " + folder / "run/hinge_rig.mcap" + " | grep -c '^[0-9]'");
+  CHECK(rows.output == "10000\n");
+}
