@@ -210,6 +210,8 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   const auto free_run = run_freely(d, read.episodes, robot, found, options, *progress);
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
+  const std::string doubt = free_run_doubt(free_run.all);
+  if (d.verdict == diagnosis::Verdict::supported && !doubt.empty()) d.warnings.push_back(doubt);
   d.mend_first = read.odd;
   if (!options.withhold.empty())
     out << fmt::format("withheld    {}\n", fmt::join(options.withhold, ", "));

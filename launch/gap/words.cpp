@@ -17,4 +17,14 @@ std::string closed_interval(const sim::diagnosis::Closed& c) {
                      100 * std::min(1.0, c.interval.high));
 }
 
+std::string free_run_doubt(const sim::diagnosis::Closed& c) {
+  constexpr double plain = 2, enough = 0.5;  // chosen: of the noise, and closed
+  if (c.before <= plain * c.floor || c.closed >= enough) return "";
+  return fmt::format(
+      "let run freely, the simulator is {:.3g} times what noise alone would do off, and {:.3g} "
+      "with "
+      "the effects: they may only look like the cause; record other motions",
+      c.before, c.after);
+}
+
 }  // namespace launch::gap

@@ -12,4 +12,8 @@ std::string closed_words(const sim::diagnosis::Closed& closed);
 /// "98.1 … 98.4 %", its interval.
 std::string closed_interval(const sim::diagnosis::Closed& closed);
 
+/// Why effects that explain the residuals may still not be the cause: let run freely with them, the
+/// simulator stays about as far from what was recorded. Empty if it comes nearer.
+std::string free_run_doubt(const sim::diagnosis::Closed& free_run);
+
 }  // namespace launch::gap

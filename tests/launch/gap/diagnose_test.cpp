@@ -9,6 +9,7 @@
 #include "interfaces/recording/csv.hpp"
 #include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
+#include "launch/gap/words.hpp"
 #include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -75,6 +76,7 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
   INFO(explained.text);
   CHECK(explained.code == 0);
   CHECK_THAT(explained.text, Catch::Contains("free run"));
+  CHECK_THAT(explained.text, !Catch::Contains("let run freely"));
   const erp::Robot with = erp::read_robot(folder.found("robot.xml"));
   REQUIRE(with.effects.size() == 1);
   CHECK(with.effects[0].type == "gearbox_coulomb");
@@ -135,4 +137,18 @@ TEST_CASE("what cannot be asked of recordings is refused, with the name that is 
                     Catch::Contains("leave some to train on"));
   CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one, two, one}}),
                     Catch::Contains("one.csv") && Catch::Contains("named twice"));
+}
+
+TEST_CASE("an answer with which the simulator comes no nearer is doubted") {
+  const auto doubt = [](double before, double after) {
+    sim::diagnosis::Closed run{.unit = "noise", .before = before, .floor = 1, .after = after};
+    run.closed = (before - after) / (before - 1);
+    return launch::gap::free_run_doubt(run);
+  };
+  CHECK_THAT(doubt(3.14, 3.05),
+             Catch::Contains("is 3.14 times") && Catch::Contains("and 3.05 with"));
+  CHECK_FALSE(doubt(121, 223).empty());
+  CHECK(doubt(48, 1.3).empty());
+  CHECK(doubt(1.6, 1.5).empty());                  // a gap that hardly shows there
+  CHECK(launch::gap::free_run_doubt({}).empty());  // not run
 }
