@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <thread>
@@ -41,11 +42,12 @@ class Controller {
 
 bxcan_registers silent() { return {}; }
 
-/// The driver waits some 0.1 ms; on a busy machine the controller's thread may sleep for longer.
+/// The driver waits some 0.1 ms; on a busy machine the controller's thread may sleep for much longer.
 bool opens(bxcan_registers& can, std::uint8_t address) {
-  for (int tries = 0; tries < 1000; ++tries) {
+  using namespace std::chrono_literals;
+  for (int tries = 0; tries < 10000; ++tries) {
     if (bxcan_open(&can, BXCAN_BTR_1_MBIT_42_MHZ, address)) return true;
-    std::this_thread::yield();
+    std::this_thread::sleep_for(1ms);
   }
   return false;
 }
