@@ -42,10 +42,10 @@ class Controller {
 
 bxcan_registers silent() { return {}; }
 
-/// The driver waits some 0.1 ms; on a busy machine the controller's thread may sleep for much longer.
+/// The driver waits some 0.1 ms, in which the controller's thread must run beside it: on a busy machine not soon.
 bool opens(bxcan_registers& can, std::uint8_t address) {
   using namespace std::chrono_literals;
-  for (int tries = 0; tries < 10000; ++tries) {
+  for (int tries = 0; tries < 60'000; ++tries) {
     if (bxcan_open(&can, BXCAN_BTR_1_MBIT_42_MHZ, address)) return true;
     std::this_thread::sleep_for(1ms);
   }
