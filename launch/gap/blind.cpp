@@ -100,14 +100,33 @@ std::pair<std::size_t, std::size_t> part_of_work() {
           std::max<std::size_t>(1, number("OMPI_COMM_WORLD_SIZE", 1))};
 }
 
+/// What the cases would not be, or would lose.
+void check(const BlindMakeOptions& options, const erp::Robot& robot) {
+  if (robot.actuators.empty())
+    throw std::invalid_argument(options.robot +
+                                ": has no actuator to hide anything in; give a robot with muscles");
+  if (!robot.effects.empty())
+    throw std::invalid_argument(options.robot +
+                                ": has effects, which the cases would lack; give it without them");
+  if (fs::exists(options.out + "/cases.json"))
+    throw std::invalid_argument(options.out +
+                                ": holds cases already; move it away or name another");
+  if (fs::exists(options.truth))
+    throw std::invalid_argument("--truth " + options.truth +
+                                ": is there, and seals other cases; name another");
+  const fs::path inside =
+      fs::weakly_canonical(options.truth).lexically_relative(fs::weakly_canonical(options.out));
+  if (!inside.empty() && *inside.begin() != "..")
+    throw std::invalid_argument("--truth " + options.truth +
+                                ": lies among the cases, which must not tell it; name another");
+}
+
 }  // namespace
 
 int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = erp::read_robot(options.robot);
   const auto kind = sim::blind::kind_of(options.kind);
-  if (fs::exists(options.out + "/cases.json"))
-    throw std::invalid_argument(options.out +
-                                ": holds cases already; move it away or name another");
+  check(options, robot);
   make_folder(options.out);
   write_file(options.out + "/robot.xml", erp::write_robot(robot));
   const auto count = static_cast<std::size_t>(options.cases);

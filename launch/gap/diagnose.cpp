@@ -95,9 +95,8 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
     out << "\n";
   }
   if (d.overall.before > 0 && !d.answer.empty())
-    out << fmt::format(
-        "how far     {:.3g} times the noise before, {:.3g} after: {}, on held-out recordings\n",
-        d.overall.before, d.overall.after, closed_words(d.overall));
+    out << fmt::format("how far     {:.3g} times the noise before, {:.3g} after: {}, on {}\n",
+                       d.overall.before, d.overall.after, closed_words(d.overall), judged_on(d));
   for (const auto& c : d.channels)
     if (c.gapes() && !d.answer.empty())
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
@@ -164,6 +163,19 @@ sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
       {options.threads, options.seed, [&](double share) { progress.tell("free run", share); }});
 }
 
+/// What is written there must not cost anybody a model.
+void check_out(const DiagnoseOptions& options) {
+  namespace fs = std::filesystem;
+  const std::string mended = options.out + "/robot.xml";
+  if (options.out.empty() || !fs::exists(mended)) return;
+  if (fs::equivalent(mended, options.robot))
+    throw std::invalid_argument("--out " + options.out +
+                                ": its robot.xml is the model itself; name another folder");
+  if (!fs::exists(options.out + "/diagnosis.json"))
+    throw std::invalid_argument("--out " + options.out +
+                                ": holds a robot.xml that no diagnosis wrote; name another folder");
+}
+
 }  // namespace
 
 void check_withheld(const std::vector<std::string>& types) {
@@ -193,6 +205,7 @@ int exit_code(diagnosis::Verdict verdict) {
 int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(options.robot);
   check_withheld(options.withhold);
+  check_out(options);
   const Sorted sorted = sort(options);
   const Reading read = read_episodes(robot, sorted.files);
   tell(read, remarks);

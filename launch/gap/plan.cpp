@@ -99,6 +99,21 @@ recording::Table trajectory_of(const sim::Excitation& excitation, const erp::Rob
   return table;
 }
 
+constexpr const char* mark = "<!-- By erp gap plan. -->";
+
+/// Nobody launches another plan's graph; and nobody loses one that no plan wrote.
+void make_way(const std::string& out) {
+  const std::string graph = out + "/graph.xml";
+  const bool ours = fs::exists(graph) && read_text(graph).starts_with(mark);
+  for (const char* name : {"graph.xml", "reference.xml", "trajectory.csv"}) {
+    const std::string file = fs::path(out) / name;
+    if (!ours && fs::exists(file))
+      throw std::invalid_argument("--out " + out + ": holds a " + name +
+                                  " that no plan wrote; name another folder");
+    fs::remove(file);
+  }
+}
+
 void write_graph(const std::string& out, const std::string& robot_file, const erp::Robot& robot,
                  const sim::Excitation& excitation) {
   make_folder(out);
@@ -108,10 +123,10 @@ void write_graph(const std::string& out, const std::string& robot_file, const er
   write_file(out + "/reference.xml", "<reference file=\"trajectory.csv\"/>\n");
   const auto robot_path = fs::relative(fs::absolute(robot_file), fs::absolute(out));
   write_file(out + "/graph.xml",
-             fmt::format("<graph name=\"{}_next\" robot=\"{}\" device=\"sim\">\n"
+             fmt::format("{}\n<graph name=\"{}_next\" robot=\"{}\" device=\"sim\">\n"
                          "  <component name=\"reference\" config=\"reference.xml\"/>\n"
                          "  <component name=\"logger\"/>\n</graph>\n",
-                         robot.name.substr(0, 20), robot_path.string()));
+                         mark, robot.name.substr(0, 20), robot_path.string()));
 }
 
 void print(const rehearsal::Experiment& experiment, const erp::Robot& robot,
@@ -192,7 +207,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
                                 options.robot + " is \"" + robot.name +
                                 "\"; give the robot that was diagnosed");
   check_is_of(robot, suspects, options), check_is_of(robot, known, options);
-  fs::remove(options.out + "/graph.xml");  // nobody launches that of another plan
+  make_way(options.out);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
     out << "nothing to split: the diagnosis names no effect whose residuals could\n";

@@ -85,9 +85,9 @@ std::string summary(const Diagnosis& d) {
   }
   if (d.overall.before > 0)
     html += fmt::format(
-        "<p>Error on held-out recordings, in units of noise: {:.3g} before, {:.3g} "
-        "after: {} ({}).</p>\n",
-        d.overall.before, d.overall.after, closed_words(d.overall), closed_interval(d.overall));
+        "<p>Error on {}, in units of noise: {:.3g} before, {:.3g} after: {} ({}).</p>\n",
+        judged_on(d), d.overall.before, d.overall.after, closed_words(d.overall),
+        closed_interval(d.overall));
   if (d.verdict == Verdict::supported)
     html += "<p>Beside this page: robot.xml, the model with it; diagnosis.json, all figures.</p>\n";
   return html;

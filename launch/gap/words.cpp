@@ -17,6 +17,10 @@ std::string closed_interval(const sim::diagnosis::Closed& c) {
                      100 * std::min(1.0, c.interval.high));
 }
 
+std::string judged_on(const sim::diagnosis::Diagnosis& d) {
+  return d.train == d.held_out ? "the data it was found on" : "held-out recordings";
+}
+
 std::string free_run_doubt(const sim::diagnosis::Closed& c) {
   constexpr double plain = 2, enough = 0.5;  // chosen: of the noise, and closed
   if (c.before <= plain * c.floor || c.closed >= enough) return "";

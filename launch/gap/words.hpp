@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "sim/diagnosis/closing.hpp"
+#include "sim/diagnosis/diagnose.hpp"
 
 /// What the terminal and the report say in the same words.
 namespace launch::gap {
@@ -11,6 +11,9 @@ std::string closed_words(const sim::diagnosis::Closed& closed);
 
 /// "98.1 … 98.4 %", its interval.
 std::string closed_interval(const sim::diagnosis::Closed& closed);
+
+/// "held-out recordings", where there were any.
+std::string judged_on(const sim::diagnosis::Diagnosis& diagnosis);
 
 /// Why effects that explain the residuals may still not be the cause: let run freely with them, the
 /// simulator stays about as far from what was recorded. Empty if it comes nearer.

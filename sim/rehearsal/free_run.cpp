@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 
+#include "interfaces/xml/values.hpp"
 #include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/indices.hpp"
 #include "sim/residuals/measured.hpp"
@@ -17,7 +18,19 @@ using residuals::Episode;
 using residuals::Signal;
 
 constexpr double tick_s = 0.002;
-constexpr double apart_rad = 0.05;  // from the initial pose, to count as starting there; chosen
+constexpr std::size_t held_rows = 10;  // a robot goes on by its last command for 20 ms
+constexpr double apart_rad = 0.05;     // from the initial pose, to count as starting there; chosen
+
+/// The first row of so many missing that what was asked meanwhile is not known; `rows`: none.
+std::size_t hole_of(const residuals::ActuatorSignals& actuator, std::size_t rows) {
+  const Signal& shaft = actuator.shaft_rad;
+  std::size_t lost = 0;
+  for (std::size_t k = 0; k < rows && !shaft.empty(); ++k) {
+    lost = std::isnan(actuator.mode[k]) && std::isnan(shaft[k]) ? lost + 1 : 0;
+    if (lost > held_rows) return k + 1 - lost;
+  }
+  return rows;
+}
 
 /// Why a recording cannot be run again; empty: it can.
 std::string obstacle(const Episode& e, const erp::Robot& robot) {
@@ -25,6 +38,9 @@ std::string obstacle(const Episode& e, const erp::Robot& robot) {
   for (std::size_t a = 0; a < e.actuators.size(); ++a)
     if (e.actuators[a].mode.empty() || e.actuators[a].reference.empty())
       return "it lacks mode and reference of " + robot.actuators[a].name;
+  for (const auto& actuator : e.actuators)
+    if (const auto hole = hole_of(actuator, e.rows); hole < e.rows)
+      return "rows are missing at " + xml::write_number(double(hole) * tick_s) + " s";
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (const Signal& angle = e.joints[j].angle_rad;
@@ -33,12 +49,16 @@ std::string obstacle(const Episode& e, const erp::Robot& robot) {
   return "";
 }
 
+/// Where a row is missing the last command goes on, as it does in the robot.
 Score score_of(const Episode& e) {
   Score score(e.rows, std::vector<Asked>(e.actuators.size()));
+  std::vector<std::size_t> unsaid(e.actuators.size());
   for (std::size_t k = 0; k < e.rows; ++k)
     for (std::size_t a = 0; a < e.actuators.size(); ++a) {
       const double mode = e.actuators[a].mode[k];
-      if (std::isnan(mode)) score[k][a].reference = mode;
+      unsaid[a] = std::isnan(mode) ? unsaid[a] + 1 : 0;
+      if (k > 0 && unsaid[a] > 0 && unsaid[a] <= held_rows) score[k][a] = score[k - 1][a];
+      else if (std::isnan(mode)) score[k][a].reference = mode;
       else if (mode != 0)
         score[k][a] = {static_cast<erp::Mode>(std::lround(mode)), e.actuators[a].reference[k]};
     }

@@ -54,6 +54,29 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   CHECK_THROWS_WITH(launch::gap::blind_score(cases, truth, out), Catch::Contains("hash"));
 }
 
+TEST_CASE("no cases of a robot that cannot have them, and none that would cost or tell a truth") {
+  const Folder folder;
+  std::ostringstream out, remarks;
+  launch::gap::BlindMakeOptions make{
+      .robot = robot_file, .out = folder.path / "cases", .truth = folder.path / "cases/truth.json"};
+  const auto refused = [&](const char* why) {
+    CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks), Catch::Contains(why));
+    CHECK_FALSE(fs::exists(folder.path / "cases"));
+  };
+  refused("lies among the cases");
+  make.truth = folder.path / "truth.json";
+  std::ofstream(make.truth) << "[]";
+  refused("seals other cases");
+  make.truth = folder.path / "another.json";
+  make.robot = rigs::config("drive/robot.xml");
+  refused("has no actuator");
+  erp::Robot rubs = erp::read_robot(robot_file);
+  rubs.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
+  make.robot = folder.path / "rubs.xml";
+  std::ofstream(make.robot) << erp::write_robot(rubs);
+  refused("has effects");
+}
+
 TEST_CASE("a robot that begins beyond its stops flies apart: drawn anew, and said") {
   const Folder folder;
   std::string robot = erp::write_robot(erp::read_robot(robot_file));

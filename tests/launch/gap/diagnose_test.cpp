@@ -139,6 +139,24 @@ TEST_CASE("what cannot be asked of recordings is refused, with the name that is 
                     Catch::Contains("one.csv") && Catch::Contains("named twice"));
 }
 
+TEST_CASE("a model in the folder of a diagnosis is neither written over nor removed") {
+  const Folder folder;
+  const auto plain = folder.recorded("plain.csv", false, 1);
+  fs::create_directories(folder.path / "found");
+  const std::string mine = folder.found("robot.xml");
+  fs::copy_file(robot_file, mine);
+  launch::gap::DiagnoseOptions how{.recordings = {plain}};
+  CHECK_THROWS_WITH(diagnosed(folder, how), Catch::Contains("that no diagnosis wrote"));
+  std::ostringstream out, remarks;
+  how.robot = mine, how.out = folder.path / "found";
+  CHECK_THROWS_WITH(launch::gap::diagnose(how, out, remarks),
+                    Catch::Contains("is the model itself"));
+  CHECK(folder.read("robot.xml") == [&] {
+    std::ifstream in(robot_file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  }());
+}
+
 TEST_CASE("an answer with which the simulator comes no nearer is doubted") {
   const auto doubt = [](double before, double after) {
     sim::diagnosis::Closed run{.unit = "noise", .before = before, .floor = 1, .after = after};

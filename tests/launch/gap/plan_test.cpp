@@ -78,7 +78,7 @@ TEST_CASE("what else is known of the robot is in it when the next motion is rehe
 TEST_CASE("twins are split by no motion: which they are is said, and no graph is left") {
   const Folder folder;
   fs::create_directories(folder.path / "next");
-  std::ofstream(folder.path / "next/graph.xml") << "<graph/>";  // of an earlier plan
+  std::ofstream(folder.path / "next/graph.xml") << "<!-- By erp gap plan. -->";
   const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
                                effect("sensor_shaft_offset", "offset_rad", -0.0889));
   INFO(planned.said);
@@ -86,6 +86,16 @@ TEST_CASE("twins are split by no motion: which they are is said, and no graph is
   CHECK_THAT(planned.said, Catch::Contains("tells tendon_length_offset on flexor from "
                                            "sensor_shaft_offset on flexor: that needs"));
   CHECK_FALSE(fs::exists(folder.path / "next/graph.xml"));
+}
+
+TEST_CASE("a graph that no plan wrote is not written over") {
+  const Folder folder;
+  fs::create_directories(folder.path / "next");
+  std::ofstream(folder.path / "next/graph.xml") << "<graph/>";
+  CHECK_THROWS_WITH(plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
+                         effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02)),
+                    Catch::Contains("holds a graph.xml that no plan wrote"));
+  CHECK(fs::exists(folder.path / "next/graph.xml"));
 }
 
 TEST_CASE("beside twins, what can be split is") {

@@ -68,6 +68,24 @@ TEST_CASE(
   CHECK(run.all.before < 3);  // it moves as the recording does: 527 where it rests
 }
 
+TEST_CASE("where rows are missing the last command goes on; where many are, it is not run freely") {
+  const erp::Robot robot = blind_recording::hinge_rig();
+  auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 1);
+  const auto lose = [&](std::size_t first, std::size_t count) {
+    for (auto& actuator : recordings[0].actuators)
+      for (std::size_t k = first; k < first + count; ++k)
+        actuator.mode[k] = actuator.reference[k] = actuator.shaft_rad[k] = recording::not_taken;
+  };
+  for (std::size_t k = 100; k < 2900; k += 25) lose(k, 1);
+  const FreeRun run = free_run(robot, robot, recordings, {.threads = 1});
+  CHECK(run.remarks.empty());
+  CHECK(run.all.before < 3);
+  lose(1000, 30);
+  const FreeRun none = free_run(robot, robot, recordings, {.threads = 1});
+  REQUIRE(none.remarks.size() == 1);
+  CHECK_THAT(none.remarks[0], Catch::Contains("rows are missing at 2 s"));
+}
+
 TEST_CASE("a recording that begins elsewhere is left out, and it is said why") {
   auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 3, 1);
   const erp::Robot robot = blind_recording::hinge_rig();
