@@ -98,7 +98,7 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
     out << fmt::format("how far     {:.3g} times the noise before, {:.3g} after: {}, on {}\n",
                        d.overall.before, d.overall.after, closed_words(d.overall), judged_on(d));
   for (const auto& c : d.channels)
-    if (c.gapes() && !d.answer.empty())
+    if (c.gapes() && c.driven_by > 0 && !d.answer.empty())
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }

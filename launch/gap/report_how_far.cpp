@@ -23,6 +23,10 @@ std::string closed_of(const Closed& c, bool with_interval) {
   return fmt::format("{:.1f} % ({})", share, closed_interval(c));
 }
 
+std::string share_of(double error, double driven_by) {
+  return driven_by > 0 ? fmt::format("{:.2f} %", 100 * error / driven_by) : "–";
+}
+
 }  // namespace
 
 std::string page::stages(const Diagnosis& d) {
@@ -32,9 +36,9 @@ std::string page::stages(const Diagnosis& d) {
   for (const Closed& c : d.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
-        "<td>{:.2f} %</td><td>{:.2f} %</td></tr>\n",
+        "<td>{}</td><td>{}</td></tr>\n",
         escaped(c.channel), c.before, c.unit, c.floor, c.after, closed_of(c, true),
-        100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
+        share_of(c.before, c.driven_by), share_of(c.after, c.driven_by));
   return html + "</table>\n";
 }
 
