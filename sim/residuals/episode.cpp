@@ -53,7 +53,8 @@ Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
   Grid grid{median(steps), 0, {}, 0, 0};
   check_seconds(grid.period_s, name);
   std::ptrdiff_t row = -1;
-  double due_s = time_s[0];  // follows a clock that is a little off
+  double due_s = time_s[0];       // follows a clock that is a little off,
+  constexpr double follow = 0.1;  // but not each row's own delay; chosen
   for (std::size_t k = 0; k < time_s.size(); ++k) {
     const double late = k == 0 ? 1 : (time_s[k] - due_s) / grid.period_s;
     if (late * grid.period_s > longest_gap_s)
@@ -68,7 +69,8 @@ Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
     grid.missing += static_cast<std::size_t>(steps_on - 1);
     row += steps_on;
     grid.row_of.push_back(row);
-    due_s = time_s[k];
+    due_s += double(steps_on) * grid.period_s;
+    due_s = row == 0 ? time_s[0] : std::lerp(due_s, time_s[k], follow);
   }
   grid.rows = static_cast<std::size_t>(row + 1);
   return grid;
@@ -159,8 +161,9 @@ class Layout {
           std::to_string(grid_.row_of.size()) +
           " rows come less than half a period after another: their times are those of arrival, "
           "not of measurement; give a recording that numbers its frames, or one of even times");
-    if (grid_.repeated) remark(std::to_string(grid_.repeated) + " rows repeat a time: dropped");
-    if (grid_.missing) remark(std::to_string(grid_.missing) + " rows are missing");
+    if (grid_.repeated)
+      remark(rows(grid_.repeated, "repeats a time", "repeat a time") + ": dropped");
+    if (grid_.missing) remark(rows(grid_.missing, "is missing", "are missing"));
   }
   const Grid& grid() const { return grid_; }
 
@@ -168,7 +171,8 @@ class Layout {
   Signal smooth(const std::string& column) {
     Signal signal = held(column);
     if (const auto n = drop_outliers(signal))
-      remark(column + ": " + std::to_string(n) + " outliers dropped");
+      remark(column + ": " + std::to_string(n) +
+             (n == 1 ? " outlier dropped" : " outliers dropped"));
     fill_short_gaps(signal);
     return signal;
   }
@@ -176,6 +180,9 @@ class Layout {
   Signal held(const std::string& column) { return on_grid(grid_, table_.find(column)); }
 
  private:
+  static std::string rows(std::size_t count, const char* one, const char* more) {
+    return count == 1 ? std::string("1 row ") + one : std::to_string(count) + " rows " + more;
+  }
   void remark(const std::string& what) { remarks_.push_back(name_ + ": " + what); }
   const recording::Table& table_;
   std::string name_;
@@ -191,14 +198,17 @@ DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
 
 }  // namespace
 
-double row_period_s(const recording::Table& table) {
+RowTimes row_times(const recording::Table& table) {
   const recording::Column* time = table.find("time_s");
   const recording::Column* tick = table.find("sequence");
-  if (!time || time->values.size() < 2) return 0;
+  if (!time || time->values.size() < 2) return {};
   const auto times = tick && counts_ticks(*tick, *time) ? times_of(*tick) : time->values;
   std::vector<double> steps;
   for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
-  return median(std::move(steps));
+  const double period_s = median(steps);
+  double square = 0;
+  for (const double step : steps) square += std::pow(std::remainder(step, period_s), 2);
+  return {period_s, std::sqrt(square / 2 / double(steps.size()))};  // each row is in two steps
 }
 
 Episode lay_out(const recording::Table& table, const erp::Robot& robot, const std::string& name,

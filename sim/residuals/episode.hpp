@@ -22,8 +22,12 @@ inline double rate_of(const Signal& signal, std::size_t row, double period_s) {
 
 inline constexpr double tick_s = 0.002;  ///< the firmware's period
 
-/// The usual time between two rows; 0: there are not two.
-double row_period_s(const recording::Table& table);
+/// The usual time between two rows, and by how much, rms, a row comes early or late; 0: there are not
+/// two.
+struct RowTimes {
+  double period_s = 0, jitter_s = 0;
+};
+RowTimes row_times(const recording::Table& table);
 
 struct ActuatorSignals {
   Signal mode, reference, voltage_V, current_A, shaft_rad, tension_N;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "interfaces/recording/columns.hpp"
-#include "sim/residuals/episode.hpp"
+#include "sim/residuals/column.hpp"
 
 /// The signals of a recording that sensors took, by the names of their columns.
 namespace sim::residuals {
@@ -22,18 +22,18 @@ std::vector<Measured<E>> measured(E& e, const erp::Robot& robot) {
   std::vector<Measured<E>> all;
   for (std::size_t a = 0; a < e.actuators.size(); ++a) {
     auto& s = e.actuators[a];
-    const std::string name = robot.actuators[a].name + ".";
-    all.push_back({name + "voltage_V", "V", &s.voltage_V});
-    all.push_back({name + "current_A", "A", &s.current_A});
-    all.push_back({name + "shaft_rad", "rad", &s.shaft_rad});
-    all.push_back({name + "tension_N", "N", &s.tension_N});
+    const auto add = [&](Quantity quantity, const char* unit, auto& signal) {
+      all.push_back({name_of({quantity, a}, e, robot), unit, &signal});
+    };
+    add(Quantity::voltage, "V", s.voltage_V), add(Quantity::current, "A", s.current_A);
+    add(Quantity::shaft, "rad", s.shaft_rad), add(Quantity::tension, "N", s.tension_N);
   }
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < e.joints.size(); ++j) {
-    const std::string name = joints[j].name + ".";
-    all.push_back({name + "angle_rad", "rad", &e.joints[j].angle_rad});
+    all.push_back({name_of({Quantity::angle, j}, e, robot), "rad", &e.joints[j].angle_rad});
     for (std::size_t k = 0; k < 4; ++k)
-      all.push_back({name + recording::quaternion_parts[k], "", &e.joints[j].quaternion[k]});
+      all.push_back(
+          {joints[j].name + "." + recording::quaternion_parts[k], "", &e.joints[j].quaternion[k]});
   }
   return all;
 }

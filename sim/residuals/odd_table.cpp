@@ -50,13 +50,19 @@ std::vector<std::string> odd_table(const recording::Table& table, const erp::Rob
   std::vector<std::string> odd = strangers(table, robot, name);
   const bool has_ecus =
       std::ranges::any_of(robot.actuators, [&](const auto& a) { return !drive_of(robot, a.name); });
-  const double period_s = row_period_s(table);
+  constexpr double much = 0.03;  // of a period; chosen
+  const auto [period_s, jitter_s] = row_times(table);
   if (has_ecus && period_s > 1.5 * tick_s)
-    odd.push_back(
-        fmt::format("{}: time_s: a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors "
-                    "and gearboxes "
-                    "may be what is missing between the rows: record one each {:g} ms",
-                    name, 1e3 * period_s, 1e3 * tick_s, 1e3 * tick_s));
+    odd.push_back(fmt::format(
+        "{}: time_s: a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors "
+        "and gearboxes may be what is missing between the rows: record one each {:g} ms",
+        name, 1e3 * period_s, 1e3 * tick_s, 1e3 * tick_s));
+  if (jitter_s > much * period_s)
+    odd.push_back(fmt::format(
+        "{}: time_s: rows come {:.2g} ms rms before and after an even {:.3g} ms: they are "
+        "laid out as even; if these are times of arrival, give those of measurement, or "
+        "the frames' numbers in a column sequence; if they are rounded, all digits",
+        name, 1e3 * jitter_s, 1e3 * period_s));
   return odd;
 }
 

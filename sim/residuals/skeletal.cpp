@@ -60,6 +60,13 @@ bool Skeletal::measured(std::span<const JointSignals> joints) const {
   return true;
 }
 
+std::vector<std::size_t> Skeletal::crossed_by(std::size_t actuator) const {
+  if (!tendons_[actuator])
+    return loads_[actuator] < 0 ? std::vector<std::size_t>{}
+                                : std::vector{std::size_t(loads_[actuator])};
+  return {tendons_[actuator]->crossed.begin(), tendons_[actuator]->crossed.end()};
+}
+
 JointReading Skeletal::reading(const JointSignals& joint, std::size_t j, std::size_t row) const {
   JointReading reading = start_of(tree_.joints[j]);
   if (!was_measured(joint, reading.type)) return reading;

@@ -47,6 +47,8 @@ class Skeletal {
                                          std::span<const std::size_t> actuators);
 
   const std::vector<erp::Joint>& joint_list() const { return tree_.joints; }
+  /// The joints that an actuator's path depends on.
+  std::vector<std::size_t> crossed_by(std::size_t actuator) const;
   int first_of(int joint) const { return model_.first_of(joint); }
   int coordinates() const { return model_.coordinates(); }
   /// The length at the initial pose.

@@ -1,156 +1,122 @@
 #include "sim/residuals/units.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "sim/actuator/spring.hpp"
-#include "sim/residuals/indices.hpp"
+#include "sim/residuals/dead_columns.hpp"
+#include "sim/residuals/mending.hpp"
 
 namespace sim::residuals {
 namespace {
 
-constexpr double together = 0.8;   // correlation, from which a slope is believed; chosen
-constexpr double far_off = 3;      // times: few effects of a robot are as large; chosen
-constexpr double beyond_all = 30;  // times: none is; chosen
+constexpr double beyond_stops = 3;  // times the widest; chosen
+constexpr double degrees = 57.29578;
 
-/// y = slope · x + rest.
-struct Line {
-  double slope = 0, correlation = 0;
-};
-
-Line line_of(const Signal& x, const Signal& y) {
-  double n = 0, sx = 0, sy = 0, xx = 0, yy = 0, xy = 0;
-  for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
-    if (const double a = x[k], b = y[k]; std::isfinite(a) && std::isfinite(b))
-      ++n, sx += a, sy += b, xx += a * a, yy += b * b, xy += a * b;
-  const double vx = xx - sx * sx / n, vy = yy - sy * sy / n, c = xy - sx * sy / n;
-  if (!(n > 10 && vx > 0 && vy > 0)) return {};
-  return {c / vx, c / std::sqrt(vx * vy)};
-}
-
-/// What a signal that is so many times too large looks like; empty: like no unit.
-std::string looks_like(double times, double gear_ratio) {
-  struct Unit {
-    double times;
-    const char* what;
-  };
-  const Unit units[] = {
-      {180 / std::numbers::pi, "it looks like degrees: divide by 57.29578"},
-      {1000, "it looks like thousandths of its unit (mA, mN, mV, mm): divide by 1000"},
-      {1e-3, "it looks like thousands of its unit: multiply by 1000, or the time by 0.001"},
-      {1 / 9.81, "it looks like kilograms: multiply by 9.81"},
-      {gear_ratio, "it looks like the motor's shaft before the gearbox: divide by its ratio"},
-      {1 / gear_ratio, "it looks as if divided by the gear ratio once more: multiply by it"}};
-  for (const Unit& unit : units)
-    if (std::abs(std::log(times / unit.times)) < 0.25) return unit.what;
-  return times > beyond_all || times < 1 / beyond_all ? "check its unit" : "";
-}
-
-class Check {
+class Words {
  public:
-  Check(const Episode& episode, const erp::Robot& robot)
-      : e_(episode), robot_(robot), bones_(robot) {}
+  Words(const Episode& episode, const erp::Robot& robot) : e_(episode), robot_(robot) {}
 
-  std::vector<std::string> run() {
-    const auto paths = bones_.paths(e_.joints, e_.rows, each(robot_.actuators.size()));
-    for (std::size_t a = 0; a < robot_.actuators.size(); ++a)
-      if (!robot_.actuators[a].tendon.path.empty() && motor(a)) tendon(a, paths[a]);
-    const auto joints = robot_.joints();
-    for (std::size_t j = 0; j < joints.size(); ++j) limits(joints[j], e_.joints[j].angle_rad);
-    return std::move(odd_);
+  std::string names(const std::vector<Column>& columns, const char* between = " and ") const {
+    constexpr std::size_t most = 4;
+    std::vector<std::string> all;
+    for (std::size_t k = 0; k < std::min(most, columns.size()); ++k)
+      all.push_back(name_of(columns[k], e_, robot_));
+    if (columns.size() > most) all.push_back(fmt::format("{} more", columns.size() - most));
+    return fmt::format("{}", fmt::join(all, between));
+  }
+  std::string of(const DeadColumn& dead) const {
+    const std::string when =
+        dead.all_along ? "all the time"
+                       : fmt::format("from {:.3g} s to {:.3g} s", double(dead.from) * e_.period_s,
+                                     double(dead.until) * e_.period_s);
+    return fmt::format(
+        "{} says {:.4g} {} while {} move{}: it looks dead: mend the sensor, or leave {} out",
+        names({dead.column}), dead.value, when, names(dead.told_by),
+        dead.told_by.size() == 1 ? "s" : "", dead.all_along ? "the column" : "those rows");
+  }
+  std::string of(const Mending& m) const {
+    const std::string told_by = names(m.told_by);
+    switch (m.kind) {
+      case Mending::Kind::contradicting:
+        return names(m.columns) + " contradict each other: check their signs, units and channels";
+      case Mending::Kind::exchanged:
+        return exchanged(m);
+      case Mending::Kind::scaled:
+        break;
+    }
+    std::string text = names(m.columns) + ": ";
+    if (m.times < 0)
+      text += fmt::format("its sign is against {}: multiply the column by -1", told_by);
+    if (std::abs(m.times) == 1) return text;
+    return text + fmt::format("{}{:.3g} times what {} foretell{}: {}", m.times < 0 ? "; " : "",
+                              std::abs(m.times), told_by, m.told_by.size() == 1 ? "s" : "",
+                              *m.like ? m.like : "check its unit");
+  }
+  std::string of(const Either& either) const {
+    std::vector<std::string> all;
+    for (const Mending& mending : either) all.push_back(of(mending));
+    return fmt::format("{}", fmt::join(all, "; or "));
   }
 
  private:
-  bool say(const std::string& column, double times, const std::string& of, double gear_ratio) {
-    if (times < 0) {
-      odd_.push_back(fmt::format("{}: {}: its sign is against {}: multiply the column by -1",
-                                 e_.name, column, of));
-      return false;
-    }
-    const std::string unit =
-        times > far_off || times < 1 / far_off ? looks_like(times, gear_ratio) : "";
-    if (!unit.empty())
-      odd_.push_back(fmt::format("{}: {}: {:.3g} times what {} foretells: {}", e_.name, column,
-                                 times, of, unit));
-    return unit.empty();
-  }
-
-  /// Of the signal y, as many times too large as it answers to what foretells it. Whether it is in
-  /// order.
-  bool compare(const std::string& column, const Signal& foretold, const Signal& y,
-               const std::string& of, double gear_ratio) {
-    const Line line = line_of(foretold, y);
-    return std::abs(line.correlation) <= together || say(column, line.slope, of, gear_ratio);
-  }
-
-  Signal speed_of(const Signal& shaft) const {
-    Signal speed(shaft.size(), recording::not_taken);
-    for (std::size_t k = 1; k + 1 < shaft.size(); ++k) speed[k] = rate_of(shaft, k, e_.period_s);
-    return speed;
-  }
-
-  /// Whether the shaft is in order, by which the tendon is judged.
-  bool motor(std::size_t a) {
-    const erp::MotorType& m = robot_.motor_of(robot_.actuators[a]);
-    const ActuatorSignals& s = e_.actuators[a];
-    if (s.voltage_V.empty() || s.shaft_rad.empty()) return true;
-    Signal speed = speed_of(s.shaft_rad), foretold(speed.size()), drop(speed.size());
-    const double back_emf = m.back_emf_V_s_per_rad * m.gear_ratio;
-    for (std::size_t k = 0; k < speed.size(); ++k) foretold[k] = s.voltage_V[k] / back_emf;
-    const std::string& name = robot_.actuators[a].name;
-    const bool good = compare(name + ".shaft_rad", foretold, speed, "the voltage", m.gear_ratio);
-    if (s.current_A.empty()) return good;
-    for (std::size_t k = 0; k < speed.size(); ++k)
-      drop[k] = (s.voltage_V[k] - back_emf * speed[k]) / m.resistance_ohm;
-    if (good) compare(name + ".current_A", drop, s.current_A, "the motor's law", m.gear_ratio);
-    return good;
-  }
-
-  void tendon(std::size_t a, const PathTrace& path) {
-    const erp::Actuator& actuator = robot_.actuators[a];
-    const ActuatorSignals& s = e_.actuators[a];
-    if (s.shaft_rad.empty() || path.length_m.empty()) return;
-    Signal paid_out(e_.rows), stretch(e_.rows);
-    for (std::size_t k = 0; k < e_.rows; ++k) {
-      paid_out[k] = -actuator.spindle.radius_m * s.shaft_rad[k];
-      stretch[k] = path.length_m[k] - paid_out[k];
-    }
-    compare("the angles of the joints that " + actuator.name + " crosses", paid_out, path.length_m,
-            "its shaft", 1);
-    if (s.tension_N.empty()) return;
-    const double stiffness =
-        Spring::of(actuator.tendon)
-            .slope_N_per_m(Spring::of(actuator.tendon).stretch_m(actuator.tendon.pretension_N));
-    for (double& x : stretch) x *= stiffness;
-    compare(actuator.name + ".tension_N", stretch, s.tension_N, "its stretch", 1);
-  }
-
-  void limits(const erp::Joint& joint, const Signal& angle) {
-    if (joint.type != erp::JointType::revolute || angle.empty()) return;
-    const double widest = std::max({std::abs(joint.min_rad), std::abs(joint.max_rad), 0.3});
-    double largest = 0;
-    for (const double x : angle)
-      if (!std::isnan(x)) largest = std::max(largest, std::abs(x));
-    if (largest > far_off * widest)
-      odd_.push_back(
-          fmt::format("{}: {}.angle_rad: goes to {:.3g}, its stops are at {:g} and {:g} rad: if "
-                      "these are degrees, divide by 57.29578",
-                      e_.name, joint.name, largest, joint.min_rad, joint.max_rad));
+  std::string exchanged(const Mending& m) const {
+    const auto half = m.columns.begin() + std::ptrdiff_t(m.columns.size() / 2);
+    const bool whole = m.columns.size() > 2;
+    const auto name = [&](const Column& c) {
+      return whole ? robot_.actuators[c.of].name : name_of(c, e_, robot_);
+    };
+    return fmt::format("{} and {}: {}look exchanged: exchange {}", name(m.columns[0]), name(*half),
+                       whole ? "all their columns " : "", whole ? "their names" : "the columns");
   }
 
   const Episode& e_;
   const erp::Robot& robot_;
-  Skeletal bones_;
-  std::vector<std::string> odd_;
 };
+
+/// Columns whose angles go far beyond what their joints can, in the robot's unit.
+std::vector<std::size_t> beyond_their_stops(const Episode& episode,
+                                            const std::vector<erp::Joint>& joints) {
+  std::vector<std::size_t> beyond;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].type != erp::JointType::revolute) continue;
+    const double widest = std::max({std::abs(joints[j].min_rad), std::abs(joints[j].max_rad), 0.3});
+    if (std::ranges::any_of(episode.joints[j].angle_rad,
+                            [&](double x) { return std::abs(x) > beyond_stops * widest; }))
+      beyond.push_back(j);
+  }
+  return beyond;
+}
+
+std::string far_beyond(const erp::Joint& joint, const Signal& angle) {
+  double largest = 0;
+  for (const double x : angle) largest = std::fmax(largest, std::abs(x));
+  return fmt::format(
+      "{}.angle_rad: goes to {:.3g}, its stops are at {:g} and {:g} rad: if these are degrees, "
+      "divide by 57.29578",
+      joint.name, largest, joint.min_rad, joint.max_rad);
+}
 
 }  // namespace
 
 std::vector<std::string> odd_units(const Episode& episode, const erp::Robot& robot) {
-  return Check(episode, robot).run();
+  const Words words(episode, robot);
+  const auto joints = robot.joints();
+  Laws laws(robot);
+  std::vector<std::string> odd;
+  const auto say = [&](const std::string& what) { odd.push_back(episode.name + ": " + what); };
+  Means means = laws.means(episode, 0, episode.rows);
+  for (const DeadColumn& dead : dead_columns(episode, robot, laws))
+    say(words.of(dead)), means.forget(dead.column);
+  for (const std::size_t j : beyond_their_stops(episode, joints)) {
+    say(far_beyond(joints[j], episode.joints[j].angle_rad));
+    means.scale({Quantity::angle, j}, 1 / degrees);
+  }
+  laws.find_paths(means);
+  for (const Either& either : mendings(robot, laws, std::move(means))) say(words.of(either));
+  return odd;
 }
 
 }  // namespace sim::residuals

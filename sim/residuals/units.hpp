@@ -2,20 +2,15 @@
 #include <string>
 #include <vector>
 
-#include "sim/residuals/skeletal.hpp"
+#include "sim/residuals/episode.hpp"
 
-/// Signs and units of a recording, held against the robot's own laws: a wrong one is no gap of the
-/// robot, and nothing that is fitted afterwards would mean anything.
-///
-///   ω against V/(K_E N)     i against (V − K_E N ω)/R     path against the line paid out, −r θ
-///   F against κ (path + r θ)
-///
-/// A slope is near 1; below 0 a sign is wrong, at 57.3 or 1000 times a unit. Only slopes of signals
-/// that go together are believed, and far beyond its stops an angle is taken for degrees. Says
-/// nothing of drives.
+/// Signs, units and dead columns of a recording, held against the robot's own laws (laws.hpp): a wrong
+/// one is no gap of the robot, and nothing that is fitted afterwards would mean anything.
 namespace sim::residuals {
 
-/// What is odd, one sentence each, with what it looks like; empty: nothing.
+/// What is odd, one sentence each, with what it looks like and what to do; empty: nothing. Columns
+/// that stand still while others move (dead_columns.hpp), angles far beyond a joint's stops, then
+/// what would put most laws right (mending.hpp).
 std::vector<std::string> odd_units(const Episode& episode, const erp::Robot& robot);
 
 }  // namespace sim::residuals

@@ -42,7 +42,7 @@ TEST_CASE("rows that repeat are dropped, rows that are missing are left open or 
   CHECK(episode.actuators[0].current_A.empty());
   CHECK(episode.actuators[1].shaft_rad.empty());
   REQUIRE(remarks.size() == 2);
-  CHECK(remarks[0] == "run.csv: 1 rows repeat a time: dropped");
+  CHECK(remarks[0] == "run.csv: 1 row repeats a time: dropped");
   CHECK(remarks[1] == "run.csv: 22 rows are missing");
 }
 
@@ -101,6 +101,17 @@ TEST_CASE(
   CHECK(remarks.empty());
 }
 
+TEST_CASE("rows that come a little early and late lose none and repeat none") {
+  recording::Table table = sine(4000);
+  for (std::size_t k = 0; k < 4000; ++k)
+    table.columns[0].values[k] += 7e-4 * std::sin(double(k * k));  // of a period, a third
+  std::vector<std::string> remarks;
+  const Episode episode = lay_out(table, hinge_rig(), "run.csv", remarks);
+  CHECK(remarks.empty());
+  CHECK(episode.rows == 4000);
+  CHECK(episode.actuators[0].shaft_rad == table.columns[1].values);
+}
+
 TEST_CASE("a sample far off its neighbours is dropped, a voltage that leaps is not") {
   recording::Table table = sine(1000);
   table.columns[1].values[400] += 3;
@@ -109,7 +120,7 @@ TEST_CASE("a sample far off its neighbours is dropped, a voltage that leaps is n
   CHECK(episode.actuators[0].shaft_rad[400] == Approx(std::sin(8.0)).margin(1e-3));
   CHECK(episode.actuators[0].voltage_V == table.columns[2].values);
   REQUIRE(remarks.size() == 1);
-  CHECK(remarks[0] == "run.csv: flexor.shaft_rad: 1 outliers dropped");
+  CHECK(remarks[0] == "run.csv: flexor.shaft_rad: 1 outlier dropped");
 }
 
 TEST_CASE("recordings of other machines, and cut ones, are refused with a word why") {

@@ -1,6 +1,7 @@
 #include "sim/residuals/odd_table.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/sim/rigs.hpp"
 
@@ -45,4 +46,14 @@ TEST_CASE("rows further apart than the ECUs' ticks are told, of a drive, which h
   CHECK_THAT(said[0],
              Catch::Contains("a row each 4 ms") && Catch::Contains("record one each 2 ms"));
   CHECK(odd(table_of(0.004, {"drive.control_V", "drive.position_m"}), "drive").empty());
+}
+
+TEST_CASE("rows that come early and late are told, those whose frames are numbered not") {
+  recording::Table table = table_of(0.002, {"flexor.tension_N"});
+  for (int k = 0; k < 20; ++k) table.columns[0].values[std::size_t(k)] += 2.8e-4 * std::sin(k * k);
+  REQUIRE(odd(table).size() == 1);
+  CHECK_THAT(odd(table)[0], Catch::Contains("ms rms before and after an even"));
+  table.columns.push_back({"sequence", {}});
+  for (int k = 0; k < 20; ++k) table.columns.back().values.push_back(k);
+  CHECK(odd(table).empty());
 }

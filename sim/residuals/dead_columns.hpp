@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/residuals/laws.hpp"
+
+/// Columns that stand still while the others foretell that they move: an unplugged sensor, a channel
+/// that froze. An idle motor's voltage and current, a voltage that is all the supply, and a slack tendon's
+/// tension may stand still.
+namespace sim::residuals {
+
+struct DeadColumn {
+  Column column;
+  double value;             ///< that it says
+  std::size_t from, until;  ///< rows
+  bool all_along;
+  std::vector<Column> told_by;  ///< what moves meanwhile
+};
+
+/// For two seconds, or all along.
+std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws);
+
+}  // namespace sim::residuals

@@ -1,0 +1,201 @@
+#include "sim/residuals/laws.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/actuator/spring.hpp"
+#include "sim/residuals/drives.hpp"
+#include "sim/residuals/indices.hpp"
+
+namespace sim::residuals {
+namespace {
+
+constexpr double half_width_s = 0.03;
+constexpr std::size_t stride = 8;         // rows from one mean to the next
+constexpr double together = 0.8;          // correlation, from which a slope is believed; chosen
+constexpr double widest_of_torques = 30;  // friction and efficiency count twice; chosen
+constexpr int fewest = 30;
+
+/// The slope of y on x, and their correlation, when a mean and what goes with `beside` are taken
+/// from both.
+Line line_of(const Signal& x, const Signal& y, const Signal* beside = nullptr) {
+  std::vector<std::size_t> taken;
+  for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
+    if (std::isfinite(x[k]) && std::isfinite(y[k]) && !(beside && !std::isfinite((*beside)[k])))
+      taken.push_back(k);
+  const auto n = static_cast<Eigen::Index>(taken.size());
+  if (n < fewest) return {};
+  Eigen::MatrixXd known(n, beside ? 2 : 1), sides(n, 2);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t row = taken[static_cast<std::size_t>(k)];
+    known(k, 0) = 1;
+    if (beside) known(k, 1) = (*beside)[row];
+    sides(k, 0) = x[row], sides(k, 1) = y[row];
+  }
+  sides -= known * known.colPivHouseholderQr().solve(sides);
+  const double xx = sides.col(0).squaredNorm(), yy = sides.col(1).squaredNorm();
+  if (!(xx > 0 && yy > 0)) return {};
+  const double xy = sides.col(0).dot(sides.col(1));
+  return {xy / xx, xy / std::sqrt(xx * yy)};
+}
+
+/// The stiffness between the two ends is known, and both were measured.
+bool stretches(const erp::Robot& robot, const erp::Actuator& actuator) {
+  const erp::Drive* drive = drive_of(robot, actuator.name);
+  return !drive || (drive->find<erp::LoadEncoder>() && drive->stiffness_Nm_per_rad);
+}
+
+/// Its tension is no column, but the nothing that hangs on a gearbox shaft that has all the load.
+bool pulls_nothing(const erp::Robot& robot, const erp::Actuator& actuator) {
+  const erp::Drive* drive = drive_of(robot, actuator.name);
+  return drive && !has_two_ends(*drive);
+}
+
+std::size_t index_of(Quantity quantity) { return static_cast<std::size_t>(quantity); }
+
+}  // namespace
+
+Signal& Means::operator[](const Column& c) {
+  return c.quantity == Quantity::angle ? joints[c.of].angle_rad
+                                       : actuators[c.of].said[index_of(c.quantity)];
+}
+
+const Signal& Means::operator[](const Column& c) const { return const_cast<Means&>(*this)[c]; }
+
+void Means::scale(const Column& column, double times) {
+  const auto by = [&](Signal& signal) {
+    for (double& x : signal) x *= times;
+  };
+  by((*this)[column]);
+  if (column.quantity == Quantity::shaft)
+    by(actuators[column.of].speed_rad_per_s), by(actuators[column.of].acceleration_rad_per_s2);
+}
+
+void Means::exchange(const Column& one, const Column& other) {
+  std::swap((*this)[one], (*this)[other]);
+  if (one.quantity != Quantity::shaft) return;
+  Actuator &a = actuators[one.of], &b = actuators[other.of];
+  std::swap(a.speed_rad_per_s, b.speed_rad_per_s);
+  std::swap(a.acceleration_rad_per_s2, b.acceleration_rad_per_s2);
+}
+
+void Means::forget(const Column& column) {
+  (*this)[column].clear();
+  if (column.quantity != Quantity::shaft) return;
+  actuators[column.of].speed_rad_per_s.clear();
+  actuators[column.of].acceleration_rad_per_s2.clear();
+}
+
+bool Law::believed() const { return std::abs(line.correlation) > together; }
+
+bool Law::silent() const { return line.correlation != 0 && !believed(); }
+
+bool Law::odd() const { return believed() && !(line.slope < widest && line.slope > 1 / widest); }
+
+Means Laws::means(const Episode& e, std::size_t from, std::size_t until) {
+  const Bump bump(half_width_s, e.period_s);
+  Means means;
+  std::vector<std::size_t> rows;
+  for (std::size_t k = from + bump.reach(); k + bump.reach() < until; k += stride)
+    rows.push_back(k);
+  means.rows = rows.size();
+  const auto each_row = [&](const Signal& signal, auto of_row) {
+    Signal all;
+    for (const std::size_t k : rows)
+      if (!signal.empty()) all.push_back(of_row(signal, k));
+    return all;
+  };
+  const auto mean = [&](const Signal& s, std::size_t k) { return bump.mean(s, k); };
+  const auto here = [](const Signal& s, std::size_t k) { return s[k]; };
+  for (const ActuatorSignals& s : e.actuators)
+    means.actuators.push_back(
+        {{each_row(s.voltage_V, mean), each_row(s.current_A, mean), each_row(s.shaft_rad, mean),
+          each_row(s.tension_N, mean)},
+         each_row(s.shaft_rad, [&](const Signal& x, std::size_t k) { return bump.rate(x, k); }),
+         each_row(s.shaft_rad,
+                  [&](const Signal& x, std::size_t k) { return bump.acceleration(x, k); })});
+  for (const JointSignals& joint : e.joints) {
+    JointSignals& j = means.joints.emplace_back();
+    j.angle_rad = each_row(joint.angle_rad, mean);
+    for (std::size_t k = 0; k < 4; ++k) j.quaternion[k] = each_row(joint.quaternion[k], here);
+  }
+  find_paths(means);
+  return means;
+}
+
+void Laws::find_paths(Means& means) {
+  means.paths = bones_.paths(means.joints, means.rows, each(means.actuators.size()));
+}
+
+std::vector<Column> Laws::crossed_by(std::size_t actuator) const {
+  std::vector<Column> joints;
+  for (const std::size_t j : bones_.crossed_by(actuator)) joints.push_back({Quantity::angle, j});
+  return joints;
+}
+
+std::vector<Law> Laws::held_against(const Means& means) const {
+  std::vector<Law> laws;
+  for (std::size_t a = 0; a < means.actuators.size(); ++a)
+    motor(a, means, laws), torque(a, means, laws), tendon(a, means, laws);
+  return laws;
+}
+
+void Laws::motor(std::size_t a, const Means& means, std::vector<Law>& laws) const {
+  const erp::MotorType& m = robot_.motor_of(robot_.actuators[a]);
+  const Signal &voltage = means[{Quantity::voltage, a}], &current = means[{Quantity::current, a}];
+  const Signal& speed = means.actuators[a].speed_rad_per_s;
+  if (voltage.empty() || speed.empty()) return;
+  const double back_emf = m.back_emf_V_s_per_rad * m.gear_ratio;
+  Signal foretold(means.rows), drop(means.rows);
+  for (std::size_t k = 0; k < means.rows; ++k)
+    foretold[k] = voltage[k] / back_emf,
+    drop[k] = (voltage[k] - back_emf * speed[k]) / m.resistance_ohm;
+  laws.push_back(
+      {{{Quantity::voltage, a}, {Quantity::shaft, a}}, foretold, speed, line_of(foretold, speed)});
+  if (!current.empty())
+    laws.push_back({{{Quantity::voltage, a}, {Quantity::shaft, a}, {Quantity::current, a}},
+                    drop,
+                    current,
+                    line_of(drop, current)});
+}
+
+void Laws::torque(std::size_t a, const Means& means, std::vector<Law>& laws) const {
+  const erp::MotorType& m = robot_.motor_of(robot_.actuators[a]);
+  const double inertia = m.rotor_inertia_kg_m2 * m.gear_ratio * m.gear_ratio + m.gear_inertia_kg_m2;
+  const Signal &current = means[{Quantity::current, a}], &tension = means[{Quantity::tension, a}];
+  const auto& shaft = means.actuators[a];
+  if (current.empty() || tension.empty() || shaft.acceleration_rad_per_s2.empty()) return;
+  Signal foretold(means.rows), torque(means.rows), way(means.rows);
+  for (std::size_t k = 0; k < means.rows; ++k) {
+    foretold[k] = robot_.actuators[a].spindle.radius_m * tension[k] +
+                  inertia * shaft.acceleration_rad_per_s2[k];
+    torque[k] = m.gear_ratio * m.torque_Nm_per_A * current[k];
+    way[k] = (shaft.speed_rad_per_s[k] > 0) - (shaft.speed_rad_per_s[k] < 0);
+  }
+  std::vector<Column> columns{{Quantity::shaft, a}, {Quantity::tension, a}, {Quantity::current, a}};
+  if (pulls_nothing(robot_, robot_.actuators[a])) columns.erase(columns.begin() + 1);
+  laws.push_back({columns, foretold, torque, line_of(foretold, torque, &way), widest_of_torques});
+}
+
+void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) const {
+  const Signal &shaft = means[{Quantity::shaft, a}], &tension = means[{Quantity::tension, a}];
+  const Signal& path = means.paths[a].length_m;
+  if (shaft.empty() || path.empty()) return;
+  const erp::Actuator& actuator = robot_.actuators[a];
+  const Spring spring = Spring::of(actuator.tendon);
+  const double stiffness = spring.slope_N_per_m(spring.stretch_m(actuator.tendon.pretension_N));
+  Signal paid_out(means.rows), pull(means.rows);
+  for (std::size_t k = 0; k < means.rows; ++k) {
+    paid_out[k] = -actuator.spindle.radius_m * shaft[k];
+    pull[k] = stiffness * (path[k] - paid_out[k]);
+  }
+  std::vector<Column> columns = crossed_by(a);
+  columns.push_back({Quantity::shaft, a});
+  laws.push_back({columns, path, paid_out, line_of(path, paid_out)});
+  if (tension.empty() || !stretches(robot_, actuator)) return;
+  columns.push_back({Quantity::tension, a});
+  laws.push_back({columns, pull, tension, line_of(pull, tension)});
+}
+
+}  // namespace sim::residuals

@@ -1,0 +1,74 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "sim/residuals/column.hpp"
+#include "sim/residuals/skeletal.hpp"
+
+/// The robot's laws as straight lines, y = s x + rest, s about 1: by them signs, units and dead
+/// columns of a recording are told before anything is fitted.
+///
+///   speed     ω against V/(K_E N)            current   i against (V − K_E N ω)/R
+///   torque    N K_T i against r F + J ω̇, beside a friction that turns with ω
+///   path      L against −r θ                 spring    F against κ (L + r θ)
+///
+/// of means under a window (bump.hpp).
+namespace sim::residuals {
+
+/// Means of the columns at some rows of a recording.
+struct Means {
+  struct Actuator {
+    std::array<Signal, 4> said;  ///< by Quantity
+    Signal speed_rad_per_s, acceleration_rad_per_s2;
+  };
+  std::size_t rows = 0;
+  std::vector<Actuator> actuators;
+  std::vector<JointSignals> joints;
+  std::vector<PathTrace> paths;  ///< under these joints
+
+  Signal& operator[](const Column& column);
+  const Signal& operator[](const Column& column) const;
+  /// The column as if it had been so many times as large; not the paths.
+  void scale(const Column& column, double times);
+  void exchange(const Column& one, const Column& other);
+  void forget(const Column& column);
+};
+
+struct Line {
+  double slope = 0, correlation = 0;
+};
+
+/// One law of one actuator, held against the means.
+struct Law {
+  std::vector<Column> columns;  ///< the last one is what the others foretell
+  Signal foretold, said;
+  Line line;
+  double widest = 3;  ///< times as much: few effects of a robot are as large; chosen
+
+  bool believed() const;  ///< both sides go together
+  bool silent() const;    ///< both move, and do not
+  bool odd() const;       ///< believed, and against each other or far from equal
+  bool good() const { return believed() && !odd(); }
+};
+
+class Laws {
+ public:
+  explicit Laws(const erp::Robot& robot) : robot_(robot), bones_(robot) {}
+
+  /// Of rows `from` until before `until`.
+  Means means(const Episode& episode, std::size_t from, std::size_t until);
+  void find_paths(Means& means);
+  /// The joints on which an actuator's path depends.
+  std::vector<Column> crossed_by(std::size_t actuator) const;
+  /// Those whose columns the recording has.
+  std::vector<Law> held_against(const Means& means) const;
+
+ private:
+  void motor(std::size_t a, const Means& means, std::vector<Law>& laws) const;
+  void torque(std::size_t a, const Means& means, std::vector<Law>& laws) const;
+  void tendon(std::size_t a, const Means& means, std::vector<Law>& laws) const;
+  const erp::Robot& robot_;
+  Skeletal bones_;
+};
+
+}  // namespace sim::residuals
