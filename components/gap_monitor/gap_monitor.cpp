@@ -8,6 +8,7 @@ namespace {
 
 // Deep enough for what arrives while a window is judged (chosen).
 constexpr int depth = 2000;
+constexpr std::int64_t patience_ns = 5'000'000'000;
 
 erp::Robot model_of(const GapMonitor::Params& params, const erp::Robot& robot) {
   if (params.model.empty()) return robot;
@@ -30,12 +31,20 @@ GapMonitor::GapMonitor(const Params& params, const erp::Robot& robot, node::Node
                                   depth, node::Where::in_loop);
   node.subscribe<erp::SensorFrame>(
       [this](const erp::SensorFrame& frame) {
-        window_.hear(frame);
+        window_.hear(frame), heard_ = true;
         if (1e-9 * double(frame.stamp_ns - judged_ns_) < params_.every_s) return;
         judged_ns_ = frame.stamp_ns;
         judge();
       },
       depth, node::Where::in_loop);
+  node.every(patience_ns, [this] { tell_waiting(); });
+}
+
+void GapMonitor::tell_waiting() {
+  if (heard_ || told_waiting_) return;
+  told_waiting_ = true;
+  node_.report(erp::Severity::info, "", "waiting",
+               "no sensor frame yet: launch a graph, on the same ERP_DOMAIN");
 }
 
 void GapMonitor::judge() {

@@ -83,11 +83,11 @@ class Parser {
   void take_header() {
     const auto cells = next_row();
     const bool empty = cells.size() == 1 && cells[0].text.empty();
+    if (cells.size() == 1 && cells[0].text.find(';') != std::string::npos)
+      fail(1, "the columns are separated by semicolons",
+           "separate them by commas, and write numbers with a decimal point");
     if (!empty) std::ranges::for_each(cells, [&](const Cell& cell) { take_name(cell); });
-    const bool semicolons = cells[0].text.find(';') != std::string::npos;
-    if (!table_.find("time_s"))
-      fail(1, "there is no column time_s",
-           semicolons ? "separate the columns with commas" : "add it as the first column");
+    if (!table_.find("time_s")) fail(1, "there is no column time_s", "add it as the first column");
     std::ranges::stable_partition(order_, [&](std::size_t i) { return cells[i].text == "time_s"; });
     std::ranges::stable_partition(table_.columns,
                                   [](const Column& c) { return c.name == "time_s"; });

@@ -48,6 +48,19 @@ std::vector<sim::TimedPose> poses_in(const std::string& file, const erp::Robot& 
   }
 }
 
+std::string told(const erp::Drive& drive) {
+  const auto* slide = std::get_if<erp::Slide>(&drive.load.at(0));
+  const char* unit = drive.control == erp::DriveControl::voltage   ? "V"
+                     : drive.control == erp::DriveControl::current ? "A"
+                     : slide                                       ? "N"
+                                                                   : "Nm";
+  const std::string load = slide
+                               ? fmt::format("a slide of {:.6g} kg", slide->mass_kg)
+                               : fmt::format("a shaft of {:.6g} kg m²",
+                                             std::get<erp::Shaft>(drive.load.at(0)).inertia_kg_m2);
+  return fmt::format("{}: {:.6g} {} a volt of control, {}", drive.name, drive.gain, unit, load);
+}
+
 }  // namespace
 
 ModelFigures figures_of(const erp::Robot& robot) {
@@ -61,6 +74,7 @@ ModelFigures figures_of(const erp::Robot& robot) {
     f.muscles += !actuator.tendon.path.empty();
     ecus.insert(actuator.ecu);
   }
+  f.drives = static_cast<int>(robot.drives.size());
   f.ecus = static_cast<int>(ecus.size());
   f.buses = ecus.empty() ? 0 : static_cast<int>(robot.buses().size());
   return f;
@@ -72,13 +86,15 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
   out << fmt::format(
       fmt::runtime(json ? "{{\"robot\": \"{}\", \"bodies\": {}, \"joints\": {}, "
                           "\"degrees_of_freedom\": {}, \"actuators\": {}, \"muscles\": {}, "
-                          "\"mass_kg\": {:.6g}, \"ecus\": {}, \"buses\": {}}}\n"
+                          "\"mass_kg\": {:.6g}, \"ecus\": {}, \"buses\": {}, \"drives\": {}}}\n"
                         : "robot               {}\nbodies              {}\njoints              {}\n"
                           "degrees of freedom  {}\nactuators           {}\nmuscles             {}\n"
                           "mass                {:.6g} kg\nECUs                {}\n"
-                          "buses               {}\n"),
+                          "buses               {}\ndrives              {}\n"),
       f.name, f.bodies, f.joints, f.degrees_of_freedom, f.actuators, f.muscles, f.mass_kg, f.ecus,
-      f.buses);
+      f.buses, f.drives);
+  for (const erp::Drive& drive : robot.drives)
+    if (!json) out << fmt::format("drive               {}\n", told(drive));
   if (!json)
     for (const erp::Effect& effect : robot.effects)
       out << fmt::format("effect              {} on {}\n", effect.type, effect.on);

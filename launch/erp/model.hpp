@@ -14,6 +14,7 @@ struct ModelFigures {
   int actuators = 0, muscles = 0;  ///< muscles: actuators that pull a tendon
   double mass_kg = 0;
   int ecus = 0, buses = 0;
+  int drives = 0;  ///< on no bus
 };
 ModelFigures figures_of(const erp::Robot& robot);
 

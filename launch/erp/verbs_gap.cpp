@@ -125,6 +125,8 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
 
   auto truth = std::make_shared<std::string>();
   auto* score = blind->add_subcommand("score", "Open the truth and print rates and failures");
+  score->footer(
+      "Exit codes: 0 told, 5 some cases are not diagnosed; 1 failed, 2 bad usage or input.");
   score->add_option("folder", *folder, "with diagnoses")->required();
   score->add_option("--truth", *truth, "the sealed file")->required();
   score->callback(

@@ -158,8 +158,8 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
                       {"truth_sha256", sha256(truth)},
                       {"cases", cases}};
   write_file(options.out + "/cases.json", manifest.dump(1) + "\n");
-  out << fmt::format("{} cases in {}\nsealed      {}\nsha256      {}\n", count, options.out,
-                     options.truth, sha256(truth));
+  out << fmt::format("{} {} in {}\nsealed      {}\nsha256      {}\n", count,
+                     count == 1 ? "case" : "cases", options.out, options.truth, sha256(truth));
   if (drawn_anew > 0)
     out << fmt::format("drawn anew  {} that would not have shown in any reading\n",
                        drawn_anew.load());
@@ -194,7 +194,8 @@ int blind_run(const std::string& folder, int threads, std::ostream& out, std::os
     const std::lock_guard lock(telling);
     progress.tell("diagnoses", double(++done) / double(mine.size()));
   });
-  out << fmt::format("{} diagnoses in {}\n", mine.size(), folder);
+  out << fmt::format("{} {} in {}\n", mine.size(), mine.size() == 1 ? "diagnosis" : "diagnoses",
+                     folder);
   return 0;
 }
 

@@ -72,17 +72,23 @@ void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
     for (; k < d.where.size() && d.where[k].share == share; ++k, whole += share)
       names += fmt::format("{}{} of {}", names.empty() ? "" : ", or ",
                            sim::effects::word(d.where[k].stage), d.where[k].on);
-    if (share > 0) out << fmt::format("where       {}: {:.0f} % of the gap\n", names, 100 * whole);
+    if (share > 0) out << fmt::format("where       {}: {} of the gap\n", names, share_words(whole));
     else out << fmt::format("where       {}, which changes no residual\n", names);
   }
 }
 
 void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
   print_where(d, out);
-  const bool explained = d.verdict == diagnosis::Verdict::supported;
+  const char* which = d.verdict == diagnosis::Verdict::supported          ? "which       "
+                      : d.verdict == diagnosis::Verdict::not_identifiable ? "perhaps     "
+                                                                          : "a part      ";
   for (const auto& n : d.answer) {
-    out << (explained ? "which       " : "a part      ") << told(n) << "\n";
-    for (const auto& other : n.alike) out << "or as well  " << told(other) << "\n";
+    out << which << told(n) << "\n";
+    constexpr std::size_t shown = 4;
+    for (std::size_t k = 0; k < std::min(shown, n.alike.size()); ++k)
+      out << "or as well  " << told(n.alike[k]) << "\n";
+    if (n.alike.size() > shown)
+      out << fmt::format("or as well  {} more, in diagnosis.json\n", n.alike.size() - shown);
   }
   for (const auto& u : d.unexplained) {
     out << fmt::format("left over   {} of {}, {:.3g} times its noise", sim::effects::word(u.stage),
@@ -103,20 +109,26 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
 
-/// How to go on where several are left, or none is enough.
+/// The bus shows in no residual, so no motion splits what is on it.
+bool plannable(const diagnosis::Named& n) {
+  return sim::effects::about(n.placed.effect).stage != sim::effects::Stage::bus;
+}
+
+/// How to go on where several are left, or none is enough; not before the recordings are in order.
 void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
                 const DiagnoseOptions& options, std::ostream& out) {
   const bool told_apart =
       std::ranges::all_of(d.answer, [](const auto& n) { return n.alike.empty(); });
   const bool done = d.verdict == diagnosis::Verdict::no_gap ||
                     (d.verdict == diagnosis::Verdict::supported && told_apart);
-  if (done || !robot.drives.empty()) return;
+  const bool something = std::ranges::any_of(d.ranked, plannable);
+  if (done || !something || !d.mend_first.empty() || !robot.drives.empty()) return;
   out << fmt::format(
       "next        erp gap plan --robot {} --diagnosis {}/diagnosis.json --out {}/next\n",
       options.robot, options.out, options.out);
 }
 
-/// What was mended in the recordings was told at the start.
+/// What was mended in the recordings was told at the start, what wants mending is told last.
 void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
            std::ostream& out) {
   print_answer(d, out);
@@ -135,6 +147,7 @@ void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_ru
 
 void write_found(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
                  const erp::Robot& robot, const erp::Robot& found, const DiagnoseOptions& options) {
+  make_folder(options.out);
   write_file(options.out + "/diagnosis.json", diagnosis_json(d, free_run, robot));
   write_file(options.out + "/report.html", diagnosis_report(d, free_run, robot));
   const std::string mended = options.out + "/robot.xml";
@@ -208,8 +221,8 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   check_out(options);
   const Sorted sorted = sort(options);
   const Reading read = read_episodes(robot, sorted.files);
-  tell(read, remarks);
-  if (!options.out.empty()) make_folder(options.out);
+  tell(read.mended, remarks);
+  if (!options.out.empty()) check_folder(options.out);
   std::optional<Progress> progress(std::in_place, remarks);
   diagnosis::DiagnoseOptions how{.train = sorted.train,
                                  .held_out = sorted.held_out,
@@ -223,8 +236,9 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   const auto free_run = run_freely(d, read.episodes, robot, found, options, *progress);
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
-  const std::string doubt = free_run_doubt(free_run.all);
-  if (d.verdict == diagnosis::Verdict::supported && !doubt.empty()) d.warnings.push_back(doubt);
+  if (d.verdict == diagnosis::Verdict::supported)
+    for (const std::string& doubt : {free_run_doubt(free_run.all), zero_doubt(d.answer, robot)})
+      if (!doubt.empty()) d.warnings.push_back(doubt);
   d.mend_first = read.odd;
   if (!options.withhold.empty())
     out << fmt::format("withheld    {}\n", fmt::join(options.withhold, ", "));

@@ -22,7 +22,7 @@ struct Reading {
 /// Throws RecordingError, std::invalid_argument.
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings);
 /// What there is to say of it, a line each.
-void tell(const Reading& reading, std::ostream& remarks);
+void tell(const std::vector<std::string>& list, std::ostream& remarks);
 
 /// Throws std::invalid_argument of a type that the library has not.
 void check_withheld(const std::vector<std::string>& types);

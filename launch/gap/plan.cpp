@@ -6,6 +6,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <set>
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
@@ -46,6 +47,7 @@ bool same(const Json& a, const Json& b) {
 struct Question {
   std::string robot;  ///< that was diagnosed
   std::vector<Placed> suspects, known;
+  std::size_t more_sets = 0;  ///< that could not be told apart either
 };
 
 /// Of sets that could not be told apart, the first; else the answer; else what comes nearest.
@@ -54,11 +56,14 @@ Question question_of(const Json& d, const std::string& file) {
     return effect.at("type").get<std::string>().starts_with("bus_");
   };
   std::vector<Json> set;
-  for (const Json& one : d.at("confusable"))
-    if (!on_bus(one) && (set.empty() || one.value("set", 0) == set[0].value("set", 0)))
-      set.push_back(one);
+  std::set<int> sets;
+  for (const Json& one : d.at("confusable")) {
+    if (on_bus(one)) continue;
+    sets.insert(one.value("set", 0));
+    if (sets.size() == 1) set.push_back(one);
+  }
   const bool split = !set.empty(), answered = d.at("verdict") == "supported";
-  Question question{d.at("robot"), {}, {}};
+  Question question{d.at("robot"), {}, {}, sets.size() - split};
   for (const Json& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
@@ -201,7 +206,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  auto [diagnosed, suspects, known] = read_question(options.diagnosis);
+  auto [diagnosed, suspects, known, more_sets] = read_question(options.diagnosis);
   if (diagnosed != robot.name)
     throw std::invalid_argument(options.diagnosis + ": is of robot \"" + diagnosed + "\", " +
                                 options.robot + " is \"" + robot.name +
@@ -249,6 +254,10 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   out << fmt::format(
       "\nrun it      erp launch {}/graph.xml --for {:g}s        on the robot: --device can\n",
       options.out, options.seconds);
+  if (more_sets)
+    out << fmt::format(
+        "then        diagnose with it and plan again: {} more set{} cannot be told apart\n",
+        more_sets, more_sets == 1 ? "" : "s");
   return 0;
 }
 

@@ -196,10 +196,11 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
                                 "cases were made");
   const Json truths = Json::parse(sealed);
   std::map<std::string, Score> scores;
+  int missing = 0;
   for (const Json& truth : truths) {
     const std::string file = folder + "/" + truth["case"].get<std::string>() + "/diagnosis.json";
     if (!std::ifstream(file)) {
-      out << truth["case"].get<std::string>() << ": not diagnosed\n";
+      ++missing;
       continue;
     }
     const Json d = Json::parse(read_text(file));
@@ -211,7 +212,10 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
     if (kind == "outside" || kind == "withheld") score_none(truth, d, score);
   }
   for (const auto& [kind, score] : scores) print(kind, score, out);
-  return 0;
+  if (missing)
+    out << fmt::format("{} of {} cases not diagnosed: erp gap blind run {}\n", missing,
+                       truths.size(), folder);
+  return missing ? 5 : 0;
 }
 
 }  // namespace launch::gap

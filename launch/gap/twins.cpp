@@ -70,7 +70,7 @@ int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks)
     throw std::invalid_argument(options.robot +
                                 ": the simulator does not run drives; give recordings with --real");
   const Reading read = read_episodes(robot, options.recordings);
-  tell(read, remarks);
+  tell(read.mended, remarks), tell(read.odd, remarks);
   auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds) : read.episodes;
   leave_out(options.without, episodes);
   const diagnosis::Trials trials(robot, std::move(episodes));
@@ -83,6 +83,12 @@ int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks)
   for (const std::string& line : align(rows, {false, false, false, true, true, true}))
     out << line << "\n";
   if (rows.size() == 1) out << "every effect that shows is told from every other\n";
+  else
+    out << "shows: what a hidden effect of that size changes in all residuals together, in "
+           "standard "
+           "deviations of their\nnoise; left: of it, once the other stands for it; likeness: 1 "
+           "where "
+           "nothing is left\n";
   return 0;
 }
 

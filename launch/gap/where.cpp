@@ -63,16 +63,15 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
   return read;
 }
 
-void tell(const Reading& reading, std::ostream& remarks) {
-  for (const auto* list : {&reading.mended, &reading.odd})
-    for (const std::string& remark : *list) remarks << remark << "\n";
+void tell(const std::vector<std::string>& list, std::ostream& remarks) {
+  for (const std::string& remark : list) remarks << remark << "\n";
 }
 
 int where(const std::string& robot_file, const std::vector<std::string>& recordings,
           std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(robot_file);
   const Reading read = read_episodes(robot, recordings);
-  tell(read, remarks);
+  tell(read.mended, remarks), tell(read.odd, remarks);
   const auto gaps = diagnosis::where(robot, read.episodes);
   out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
                      "floor", "times", "share", "windows");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace launch::gap {
 
@@ -19,6 +20,27 @@ std::string closed_interval(const sim::diagnosis::Closed& c) {
 
 std::string judged_on(const sim::diagnosis::Diagnosis& d) {
   return d.train == d.held_out ? "the data it was found on" : "held-out recordings";
+}
+
+std::string share_words(double share) {
+  return share < 0.005 ? "under 1 %" : fmt::format("{:.0f} %", 100 * share);
+}
+
+std::string zero_doubt(const std::vector<sim::diagnosis::Named>& answer, const erp::Robot& robot) {
+  auto offset = *sim::effects::neutral("sensor_shaft_offset");
+  const double widest_rad = sim::effects::parameters(offset)[0].bounds.high;
+  for (const auto& n : answer) {
+    if (n.type != "tendon_length_offset") continue;
+    const auto actuator = std::ranges::find(robot.actuators, n.on, &erp::Actuator::name);
+    const double zero_rad = n.values[0] / actuator->spindle.radius_m;
+    if (std::abs(zero_rad) > widest_rad)
+      return fmt::format(
+          "{}.shaft_rad: a zero that is {:.3g} rad off would look the same as this "
+          "tendon_length_offset: "
+          "if the encoder was not zeroed at the robot's initial pose, add {:.4g} to the column",
+          n.on, zero_rad, -zero_rad);
+  }
+  return "";
 }
 
 std::string free_run_doubt(const sim::diagnosis::Closed& c) {

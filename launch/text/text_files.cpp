@@ -29,4 +29,13 @@ void make_folder(const std::string& folder) {
                                 "; name another");
 }
 
+void check_folder(const std::string& folder) {
+  namespace fs = std::filesystem;
+  fs::path first_made;
+  for (fs::path path = fs::absolute(folder); !fs::exists(path); path = path.parent_path())
+    first_made = path;
+  make_folder(folder);
+  if (!first_made.empty()) fs::remove_all(first_made);
+}
+
 }  // namespace launch

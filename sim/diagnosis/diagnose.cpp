@@ -106,7 +106,8 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   if (evidence.sets.held_out.empty()) {
     evidence.sets.held_out = evidence.sets.train;
     d.warnings.emplace_back(
-        "one recording only: effects are chosen and judged on the same data; record another");
+        "one recording only, and too short to be split: effects are chosen and judged on the same "
+        "data, which supports none; record another");
   }
   d.train = names_of(evidence, evidence.sets.train);
   d.held_out = names_of(evidence, evidence.sets.held_out);
@@ -118,23 +119,30 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
     coarse.emplace(as_observed(robot, observed), evidence.episodes, options.seed);
   const Trials& known = coarse ? *coarse : plain;
   d.not_judged = not_judged(robot, d.stages);
-  if (robot.drives.empty() && !observed.bus_told) d.not_judged.emplace_back("the bus");
+  const bool bus_untold = robot.drives.empty() && !observed.bus_told;
+  if (bus_untold) d.not_judged.emplace_back("the bus");
   if (!d.not_judged.empty())
-    d.warnings.push_back(fmt::format("not judged, the recordings say too little of it: {}",
-                                     fmt::join(d.not_judged, ", ")));
+    d.warnings.push_back(fmt::format(
+        "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
+        bus_untold ? "; the bus is told by mode, reference and voltage_V of an actuator whose "
+                     "reference changes from tick to tick"
+                   : ""));
   const Selection selection = select(evidence, known, d.stages);
-  d.verdict = judge(selection, observed, d.stages);
+  const Verdict verdict = judge(selection, observed, d.stages);
+  const bool explained = verdict == Verdict::supported;
+  const bool judged_apart = evidence.sets.held_out != evidence.sets.train;
+  d.verdict = explained && !judged_apart ? Verdict::not_identifiable : verdict;
   d.answer = selection.answer, d.ranked = selection.ranked;
   d.interaction = selection.interaction;
   add_observed(observed, d);
-  if (d.verdict == Verdict::not_identifiable)
+  if (verdict == Verdict::not_identifiable)
     d.warnings.emplace_back(
         selection.gap
             ? "the recordings held out show too little of the gap to judge what causes it; "
               "record more of what shows it, see where and when"
             : "nothing could be judged; record all signals, of motions of some seconds");
-  d.where = d.verdict == Verdict::supported ? where_of_answer(evidence, plain, d.stages, d.answer)
-                                            : where_of_stages(evidence, plain, d.stages, d.ranked);
+  d.where = explained ? where_of_answer(evidence, plain, d.stages, d.answer)
+                      : where_of_stages(evidence, plain, d.stages, d.ranked);
   if (observed.bus_unexplained()) add_unexplained_bus(robot.name, observed, d);
   if (selection.gap) d.unexplained = unexplained(evidence, plain, selection);
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);

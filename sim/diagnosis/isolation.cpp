@@ -64,7 +64,7 @@ bool could_leave(const std::vector<StageGap>& gap, const std::vector<double>& si
 std::vector<Part> isolate(const Evidence& evidence, const Trials& trials) {
   const std::size_t episode = loudest(trials, trials.bare(), evidence.sets.train);
   const auto gap = gap_of(trials, episode, evidence);
-  const auto all = candidates(trials, {});
+  const auto all = candidates(trials, evidence.options.withhold);
   std::vector<char> could(all.size());
   in_parallel(all.size(), evidence.options.threads, [&](std::size_t k) {
     const std::size_t only[] = {episode};

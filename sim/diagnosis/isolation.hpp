@@ -8,8 +8,7 @@
 ///
 /// A nudge grown until it fills the widest stage of the gap must open every stage that is open and
 /// none that is closed; a part of the chain is suspected if some effect that belongs to it does so.
-/// Effects that are withheld count too: what a part can change does not depend on the law that is
-/// sought there. Ignores: how a gap runs in time, and gaps of several causes.
+/// What is withheld is not known here either. Ignores: how a gap runs in time, and gaps of several causes.
 namespace sim::diagnosis {
 
 /// A part of the chain, bus to sensors.

@@ -6,6 +6,7 @@
 
 #include "sim/diagnosis/tries.hpp"
 #include "sim/parallel/in_parallel.hpp"
+#include "sim/residuals/drives.hpp"
 #include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
@@ -82,6 +83,21 @@ std::vector<double> promises(const Trials& trials, const Trial& base, const Whic
   return promised;
 }
 
+/// An effect of a sensor that a drive has not: of a current that its control sets, of a pull without
+/// a torque sensor.
+bool of_no_sensor(const Trials& trials, const Placed& placed) {
+  const auto sense = effects::sense_of(placed.effect);
+  const erp::Drive* drive = sense ? residuals::drive_of(trials.nominal(), placed.on) : nullptr;
+  if (!drive) return false;
+  if (sense == effects::Sense::tension) return !drive->find<erp::TorqueSensor>();
+  const auto& actuators = trials.nominal().actuators;
+  const auto a = std::ranges::find(actuators, placed.on, &erp::Actuator::name) - actuators.begin();
+  return sense == effects::Sense::current &&
+         std::ranges::any_of(trials.episodes(), [&](const residuals::Episode& e) {
+           return e.actuators[std::size_t(a)].current_around;
+         });
+}
+
 }  // namespace
 
 std::vector<Placed> candidates(const Trials& trials, const std::vector<std::string>& withhold) {
@@ -94,8 +110,9 @@ std::vector<Placed> candidates(const Trials& trials, const std::vector<std::stri
     const effects::About& about = effects::about(effect);
     if (std::ranges::count(withhold, about.type)) continue;
     for (const std::string& on : effects::places(trials.nominal(), about.seat))
-      if (Placed placed{on, effect}; !estimated || !nominal.reach(placed).joints)
-        all.push_back(std::move(placed));
+      if (const Placed placed{on, effect};
+          !of_no_sensor(trials, placed) && !(estimated && nominal.reach(placed).joints))
+        all.push_back(placed);
   }
   return all;
 }

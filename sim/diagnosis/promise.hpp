@@ -10,7 +10,7 @@
 namespace sim::diagnosis {
 
 /// Every effect of the library at every place, neutral. Where joints were found by the tendons, not
-/// those that change what measured joints say.
+/// those that change what measured joints say; nor those of a sensor that a drive has not.
 std::vector<effects::Placed> candidates(const Trials& trials,
                                         const std::vector<std::string>& withhold);
 

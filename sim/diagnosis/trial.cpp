@@ -21,8 +21,11 @@ Trials::Trials(const erp::Robot& nominal, std::vector<residuals::Episode> episod
   }
   if (!any)
     throw std::invalid_argument(
-        "no stage can be judged: a motor needs voltage_V, shaft_rad and current_A; a tendon "
-        "shaft_rad, tension_N and the angles of the joints it crosses");
+        nominal.drives.empty()
+            ? "no stage can be judged: a motor needs voltage_V, shaft_rad and current_A; a tendon "
+              "shaft_rad, tension_N and the angles of the joints it crosses"
+            : "no stage can be judged: a drive needs control_V and its position, position_m of a "
+              "slide, position_rad of a shaft");
 }
 
 erp::Robot Trials::robot_with(std::span<const effects::Placed> all) const {

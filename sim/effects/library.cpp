@@ -84,6 +84,15 @@ const About& about(const AnyEffect& effect) {
   return std::visit([](const auto& e) -> const About& { return e.about; }, effect);
 }
 
+std::optional<Sense> sense_of(const AnyEffect& effect) {
+  return std::visit(
+      [](const auto& e) -> std::optional<Sense> {
+        if constexpr (requires { e.sense; }) return e.sense;
+        else return {};
+      },
+      effect);
+}
+
 std::string_view word(Stage stage) {
   constexpr std::array<std::string_view, 9> words{
       "bus", "motor", "gearbox", "spindle", "tendon", "routing", "joint", "skeleton", "sensor"};

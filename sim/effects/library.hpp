@@ -22,6 +22,8 @@ const About& about(const AnyEffect& effect);
 inline std::string name_of(const Placed& placed) {
   return std::string(about(placed.effect).type) + " on " + placed.on;
 }
+/// Of an effect of a sensor, of which kind.
+std::optional<Sense> sense_of(const AnyEffect& effect);
 std::string_view word(Stage stage);
 std::string_view word(Seat seat);
 

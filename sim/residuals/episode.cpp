@@ -196,6 +196,16 @@ DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
           layout.smooth(name.load), layout.smooth(name.torque)};
 }
 
+/// What a robot's columns are called, in words.
+std::string columns_of(const erp::Robot& robot) {
+  std::string names;
+  for (const erp::Drive& drive : robot.drives) {
+    const auto of = drive_columns(drive);
+    names += (names.empty() ? "" : ", ") + of.control_V + ", " + of.position;
+  }
+  return names.empty() ? "<actuator>.current_A, <actuator>.shaft_rad, <joint>.angle_rad, …" : names;
+}
+
 }  // namespace
 
 RowTimes row_times(const recording::Table& table) {
@@ -245,9 +255,8 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
     any |= !signals.angle_rad.empty() || !signals.quaternion[0].empty();
   }
   if (!any)
-    throw std::invalid_argument(
-        name + ": no column of robot \"" + robot.name +
-        "\"; they are called <actuator>.current_A, <joint>.angle_rad, <drive>.control_V, …");
+    throw std::invalid_argument(name + ": no column of robot \"" + robot.name +
+                                "\" that says how it moves; they are called " + columns_of(robot));
   return episode;
 }
 

@@ -219,7 +219,7 @@ TEST_CASE("a mistake in a CSV is refused with file, line, column, value and reme
                       Catch::StartsWith("t.csv:") && Catch::Contains(what));
   };
   refused("", ":1:1: there is no column time_s");
-  refused("time_s;m.mode\n", "separate the columns with commas");
+  refused("time_s;m.mode\n", "separate them by commas");
   refused("time_ms,m.tension_N\n", ":1:1: unknown column \"time_ms\"; name it time_s, in seconds");
   refused("time_s,m.tension\n",
           ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");

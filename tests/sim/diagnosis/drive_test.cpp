@@ -133,6 +133,16 @@ TEST_CASE("a slide without friction has no gap, with friction it is named and si
   CHECK(d.channels[0].after < 0.02 * d.channels[0].driven_by);
 }
 
+TEST_CASE("friction that differs both ways is the gearbox's; no current was measured to be off") {
+  const Friction f{80, 12, 6};
+  const Diagnosis d = diagnosed(slide(erp::DriveControl::force),
+                                {recorded(f, 8, 3), recorded(f, 8, 4), recorded(f, 8, 5)});
+  CHECK(d.verdict == Verdict::supported);
+  CHECK(types_of(d) ==
+        std::set<std::string>{"gearbox_asymmetric", "gearbox_coulomb", "gearbox_viscous"});
+  for (const Named& n : d.ranked) CHECK_FALSE(n.type.starts_with("sensor_current"));
+}
+
 TEST_CASE("a control by current drives its motor's torque, by voltage its winding") {
   erp::Robot robot = slide(erp::DriveControl::current);
   erp::MotorType motor;

@@ -27,9 +27,10 @@ void check_closed(const std::vector<Episode>& episodes) {
   }
 }
 
-std::vector<std::string> suspected(const std::vector<effects::Placed>& hidden) {
+std::vector<std::string> suspected(const std::vector<effects::Placed>& hidden,
+                                   const std::vector<std::string>& withhold = {}) {
   const erp::Robot robot = hinge_rig();
-  Evidence evidence{robot, {recorded(hidden)}, {}, {{0}, {0}}};
+  Evidence evidence{robot, {recorded(hidden)}, {.withhold = withhold}, {{0}, {0}}};
   std::vector<std::string> names;
   for (const Part& part : isolate(evidence, Trials(robot, evidence.episodes)))
     names.push_back(std::string(effects::word(part.stage)) + " " + part.on);
@@ -94,5 +95,16 @@ TEST_CASE("a gap is the fault of what could leave it there and nowhere else") {
   for (const std::string& name : stiff) {
     INFO(name);
     CHECK((name.starts_with("joint") || name.starts_with("skeleton")));
+  }
+}
+
+TEST_CASE("parts are suspected for effects that are known, not for those withheld") {
+  std::vector<std::string> of_joints;
+  for (const auto& effect : effects::library())
+    if (effects::about(effect).stage == effects::Stage::joint)
+      of_joints.emplace_back(effects::about(effect).type);
+  for (const std::string& name : suspected({{"elbow", effects::JointViscous{0.2}}}, of_joints)) {
+    INFO(name);
+    CHECK_FALSE(name.starts_with("joint"));
   }
 }
