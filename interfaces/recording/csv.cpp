@@ -83,7 +83,7 @@ class Parser {
   void take_header() {
     const auto cells = next_row();
     const bool empty = cells.size() == 1 && cells[0].text.empty();
-    if (cells.size() == 1 && cells[0].text.find(';') != std::string::npos)
+    if (cells[0].text.find(';') != std::string::npos)
       fail(1, "the columns are separated by semicolons",
            "separate them by commas, and write numbers with a decimal point");
     if (!empty) std::ranges::for_each(cells, [&](const Cell& cell) { take_name(cell); });

@@ -1,4 +1,5 @@
 #pragma once
+#include <CLI/CLI.hpp>
 #include <functional>
 #include <iostream>
 #include <sstream>
@@ -21,6 +22,17 @@ inline int give(const std::string& file, const std::function<int(std::ostream&)>
 
 inline int all_cores() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+/// An option's number must be above 0.
+inline CLI::Validator above_zero() {
+  return {[](std::string& said) {
+            double value = 0;
+            return CLI::detail::lexical_cast(said, value) && value > 0
+                       ? std::string()
+                       : said + " is not above 0; give a positive number";
+          },
+          ""};
 }
 
 }  // namespace launch

@@ -12,6 +12,7 @@
 #include "launch/erp/new_controller.hpp"
 #include "launch/erp/program.hpp"
 #include "launch/erp/security.hpp"
+#include "launch/erp/verb_parts.hpp"
 
 namespace launch {
 
@@ -85,8 +86,7 @@ static void add_one_listen(CLI::App& app, Chosen& chosen, const char* name, cons
   verb->add_option("topic", options->topic, "any topic of erp ls")->required();
   verb->add_option("--for", *duration, "end after 20s, 500ms, 2min … (default: at Ctrl-C)");
   if (counts_messages)
-    verb->add_option("-n", options->messages, "end after so many messages")
-        ->check(CLI::PositiveNumber);
+    verb->add_option("-n", options->messages, "end after so many messages")->check(above_zero());
   verb->callback([options, duration, listen, &chosen] {
     chosen = [options, duration, listen] {
       if (!duration->empty()) options->for_s = parse_duration_s(*duration);

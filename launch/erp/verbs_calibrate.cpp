@@ -56,12 +56,12 @@ void add_run(CLI::App& calibrate, Chosen& chosen) {
                                           {"newton", Strategy::newton}}));
   run->add_option("--generations", o->course.rounds, "of it, at most")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   run->add_option("--seed", o->how.seed, "of what is drawn")->capture_default_str();
   run->add_option("--bound", o->how.bound, "how many of its spread a parameter may go")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  run->add_option("--threads", o->course.threads, "default: all cores")->check(CLI::PositiveNumber);
+      ->check(above_zero());
+  run->add_option("--threads", o->course.threads, "default: all cores")->check(above_zero());
   run->add_flag("--resume", o->course.resume, "go on with what is in the folder");
   run->callback([=, &chosen] {
     chosen = [=] {

@@ -42,7 +42,7 @@ void add_diagnose(CLI::App& gap, Chosen& chosen) {
                        "those to judge them by; default: a third, the farthest off");
   diagnose->add_option("--withhold", o->withhold, "types of effects to do without");
   diagnose->add_option("--out", o->out, "folder for report.html, diagnosis.json and robot.xml");
-  diagnose->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  diagnose->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
   diagnose->add_flag_callback(
       "--no-free-run", [o] { o->free_run = false; },
       "do not let the answer run freely in the simulator");
@@ -65,8 +65,8 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
   plan->add_option("--seconds", o->seconds, "of the recording; default: 20")
       ->check(CLI::Range(2.0, 600.0));
   plan->add_option("--candidates", o->candidates, "that are rehearsed; default: 24")
-      ->check(CLI::PositiveNumber);
-  plan->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+      ->check(above_zero());
+  plan->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
   plan->add_option("--seed", o->seed, "of the candidates");
   plan->callback([=, &chosen] { chosen = [=] { return gap::plan(*o, std::cout, std::cerr); }; });
 }
@@ -87,7 +87,7 @@ void add_twins(CLI::App& gap, Chosen& chosen) {
   twins->add_option("--together", o->together, "others that stand for one, at most; default 1")
       ->check(CLI::Range(1, 9));
   twins->add_option("--withhold", o->withhold, "types of effects to do without");
-  twins->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  twins->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
   twins->callback([=, &chosen] { chosen = [=] { return gap::twins(*o, std::cout, std::cerr); }; });
 }
 
@@ -103,13 +103,13 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->add_option("--kind", o->kind, "what cases hide")
       ->check(CLI::IsMember({"single", "null", "pair", "outside", "withheld"}));
   make->add_option("--only", o->only, "types to hide; default: any");
-  make->add_option("--cases", o->cases, "how many")->check(CLI::PositiveNumber);
-  make->add_option("--recordings", o->recordings, "a case")->check(CLI::PositiveNumber);
-  make->add_option("--seconds", o->seconds, "a recording")->check(CLI::PositiveNumber);
+  make->add_option("--cases", o->cases, "how many")->check(above_zero());
+  make->add_option("--recordings", o->recordings, "a case")->check(above_zero());
+  make->add_option("--seconds", o->seconds, "a recording")->check(above_zero());
   make->add_option("--seed", o->seed, "of the first case; the next ones follow");
   make->add_option("--without", o->without, "signals not recorded")
       ->check(CLI::IsMember({"tension", "current", "joint"}));
-  make->add_option("--threads", o->threads, "default: all cores")->check(CLI::PositiveNumber);
+  make->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
   make->callback(
       [=, &chosen] { chosen = [=] { return gap::blind_make(*o, std::cout, std::cerr); }; });
 
@@ -118,7 +118,7 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   auto* run = blind->add_subcommand(
       "run", "Diagnose the cases of a folder; under mpirun, each process its part");
   run->add_option("folder", *folder, "as blind make left it")->required();
-  run->add_option("--threads", *threads, "default: all cores")->check(CLI::PositiveNumber);
+  run->add_option("--threads", *threads, "default: all cores")->check(above_zero());
   run->callback([=, &chosen] {
     chosen = [=] { return gap::blind_run(*folder, *threads, std::cout, std::cerr); };
   });

@@ -16,7 +16,7 @@ void add_course(CLI::App* verb, CourseOptions& course) {
   course.threads = all_cores();
   verb->add_option("--out", course.folder, "folder for what is learnt and its pictures")
       ->required();
-  verb->add_option("--threads", course.threads, "default: all cores")->check(CLI::PositiveNumber);
+  verb->add_option("--threads", course.threads, "default: all cores")->check(above_zero());
   verb->add_flag("--resume", course.resume, "go on with what is in the folder");
 }
 
@@ -40,7 +40,7 @@ void add_sensorimotor(CLI::App& learn, Chosen& chosen) {
   verb->add_option("--robot", o->robot, "robot.xml")->required();
   verb->add_option("--experiment", o->experiment, "<sensorimotor view=\"…\">: goals, tries …")
       ->required();
-  verb->add_option("--seed", o->seed, "default: the experiment's")->check(CLI::PositiveNumber);
+  verb->add_option("--seed", o->seed, "default: the experiment's")->check(above_zero());
   add_course(verb, o->course);
   run_by(verb, o, learn_sensorimotor, chosen);
 }
@@ -55,7 +55,7 @@ void add_tested(CLI::App* verb, int (*learn)(const Options&, std::ostream&, std:
   verb->add_option("--tests", o->tests, tests)
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  verb->add_option("--seed", o->seed, "default: the task's")->check(CLI::PositiveNumber);
+  verb->add_option("--seed", o->seed, "default: the task's")->check(above_zero());
   add_course(verb, o->course);
   run_by(verb, o, learn, chosen);
 }
@@ -68,13 +68,13 @@ void add_goals(CLI::App& learn, Chosen& chosen) {
       "goals", "An experiment's file with goals that can be reached: where drawn muscles lead");
   verb->add_option("--robot", *robot, "robot.xml")->required();
   verb->add_option("--experiment", *experiment, "<sensorimotor view=\"…\">")->required();
-  verb->add_option("--count", draw->count)->capture_default_str()->check(CLI::PositiveNumber);
+  verb->add_option("--count", draw->count)->capture_default_str()->check(above_zero());
   verb->add_option("--muscles", draw->muscles, "that pull, for each goal")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->add_option("--most", draw->most_N, "above rest, N")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->add_option("--seed", draw->seed, "of what is drawn")->capture_default_str();
   verb->add_option("--out", *out, "a file to write; else it is printed");
   verb->callback([=, &chosen] {

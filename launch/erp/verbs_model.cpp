@@ -72,12 +72,12 @@ void add_babble(CLI::App& model, Chosen& chosen) {
   babble->add_option("robot", *robot, "robot.xml")->required();
   babble->add_option("--seconds", how->duration_s, "how long")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   babble->add_option("--seed", how->seed, "of what is drawn")->capture_default_str();
   babble->add_option("--least", how->least_N, "no tendon pulls less, N")->capture_default_str();
   babble->add_option("--mean", how->mean_N, "what each pulls more, on average, N")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   babble->add_option("--out", *out, "a file to write; else it is printed");
   babble->callback([=, &chosen] {
     chosen = [=] { return give(*out, [=](auto& to) { return model_babble(*robot, *how, to); }); };
@@ -92,7 +92,7 @@ void add_motion(CLI::App& model, Chosen& chosen) {
   motion->add_option("robot", *robot, "robot.xml")->required();
   motion->add_option("--seconds", led->duration_s, "how long")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   motion->add_option("--share", led->share, "of their top speed that motors wind with")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1.0));

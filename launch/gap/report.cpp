@@ -35,13 +35,12 @@ std::string title_of(const Diagnosis& d) {
           "No gap{}: robot and model differ by no more than the noise of the sensors.",
           d.not_judged.empty() ? "" : " in what could be judged");
     case Verdict::supported:
-      return d.train == d.held_out
-                 ? "An explanation, judged by the recording that it was found on: record another."
-                 : "An explanation that recordings held out support.";
+      return "An explanation that recordings held out support.";
     case Verdict::none_of_the_known:
       return "There is a gap, and none of the known effects explains it.";
     case Verdict::not_identifiable:
-      break;
+      if (d.train == d.held_out && !d.answer.empty())
+        return "An explanation, judged by the recording that it was found on: record another.";
   }
   return "These recordings cannot show what the gap is.";
 }

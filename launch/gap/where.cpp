@@ -44,6 +44,30 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
   return some;
 }
 
+/// What several recordings share is said once.
+class Remarks {
+ public:
+  void add(const std::string& file, const std::vector<std::string>& of_file) {
+    for (const std::string& remark : of_file) {
+      const std::string what = remark.substr(file.size());  // each begins with its recording
+      const auto said = std::ranges::find(all_, what, &Remark::what);
+      if (said == all_.end()) all_.push_back({file, what});
+      else said->files += ", " + file;
+    }
+  }
+  std::vector<std::string> take() const {
+    std::vector<std::string> lines;
+    for (const Remark& remark : all_) lines.push_back(remark.files + remark.what);
+    return lines;
+  }
+
+ private:
+  struct Remark {
+    std::string files, what;
+  };
+  std::vector<Remark> all_;
+};
+
 }  // namespace
 
 erp::Robot read_chains(const std::string& robot_file) {
@@ -52,13 +76,14 @@ erp::Robot read_chains(const std::string& robot_file) {
 
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings) {
   Reading read;
+  Remarks odd;
   for (const std::string& file : recordings) {
     const auto table = recording::read_table(file, {.robot = robot.name, .sequences = true});
     read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
-    for (const auto& odd : {residuals::odd_table(table, robot, file),
-                            residuals::odd_units(read.episodes.back(), robot)})
-      read.odd.insert(read.odd.end(), odd.begin(), odd.end());
+    odd.add(file, residuals::odd_table(table, robot, file));
+    odd.add(file, residuals::odd_units(read.episodes.back(), robot));
   }
+  read.odd = odd.take();
   residuals::keep_common(read.episodes, robot, read.mended);
   return read;
 }

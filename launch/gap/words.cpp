@@ -32,7 +32,7 @@ std::string zero_doubt(const std::vector<sim::diagnosis::Named>& answer, const e
   for (const auto& n : answer) {
     if (n.type != "tendon_length_offset") continue;
     const auto actuator = std::ranges::find(robot.actuators, n.on, &erp::Actuator::name);
-    const double zero_rad = n.values[0] / actuator->spindle.radius_m;
+    const double zero_rad = -n.values[0] / actuator->spindle.radius_m;
     if (std::abs(zero_rad) > widest_rad)
       return fmt::format(
           "{}.shaft_rad: a zero that is {:.3g} rad off would look the same as this "

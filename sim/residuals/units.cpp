@@ -51,7 +51,7 @@ class Words {
     if (m.times < 0)
       text += fmt::format("its sign is against {}: multiply the column by -1", told_by);
     if (std::abs(m.times) == 1) return text;
-    return text + fmt::format("{}{:.3g} times what {} foretell{}: {}", m.times < 0 ? "; " : "",
+    return text + fmt::format("{}{:.4g} times what {} foretell{}: {}", m.times < 0 ? "; " : "",
                               std::abs(m.times), told_by, m.told_by.size() == 1 ? "s" : "",
                               *m.like ? m.like : "check its unit");
   }

@@ -48,6 +48,11 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   for (const char* name : {"before", "floor", "after", "closed", "closed_interval"})
     CHECK(d["gap"].contains(name));
 
+  fs::remove(cases + "/case_0002/diagnosis.json");
+  out.str("");
+  CHECK(launch::gap::blind_score(cases, truth, out) == 5);
+  CHECK_THAT(out.str(), Catch::Contains("1 of 2 cases not diagnosed: erp gap blind run "));
+
   CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks),
                     Catch::Contains("holds cases already"));
   std::ofstream(truth, std::ios::app) << " ";

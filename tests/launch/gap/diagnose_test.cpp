@@ -30,10 +30,11 @@ struct Folder {
     std::ifstream in(found(file));
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  std::string recorded(const std::string& name, bool rubs, std::uint64_t seed) const {
+  std::string recorded(const std::string& name, bool rubs, std::uint64_t seed,
+                       double seconds = 5) const {
     erp::Robot robot = erp::read_robot(robot_file);
     if (rubs) robot.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
-    rig_recording::Plan plan{.seconds = 5, .seed = seed};
+    rig_recording::Plan plan{.seconds = seconds, .seed = seed};
     plan.swing_Hz += 0.1 * double(seed);
     std::ofstream out(path / name);
     recording::write_csv(rig_recording::table_of_run(robot, plan), out);
@@ -97,6 +98,64 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
                                 Catch::Contains("next        erp gap plan --robot "));
 
   CHECK(diagnosed(folder, {.train = {rubs}, .held_out = {plain}}).code == 5);
+}
+
+TEST_CASE("one recording too short to be split supports nothing, and says what it looks like") {
+  const Folder folder;
+  const Told told = diagnosed(folder, {.recordings = {folder.recorded("short.csv", true, 1, 1.6)}});
+  INFO(told.text);
+  CHECK(told.code == 5);
+  CHECK_THAT(told.text, Catch::Contains("perhaps     gearbox_") &&
+                            Catch::Contains("too short to be split") &&
+                            Catch::Contains("on the data it was found on"));
+  CHECK_FALSE(fs::exists(folder.found("robot.xml")));
+  CHECK_THAT(folder.read("report.html"), Catch::Contains("judged by the recording that it was"));
+}
+
+TEST_CASE("what wants mending is said once for all recordings, and no experiment is proposed") {
+  const Folder folder;
+  std::vector<std::string> files;
+  for (std::uint64_t seed : {1, 2}) {
+    const std::string file = folder.recorded(std::to_string(seed) + ".csv", true, seed);
+    auto table = recording::read_table(file);
+    for (auto& column : table.columns)
+      if (column.name == "extensor.voltage_V")
+        for (double& x : column.values) x = -x;
+    std::ofstream out(file);
+    recording::write_csv(table, out);
+    files.push_back(file);
+  }
+  const Told told = diagnosed(folder, {.recordings = files, .free_run = false});
+  INFO(told.text);
+  CHECK_THAT(told.text, Catch::Contains("mend first  " + files[0] + ", " + files[1] +
+                                        ": extensor.voltage_V: its sign") &&
+                            Catch::Contains("of recordings that want mending first") &&
+                            !Catch::Contains("next        erp gap plan"));
+}
+
+TEST_CASE("a folder that cannot be made is refused first; a diagnosis that fails leaves none") {
+  const Folder folder;
+  const auto one = folder.recorded("one.csv", false, 1);
+  std::ostringstream out, remarks;
+  launch::gap::DiagnoseOptions how{.robot = robot_file, .recordings = {one}};
+  how.out = one + "/below_a_file";
+  CHECK_THROWS_WITH(launch::gap::diagnose(how, out, remarks), Catch::Contains("cannot be made"));
+  how.out = folder.path / "new/er", how.train = {one}, how.held_out = {one};
+  CHECK_THROWS(launch::gap::diagnose(how, out, remarks));
+  CHECK_FALSE(fs::exists(folder.path / "new"));
+}
+
+TEST_CASE("a tendon that is longer than a zero may be off is told as that, with what to add") {
+  const erp::Robot robot = erp::read_robot(robot_file);
+  const auto doubt = [&](double length_m) {
+    sim::diagnosis::Named n{"tendon_length_offset", "flexor"};
+    n.values = {length_m};
+    return launch::gap::zero_doubt({n}, robot);
+  };
+  const double radius_m = robot.actuators[0].spindle.radius_m;
+  CHECK(doubt(0.9 * radius_m).empty());
+  CHECK_THAT(doubt(-3 * radius_m), Catch::Contains("a zero that is 3 rad off") &&
+                                       Catch::Contains("add -3 to the column"));
 }
 
 TEST_CASE("the report shows where, which and how far, and needs no other file") {

@@ -63,6 +63,19 @@ TEST_CASE("two frictions are split by a motion, which is written as a graph to l
   CHECK_THAT(planned.said, Catch::Contains("erp launch"));
 }
 
+TEST_CASE("of two sets that cannot be told apart one is split, and the other is said to be left") {
+  const Folder folder;
+  const auto of_set = [](const std::string& effect, int set) {
+    return effect.substr(0, effect.size() - 1) + R"(, "set": )" + std::to_string(set) + "}";
+  };
+  const Planned planned = plan(folder.path, of_set(effect("gearbox_coulomb", "extra_Nm", 0.05), 0),
+                               of_set(effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02), 0) +
+                                   ", " + of_set(effect("motor_resistance", "relative", 0.2), 1));
+  INFO(planned.said);
+  CHECK(planned.code == 0);
+  CHECK_THAT(planned.said, Catch::Contains("1 more set cannot be told apart"));
+}
+
 TEST_CASE("what else is known of the robot is in it when the next motion is rehearsed") {
   const Folder folder;
   const auto coulomb = effect("gearbox_coulomb", "extra_Nm", 0.05),

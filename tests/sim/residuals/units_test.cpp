@@ -167,7 +167,7 @@ TEST_CASE("a drive's sign, unit and dead encoder are told by its inertia, in its
                                 Catch::Contains("; or "));
   REQUIRE(odd_by(1000).size() == 1);
   CHECK_THAT(odd_by(1000)[0],
-             Catch::Contains("z.position_m: 1e+03 times what z.control_V foretells"));
+             Catch::Contains("z.position_m: 1000 times what z.control_V foretells"));
   REQUIRE(odd_by(0).size() == 1);
   CHECK_THAT(odd_by(0)[0],
              Catch::Contains("z.position_m says 0 all the time while z.control_V moves"));
