@@ -1,9 +1,7 @@
 #pragma once
-#include <array>
 #include <vector>
 
-#include "sim/residuals/column.hpp"
-#include "sim/residuals/skeletal.hpp"
+#include "sim/residuals/means.hpp"
 
 /// The robot's laws as straight lines, y = s x + rest, s about 1: by them signs, units and dead
 /// columns of a recording are told before anything is fitted.
@@ -14,25 +12,6 @@
 ///
 /// of means under a window (bump.hpp).
 namespace sim::residuals {
-
-/// Means of the columns at some rows of a recording.
-struct Means {
-  struct Actuator {
-    std::array<Signal, 4> said;  ///< by Quantity
-    Signal speed_rad_per_s, acceleration_rad_per_s2;
-  };
-  std::size_t rows = 0;
-  std::vector<Actuator> actuators;
-  std::vector<JointSignals> joints;
-  std::vector<PathTrace> paths;  ///< under these joints
-
-  Signal& operator[](const Column& column);
-  const Signal& operator[](const Column& column) const;
-  /// The column as if it had been so many times as large; not the paths.
-  void scale(const Column& column, double times);
-  void exchange(const Column& one, const Column& other);
-  void forget(const Column& column);
-};
 
 struct Line {
   double slope = 0, correlation = 0;
