@@ -8,14 +8,15 @@
 #include "sim/diagnosis/where.hpp"
 #include "sim/residuals/common_signals.hpp"
 #include "sim/residuals/drives.hpp"
-#include "sim/residuals/odd_table.hpp"
-#include "sim/residuals/units.hpp"
+#include "sim/soundness/odd_table.hpp"
+#include "sim/soundness/units.hpp"
 
 namespace launch::gap {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
 namespace residuals = sim::residuals;
+namespace soundness = sim::soundness;
 
 void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
   const std::string share = gap.open ? fmt::format("{:.0f} %", 100 * gap.share) : "-";
@@ -80,8 +81,8 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
   for (const std::string& file : recordings) {
     const auto table = recording::read_table(file, {.robot = robot.name, .sequences = true});
     read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
-    odd.add(file, residuals::odd_table(table, robot, file));
-    odd.add(file, residuals::odd_units(read.episodes.back(), robot));
+    odd.add(file, soundness::odd_table(table, robot, file));
+    odd.add(file, soundness::odd_units(read.episodes.back(), robot));
   }
   read.odd = odd.take();
   residuals::keep_common(read.episodes, robot, read.mended);

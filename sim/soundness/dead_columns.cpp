@@ -1,10 +1,10 @@
-#include "sim/residuals/dead_columns.hpp"
+#include "sim/soundness/dead_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-namespace sim::residuals {
+namespace sim::soundness {
 namespace {
 
 constexpr double long_s = 2;  // chosen, as the shares below
@@ -38,7 +38,7 @@ double spread_of(Signal signal) {
 
 const Signal& signal_of(const Episode& e, const Column& c) {
   if (c.quantity == Quantity::angle) return e.joints[c.of].angle_rad;
-  const ActuatorSignals& s = e.actuators[c.of];
+  const residuals::ActuatorSignals& s = e.actuators[c.of];
   const std::array all{&s.voltage_V, &s.current_A, &s.shaft_rad, &s.tension_N};
   return *all[static_cast<std::size_t>(c.quantity)];
 }
@@ -151,7 +151,8 @@ class Movers {
 std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws) {
   std::vector<DeadColumn> dead;
   std::optional<Means> whole;
-  for (const Column& column : all_columns(episode.actuators.size(), episode.joints.size())) {
+  for (const Column& column :
+       residuals::all_columns(episode.actuators.size(), episode.joints.size())) {
     const Signal& signal = signal_of(episode, column);
     const Run run = longest_run(signal);
     const auto taken = std::ranges::count_if(signal, [](double x) { return !std::isnan(x); });
@@ -169,4 +170,4 @@ std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& r
   return dead;
 }
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -2,12 +2,12 @@
 #include <string>
 #include <vector>
 
-#include "sim/residuals/laws.hpp"
+#include "sim/soundness/laws.hpp"
 
 /// Columns that stand still while the others foretell that they move: an unplugged sensor, a channel
 /// that froze. An idle motor's voltage and current, a voltage that is all the supply, and a slack tendon's
 /// tension may stand still.
-namespace sim::residuals {
+namespace sim::soundness {
 
 struct DeadColumn {
   Column column;
@@ -20,4 +20,4 @@ struct DeadColumn {
 /// For two seconds, or all along.
 std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws);
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -1,11 +1,11 @@
-#include "sim/residuals/mending.hpp"
+#include "sim/soundness/mending.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
 
-namespace sim::residuals {
+namespace sim::soundness {
 namespace {
 
 constexpr double unit_is_near = 0.25;  // in the logarithm; chosen
@@ -72,7 +72,7 @@ class Vote {
 
   /// Empty: nothing is wrong, or nothing helps.
   Either best() {
-    const auto all = all_columns(means_.actuators.size(), means_.joints.size());
+    const auto all = residuals::all_columns(means_.actuators.size(), means_.joints.size());
     for (const Column& column : all)
       for (const Unit& unit : units_of(column, robot_))
         for (const double sign : {1.0, -1.0}) scaled(column, sign * unit.times, unit.like);
@@ -100,9 +100,10 @@ class Vote {
       for (std::size_t b = a + 1; b < means_.actuators.size(); ++b) {
         std::vector<Column> whole;
         for (const std::size_t of : {a, b})
-          for (const Quantity quantity : actuator_quantities) whole.push_back({quantity, of});
+          for (const Quantity quantity : residuals::actuator_quantities)
+            whole.push_back({quantity, of});
         consider({Mending::Kind::exchanged, whole, 1, "", {}});
-        for (const Quantity quantity : actuator_quantities)
+        for (const Quantity quantity : residuals::actuator_quantities)
           consider({Mending::Kind::exchanged, {{quantity, a}, {quantity, b}}, 1, "", {}});
       }
     for (std::size_t i = 0; i < means_.joints.size(); ++i)
@@ -184,4 +185,4 @@ std::vector<Either> mendings(const erp::Robot& robot, Laws& laws, Means means) {
   return all;
 }
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

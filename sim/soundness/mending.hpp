@@ -1,12 +1,12 @@
 #pragma once
 #include <vector>
 
-#include "sim/residuals/laws.hpp"
+#include "sim/soundness/laws.hpp"
 
 /// What may be wrong with the columns of a recording whose laws are odd, by a vote: each sign, unit
 /// and exchange of channels is tried, and what puts most laws right, less those that it spoils, is
 /// told. So one turned column is told once, and not as many as it contradicts.
-namespace sim::residuals {
+namespace sim::soundness {
 
 struct Mending {
   enum class Kind { scaled, exchanged, contradicting } kind;
@@ -22,4 +22,4 @@ using Either = std::vector<Mending>;
 /// One after another until no law is odd; what is left contradicting last.
 std::vector<Either> mendings(const erp::Robot& robot, Laws& laws, Means means);
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

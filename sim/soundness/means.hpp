@@ -7,7 +7,10 @@
 
 /// A recording thinned out: means under a window (bump.hpp) at every eighth row, in which columns can
 /// be scaled, exchanged and forgotten to see what would then be.
-namespace sim::residuals {
+namespace sim::soundness {
+
+using residuals::Column, residuals::Episode, residuals::JointSignals, residuals::PathTrace,
+    residuals::Quantity, residuals::Signal;
 
 /// Means of the columns at some rows of a recording.
 struct Means {
@@ -31,4 +34,4 @@ struct Means {
 /// Of rows `from` until before `until`; without the paths.
 Means means_of(const Episode& episode, std::size_t from, std::size_t until);
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -1,4 +1,4 @@
-#include "sim/residuals/odd_table.hpp"
+#include "sim/soundness/odd_table.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "sim/residuals/drives.hpp"
 #include "sim/residuals/episode.hpp"
 
-namespace sim::residuals {
+namespace sim::soundness {
 namespace {
 
 std::vector<std::string> parts_of(const erp::Robot& robot) {
@@ -48,15 +48,15 @@ std::vector<std::string> strangers(const recording::Table& table, const erp::Rob
 std::vector<std::string> odd_table(const recording::Table& table, const erp::Robot& robot,
                                    const std::string& name) {
   std::vector<std::string> odd = strangers(table, robot, name);
-  const bool has_ecus =
-      std::ranges::any_of(robot.actuators, [&](const auto& a) { return !drive_of(robot, a.name); });
+  const bool has_ecus = std::ranges::any_of(
+      robot.actuators, [&](const auto& a) { return !residuals::drive_of(robot, a.name); });
   constexpr double much = 0.03;  // of a period; chosen
-  const auto [period_s, jitter_s] = row_times(table);
-  if (has_ecus && period_s > 1.5 * tick_s)
+  const auto [period_s, jitter_s] = residuals::row_times(table);
+  if (has_ecus && period_s > 1.5 * residuals::tick_s)
     odd.push_back(fmt::format(
         "{}: time_s: a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors "
         "and gearboxes may be what is missing between the rows: record one each {:g} ms",
-        name, 1e3 * period_s, 1e3 * tick_s, 1e3 * tick_s));
+        name, 1e3 * period_s, 1e3 * residuals::tick_s, 1e3 * residuals::tick_s));
   if (jitter_s > much * period_s)
     odd.push_back(fmt::format(
         "{}: time_s: rows come {:.2g} ms rms before and after an even {:.3g} ms: they are "
@@ -66,4 +66,4 @@ std::vector<std::string> odd_table(const recording::Table& table, const erp::Rob
   return odd;
 }
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -1,4 +1,4 @@
-#include "sim/residuals/laws.hpp"
+#include "sim/soundness/laws.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "sim/residuals/drives.hpp"
 #include "sim/residuals/indices.hpp"
 
-namespace sim::residuals {
+namespace sim::soundness {
 namespace {
 
 constexpr double together = 0.8;          // correlation, from which a slope is believed; chosen
@@ -40,13 +40,13 @@ Line line_of(const Signal& x, const Signal& y, const Signal* beside = nullptr) {
 
 /// The stiffness between the two ends is known, and both were measured.
 bool stretches(const erp::Robot& robot, const erp::Actuator& actuator) {
-  const erp::Drive* drive = drive_of(robot, actuator.name);
+  const erp::Drive* drive = residuals::drive_of(robot, actuator.name);
   return !drive || (drive->find<erp::LoadEncoder>() && drive->stiffness_Nm_per_rad);
 }
 
 /// Its tension is no column, but the nothing that hangs on a gearbox shaft that has all the load.
 bool pulls_nothing(const erp::Robot& robot, const erp::Actuator& actuator) {
-  const erp::Drive* drive = drive_of(robot, actuator.name);
+  const erp::Drive* drive = residuals::drive_of(robot, actuator.name);
   return drive && !has_two_ends(*drive);
 }
 
@@ -138,4 +138,4 @@ void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) con
   laws.push_back({columns, pull, tension, line_of(pull, tension)});
 }
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -1,11 +1,11 @@
-#include "sim/residuals/means.hpp"
+#include "sim/soundness/means.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "sim/residuals/bump.hpp"
 
-namespace sim::residuals {
+namespace sim::soundness {
 namespace {
 
 constexpr double half_width_s = 0.03;
@@ -47,7 +47,7 @@ void Means::forget(const Column& column) {
 }
 
 Means means_of(const Episode& e, std::size_t from, std::size_t until) {
-  const Bump bump(half_width_s, e.period_s);
+  const residuals::Bump bump(half_width_s, e.period_s);
   Means means;
   std::vector<std::size_t> rows;
   for (std::size_t k = from + bump.reach(); k + bump.reach() < until; k += stride)
@@ -61,7 +61,7 @@ Means means_of(const Episode& e, std::size_t from, std::size_t until) {
   };
   const auto mean = [&](const Signal& s, std::size_t k) { return bump.mean(s, k); };
   const auto here = [](const Signal& s, std::size_t k) { return s[k]; };
-  for (const ActuatorSignals& s : e.actuators)
+  for (const residuals::ActuatorSignals& s : e.actuators)
     means.actuators.push_back(
         {{each_row(s.voltage_V, mean), each_row(s.current_A, mean), each_row(s.shaft_rad, mean),
           each_row(s.tension_N, mean)},
@@ -76,4 +76,4 @@ Means means_of(const Episode& e, std::size_t from, std::size_t until) {
   return means;
 }
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -1,4 +1,4 @@
-#include "sim/residuals/units.hpp"
+#include "sim/soundness/units.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/residuals/dead_columns.hpp"
-#include "sim/residuals/mending.hpp"
+#include "sim/soundness/dead_columns.hpp"
+#include "sim/soundness/mending.hpp"
 
-namespace sim::residuals {
+namespace sim::soundness {
 namespace {
 
 constexpr double beyond_stops = 3;  // times the widest; chosen
@@ -119,4 +119,4 @@ std::vector<std::string> odd_units(const Episode& episode, const erp::Robot& rob
   return odd;
 }
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -1,4 +1,4 @@
-#include "sim/residuals/units.hpp"
+#include "sim/soundness/units.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ std::vector<std::string> odd_after(Change change) {
   static const Episode plain = rig_recording::record(hinge_rig(), hinge_rig(), {.seconds = 8});
   Episode episode = plain;
   change(episode);
-  return sim::residuals::odd_units(episode, hinge_rig());
+  return sim::soundness::odd_units(episode, hinge_rig());
 }
 
 void scale(Signal& signal, double by) {
@@ -159,7 +159,7 @@ TEST_CASE("a drive's sign, unit and dead encoder are told by its inertia, in its
   const auto odd_by = [&](double times) {
     Episode e = slide_that_swings(robot);
     scale(e.actuators[0].shaft_rad, times);
-    return sim::residuals::odd_units(e, sim::residuals::as_chains(robot));
+    return sim::soundness::odd_units(e, sim::residuals::as_chains(robot));
   };
   CHECK(odd_by(1).empty());
   REQUIRE(odd_by(-1).size() == 1);

@@ -7,7 +7,7 @@
 
 /// What is odd about a recording before a law is asked: columns of nobody, rows too far apart
 /// or not even.
-namespace sim::residuals {
+namespace sim::soundness {
 
 /// One sentence each, with a remedy; empty: nothing.
 ///
@@ -18,4 +18,4 @@ namespace sim::residuals {
 std::vector<std::string> odd_table(const recording::Table& table, const erp::Robot& robot,
                                    const std::string& name);
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness

@@ -1,11 +1,11 @@
-#include "sim/residuals/odd_table.hpp"
+#include "sim/soundness/odd_table.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/sim/rigs.hpp"
 
-using sim::residuals::odd_table;
+using sim::soundness::odd_table;
 
 namespace {
 

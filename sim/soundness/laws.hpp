@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "sim/residuals/means.hpp"
+#include "sim/soundness/means.hpp"
 
 /// The robot's laws as straight lines, y = s x + rest, s about 1: by them signs, units and dead
 /// columns of a recording are told before anything is fitted.
@@ -11,7 +11,7 @@
 ///   path      L against −r θ                 spring    F against κ (L + r θ)
 ///
 /// of means under a window (bump.hpp).
-namespace sim::residuals {
+namespace sim::soundness {
 
 struct Line {
   double slope = 0, correlation = 0;
@@ -47,7 +47,7 @@ class Laws {
   void torque(std::size_t a, const Means& means, std::vector<Law>& laws) const;
   void tendon(std::size_t a, const Means& means, std::vector<Law>& laws) const;
   const erp::Robot& robot_;
-  Skeletal bones_;
+  residuals::Skeletal bones_;
 };
 
-}  // namespace sim::residuals
+}  // namespace sim::soundness
