@@ -9,16 +9,6 @@
 namespace sim::residuals {
 namespace {
 
-/// Tendons that say shaft and tension.
-std::vector<std::size_t> telling(const Episode& episode, const erp::Robot& robot) {
-  std::vector<std::size_t> lines;
-  for (std::size_t a = 0; a < episode.actuators.size(); ++a)
-    if (const ActuatorSignals& s = episode.actuators[a];
-        !robot.actuators[a].tendon.path.empty() && !s.shaft_rad.empty() && !s.tension_N.empty())
-      lines.push_back(a);
-  return lines;
-}
-
 /// Without what the motors do: it is of no matter here.
 Episode lines_alone(const Episode& episode) {
   Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
@@ -34,9 +24,26 @@ std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
   std::vector<std::size_t> missing;
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (std::ranges::count(recorded_joints_, joints[j].name) &&
-        !was_measured(trace.signals[j], joints[j].type))
+        joints[j].type != erp::JointType::free && !was_measured(trace.signals[j], joints[j].type))
       missing.push_back(j);
   return missing;
+}
+
+std::vector<std::size_t> Stages::telling_lines(const Episode& episode, const JointTrace& trace,
+                                               std::span<const std::size_t> missing) const {
+  const auto& joints = bones_.joint_list();
+  std::vector<std::size_t> lines;
+  for (std::size_t a = 0; a < episode.actuators.size(); ++a) {
+    const ActuatorSignals& s = episode.actuators[a];
+    const auto crossed = bones_.crossed_by(a);
+    const bool known = std::ranges::all_of(crossed, [&](std::size_t j) {
+      return std::ranges::count(missing, j) || was_measured(trace.signals[j], joints[j].type);
+    });
+    if (known && !equipped_.robot.actuators[a].tendon.path.empty() && !s.shaft_rad.empty() &&
+        !s.tension_N.empty())
+      lines.push_back(a);
+  }
+  return lines;
 }
 
 std::vector<ChainTrace> Stages::chains_of(const Episode& episode,
@@ -49,7 +56,7 @@ std::vector<ChainTrace> Stages::chains_of(const Episode& episode,
 }
 
 void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
-  const auto missing = missing_joints(trace), lines = telling(episode, equipped_.robot);
+  const auto missing = missing_joints(trace), lines = telling_lines(episode, trace, missing);
   if (missing.empty() || lines.empty()) return;
   const bool near = guess && guess->estimated;
   if (near) trace.nearby = guess->nearby;
@@ -70,7 +77,7 @@ void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTra
 
 void Stages::find_crossings(const Episode& episode, JointTrace& trace,
                             std::span<const LooseJoint> loose) {
-  const auto lines = telling(episode, equipped_.robot);
+  const auto lines = telling_lines(episode, trace, {});
   if (loose.empty() || lines.empty() || trace.estimated) return;
   std::vector<std::size_t> joints;
   for (const LooseJoint& l : loose) joints.push_back(l.joint);

@@ -61,8 +61,12 @@ class Stages {
   std::vector<std::size_t> rows(const Episode& episode) const;
   JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows,
                          const JointTrace* guess);
-  /// Joints that the recording leaves out.
+  /// Joints that the recording leaves out and tendons may tell: no free ones, of which they say too
+  /// little.
   std::vector<std::size_t> missing_joints(const JointTrace& trace) const;
+  /// Tendons that say shaft and tension, and cross no joint but those and measured ones.
+  std::vector<std::size_t> telling_lines(const Episode& episode, const JointTrace& trace,
+                                         std::span<const std::size_t> missing) const;
   /// Sets them, if enough tendons say where they are.
   void find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess);
   /// Where loose sensors may rest, sets their joints to where the tendons pull as measured.

@@ -112,8 +112,8 @@ class Movers {
     const bool may_be_slack = tension.empty() || !(tension[0] > slack_N);
     const double least = may_be_slack ? slack_N : of_noise * (step_N + sensors.tension_noise_N);
     std::vector<Column> told_by;
-    for (const Law& law : laws_.held_against(means_))
-      if (law.columns.back() == Column{Quantity::tension, a} && spread_of(law.foretold) > least)
+    for (const Law& law : laws_.held_against(means_, a))
+      if (law.kind == Law::Kind::spring && spread_of(law.foretold) > least)
         told_by.assign(law.columns.begin(), law.columns.end() - 1);
     const Signal& current = said(Quantity::current, a);
     const double pull_N_per_A =
@@ -134,10 +134,8 @@ class Movers {
     return told_by;
   }
   bool spring_holds(std::size_t a) const {
-    for (const Law& law : laws_.held_against(means_))
-      if (law.columns.back() == Column{Quantity::tension, a} &&
-          law.columns[0].quantity == Quantity::angle)
-        return law.good();
+    for (const Law& law : laws_.held_against(means_, a))
+      if (law.kind == Law::Kind::spring) return law.good();
     return false;
   }
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double together = 0.8;          // correlation, from which a slope is believed; chosen
 constexpr double widest_of_torques = 30;  // friction and efficiency count twice; chosen
+constexpr double beyond_stretch = 2;      // times: of a path that is more than that; chosen
 constexpr int fewest = 30;
 
 /// The slope of y on x, and their correlation, when a mean and what goes with `beside` are taken
@@ -36,6 +37,19 @@ Line line_of(const Signal& x, const Signal& y, const Signal* beside = nullptr) {
   if (!(xx > 0 && yy > 0)) return {};
   const double xy = sides.col(0).dot(sides.col(1));
   return {xy / xx, xy / std::sqrt(xx * yy)};
+}
+
+/// Friction on the gearbox shaft.
+double dry_Nm(const erp::MotorType& m) {
+  return m.gear_ratio * m.rotor_coulomb_Nm + m.gear_coulomb_Nm;
+}
+
+/// Of what is not constant in it.
+double rms(const Signal& signal) {
+  double n = 0, sum = 0, square = 0;
+  for (const double x : signal)
+    if (std::isfinite(x)) ++n, sum += x, square += x * x;
+  return n > 0 ? std::sqrt(std::fmax(0, square / n - sum / n * sum / n)) : 0;
 }
 
 /// The stiffness between the two ends is known, and both were measured.
@@ -74,10 +88,9 @@ std::vector<Column> Laws::crossed_by(std::size_t actuator) const {
   return joints;
 }
 
-std::vector<Law> Laws::held_against(const Means& means) const {
+std::vector<Law> Laws::held_against(const Means& means, std::size_t actuator) const {
   std::vector<Law> laws;
-  for (std::size_t a = 0; a < means.actuators.size(); ++a)
-    motor(a, means, laws), torque(a, means, laws), tendon(a, means, laws);
+  motor(actuator, means, laws), torque(actuator, means, laws), tendon(actuator, means, laws);
   return laws;
 }
 
@@ -91,13 +104,11 @@ void Laws::motor(std::size_t a, const Means& means, std::vector<Law>& laws) cons
   for (std::size_t k = 0; k < means.rows; ++k)
     foretold[k] = voltage[k] / back_emf,
     drop[k] = (voltage[k] - back_emf * speed[k]) / m.resistance_ohm;
-  laws.push_back(
-      {{{Quantity::voltage, a}, {Quantity::shaft, a}}, foretold, speed, line_of(foretold, speed)});
-  if (!current.empty())
-    laws.push_back({{{Quantity::voltage, a}, {Quantity::shaft, a}, {Quantity::current, a}},
-                    drop,
-                    current,
-                    line_of(drop, current)});
+  std::vector<Column> columns{{Quantity::voltage, a}, {Quantity::shaft, a}};
+  laws.push_back({Law::Kind::speed, columns, foretold, speed, line_of(foretold, speed)});
+  if (current.empty()) return;
+  columns.push_back({Quantity::current, a});
+  laws.push_back({Law::Kind::current, columns, drop, current, line_of(drop, current)});
 }
 
 void Laws::torque(std::size_t a, const Means& means, std::vector<Law>& laws) const {
@@ -114,8 +125,18 @@ void Laws::torque(std::size_t a, const Means& means, std::vector<Law>& laws) con
     way[k] = (shaft.speed_rad_per_s[k] > 0) - (shaft.speed_rad_per_s[k] < 0);
   }
   std::vector<Column> columns{{Quantity::shaft, a}, {Quantity::tension, a}, {Quantity::current, a}};
+  if (!(rms(foretold) > dry_Nm(m))) return;  // within that anything may hold
   if (pulls_nothing(robot_, robot_.actuators[a])) columns.erase(columns.begin() + 1);
-  laws.push_back({columns, foretold, torque, line_of(foretold, torque, &way), widest_of_torques});
+  laws.push_back({Law::Kind::torque, columns, foretold, torque, line_of(foretold, torque, &way),
+                  widest_of_torques});
+}
+
+double Laws::swing_of_pull_N(std::size_t a, const Means& means) const {
+  const erp::Actuator& actuator = robot_.actuators[a];
+  const erp::MotorType& m = robot_.motor_of(actuator);
+  const Signal& current = means[{Quantity::current, a}];
+  if (current.empty()) return robot_.sensors_of(actuator).tension_range_N / 2;
+  return (m.gear_ratio * m.torque_Nm_per_A * rms(current) + dry_Nm(m)) / actuator.spindle.radius_m;
 }
 
 void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) const {
@@ -123,19 +144,23 @@ void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) con
   const Signal& path = means.paths[a].length_m;
   if (shaft.empty() || path.empty()) return;
   const erp::Actuator& actuator = robot_.actuators[a];
+  const bool weighed = !tension.empty() && stretches(robot_, actuator);
   const Spring spring = Spring::of(actuator.tendon);
-  const double stiffness = spring.slope_N_per_m(spring.stretch_m(actuator.tendon.pretension_N));
-  Signal paid_out(means.rows), pull(means.rows);
+  const double pretension_m = spring.stretch_m(actuator.tendon.pretension_N);
+  const double stiffness = spring.slope_N_per_m(pretension_m);
+  Signal line(means.rows), pull(means.rows);
   for (std::size_t k = 0; k < means.rows; ++k) {
-    paid_out[k] = -actuator.spindle.radius_m * shaft[k];
-    pull[k] = stiffness * (path[k] - paid_out[k]);
+    line[k] = -actuator.spindle.radius_m * shaft[k];
+    pull[k] = stiffness * (path[k] - line[k]);
+    if (weighed) line[k] += tension[k] / stiffness;
   }
   std::vector<Column> columns = crossed_by(a);
   columns.push_back({Quantity::shaft, a});
-  laws.push_back({columns, path, paid_out, line_of(path, paid_out)});
-  if (tension.empty() || !stretches(robot_, actuator)) return;
-  columns.push_back({Quantity::tension, a});
-  laws.push_back({columns, pull, tension, line_of(pull, tension)});
+  if (weighed) columns.push_back({Quantity::tension, a});
+  const Law path_law{Law::Kind::path, columns, path, line, line_of(path, line)};
+  const double pull_N = weighed ? 0 : swing_of_pull_N(a, means);
+  if (rms(path) > beyond_stretch * pull_N / stiffness) laws.push_back(path_law);
+  if (weighed) laws.push_back({Law::Kind::spring, columns, pull, tension, line_of(pull, tension)});
 }
 
 }  // namespace sim::soundness

@@ -8,9 +8,10 @@
 ///
 ///   speed     ω against V/(K_E N)            current   i against (V − K_E N ω)/R
 ///   torque    N K_T i against r F + J ω̇, beside a friction that turns with ω
-///   path      L against −r θ                 spring    F against κ (L + r θ)
+///   path      F/κ − r θ against L            spring    F against κ (L + r θ)
 ///
-/// of means under a window (bump.hpp).
+/// the former without F/κ where nobody measured F, and then only if L moves by more than the tendon may
+/// have stretched; of means under a window (bump.hpp).
 namespace sim::soundness {
 
 struct Line {
@@ -19,7 +20,8 @@ struct Line {
 
 /// One law of one actuator, held against the means.
 struct Law {
-  std::vector<Column> columns;  ///< the last one is what the others foretell
+  enum class Kind { speed, current, torque, path, spring } kind;
+  std::vector<Column> columns;  ///< the last one may as well be foretold by the others
   Signal foretold, said;
   Line line;
   double widest = 3;  ///< times as much: few effects of a robot are as large; chosen
@@ -39,12 +41,15 @@ class Laws {
   void find_paths(Means& means);
   /// The joints on which an actuator's path depends.
   std::vector<Column> crossed_by(std::size_t actuator) const;
-  /// Those whose columns the recording has.
-  std::vector<Law> held_against(const Means& means) const;
+  /// Those of one actuator whose columns the recording has.
+  std::vector<Law> held_against(const Means& means, std::size_t actuator) const;
 
  private:
   void motor(std::size_t a, const Means& means, std::vector<Law>& laws) const;
   void torque(std::size_t a, const Means& means, std::vector<Law>& laws) const;
+  /// By how much a pull that nobody measured may have changed, rms: by its motor's current, or all
+  /// that the sensor's range would have.
+  double swing_of_pull_N(std::size_t a, const Means& means) const;
   void tendon(std::size_t a, const Means& means, std::vector<Law>& laws) const;
   const erp::Robot& robot_;
   residuals::Skeletal bones_;

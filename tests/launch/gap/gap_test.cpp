@@ -1,11 +1,16 @@
 #include "launch/gap/gap.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
+#include "sim/diagnosis/where.hpp"
+#include "sim/rehearsal/rehearse.hpp"
+#include "sim/soundness/odd_table.hpp"
+#include "sim/soundness/units.hpp"
 #include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -28,6 +33,27 @@ std::string said_of(const std::vector<std::string>& files) {
   CHECK(launch::gap::where(robot_file, files, out, remarks) == 0);
   CHECK(remarks.str().empty());
   return out.str();
+}
+
+void check_sound(const erp::Robot& robot, const sim::rehearsal::Score& score) {
+  const auto table = sim::rehearsal::rehearse(robot, score);
+  std::vector<std::string> mended;
+  auto episode = sim::residuals::lay_out(table, robot, "run", mended);
+  CHECK(sim::soundness::odd_table(table, robot, "run") == std::vector<std::string>{});
+  CHECK(sim::soundness::odd_units(episode, robot) == std::vector<std::string>{});
+  CHECK_FALSE(sim::diagnosis::where(robot, std::vector{episode}).empty());
+  for (auto& signals : episode.actuators) signals.tension_N.clear();
+  CHECK(sim::soundness::odd_units(episode, robot) == std::vector<std::string>{});
+}
+
+/// Each to and fro at its own pace.
+sim::rehearsal::Score every_line_by_2_mm(const erp::Robot& robot, double seconds) {
+  sim::rehearsal::Score score(static_cast<std::size_t>(500 * seconds));
+  for (std::size_t k = 0; k < score.size(); ++k)
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a)
+      score[k].push_back(
+          {erp::Mode::length, 0.002 * std::sin(0.002 * double(k) * (4 + 0.1 * double(a)))});
+  return score;
 }
 
 }  // namespace
@@ -65,6 +91,21 @@ TEST_CASE("where nothing can be judged, the exit code says so as well") {
   CHECK(launch::gap::where(robot_file, {file}, said, remarks) == 5);
   CHECK_THAT(said.str(), Catch::Contains("nothing could be judged"));
   std::filesystem::remove(file);
+}
+
+TEST_CASE("a recording of any prototype as modelled can be judged, and nothing is odd about it") {
+  for (const char* name : {"hinge_rig", "twin_joint", "arm", "seven_dof"}) {
+    const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
+    for (int kind = 0; kind < sim::excitation_kinds; ++kind) {
+      INFO(name << ", " << sim::excitation_word(robot, kind));
+      check_sound(robot, sim::rehearsal::score_of(sim::excitation(robot, kind, 4, 1)));
+    }
+  }
+  for (const char* name : {"ecce1", "ecce2", "ecce3", "ecce4"}) {
+    INFO(name);
+    const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
+    check_sound(robot, every_line_by_2_mm(robot, 3));
+  }
 }
 
 TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {

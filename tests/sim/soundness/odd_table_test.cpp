@@ -30,6 +30,10 @@ TEST_CASE("columns of the robot's parts, a row each tick, are not odd") {
   CHECK(odd(table_of(0.002, {"flexor.tension_N", "extensor.mode", "elbow.angle_rad"})).empty());
 }
 
+TEST_CASE("the three readings of a ball joint are its own") {
+  CHECK(odd(table_of(0.002, {"right_shoulder_x.angle_rad", "right_shoulder.qw"}), "ecce4").empty());
+}
+
 TEST_CASE("columns of nobody are told, once for each name, with whom they may be meant to be of") {
   const auto said =
       odd(table_of(0.002, {"flexer.tension_N", "flexer.shaft_rad", "knee.angle_rad"}));
