@@ -69,7 +69,10 @@ std::string summary(const Diagnosis& d) {
   html += fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d));
   const bool whole = d.verdict == Verdict::supported;
   if (!d.answer.empty())
-    html += whole ? "<ul>\n" : "<p>A part of it goes with these, which are no answer:</p>\n<ul>\n";
+    html += whole ? "<ul>\n"
+            : d.verdict == Verdict::not_identifiable
+                ? "<p>Perhaps:</p>\n<ul>\n"
+                : "<p>A part of it goes with these, which are no answer:</p>\n<ul>\n";
   for (const Named& n : d.answer)
     html += fmt::format("<li>{0}{2}{1}: {3}</li>\n", whole ? "<b>" : "", whole ? "</b>" : "",
                         escaped(page::name_of(n)), escaped(parameters_of(n)));
@@ -84,9 +87,8 @@ std::string summary(const Diagnosis& d) {
   }
   if (d.overall.before > 0)
     html += fmt::format(
-        "<p>Error on {}, in units of noise: {:.3g} before, {:.3g} after: {} ({}).</p>\n",
-        judged_on(d), d.overall.before, d.overall.after, closed_words(d.overall),
-        closed_interval(d.overall));
+        "<p>Error on {}, in units of noise: {:.3g} before, {:.3g} after: {}{}.</p>\n", judged_on(d),
+        d.overall.before, d.overall.after, closed_words(d.overall), closed_interval(d.overall));
   if (d.verdict == Verdict::supported)
     html += "<p>Beside this page: robot.xml, the model with it; diagnosis.json, all figures.</p>\n";
   return html;
@@ -115,7 +117,7 @@ std::string diagnosis_report(const Diagnosis& d, const sim::rehearsal::FreeRun& 
                              const erp::Robot& robot) {
   return head + fmt::format("<h1>{}: where robot and model part</h1>\n", escaped(robot.name)) +
          summary(d) + page::chains(d) + page::stages(d) + page::ranking(d) + page::moments(d) +
-         page::free_running(free_run) + page::unexplained(d) + data(d) + "</body></html>\n";
+         page::free_running(d, free_run) + page::unexplained(d) + data(d) + "</body></html>\n";
 }
 
 }  // namespace launch::gap

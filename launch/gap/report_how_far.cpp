@@ -18,9 +18,8 @@ std::string closed_of(const Closed& c, bool with_interval) {
   if (!c.gapes())
     return c.after > 1.5 * std::max(c.before, c.floor) ? "was no gap, is one now" : "–";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
-  const double share = 100 * std::min(1.0, c.closed);  // beyond is noise
-  if (!with_interval) return fmt::format("{:.1f} %", share);
-  return fmt::format("{:.1f} % ({})", share, closed_interval(c));
+  return fmt::format("{:.1f} %{}", 100 * std::min(1.0, c.closed),  // beyond is noise
+                     with_interval ? closed_interval(c) : "");
 }
 
 std::string share_of(double error, double driven_by) {
@@ -42,16 +41,15 @@ std::string page::stages(const Diagnosis& d) {
   return html + "</table>\n";
 }
 
-std::string page::free_running(const sim::rehearsal::FreeRun& run) {
+std::string page::free_running(const Diagnosis& d, const sim::rehearsal::FreeRun& run) {
   if (run.channels.empty()) return "";
   std::string html = fmt::format(
-      "<h2>The simulator let run freely</h2>\n<p>On the held-out recordings' references, in closed "
+      "<h2>The simulator let run freely</h2>\n<p>On the references of {}, in closed "
       "loop with the firmware: {:.3g} times what noise alone would do before, {:.3g} after. "
-      "That is: "
-      "{} ({}).</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
+      "That is: {}{}.</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
       "alone</th>"
       "<th>after</th><th>closed</th></tr>\n",
-      run.all.before, run.all.after, closed_words(run.all), closed_interval(run.all));
+      judged_on(d), run.all.before, run.all.after, closed_words(run.all), closed_interval(run.all));
   for (const Closed& c : run.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",

@@ -17,6 +17,7 @@ std::string ranking(const sim::diagnosis::Diagnosis& diagnosis);
 std::string unexplained(const sim::diagnosis::Diagnosis& diagnosis);
 // how far
 std::string stages(const sim::diagnosis::Diagnosis& diagnosis);
-std::string free_running(const sim::rehearsal::FreeRun& run);
+std::string free_running(const sim::diagnosis::Diagnosis& diagnosis,
+                         const sim::rehearsal::FreeRun& run);
 
 }  // namespace launch::gap::page

@@ -14,7 +14,8 @@ std::string closed_words(const sim::diagnosis::Closed& c) {
 }
 
 std::string closed_interval(const sim::diagnosis::Closed& c) {
-  return fmt::format("{:.1f} … {:.1f} %", 100 * std::min(1.0, c.interval.low),
+  if (c.before <= c.floor || c.after > c.before) return "";
+  return fmt::format(" ({:.1f} … {:.1f} %)", 100 * std::min(1.0, c.interval.low),
                      100 * std::min(1.0, c.interval.high));
 }
 

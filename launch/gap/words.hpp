@@ -9,7 +9,7 @@ namespace launch::gap {
 /// "98.2 % closed", 100 at most: beyond is noise. Of what was no gap, or has grown, that.
 std::string closed_words(const sim::diagnosis::Closed& closed);
 
-/// "98.1 … 98.4 %", its interval.
+/// " (98.1 … 98.4 %)", its interval; empty where closed_words says no share.
 std::string closed_interval(const sim::diagnosis::Closed& closed);
 
 /// "held-out recordings", where there were any.

@@ -109,7 +109,9 @@ TEST_CASE("one recording too short to be split supports nothing, and says what i
                             Catch::Contains("too short to be split") &&
                             Catch::Contains("on the data it was found on"));
   CHECK_FALSE(fs::exists(folder.found("robot.xml")));
-  CHECK_THAT(folder.read("report.html"), Catch::Contains("judged by the recording that it was"));
+  CHECK_THAT(folder.read("report.html"), Catch::Contains("judged by the recording that it was") &&
+                                             Catch::Contains("<p>Perhaps:</p>") &&
+                                             !Catch::Contains("held-out recordings"));
 }
 
 TEST_CASE("what wants mending is said once for all recordings, and no experiment is proposed") {
