@@ -19,7 +19,9 @@ namespace residuals = sim::residuals;
 namespace soundness = sim::soundness;
 
 void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
-  const std::string share = gap.open ? fmt::format("{:.0f} %", 100 * gap.share) : "-";
+  const std::string share = !gap.open           ? "-"
+                            : gap.share < 0.005 ? "<1 %"
+                                                : fmt::format("{:.0f} %", 100 * gap.share);
   out << fmt::format("{:<8} {:<24} {:>9.3g} {:<3} {:>9.3g} {:>7.1f} {:>7} {:>8}\n",
                      sim::effects::word(gap.stage), gap.on, gap.rms, gap.unit, gap.floor,
                      gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);

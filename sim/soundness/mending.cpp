@@ -96,6 +96,14 @@ class Vote {
     const auto pair = [&](Quantity quantity, std::size_t a, std::size_t b) {
       consider({Mending::Kind::exchanged, {{quantity, a}, {quantity, b}}, 1, "", {}});
     };
+    constexpr std::array converters{Quantity::voltage, Quantity::current, Quantity::tension};
+    for (std::size_t a = 0; a < means_.actuators.size(); ++a)
+      for (std::size_t k = 0; k < converters.size(); ++k)
+        consider({Mending::Kind::exchanged,
+                  {{converters[k], a}, {converters[(k + 1) % converters.size()], a}},
+                  1,
+                  "",
+                  {}});
     for (std::size_t a = 0; a < means_.actuators.size(); ++a)
       for (std::size_t b = a + 1; b < means_.actuators.size(); ++b) {
         std::vector<Column> whole;

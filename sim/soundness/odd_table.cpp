@@ -16,7 +16,8 @@ std::vector<std::string> parts_of(const erp::Robot& robot) {
   for (const auto& drive : robot.drives) names.push_back(drive.name);
   for (const auto& actuator : robot.actuators) names.push_back(actuator.name);
   for (const auto& joint : robot.joints()) names.push_back(joint.name);
-  for (const auto& sensor : robot.joint_sensors) names.push_back(erp::sample_name(sensor));
+  for (const auto& sensor : robot.joint_sensors)
+    if (sensor.about) names.push_back(erp::sample_name(sensor));
   return names;
 }
 

@@ -106,6 +106,9 @@ TEST_CASE("channels that were exchanged are told as such") {
   check_says(
       odd_after([](Episode& e) { std::swap(e.actuators[0].shaft_rad, e.actuators[1].shaft_rad); }),
       "flexor.shaft_rad and extensor.shaft_rad", "exchange");
+  check_says(
+      odd_after([](Episode& e) { std::swap(e.actuators[1].tension_N, e.actuators[1].current_A); }),
+      "extensor.current_A and extensor.tension_N", "exchange");
 }
 
 TEST_CASE("two things wrong are both told") {
