@@ -106,7 +106,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   if (evidence.sets.held_out.empty()) {
     evidence.sets.held_out = evidence.sets.train;
     d.warnings.emplace_back(
-        "one recording only, and too short to be split: effects are chosen and judged on the same "
+        "one recording only, and it was not split: effects are chosen and judged on the same "
         "data, which supports none; record another");
   }
   d.train = names_of(evidence, evidence.sets.train);

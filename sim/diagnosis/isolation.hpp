@@ -8,7 +8,8 @@
 ///
 /// A nudge grown until it fills the widest stage of the gap must open every stage that is open and
 /// none that is closed; a part of the chain is suspected if some effect that belongs to it does so.
-/// What is withheld is not known here either. Ignores: how a gap runs in time, and gaps of several causes.
+/// What is withheld is not known here either. Ignores: how a gap runs in time, and gaps of several
+/// causes.
 namespace sim::diagnosis {
 
 /// A part of the chain, bus to sensors.

@@ -18,6 +18,7 @@ struct Column {
   bool operator==(const Column&) const = default;
 };
 
+/// Four of each actuator, then one of each joint; also those that a recording lacks.
 std::vector<Column> all_columns(std::size_t actuators, std::size_t joints);
 
 /// "flexor.tension_N"; of a drive (drives.hpp), what its control, its ends and its torque are called.

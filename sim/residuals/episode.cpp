@@ -38,6 +38,10 @@ std::pair<const char*, double> unit_of_time(double period) {
 }
 
 void check_seconds(double period_s, const std::string& name) {
+  if (!(period_s > 0))
+    throw std::invalid_argument(name +
+                                ": time_s: most rows have the time of the row before: rounded, "
+                                "or each row twice; give all digits, and each row once");
   if (!(period_s > slowest_s)) return;
   const auto [unit, in_a_second] = unit_of_time(period_s);
   throw std::invalid_argument(name + ": time_s: rows " + xml::write_number(period_s) +

@@ -1,12 +1,10 @@
 #pragma once
-#include <string>
 #include <vector>
 
 #include "sim/soundness/laws.hpp"
 
 /// Columns that stand still while the others foretell that they move: an unplugged sensor, a channel
-/// that froze. An idle motor's voltage and current, a voltage that is all the supply, and a slack tendon's
-/// tension may stand still.
+/// that froze. An idle motor's voltage and current, and a slack tendon's tension, may stand still.
 namespace sim::soundness {
 
 struct DeadColumn {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/soundness/dead_columns.hpp"
 #include "sim/soundness/mending.hpp"
@@ -13,19 +14,18 @@ namespace sim::soundness {
 namespace {
 
 constexpr double beyond_stops = 3;  // times the widest; chosen
-constexpr double degrees = 57.29578;
 
 class Words {
  public:
   Words(const Episode& episode, const erp::Robot& robot) : e_(episode), robot_(robot) {}
 
-  std::string names(const std::vector<Column>& columns, const char* between = " and ") const {
+  std::string names(const std::vector<Column>& columns) const {
     constexpr std::size_t most = 4;
     std::vector<std::string> all;
     for (std::size_t k = 0; k < std::min(most, columns.size()); ++k)
       all.push_back(name_of(columns[k], e_, robot_));
     if (columns.size() > most) all.push_back(fmt::format("{} more", columns.size() - most));
-    return fmt::format("{}", fmt::join(all, between));
+    return fmt::format("{}", fmt::join(all, " and "));
   }
   std::string of(const DeadColumn& dead) const {
     const std::string when =
@@ -112,7 +112,7 @@ std::vector<std::string> odd_units(const Episode& episode, const erp::Robot& rob
     say(words.of(dead)), means.forget(dead.column);
   for (const std::size_t j : beyond_their_stops(episode, joints)) {
     say(far_beyond(joints[j], episode.joints[j].angle_rad));
-    means.scale({Quantity::angle, j}, 1 / degrees);
+    means.scale({Quantity::angle, j}, std::numbers::pi / 180);
   }
   laws.find_paths(means);
   for (const Either& either : mendings(robot, laws, std::move(means))) say(words.of(either));

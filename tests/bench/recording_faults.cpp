@@ -1,7 +1,7 @@
 // How often a fault of a recording is told, and how often one is told that is not there.
 //   erp_recording_faults ROBOT.XML RECORDING…
 // Each recording is asked as it is, then with one column turned, in another unit, dead, or exchanged with
-// another, drawn from its number. Of a fault: told alone; told beside another sentence; another
+// another, drawn from its number. Of a fault: its column blamed alone; told beside another sentence; another
 // column blamed; nothing said.
 #include <fmt/format.h>
 
@@ -45,11 +45,29 @@ Fault inject(const std::string& kind, Columns& columns, std::mt19937_64& random)
   return {"", {}};
 }
 
+/// Of each alternative of a sentence its subject: the columns that it says are wrong, not those that
+/// it tells it by. That columns contradict each other blames none.
+std::vector<std::string> blamed(const std::string& sentence) {
+  std::vector<std::string> all;
+  std::string rest = sentence.substr(sentence.find(": ") + 2);  // behind the recording's name
+  while (!rest.empty()) {
+    const auto end = rest.find("; or ");
+    const std::string one = rest.substr(0, end);
+    rest = end == rest.npos ? "" : rest.substr(end + 5);
+    if (one.find("contradict each other") == one.npos)
+      all.push_back(one.substr(0, std::min(one.find(": "), one.find(" says "))));
+  }
+  return all;
+}
+
 std::string outcome(const std::vector<std::string>& odd, const Fault& fault) {
   if (odd.empty()) return "nothing";
   const auto tells = [&](const std::string& sentence) {
-    return std::ranges::all_of(fault.columns, [&](const std::string& column) {
-      return sentence.find(column) != sentence.npos;
+    const auto all = blamed(sentence);
+    return std::ranges::any_of(all, [&](const std::string& subject) {
+      return std::ranges::all_of(fault.columns, [&](const std::string& column) {
+        return subject.find(column) != subject.npos;
+      });
     });
   };
   const bool told = std::ranges::any_of(odd, tells);

@@ -106,7 +106,7 @@ TEST_CASE("one recording too short to be split supports nothing, and says what i
   INFO(told.text);
   CHECK(told.code == 5);
   CHECK_THAT(told.text, Catch::Contains("perhaps     gearbox_") &&
-                            Catch::Contains("too short to be split") &&
+                            Catch::Contains("it was not split") &&
                             Catch::Contains("on the data it was found on"));
   CHECK_FALSE(fs::exists(folder.found("robot.xml")));
   CHECK_THAT(folder.read("report.html"), Catch::Contains("judged by the recording that it was") &&

@@ -123,6 +123,14 @@ TEST_CASE("a sample far off its neighbours is dropped, a voltage that leaps is n
   CHECK(remarks[0] == "run.csv: flexor.shaft_rad: 1 outlier dropped");
 }
 
+TEST_CASE("rows that mostly repeat a time, as rounded ones do, are refused with a word why") {
+  recording::Table table = sine(1000);
+  for (double& t : table.columns[0].values) t = std::round(100 * t) / 100;
+  std::vector<std::string> remarks;
+  CHECK_THROWS_WITH(lay_out(table, hinge_rig(), "run.csv", remarks),
+                    Catch::Contains("run.csv: time_s: most rows have the time of the row before"));
+}
+
 TEST_CASE("recordings of other machines, and cut ones, are refused with a word why") {
   std::vector<std::string> remarks;
   recording::Table other{
