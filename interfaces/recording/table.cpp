@@ -35,6 +35,10 @@ std::string_view signal_of(std::string_view column) {
   return dot == column.npos ? column : column.substr(dot + 1);
 }
 
+std::string sent_to(int ecu, int channel) {
+  return "ecu" + std::to_string(ecu) + "." + std::to_string(channel);
+}
+
 bool holds_mode(std::string_view column) {
   return column.ends_with(".mode") || column.ends_with(".target_mode");
 }

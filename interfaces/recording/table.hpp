@@ -16,6 +16,9 @@
 ///   <a>.tension_N
 ///   <a>.line_m                change of line length since the start (on request)
 ///   <a>.target_mode, .target  what a planner asked for in answer to this row's frame (on request)
+///   ecu<e>.<c>.sent_request, .sent, .followed_request, .followed   of a channel, in its counts:
+///                             what was sent to it last before this row, and what it followed in it
+///                             (on request, from MCAP)
 ///   <j>.angle_rad             a revolute joint
 ///   <j>.qw … <j>.qz           a spherical joint
 ///   <d>.control_V             of a drive: what its controller said, until the next row
@@ -43,12 +46,15 @@ const std::vector<std::string_view>& known_signals();
 /// "flexor.tension_N" → "tension_N"; the whole name when it has no dot.
 std::string_view signal_of(std::string_view column);
 bool holds_mode(std::string_view column);
+/// Whose the columns are that tell what was sent to a channel of an ECU.
+std::string sent_to(int ecu, int channel);
 
 struct TableOptions {
   std::string robot;       ///< empty: the only one in the recording
   bool sequences = false;  ///< with sequence, from MCAP
   bool lines = false;      ///< with <a>.line_m
   bool targets = false;    ///< with <a>.target_mode and <a>.target
+  bool sent = false;       ///< with what the ECUs were sent and followed
   /// Where spherical joints come from; empty: motion_capture if recorded, else sim.
   std::string pose_source;
 };

@@ -42,6 +42,13 @@ struct Target {
   std::uint64_t answers, log_time_ns;
 };
 
+/// What the plant sent to one channel of an ECU, and what that says it follows, in its counts.
+struct SetPoint {
+  std::string channel;
+  double request, counts;
+  std::uint64_t sequence;  ///< of the frame that is answered, or in which it is said
+};
+
 struct Pose {
   std::int64_t stamp_ns;
   double q[4];
@@ -66,6 +73,7 @@ class Builder {
                            (options_.robot.empty() ? "" : " of robot \"" + options_.robot + "\"") +
                            "; see what it holds with: erp log info " + recording_.path());
     join_targets();
+    join_set_points();
     join_poses();
     return assemble();
   }
@@ -73,7 +81,8 @@ class Builder {
  private:
   bool wanted(const std::string& topic) const {
     return topic == "sensor_frame" || topic == "joint_state" ||
-           (options_.targets && topic == "actuator_target");
+           (options_.targets && topic == "actuator_target") ||
+           (options_.sent && (topic == "ecu_command" || topic == "ecu_frame"));
   }
 
   void take(const Message& message) {
@@ -84,6 +93,8 @@ class Builder {
     if (!of_our_robot(text_in(members, "robot"), topic)) return;
     if (topic == "sensor_frame") take_frame(members, message.log_time_ns);
     else if (topic == "joint_state") take_joints(members);
+    else if (topic == "ecu_command") take_set_points(members, "answers", sent_);
+    else if (topic == "ecu_frame") take_set_points(members, "sequence", followed_);
     else take_targets(members, message.log_time_ns);
   }
 
@@ -130,6 +141,15 @@ class Builder {
     });
   }
 
+  static void take_set_points(const Members& message, const char* sequence,
+                              std::vector<SetPoint>& all) {
+    each_in(message, "channels", [&](const Members& sample) {
+      all.push_back({sent_to(int(number_in(sample, "ecu")), int(number_in(sample, "channel"))),
+                     number_in(sample, "request"), number_in(sample, "setpoint"),
+                     integer_in<std::uint64_t>(message, sequence)});
+    });
+  }
+
   void take_joints(const Members& state) {
     const std::string source = text_in(state, "source");
     each_in(state, "joints", [&](const Members& sample) {
@@ -165,6 +185,30 @@ class Builder {
       actuators_.set(target.actuator, "target", row->second,
                      target.mode ? target.reference : not_taken);
     }
+  }
+
+  /// What answers a frame may be followed in the next: there it stands, and in those after it until
+  /// something else was sent. What is followed stands in the frame that says it.
+  void join_set_points() {
+    const auto order = row_order();
+    std::map<std::uint64_t, std::size_t> row_of;
+    for (const std::size_t row : order) row_of.emplace(rows_[row].sequence, row);
+    for (const SetPoint& followed : followed_)
+      if (const auto row = row_of.find(followed.sequence); row != row_of.end())
+        set_point(row->second, followed, "followed");
+    std::ranges::stable_sort(sent_, {}, &SetPoint::sequence);
+    std::map<std::string, SetPoint> newest;
+    auto next = sent_.begin();
+    for (const std::size_t row : order) {
+      for (; next != sent_.end() && next->sequence < rows_[row].sequence; ++next)
+        newest.insert_or_assign(next->channel, *next);
+      for (const auto& [channel, sent] : newest) set_point(row, sent, "sent");
+    }
+  }
+
+  void set_point(std::size_t row, const SetPoint& said, const std::string& what) {
+    ecus_.set(said.channel, (what + "_request").c_str(), row, said.request);
+    ecus_.set(said.channel, what.c_str(), row, said.counts);
   }
 
   std::string pose_source() const {
@@ -204,6 +248,7 @@ class Builder {
     actuators_.move_into(table, rows_.size());
     joints_.move_into(table, rows_.size());
     balls_.move_into(table, rows_.size());
+    ecus_.move_into(table, rows_.size());
     const std::vector<std::size_t> order = row_order();
     const std::int64_t start_ns = rows_[order.front()].stamp_ns;
     for (const Row& row : rows_)
@@ -226,8 +271,9 @@ class Builder {
   std::map<std::uint16_t, TypeDescription> types_;
   std::set<std::string> robots_;
   std::vector<Row> rows_;
-  ColumnGroup actuators_, joints_, balls_;
+  ColumnGroup actuators_, joints_, balls_, ecus_;
   std::vector<Target> targets_;
+  std::vector<SetPoint> sent_, followed_;
   std::map<std::string, std::map<std::string, std::vector<Pose>>> poses_;
 };
 

@@ -23,6 +23,8 @@ struct Reading {
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings);
 /// What there is to say of it, a line each.
 void tell(const std::vector<std::string>& list, std::ostream& remarks);
+/// What a person should mend before anything else is believed.
+void tell_odd(const Reading& read, std::ostream& remarks);
 
 /// Throws std::invalid_argument of a type that the library has not.
 void check_withheld(const std::vector<std::string>& types);

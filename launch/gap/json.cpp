@@ -154,6 +154,7 @@ std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& fr
                  {"train", d.train},
                  {"held_out", d.held_out},
                  {"judged_from_s", shared(d)},
+                 {"mend_first", d.mend_first},
                  {"warnings", d.warnings}};
   return all.dump(1) + "\n";
 }

@@ -48,6 +48,7 @@ struct Question {
   std::string robot;  ///< that was diagnosed
   std::vector<Placed> suspects, known;
   std::size_t more_sets = 0;  ///< that could not be told apart either
+  bool mend_first = false;    ///< the recordings that were diagnosed are odd
 };
 
 /// Of sets that could not be told apart, the first; else the answer; else what comes nearest.
@@ -63,7 +64,8 @@ Question question_of(const Json& d, const std::string& file) {
     if (sets.size() == 1) set.push_back(one);
   }
   const bool split = !set.empty(), answered = d.at("verdict") == "supported";
-  Question question{d.at("robot"), {}, {}, sets.size() - split};
+  Question question{
+      d.at("robot"), {}, {}, sets.size() - split, !d.value("mend_first", Json::array()).empty()};
   for (const Json& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
@@ -206,7 +208,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  auto [diagnosed, suspects, known, more_sets] = read_question(options.diagnosis);
+  auto [diagnosed, suspects, known, more_sets, mend_first] = read_question(options.diagnosis);
   if (diagnosed != robot.name)
     throw std::invalid_argument(options.diagnosis + ": is of robot \"" + diagnosed + "\", " +
                                 options.robot + " is \"" + robot.name +
@@ -215,9 +217,14 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   make_way(options.out);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
-    out << "nothing to split: the diagnosis names no effect whose residuals could\n";
+    out << "nothing to plan for: the diagnosis names no effect that a motion could show (the bus "
+           "shows in none)\n";
     return 1;
   }
+  if (mend_first)
+    remarks << options.diagnosis
+            << ": its recordings want mending first, see its warnings: what it names may not be of "
+               "the robot, nor what is planned by it\n";
   auto experiment = rehearsed(robot, suspects, options, remarks);
   const auto never = never_split(experiment, suspects);
   if (!experiment.chosen.reference.empty() && !never.empty()) {

@@ -35,11 +35,11 @@ std::string title_of(const Diagnosis& d) {
           "No gap{}: robot and model differ by no more than the noise of the sensors.",
           d.not_judged.empty() ? "" : " in what could be judged");
     case Verdict::supported:
-      return "An explanation that recordings held out support.";
+      return fmt::format("An explanation, supported by {}.", judged_on(d));
     case Verdict::none_of_the_known:
       return "There is a gap, and none of the known effects explains it.";
     case Verdict::not_identifiable:
-      if (d.train == d.held_out && !d.answer.empty())
+      if (!d.judged_apart() && !d.answer.empty())
         return "An explanation, judged by the recording that it was found on: record another.";
   }
   return "These recordings cannot show what the gap is.";

@@ -42,6 +42,8 @@ std::string page::ranking(const Diagnosis& d) {
 std::string page::unexplained(const Diagnosis& d) {
   if (d.unexplained.empty()) return "";
   std::string html = "<h2>What no effect explains</h2>\n";
+  if (d.verdict == Verdict::supported)
+    html += "<p>Small beside the gap that is explained, but more than noise:</p>\n";
   for (const Unexplained& u : d.unexplained) {
     html += fmt::format("<p>{} of {}: {:.3g} times its noise.", sim::effects::word(u.stage),
                         escaped(u.on), std::sqrt(1 + u.excess));

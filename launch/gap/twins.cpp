@@ -70,7 +70,7 @@ int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks)
     throw std::invalid_argument(options.robot +
                                 ": the simulator does not run drives; give recordings with --real");
   const Reading read = read_episodes(robot, options.recordings);
-  tell(read.mended, remarks), tell(read.odd, remarks);
+  tell(read.mended, remarks), tell_odd(read, remarks);
   auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds) : read.episodes;
   leave_out(options.without, episodes);
   const diagnosis::Trials trials(robot, std::move(episodes));

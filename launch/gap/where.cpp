@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "sim/diagnosis/bus.hpp"
 #include "sim/diagnosis/where.hpp"
 #include "sim/residuals/common_signals.hpp"
 #include "sim/residuals/drives.hpp"
@@ -22,26 +23,54 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
   const std::string share = !gap.open           ? "-"
                             : gap.share < 0.005 ? "<1 %"
                                                 : fmt::format("{:.0f} %", 100 * gap.share);
+  if (!gap.judged) {
+    out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n",
+                       sim::effects::word(gap.stage), gap.on, "not judged", "-", "-", "-",
+                       gap.windows);
+    return;
+  }
   out << fmt::format("{:<8} {:<24} {:>9.3g} {:<3} {:>9.3g} {:>7.1f} {:>7} {:>8}\n",
                      sim::effects::word(gap.stage), gap.on, gap.rms, gap.unit, gap.floor,
                      gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);
 }
 
+/// The bus changes no residual: what the ECUs followed says how late it is.
+struct Bus {
+  std::vector<diagnosis::Ages> ages;
+  bool there, told, late;
+};
+
+Bus look_at_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& episodes) {
+  Bus bus;
+  for (const auto& e : episodes) bus.ages.push_back(diagnosis::command_ages(e, robot));
+  bus.there = robot.drives.empty(), bus.told = bus.there && diagnosis::told(bus.ages);
+  bus.late = bus.told && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
+  return bus;
+}
+
 /// Whether anything could be judged.
 bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>& gaps,
-                 std::ostream& out) {
+                 const Bus& bus, std::ostream& out) {
   std::string open;
   for (const auto& gap : gaps)
     if (gap.open)
       open += fmt::format("{}{} of {}", open.empty() ? "" : ", ", sim::effects::word(gap.stage),
                           gap.on);
-  const auto unjudged = diagnosis::not_judged(robot, gaps);
+  auto unjudged = diagnosis::not_judged(robot, gaps);
+  if (bus.there && !bus.told) unjudged.emplace_back("the bus");
   const bool some = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
   if (!unjudged.empty())
     out << fmt::format("not judged, for want of signals or of windows in which they move: {}\n",
                        fmt::join(unjudged, ", "));
+  if (bus.late)
+    out << fmt::format(
+        "the bus is late: in {:.0f} % of the ticks with a new command the ECUs followed "
+        "an older one, {:.3g} ms old in the mean\n",
+        100 * diagnosis::late_share(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
   if (!open.empty()) out << "the gap is in: " << open << "\n";
   else if (!some) out << "nothing could be judged; record some seconds in which everything moves\n";
+  else if (bus.late)
+    out << "no gap elsewhere: what was judged is left with the noise of its sensors\n";
   else if (unjudged.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
   else out << "no gap in the others: they are left with the noise of their sensors\n";
   return some;
@@ -81,7 +110,8 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
   Reading read;
   Remarks odd;
   for (const std::string& file : recordings) {
-    const auto table = recording::read_table(file, {.robot = robot.name, .sequences = true});
+    const auto table =
+        recording::read_table(file, {.robot = robot.name, .sequences = true, .sent = true});
     read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
     odd.add(file, soundness::odd_table(table, robot, file));
     odd.add(file, soundness::odd_units(read.episodes.back(), robot));
@@ -95,16 +125,20 @@ void tell(const std::vector<std::string>& list, std::ostream& remarks) {
   for (const std::string& remark : list) remarks << remark << "\n";
 }
 
+void tell_odd(const Reading& read, std::ostream& remarks) {
+  for (const std::string& odd : read.odd) remarks << "mend first  " << odd << "\n";
+}
+
 int where(const std::string& robot_file, const std::vector<std::string>& recordings,
           std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(robot_file);
   const Reading read = read_episodes(robot, recordings);
-  tell(read.mended, remarks), tell(read.odd, remarks);
+  tell(read.mended, remarks), tell_odd(read, remarks);
   const auto gaps = diagnosis::where(robot, read.episodes);
   out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
                      "floor", "times", "share", "windows");
   for (const auto& gap : gaps) print_row(gap, out);
-  return print_words(robot, gaps, out) ? 0 : 5;
+  return print_words(robot, gaps, look_at_bus(robot, read.episodes), out) ? 0 : 5;
 }
 
 }  // namespace launch::gap

@@ -20,7 +20,11 @@ std::string closed_interval(const sim::diagnosis::Closed& c) {
 }
 
 std::string judged_on(const sim::diagnosis::Diagnosis& d) {
-  return d.train == d.held_out ? "the data it was found on" : "held-out recordings";
+  if (!d.judged_apart()) return "the data it was found on";
+  const bool only_rests = std::ranges::all_of(d.held_out, [&](const std::string& name) {
+    return std::ranges::count(d.shared, name, &sim::diagnosis::Shared::recording) > 0;
+  });
+  return only_rests ? "the rest of the recording" : "held-out recordings";
 }
 
 std::string share_words(double share) {

@@ -12,7 +12,7 @@ std::string closed_words(const sim::diagnosis::Closed& closed);
 /// " (98.1 … 98.4 %)", its interval; empty where closed_words says no share.
 std::string closed_interval(const sim::diagnosis::Closed& closed);
 
-/// "held-out recordings", where there were any.
+/// "held-out recordings", where there were any; else the part of one that was.
 std::string judged_on(const sim::diagnosis::Diagnosis& diagnosis);
 
 /// "61 %" of a share that is not none.

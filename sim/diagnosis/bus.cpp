@@ -29,7 +29,9 @@ Law law_of(const residuals::ActuatorSignals& s, const erp::Robot& robot,
   Law law;
   if (s.mode.empty() || s.reference.empty() || s.voltage_V.empty() || s.shaft_rad.empty())
     return law;
-  const auto mode = static_cast<erp::Mode>(std::lround(std::isnan(s.mode[0]) ? 0 : s.mode[0]));
+  const auto first = std::ranges::find_if(s.mode, [](double m) { return !std::isnan(m); });
+  if (first == s.mode.end()) return law;
+  const auto mode = static_cast<erp::Mode>(std::lround(*first));
   const bool length = mode == erp::Mode::length;
   const bool force = mode == erp::Mode::force && !s.current_A.empty() && !s.tension_N.empty();
   if (!length && !force) return law;
@@ -41,7 +43,7 @@ Law law_of(const residuals::ActuatorSignals& s, const erp::Robot& robot,
                     : gain(ECU_PARAMETER_FORCE_PREFILTER);
   law.rest_V.assign(s.voltage_V.size(), recording::not_taken);
   for (std::size_t k = 2; k < s.voltage_V.size(); ++k) {
-    if (s.mode[k] != s.mode[0]) continue;
+    if (s.mode[k] != *first) continue;
     const double speed = (s.shaft_rad[k - 1] - s.shaft_rad[k - 2]) / period_s;
     const double back = gain(ECU_PARAMETER_BACK_EMF) * speed;
     const double reach = gain(ECU_PARAMETER_RESISTANCE) * gain(ECU_PARAMETER_CURRENT_LIMIT);
@@ -67,6 +69,20 @@ void add_ages(const residuals::Episode& episode, const residuals::ActuatorSignal
     ++ages.tried;
     for (std::size_t age = 0; age < oldest; ++age)
       if (std::abs(said_V(age) - s.voltage_V[k]) < tolerance_V) {
+        ++ages.ticks[age], ++ages.told;
+        break;
+      }
+  }
+}
+
+/// By what it says itself: the command it follows is the newest with that set-point.
+void add_ages_said(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
+                   Ages& ages) {
+  for (std::size_t k = oldest; k < s.sent.size(); ++k) {
+    if (!episode.judged(k) || !(std::abs(s.sent[k] - s.sent[k - 1]) > 0)) continue;  // too alike
+    ++ages.tried;
+    for (std::size_t age = 0; age < oldest; ++age)
+      if (s.sent[k - age] == s.followed[k]) {
         ++ages.ticks[age], ++ages.told;
         break;
       }
@@ -149,6 +165,10 @@ Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot) {
   Ages ages{episode.period_s, std::vector<std::size_t>(oldest, 0), 0, 0};
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const residuals::ActuatorSignals& s = episode.actuators[a];
+    if (!s.sent.empty()) {
+      add_ages_said(episode, s, ages);
+      continue;
+    }
     const Law law = law_of(s, robot, robot.actuators[a], episode.period_s);
     const double count_V = robot.motor_of(robot.actuators[a]).supply_V / ECU_DUTY_MAX;
     add_ages(episode, s, law, count_V, ages);
@@ -166,6 +186,14 @@ double late_share(std::span<const Ages> ages) {
   if (!told(ages)) return 0;
   const auto share = own_shares(ages);
   return 1 - share[0];
+}
+
+double mean_age_s(std::span<const Ages> ages) {
+  double sum_s = 0, count = 0;
+  for (const Ages& one : ages)
+    for (std::size_t a = 0; a < oldest; ++a)
+      sum_s += double(one.ticks[a]) * double(a) * one.period_s, count += double(one.ticks[a]);
+  return count > 0 ? sum_s / count : 0;
 }
 
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,

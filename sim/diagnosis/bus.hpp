@@ -8,15 +8,16 @@
 #include "sim/effects/library.hpp"
 #include "sim/residuals/episode.hpp"
 
-/// The bus, seen in what the ECUs did: which command, how old, makes the voltage that was applied.
+/// The bus, seen in what the ECUs did: which command, how old, they followed.
 ///
-///   V_k = law(reference_{k−a}, measured)          a: the age in ticks
+///   followed_k = sent_{k−a}                       a: the age in ticks; where both were recorded, else
+///   V_k = law(reference_{k−a}, measured)          of the voltage that was applied
 ///
-/// The law is that of the ECU firmware with the gains designed for the robot (sim/actuator/design),
-/// in length or force control; ticks at a limit, and ticks where commands are too alike to tell
-/// their ages, are left out. An effect on the bus foretells how often each age comes; effects are
-/// compared by their likelihood. A recording whose voltages no command explains, of an ECU with
-/// another law, says nothing of the bus.
+/// Ticks whose command is that before it tell no age. The law is that of the ECU firmware with the
+/// gains designed for the robot (sim/actuator/design), in length or force control; ticks at a limit
+/// are left out. An effect on the bus foretells how often each age comes; effects are compared by
+/// their likelihood. A recording whose voltages no command explains, of an ECU with another law, says
+/// nothing of the bus.
 namespace sim::diagnosis {
 
 struct Ages {
@@ -44,6 +45,15 @@ inline constexpr double practical_late = 0.02;
 
 /// Enough ages were found, of enough ticks; else nothing is said of the bus.
 bool told(std::span<const Ages> ages);
+
+/// What a recording needs for that, in words.
+inline constexpr const char* bus_is_told_by =
+    "references that change from tick to tick: in an MCAP recording by the set-points that were "
+    "sent "
+    "and followed, in CSV by mode, reference and voltage_V, in length or force mode";
+
+/// Of the commands that were followed, in the mean.
+double mean_age_s(std::span<const Ages> ages);
 
 /// The share of ticks in which a command was not the newest.
 double late_share(std::span<const Ages> ages);

@@ -124,14 +124,11 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   if (!d.not_judged.empty())
     d.warnings.push_back(fmt::format(
         "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
-        bus_untold ? "; the bus is told by mode, reference and voltage_V of an actuator whose "
-                     "reference changes from tick to tick"
-                   : ""));
+        bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
   const Selection selection = select(evidence, known, d.stages);
   const Verdict verdict = judge(selection, observed, d.stages);
   const bool explained = verdict == Verdict::supported;
-  const bool judged_apart = evidence.sets.held_out != evidence.sets.train;
-  d.verdict = explained && !judged_apart ? Verdict::not_identifiable : verdict;
+  d.verdict = explained && !d.judged_apart() ? Verdict::not_identifiable : verdict;
   d.answer = selection.answer, d.ranked = selection.ranked;
   d.interaction = selection.interaction;
   add_observed(observed, d);
@@ -144,7 +141,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   d.where = explained ? where_of_answer(evidence, plain, d.stages, d.answer)
                       : where_of_stages(evidence, plain, d.stages, d.ranked);
   if (observed.bus_unexplained()) add_unexplained_bus(robot.name, observed, d);
-  if (selection.gap) d.unexplained = unexplained(evidence, plain, selection);
+  if (selection.gap) d.unexplained = unexplained(evidence, known, selection);
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);
   d.overall = closed_overall(evidence, plain, known, selection.trial);
   d.worst = worst_moments(evidence, plain, selection.trial, d.stages);

@@ -34,6 +34,9 @@ struct Diagnosis {
       mend_first;  ///< what is odd about the recordings; whoever read them tells
   std::vector<std::string> not_judged;  ///< stages and the bus, in words
   std::vector<Shared> shared;           ///< those that are in train and in held_out
+
+  /// By other data than it was found on.
+  bool judged_apart() const { return train != held_out || !shared.empty(); }
 };
 
 /// The recordings tell the same signals (common_signals.hpp).

@@ -106,13 +106,16 @@ std::vector<Located> where_of_stages(const Evidence& evidence, const Trials& pla
   return group;
 }
 
-std::vector<Unexplained> unexplained(const Evidence& evidence, const Trials& plain,
+std::vector<Unexplained> unexplained(const Evidence& evidence, const Trials& trials,
                                      const Selection& selection) {
+  const Tolerance nothing{evidence.options.search.excess, 0, 0};
+  const auto left = selection.explained() ? left_open(evidence, trials, selection.trial, nothing)
+                                          : selection.left;
   std::vector<Unexplained> all;
-  for (const StageGap& gap : selection.left)
+  for (const StageGap& gap : left)
     if (gap.open)
       all.push_back({gap.stage, gap.on, gap.excess,
-                     shape_of(plain, selection.trial, gap.stage, gap.on, evidence.sets.train,
+                     shape_of(trials, selection.trial, gap.stage, gap.on, evidence.sets.train,
                               evidence.sets.held_out)});
   return all;
 }

@@ -40,8 +40,9 @@ std::vector<Located> where_of_stages(const Evidence& evidence, const Trials& pla
                                      const std::vector<StageGap>& stages,
                                      const std::vector<Named>& ranked);
 
-/// The stages that the selection leaves open, with the map that explains most of each.
-std::vector<Unexplained> unexplained(const Evidence& evidence, const Trials& plain,
+/// The stages that the selection leaves open, with the map that explains most of each; where it
+/// leaves none open, those that keep more than noise all the same, and are small beside the gap.
+std::vector<Unexplained> unexplained(const Evidence& evidence, const Trials& trials,
                                      const Selection& selection);
 
 }  // namespace sim::diagnosis

@@ -5,7 +5,8 @@
 #include "sim/diagnosis/evidence.hpp"
 
 /// Which effects together explain the residuals: the best alone, others on top of it while a stage
-/// stays open, each reconsidered when another joins.
+/// stays open, each reconsidered when another joins; where that leaves one open, the same effect on
+/// every actuator that shows it.
 namespace sim::diagnosis {
 
 struct Selection {

@@ -200,6 +200,18 @@ DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
           layout.smooth(name.load), layout.smooth(name.torque)};
 }
 
+/// What an actuator's ECU was sent and what it followed.
+void add_set_points(Layout& layout, const erp::Actuator& actuator, ActuatorSignals& signals) {
+  const std::string channel = recording::sent_to(actuator.ecu, actuator.channel);
+  signals.sent = layout.held(channel + ".sent");
+  signals.followed = layout.held(channel + ".followed");
+  const Signal sent_as = layout.held(channel + ".sent_request"),
+               followed_as = layout.held(channel + ".followed_request");
+  if (signals.sent.empty() || signals.followed.empty()) signals.sent = signals.followed = {};
+  for (std::size_t k = 0; k < signals.sent.size(); ++k)
+    if (sent_as[k] != followed_as[k]) signals.sent[k] = recording::not_taken;
+}
+
 /// What a robot's columns are called, in words.
 std::string columns_of(const erp::Robot& robot) {
   std::string names;
@@ -240,6 +252,7 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
     episode.actuators.push_back({layout.held(a + "mode"), layout.held(a + "reference"),
                                  layout.held(a + "voltage_V"), layout.held(a + "current_A"),
                                  layout.smooth(a + "shaft_rad"), layout.smooth(a + "tension_N")});
+    add_set_points(layout, actuator, episode.actuators.back());
     const ActuatorSignals& s = episode.actuators.back();
     any |= !s.voltage_V.empty() || !s.current_A.empty() || !s.shaft_rad.empty() ||
            !s.tension_N.empty();

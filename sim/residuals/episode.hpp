@@ -32,6 +32,9 @@ RowTimes row_times(const recording::Table& table);
 struct ActuatorSignals {
   Signal mode, reference, voltage_V, current_A, shaft_rad, tension_N;
   bool current_around = false;  ///< it is the mean around a row, not what was at its instant
+  /// Set-points in counts: the newest that was sent to the ECU before, and what it followed; NaN
+  /// where they are of two modes; empty: nobody recorded them.
+  Signal sent = {}, followed = {};
 };
 
 /// A revolute joint's angle, or a spherical one's quaternion w x y z.
