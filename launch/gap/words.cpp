@@ -50,6 +50,12 @@ std::string zero_doubt(const std::vector<sim::diagnosis::Named>& answer, const e
 
 std::string free_run_doubt(const sim::diagnosis::Closed& c) {
   constexpr double plain = 2, enough = 0.5;  // chosen: of the noise, and closed
+  constexpr double rest = 3;                 // chosen: of the noise
+  if (c.closed >= enough && c.after > rest * c.floor)
+    return fmt::format(
+        "let run freely with them, the simulator stays {:.3g} times what noise alone would do off: "
+        "something small is left that these residuals show too little of; record other motions",
+        c.after);
   if (c.before <= plain * c.floor || c.closed >= enough) return "";
   return fmt::format(
       "let run freely, the simulator is {:.3g} times what noise alone would do off, and {:.3g} "

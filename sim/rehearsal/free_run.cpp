@@ -53,6 +53,8 @@ std::string obstacle(const Episode& e, const erp::Robot& robot) {
 Score score_of(const Episode& e) {
   Score score(e.rows, std::vector<Asked>(e.actuators.size()));
   std::vector<std::size_t> unsaid(e.actuators.size());
+  std::vector<Signal> asked;
+  for (const auto& actuator : e.actuators) asked.push_back(actuator.sent_reference());
   for (std::size_t k = 0; k < e.rows; ++k)
     for (std::size_t a = 0; a < e.actuators.size(); ++a) {
       const double mode = e.actuators[a].mode[k];
@@ -60,7 +62,7 @@ Score score_of(const Episode& e) {
       if (k > 0 && unsaid[a] > 0 && unsaid[a] <= held_rows) score[k][a] = score[k - 1][a];
       else if (std::isnan(mode)) score[k][a].reference = mode;
       else if (mode != 0)
-        score[k][a] = {static_cast<erp::Mode>(std::lround(mode)), e.actuators[a].reference[k]};
+        score[k][a] = {static_cast<erp::Mode>(std::lround(mode)), asked[a][k]};
     }
   return score;
 }
