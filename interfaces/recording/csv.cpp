@@ -135,7 +135,10 @@ class Parser {
     const Cell& cell = cells[order_.front()];
     if (std::isnan(time_s.back())) fail(cell.column, "time_s is empty", "every row needs its time");
     if (time_s.size() > 1 && time_s.back() < time_s[time_s.size() - 2])
-      fail(cell.column, "time_s steps back to " + cell.text, "sort the rows by time");
+      fail(cell.column, "time_s steps back to " + cell.text,
+           time_s.back() <= time_s.front() ? "two recordings in one: give each a file of its own"
+                                           : "sort the rows by the time of measurement; times of "
+                                             "arrival may overtake each other");
   }
 
   double value_of(const Cell& cell, const std::string& column) const {

@@ -4,11 +4,15 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/residuals/drives.hpp"
+
 namespace sim::soundness {
 namespace {
 
 constexpr double long_s = 2;  // chosen, as the shares below
 constexpr double of_supply = 0.1, of_range = 0.1, of_noise = 20;
+constexpr double of_noise_all_along =
+    5;  // a converter that says the same of it for a whole recording
 constexpr double way_m = 0.005, way_without_tension_m = 0.015;
 
 struct Run {
@@ -47,10 +51,12 @@ const Signal& signal_of(const Episode& e, const Column& c) {
 /// may stand.
 class Movers {
  public:
-  Movers(const erp::Robot& robot, const Laws& laws, const Means& means)
-      : robot_(robot), laws_(laws), means_(means) {}
+  Movers(const erp::Robot& robot, const Laws& laws, const Means& means, bool all_along)
+      : robot_(robot), laws_(laws), means_(means), all_along_(all_along) {}
 
   std::vector<Column> of(const Column& c) const {
+    const bool of_motor = c.quantity == Quantity::voltage || c.quantity == Quantity::current;
+    if (of_motor && residuals::drive_of(robot_, actuator(c.of).name)) return of_control(c.of);
     switch (c.quantity) {
       case Quantity::voltage:
         return of_voltage(c.of);
@@ -80,6 +86,19 @@ class Movers {
       sum[k] = times * sum[k] + of_speed * back_emf * (speed.empty() ? 0 : speed[k]);
     return sum;
   }
+  /// The model of a drive has neither spring nor weight: nothing but its control turns it back.
+  std::vector<Column> of_control(std::size_t a) const {
+    constexpr double fast = 0.2;  // of the fastest; chosen
+    const Signal& speed = means_.actuators[a].speed_rad_per_s;
+    double top = 0, last = 0;
+    for (const double w : speed)
+      if (std::isfinite(w)) top = std::fmax(top, std::abs(w));
+    int turns = 0;
+    for (const double w : speed)
+      if (std::abs(w) > fast * top) turns += last * w < 0, last = w;
+    if (!all_along_ || turns < 2) return {};
+    return {{Quantity::shaft, a}};
+  }
   std::vector<Column> of_voltage(std::size_t a) const {
     const Signal& current = said(Quantity::current, a);
     const double needed = spread_of(volts(a, current, motor(a).resistance_ohm, 1));
@@ -91,7 +110,8 @@ class Movers {
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
     const double step_A = 2 * sensors.current_range_A / std::exp2(sensors.current_bits);
     const double drop_A = spread_of(volts(a, voltage, 1, -1)) / motor(a).resistance_ohm;
-    if (spread_of(voltage) == 0 || !(drop_A > of_noise * (step_A + sensors.current_noise_A)))
+    const double times = all_along_ ? of_noise_all_along : of_noise;
+    if (spread_of(voltage) == 0 || !(drop_A > times * (step_A + sensors.current_noise_A)))
       return {};
     return {{Quantity::voltage, a}, {Quantity::shaft, a}};
   }
@@ -142,6 +162,7 @@ class Movers {
   const erp::Robot& robot_;
   const Laws& laws_;
   const Means& means_;
+  const bool all_along_;
 };
 
 }  // namespace
@@ -161,7 +182,7 @@ std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& r
     if (!all_along && double(run.rows()) * episode.period_s < long_s) continue;
     if (all_along && !whole) whole = laws.means(episode, 0, episode.rows);
     const Means part = all_along ? Means{} : laws.means(episode, run.from, run.until);
-    const auto told_by = Movers(robot, laws, all_along ? *whole : part).of(column);
+    const auto told_by = Movers(robot, laws, all_along ? *whole : part, all_along).of(column);
     if (!told_by.empty())
       dead.push_back({column, signal[run.from], run.from, run.until, all_along, told_by});
   }

@@ -212,6 +212,20 @@ class Vote {
 
 }  // namespace
 
+namespace {
+
+/// What is mended by itself later is no alternative to what was mended before.
+void drop_later(std::vector<Either>& all) {
+  for (auto either = all.begin(); either != all.end(); ++either)
+    std::erase_if(*either, [&](const Mending& m) {
+      return m.columns != (*either)[0].columns &&
+             std::any_of(either + 1, all.end(),
+                         [&](const Either& later) { return later[0].columns == m.columns; });
+    });
+}
+
+}  // namespace
+
 std::vector<Either> mendings(const erp::Robot& robot, Laws& laws, Means means) {
   std::vector<Either> all;
   while (all.size() < most) {
@@ -222,6 +236,7 @@ std::vector<Either> mendings(const erp::Robot& robot, Laws& laws, Means means) {
     all.push_back(std::move(best));
     if (done) break;
   }
+  drop_later(all);
   return all;
 }
 

@@ -60,7 +60,8 @@ std::vector<std::string> odd_table(const recording::Table& table, const erp::Rob
   if (has_ecus && period_s > 1.5 * residuals::tick_s)
     odd.push_back(fmt::format(
         "{}: time_s: a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors "
-        "and gearboxes may be what is missing between the rows: record one each {:g} ms",
+        "and gearboxes may be what is missing between the rows: record one each {:g} ms; if "
+        "they are that close, time_s is stretched",
         name, 1e3 * period_s, 1e3 * residuals::tick_s, 1e3 * residuals::tick_s));
   if (jitter_s > much * period_s)
     odd.push_back(fmt::format(

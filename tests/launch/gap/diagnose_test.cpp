@@ -48,7 +48,8 @@ struct Told {
 };
 
 Told diagnosed(const Folder& folder, launch::gap::DiagnoseOptions how) {
-  how.robot = robot_file, how.out = folder.path / "found";
+  if (how.robot.empty()) how.robot = robot_file;
+  how.out = folder.path / "found";
   std::ostringstream out, remarks;
   const int code = launch::gap::diagnose(how, out, remarks);
   return {code, out.str()};
@@ -98,6 +99,23 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
                                 Catch::Contains("next        erp gap plan --robot "));
 
   CHECK(diagnosed(folder, {.train = {rubs}, .held_out = {plain}}).code == 5);
+}
+
+TEST_CASE("spindles that are all wrong alike are not taken for the sensor of the joint they move") {
+  const Folder folder;
+  erp::Robot robot = erp::read_robot(robot_file);
+  for (erp::Actuator& actuator : robot.actuators) actuator.spindle.radius_m /= 0.75;
+  const std::string model = folder.path / "thick.xml";
+  std::ofstream(model) << erp::write_robot(robot);
+  const Told told = diagnosed(folder, {.robot = model,
+                                       .recordings = {folder.recorded("one.csv", false, 1, 12)},
+                                       .free_run = false});
+  INFO(told.text);
+  CHECK(told.code == 0);
+  CHECK_THAT(told.text,
+             Catch::Contains("which       spindle_radius on flexor  relative = -0.25") &&
+                 Catch::Contains("which       spindle_radius on extensor  relative = -0.25") &&
+                 Catch::Contains("on the rest of the recording"));
 }
 
 TEST_CASE("one recording too short to be split supports nothing, and says what it looks like") {
