@@ -232,7 +232,7 @@ TEST_CASE("a mistake in a CSV is refused with file, line, column, value and reme
   refused("time_s,m.tension_N\n0,1,5\n", ":2:5: the row has 3 cells, the header 2");
   refused("time_s,m.tension_N\n0\n", ":2:1: the row has 1 cells");
   refused("time_s,m.tension_N\n0,1e999\n", "beyond what a double holds");
-  refused("time_s,m.tension_N\n1,0\n0.5,0\n", ":3:1: time_s steps back to 0.5");
+  refused("time_s,m.tension_N\n1,0\n0.5,0\n", ":3:1: time_s steps back to 0.5; two recordings in one");
   refused("time_s,m.tension_N\n,0\n", ":2:1: time_s is empty");
   refused("m.tension_N,time_s\n0,1\n0,0\n", ":3:3: time_s steps back");
   refused("time_s,\"m.mode\n0,1\n", "a quoted cell does not end");

@@ -120,6 +120,15 @@ TEST_CASE("two things wrong are both told") {
              Catch::Contains("flexor.voltage_V") && Catch::Contains("extensor.tension_N"));
 }
 
+TEST_CASE("the same thing wrong on both sides is told of both, not of one or the other") {
+  const auto odd = odd_after([](Episode& e) {
+    for (auto& actuator : e.actuators) scale(actuator.current_A, 1000);
+  });
+  REQUIRE(odd.size() == 2);
+  CHECK_THAT(odd[0], Catch::Contains("flexor.current_A: 1000 times") && !Catch::Contains("; or "));
+  CHECK_THAT(odd[1], Catch::Contains("extensor.current_A: 1000 times"));
+}
+
 TEST_CASE("what is a third too small looks like no unit") {
   CHECK(odd_after([](Episode& e) { scale(e.actuators[0].tension_N, 0.3); }).empty());
 }
@@ -143,6 +152,17 @@ TEST_CASE("a column that stands still while the others move is told, and blames 
                std::fill(current.begin() + 2000, current.end(), current[2000]);
              }),
              "flexor.current_A", "from 4 s to 8 s");
+}
+
+TEST_CASE("a converter that says the same all along is told by less than one that froze") {
+  const auto slowly = [](std::size_t from) {
+    Episode e = rig_recording::record(hinge_rig(), hinge_rig(), {.seconds = 8, .swing_N = 2, .ripple_N = 1});
+    auto& current = e.actuators[0].current_A;
+    std::fill(current.begin() + std::ptrdiff_t(from), current.end(), 0.1);
+    return sim::soundness::odd_units(e, hinge_rig());
+  };
+  check_says(slowly(0), "flexor.current_A says 0.1 all the time", "looks dead");
+  CHECK(slowly(500).empty());
 }
 
 TEST_CASE("a motor that idles is not dead") {
@@ -174,4 +194,10 @@ TEST_CASE("a drive's sign, unit and dead encoder are told by its inertia, in its
   REQUIRE(odd_by(0).size() == 1);
   CHECK_THAT(odd_by(0)[0],
              Catch::Contains("z.position_m says 0 all the time while z.control_V moves"));
+  Episode undriven = slide_that_swings(robot);
+  std::ranges::fill(undriven.actuators[0].current_A, 0.5);
+  const auto odd = sim::soundness::odd_units(undriven, sim::residuals::as_chains(robot));
+  REQUIRE(odd.size() == 1);
+  CHECK_THAT(odd[0], Catch::Contains("z.control_V says") &&
+                         Catch::Contains("all the time while z.position_m moves"));
 }
