@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace {
@@ -31,7 +32,8 @@ GapMonitor::GapMonitor(const Params& params, const erp::Robot& robot, node::Node
                                   depth, node::Where::in_loop);
   node.subscribe<erp::SensorFrame>(
       [this](const erp::SensorFrame& frame) {
-        window_.hear(frame), heard_ = true;
+        window_.hear(frame), heard_ = ever_heard_ = true;
+        judged_ns_ = std::min(judged_ns_, frame.stamp_ns);  // another graph's time begins anew
         if (1e-9 * double(frame.stamp_ns - judged_ns_) < params_.every_s) return;
         judged_ns_ = frame.stamp_ns;
         judge();
@@ -41,10 +43,13 @@ GapMonitor::GapMonitor(const Params& params, const erp::Robot& robot, node::Node
 }
 
 void GapMonitor::tell_waiting() {
-  if (heard_ || told_waiting_) return;
-  told_waiting_ = true;
+  const bool silent = !heard_, told = told_waiting_;
+  heard_ = false, told_waiting_ = silent;
+  if (!silent || told) return;
   node_.report(erp::Severity::info, "", "waiting",
-               "no sensor frame yet: launch a graph, on the same ERP_DOMAIN");
+               ever_heard_
+                   ? "no sensor frame for 5 s: has the graph ended? The next one is watched too"
+                   : "no sensor frame yet: launch a graph, on the same ERP_DOMAIN");
 }
 
 void GapMonitor::judge() {

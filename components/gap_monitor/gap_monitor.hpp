@@ -30,6 +30,7 @@ class GapMonitor {
     int open = 0, closed = 0;  ///< times in a row
     bool told = false;
   };
+  /// Once for each silence.
   void tell_waiting();
   void judge();
   void publish(const std::vector<sim::diagnosis::StageGap>& gaps);
@@ -42,5 +43,6 @@ class GapMonitor {
   erp::StageResidual message_;
   std::map<std::string, Said> said_;
   std::int64_t judged_ns_ = 0;
-  bool heard_ = false, told_why_ = false, told_waiting_ = false;
+  bool heard_ = false, ever_heard_ = false;  ///< a frame, lately and at all
+  bool told_why_ = false, told_waiting_ = false;
 };

@@ -67,6 +67,7 @@ void Window::hear(const erp::SensorFrame& frame) {
     if (joint.type == erp::JointType::spherical) row.insert(row.end(), pose, pose + 4), pose += 4;
   }
   std::ranges::fill(joint_state_, recording::not_taken);
+  if (frame.stamp_ns < stamp_ns_) rows_.clear();  // another run
   rows_.push_back(std::move(row));
   if (rows_.size() > most_) rows_.pop_front();
   stamp_ns_ = frame.stamp_ns;

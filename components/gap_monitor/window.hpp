@@ -14,6 +14,7 @@ class Window {
   /// Throws as sim::residuals::Stages.
   Window(const erp::Robot& model, double window_s);
 
+  /// One that is stamped before the last is of another run, with which the window begins anew.
   void hear(const erp::SensorFrame& frame);
   /// For joints that sensor_frame does not carry: motion capture's, else the simulator's, never an
   /// estimate.

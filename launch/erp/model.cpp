@@ -128,7 +128,9 @@ int model_effects(const std::string& part, std::ostream& out) {
     const sim::effects::About& about = sim::effects::about(effect);
     if (about.type.find(part) == about.type.npos) continue;
     any = true;
-    out << fmt::format("{}  on: {}  shown by: {}\n", about.type, word(about.seat), about.shown_by);
+    const bool whole = about.seat == sim::effects::Seat::robot;
+    out << fmt::format("{}  on: {}  shown by: {}\n", about.type,
+                       whole ? "robot, by its name" : word(about.seat), about.shown_by);
     for (const auto& p : sim::effects::parameters(effect))
       out << fmt::format("    {:<26} {:>8} … {:<8} default {}\n", p.name, p.bounds.low,
                          p.bounds.high, *p.value);

@@ -19,7 +19,9 @@ void add_where(CLI::App& gap, Chosen& chosen) {
   auto recordings = std::make_shared<std::vector<std::string>>();
   auto* where = gap.add_subcommand(
       "where", "Which stages of the chain recordings contradict: motor, gearbox, tendon, joint");
-  where->footer("Exit codes: 0 told, 5 nothing could be judged; 1 failed, 2 bad usage or input.");
+  where->footer(
+      "Exit codes: 0 told, 5 too little moves to judge anything; 1 failed, 2 bad usage or input, "
+      "also columns that no law can do with.");
   where->add_option("--robot", *robot, "robot.xml, the model")->required();
   where->add_option("--real", *recordings, "recordings of the robot, MCAP or CSV")->required();
   where->callback([=, &chosen] {
@@ -100,13 +102,14 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->add_option("--robot", o->robot, "robot.xml, the model")->required();
   make->add_option("--out", o->out, "folder for the cases")->required();
   make->add_option("--truth", o->truth, "file for what is hidden")->required();
-  make->add_option("--kind", o->kind, "what cases hide")
+  make->add_option("--kind", o->kind, "what cases hide; default: single")
       ->check(CLI::IsMember({"single", "null", "pair", "outside", "withheld"}));
   make->add_option("--only", o->only, "types to hide; default: any");
-  make->add_option("--cases", o->cases, "how many")->check(above_zero());
-  make->add_option("--recordings", o->recordings, "a case")->check(above_zero());
-  make->add_option("--seconds", o->seconds, "a recording")->check(above_zero());
-  make->add_option("--seed", o->seed, "of the first case; the next ones follow");
+  make->add_option("--cases", o->cases, "how many; default: 10")->check(above_zero());
+  make->add_option("--recordings", o->recordings, "a case; default: 4")->check(above_zero());
+  make->add_option("--seconds", o->seconds, "a recording; default: 10")
+      ->check(CLI::Range(2.0, 600.0));
+  make->add_option("--seed", o->seed, "of the first case, the next ones follow; default: 1");
   make->add_option("--without", o->without, "signals not recorded")
       ->check(CLI::IsMember({"tension", "current", "joint"}));
   make->add_option("--threads", o->threads, "default: all cores")->check(above_zero());

@@ -24,16 +24,24 @@ struct Sorted {
   std::vector<std::size_t> train, held_out;
 };
 
+/// However they are written.
+bool same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  return a == b || fs::weakly_canonical(a) == fs::weakly_canonical(b);
+}
+
 Sorted sort(const DiagnoseOptions& options) {
   Sorted sorted;
   const auto index = [&](const std::string& file) {
-    const auto found = std::ranges::find(sorted.files, file);
+    const auto found = std::ranges::find_if(
+        sorted.files, [&](const std::string& other) { return same_file(other, file); });
     if (found != sorted.files.end()) return static_cast<std::size_t>(found - sorted.files.begin());
     sorted.files.push_back(file);
     return sorted.files.size() - 1;
   };
   for (const std::string& file : options.recordings) {
-    if (std::ranges::count(sorted.files, file))
+    if (std::ranges::any_of(sorted.files,
+                            [&](const std::string& other) { return same_file(other, file); }))
       throw std::invalid_argument(file + ": named twice; one recording is no repeat of itself");
     index(file);
   }

@@ -96,6 +96,12 @@ void count_intervals(const Json& hidden, const Json& effect, Rate& rate) {
       rate.count(effect["intervals"][name][0] <= value && value <= effect["intervals"][name][1]);
 }
 
+/// Of a gap that is no more than noise a share says nothing.
+std::string truth_closes(double share) {
+  return share < 0 || share > 1.1 ? "a gap within the noise"
+                                  : fmt::format("truth closes {:.0f} %", 100 * share);
+}
+
 /// `most`: what the truth closes, if the library has it.
 void score_single(const Json& truth, const Json& d, std::optional<double> most, Score& score) {
   const Json& hidden = truth["hidden"][0];
@@ -118,8 +124,7 @@ void score_single(const Json& truth, const Json& d, std::optional<double> most, 
   if (most && *most > worth_closing)
     score.closed += d["gap"]["closed"].get<double>() / *most, ++score.closings;
   if (d["verdict"] != "supported" || !in_set || !located(hidden, d))
-    score.failures.push_back(failure(truth, d) +
-                             (most ? fmt::format(" | truth closes {:.0f} %", 100 * *most) : ""));
+    score.failures.push_back(failure(truth, d) + (most ? " | " + truth_closes(*most) : ""));
 }
 
 void score_none(const Json& truth, const Json& d, Score& score) {

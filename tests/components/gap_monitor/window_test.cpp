@@ -61,6 +61,16 @@ TEST_CASE("a window of a robot as modelled is at its floor, one with an effect s
         std::vector<std::string>{"gearbox extensor"});
 }
 
+TEST_CASE("another run begins a window of its own") {
+  const erp::Robot robot = hinge_rig();
+  const auto table = rig_recording::table_of_run(robot, {.seconds = 5});
+  gap_monitor::Window window(robot, 4);
+  for (std::size_t row = 0; row < table.rows(); ++row) window.hear(frame_of(table, robot, row));
+  CHECK(window.full());
+  for (std::size_t row = 0; row < 100; ++row) window.hear(frame_of(table, robot, row));
+  CHECK(window.table().rows() == 100);
+}
+
 TEST_CASE("a ball joint is where motion capture says, else the simulator, never an estimate") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const auto joints = robot.joints();
