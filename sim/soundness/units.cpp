@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/soundness/at_limit.hpp"
 #include "sim/soundness/dead_columns.hpp"
 #include "sim/soundness/mending.hpp"
 
@@ -36,6 +37,13 @@ class Words {
         "{} says {:.4g} {} while {} move{}: it looks dead: mend the sensor, or leave {} out",
         names({dead.column}), dead.value, when, names(dead.told_by),
         dead.told_by.size() == 1 ? "s" : "", dead.all_along ? "the column" : "those rows");
+  }
+  std::string of(const AtLimit& at) const {
+    return fmt::format(
+        "{} stands at the end of its range, {:.4g}, in {:.2g} % of the rows: what was beyond is "
+        "not "
+        "in the recording: leave these cells empty, or record less of it",
+        names({at.column}), at.limit, 100 * at.share);
   }
   std::string of(const Mending& m) const {
     const std::string told_by = names(m.told_by);
@@ -99,6 +107,14 @@ std::string far_beyond(const erp::Joint& joint, const Signal& angle) {
       joint.name, largest, joint.min_rad, joint.max_rad);
 }
 
+/// A column in another unit is beyond its range, of course.
+bool mends(const std::vector<Either>& all, const Column& column) {
+  return std::ranges::any_of(all, [&](const Either& either) {
+    return std::ranges::any_of(
+        either, [&](const Mending& m) { return std::ranges::count(m.columns, column) > 0; });
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> odd_units(const Episode& episode, const erp::Robot& robot) {
@@ -115,7 +131,10 @@ std::vector<std::string> odd_units(const Episode& episode, const erp::Robot& rob
     means.scale({Quantity::angle, j}, std::numbers::pi / 180);
   }
   laws.find_paths(means);
-  for (const Either& either : mendings(robot, laws, std::move(means))) say(words.of(either));
+  const auto mended = mendings(robot, laws, std::move(means));
+  for (const Either& either : mended) say(words.of(either));
+  for (const AtLimit& at : at_limit(episode, robot))
+    if (!mends(mended, at.column)) say(words.of(at));
   return odd;
 }
 

@@ -10,7 +10,7 @@ namespace sim::soundness {
 
 /// What is odd, one sentence each, with what it looks like and what to do; empty: nothing. Columns
 /// that stand still while others move (dead_columns.hpp), angles far beyond a joint's stops, then
-/// what would put most laws right (mending.hpp).
+/// what would put most laws right (mending.hpp), then converters at the end of their range (at_limit.hpp).
 std::vector<std::string> odd_units(const residuals::Episode& episode, const erp::Robot& robot);
 
 }  // namespace sim::soundness

@@ -156,13 +156,24 @@ TEST_CASE("a column that stands still while the others move is told, and blames 
 
 TEST_CASE("a converter that says the same all along is told by less than one that froze") {
   const auto slowly = [](std::size_t from) {
-    Episode e = rig_recording::record(hinge_rig(), hinge_rig(), {.seconds = 8, .swing_N = 2, .ripple_N = 1});
+    Episode e = rig_recording::record(hinge_rig(), hinge_rig(),
+                                      {.seconds = 8, .swing_N = 2, .ripple_N = 1});
     auto& current = e.actuators[0].current_A;
     std::fill(current.begin() + std::ptrdiff_t(from), current.end(), 0.1);
     return sim::soundness::odd_units(e, hinge_rig());
   };
   check_says(slowly(0), "flexor.current_A says 0.1 all the time", "looks dead");
   CHECK(slowly(500).empty());
+}
+
+TEST_CASE("a converter at the end of its range is told, one in another unit not twice") {
+  const double range_N = hinge_rig().sensors_of(hinge_rig().actuators[0]).tension_range_N;
+  check_says(odd_after([&](Episode& e) {
+               auto& tension = e.actuators[0].tension_N;
+               std::fill(tension.begin() + 1000, tension.begin() + 1100, range_N);
+             }),
+             "flexor.tension_N stands at the end of its range", "2.5 % of the rows");
+  CHECK(odd_after([&](Episode& e) { scale(e.actuators[0].tension_N, 1000); }).size() == 1);
 }
 
 TEST_CASE("a motor that idles is not dead") {
