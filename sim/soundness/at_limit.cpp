@@ -10,7 +10,7 @@ namespace {
 
 using residuals::Column, residuals::Quantity, residuals::Signal;
 
-constexpr double much = 0.005;  // of the rows; chosen
+constexpr double much = 0.02;  // of the rows; chosen
 
 /// How often it is at least so large, of the rows that were taken.
 double share_beyond(const Signal& signal, double limit) {

@@ -12,8 +12,8 @@ struct AtLimit {
   double share = 0;  ///< of the rows that were taken
 };
 
-/// Currents and tensions that stand at the end of their range in more than half a percent of the
-/// rows. A slack tendon's zero is no end.
+/// Currents and tensions that stand at the end of their range in more than 2 % of the rows. A
+/// slack tendon's zero is no end.
 std::vector<AtLimit> at_limit(const residuals::Episode& episode, const erp::Robot& robot);
 
 }  // namespace sim::soundness
