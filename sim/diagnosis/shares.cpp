@@ -1,54 +1,91 @@
 #include "sim/diagnosis/shares.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cstdint>
+#include <map>
 
+#include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
 namespace {
 
+constexpr std::size_t all_subsets_of = 6;  // effects; chosen: of more there are too many
+
 double factorial(std::size_t n) { return n < 2 ? 1 : static_cast<double>(n) * factorial(n - 1); }
 
-/// φ from v, whose index has a bit for each effect that is there.
-std::vector<double> shapley(const std::vector<double>& v, std::size_t count) {
-  std::vector<double> share(count, 0.0);
-  for (std::size_t set = 0; set < v.size(); ++set)
-    for (std::size_t k = 0; k < count; ++k) {
-      if (set >> k & 1) continue;
-      const auto size = static_cast<std::size_t>(std::popcount(set));
-      const double orders = factorial(size) * factorial(count - size - 1) / factorial(count);
-      share[k] += orders * (v[set | std::size_t{1} << k] - v[set]);
-    }
-  return share;
-}
+/// Which effects are there, one bit each.
+using Set = std::uint64_t;
+constexpr Set only(std::size_t k) { return Set{1} << k; }
 
-/// Scores of every subset, whose index has a bit for each effect that is there.
-using Subsets = std::vector<std::vector<ScoreBlock>>;
+/// Scores of subsets of the effects.
+struct Subsets {
+  std::size_t count;  ///< effects
+  std::map<Set, std::vector<ScoreBlock>> blocks;
+
+  Set whole() const { return only(count) - 1; }
+};
+
+/// Those that the shares need: all, or of many effects none, each alone, all but each and all.
+std::vector<Set> needed(std::size_t count) {
+  const Set whole = only(count) - 1;
+  std::vector<Set> sets;
+  if (count <= all_subsets_of)
+    for (Set set = 0; set <= whole; ++set) sets.push_back(set);
+  else {
+    sets = {0, whole};
+    for (std::size_t k = 0; k < count; ++k)
+      sets.push_back(only(k)), sets.push_back(whole & ~only(k));
+  }
+  return sets;
+}
 
 Subsets score(const Evidence& evidence, const Trials& trials,
               const std::vector<effects::Placed>& together) {
-  Subsets blocks(std::size_t{1} << together.size());
+  Subsets subsets{together.size(), {}};
   const auto& held_out = evidence.sets.held_out;
-  for (std::size_t set = 0; set < blocks.size(); ++set) {
+  const auto sets = needed(together.size());
+  for (const Set set : sets) subsets.blocks[set];
+  in_parallel(sets.size(), evidence.options.threads, [&](std::size_t n) {
     std::vector<effects::Placed> some;
     for (std::size_t k = 0; k < together.size(); ++k)
-      if (set >> k & 1) some.push_back(together[k]);
-    blocks[set] = trials.blocks(set == 0 ? trials.bare() : trials.with(some, held_out), held_out);
-  }
-  return blocks;
+      if (sets[n] & only(k)) some.push_back(together[k]);
+    subsets.blocks.at(sets[n]) =
+        trials.blocks(some.empty() ? trials.bare() : trials.with(some, held_out), held_out);
+  });
+  return subsets;
 }
 
-/// v of every subset, over some blocks.
-std::vector<double> closed(const Subsets& blocks, std::span<const std::size_t> drawn) {
-  std::vector<double> v(blocks.size(), 0.0);
+/// v of the subsets, over some blocks.
+using Closes = std::map<Set, double>;
+
+Closes closed(const Subsets& subsets, std::span<const std::size_t> drawn) {
+  Closes v;
+  const auto& before = subsets.blocks.at(0);
   double gap = 0;
-  for (const std::size_t b : drawn) {
-    gap += blocks[0][b].square - static_cast<double>(blocks[0][b].windows);
-    for (std::size_t set = 0; set < v.size(); ++set)
-      v[set] += blocks[0][b].square - blocks[set][b].square;
+  for (const std::size_t b : drawn)
+    gap += before[b].square - static_cast<double>(before[b].windows);
+  for (const auto& [set, blocks] : subsets.blocks) {
+    double taken = 0;
+    for (const std::size_t b : drawn) taken += before[b].square - blocks[b].square;
+    v[set] = taken / std::max(gap, 1e-9);
   }
-  for (double& x : v) x /= std::max(gap, 1e-9);
   return v;
+}
+
+/// φ of effect k.
+double shapley(const Closes& v, std::size_t k, std::size_t count) {
+  const Set whole = only(count) - 1;
+  if (count > all_subsets_of) return (v.at(only(k)) + v.at(whole) - v.at(whole & ~only(k))) / 2;
+  double share = 0;
+  for (const auto& [set, closes] : v) {
+    if (set & only(k)) continue;
+    const auto size = static_cast<std::size_t>(std::popcount(set));
+    const double orders = factorial(size) * factorial(count - size - 1) / factorial(count);
+    share += orders * (v.at(set | only(k)) - closes);
+  }
+  return share;
 }
 
 }  // namespace
@@ -56,20 +93,21 @@ std::vector<double> closed(const Subsets& blocks, std::span<const std::size_t> d
 Shares shares(const Evidence& evidence, const Trials& trials,
               const std::vector<effects::Placed>& together) {
   const std::size_t count = together.size();
-  const Subsets blocks = score(evidence, trials, together);
-  const auto every = each(blocks[0].size());
-  const auto v = closed(blocks, every);
-  Shares result{shapley(v, count), {}, {}, v.back()};
+  const Subsets subsets = score(evidence, trials, together);
+  const Set whole = subsets.whole();
+  const auto every = each(subsets.blocks.at(0).size());
+  const Closes v = closed(subsets, every);
+  Shares result{{}, {}, {}, v.at(whole)};
   const auto interval = [&](auto of) {
     return middle(bootstrap(every.size(), 400, evidence.options.seed,
-                            [&](const auto& drawn) { return of(closed(blocks, drawn)); }));
+                            [&](const auto& drawn) { return of(closed(subsets, drawn)); }));
   };
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t alone = std::size_t{1} << k;
-    result.interaction -= v[alone];
-    result.interval.push_back(interval([&](const auto& w) { return shapley(w, count)[k]; }));
+    result.share.push_back(shapley(v, k, count));
+    result.interaction -= v.at(only(k));
+    result.interval.push_back(interval([&](const Closes& w) { return shapley(w, k, count); }));
     result.lost.push_back(
-        interval([&](const auto& w) { return w.back() - w[w.size() - 1 - alone]; }));
+        interval([&](const Closes& w) { return w.at(whole) - w.at(whole & ~only(k)); }));
   }
   return result;
 }

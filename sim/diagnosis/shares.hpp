@@ -9,7 +9,8 @@
 ///   v(S) = (S₀ − S_S)/(S₀ − N)                       closed by the subset S of the effects
 ///   φ_k  = mean over all orders of joining of v(S + k) − v(S)                (Shapley 1953)
 ///
-/// Their sum is what all close; lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
+/// Of more than six, whose subsets are too many, (v({k}) + v(all) − v(all but k))/2, which is the same
+/// where no three interact. Their sum is what all close; lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
 namespace sim::diagnosis {
 
 struct Shares {

@@ -128,9 +128,8 @@ std::vector<effects::AnyEffect> kinds_of(const std::vector<Ranked>& ranked,
 
 std::optional<Together> of_one_batch(const Evidence& evidence, const Trials& trials,
                                      const std::vector<Ranked>& ranked) {
-  constexpr std::size_t most = 6;  // what each of them contributes is told by all their subsets
   const auto actuators = that_differ(evidence, trials);
-  if (actuators.size() < 2 || actuators.size() > most) return std::nullopt;
+  if (actuators.size() < 2) return std::nullopt;
   const auto kinds = kinds_of(ranked, actuators);
   std::vector<std::optional<Together>> tried(kinds.size());
   in_parallel(kinds.size(), evidence.options.threads, [&](std::size_t k) {

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "interfaces/xml/values.hpp"
+#include "sim/actuator/ecu_units.hpp"
 #include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/indices.hpp"
 #include "sim/residuals/measured.hpp"
@@ -49,20 +50,34 @@ std::string obstacle(const Episode& e, const erp::Robot& robot) {
   return "";
 }
 
+/// `reference` as it was sent, in counts that mean what the model makes of them; where nobody recorded
+/// that, as it is.
+Signal asked_of(const residuals::ActuatorSignals& said, const erp::Robot& robot,
+                const erp::Actuator& actuator) {
+  const EcuUnits units(robot.motor_of(actuator), robot.sensors_of(actuator), actuator.spindle);
+  Signal asked = said.reference;
+  for (std::size_t k = 0; k < said.sent.size(); ++k)
+    if (!std::isnan(said.mode[k]) && !std::isnan(said.sent[k]))
+      asked[k] =
+          units.reference(EcuUnits::request(static_cast<erp::Mode>(std::lround(said.mode[k]))),
+                          static_cast<std::int32_t>(said.sent[k]));
+  return asked;
+}
+
 /// Where a row is missing the last command goes on, as it does in the robot.
-Score score_of(const Episode& e) {
+Score score_of(const Episode& e, const erp::Robot& robot) {
   Score score(e.rows, std::vector<Asked>(e.actuators.size()));
   std::vector<std::size_t> unsaid(e.actuators.size());
   std::vector<Signal> asked;
-  for (const auto& actuator : e.actuators) asked.push_back(actuator.sent_reference());
+  for (std::size_t a = 0; a < e.actuators.size(); ++a)
+    asked.push_back(asked_of(e.actuators[a], robot, robot.actuators[a]));
   for (std::size_t k = 0; k < e.rows; ++k)
     for (std::size_t a = 0; a < e.actuators.size(); ++a) {
       const double mode = e.actuators[a].mode[k];
       unsaid[a] = std::isnan(mode) ? unsaid[a] + 1 : 0;
       if (k > 0 && unsaid[a] > 0 && unsaid[a] <= held_rows) score[k][a] = score[k - 1][a];
       else if (std::isnan(mode)) score[k][a].reference = mode;
-      else if (mode != 0)
-        score[k][a] = {static_cast<erp::Mode>(std::lround(mode)), asked[a][k]};
+      else if (mode != 0) score[k][a] = {static_cast<erp::Mode>(std::lround(mode)), asked[a][k]};
     }
   return score;
 }
@@ -76,7 +91,7 @@ using Errors = std::map<std::string, std::pair<std::string, std::vector<Second>>
 /// Three rehearsals of one recording, compared with it.
 Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& found,
                  std::uint64_t seed) {
-  const Score score = score_of(e);
+  const Score score = score_of(e, nominal);
   std::vector<std::string> remarks;
   const auto run = [&](const erp::Robot& robot, std::uint64_t noise) {
     return residuals::lay_out(rehearse(robot, score, noise), nominal, e.name, remarks);

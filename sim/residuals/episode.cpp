@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 #include <stdexcept>
 
@@ -224,21 +223,6 @@ std::string columns_of(const erp::Robot& robot) {
 }
 
 }  // namespace
-
-Signal ActuatorSignals::sent_reference() const {
-  Signal asked = reference;
-  std::map<int, std::pair<double, double>> largest;  // counts and reference, by mode
-  const auto told = [&](std::size_t k) { return !std::isnan(mode[k]) && !std::isnan(sent[k]); };
-  for (std::size_t k = 0; k < sent.size(); ++k)
-    if (told(k) && std::abs(followed[k]) > std::abs(largest[int(mode[k])].first))
-      largest[int(mode[k])] = {followed[k], reference[k]};
-  for (std::size_t k = 0; k < sent.size(); ++k) {
-    if (!told(k)) continue;
-    const auto [counts, in_unit] = largest[int(mode[k])];
-    if (counts != 0) asked[k] = sent[k] * in_unit / counts;
-  }
-  return asked;
-}
 
 RowTimes row_times(const recording::Table& table) {
   const recording::Column* time = table.find("time_s");

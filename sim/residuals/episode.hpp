@@ -35,8 +35,6 @@ struct ActuatorSignals {
   /// Set-points in counts: the newest that was sent to the ECU before, and what it followed; NaN
   /// where they are of two modes; empty: nobody recorded them.
   Signal sent = {}, followed = {};
-  /// `reference` as it was sent: what the ECU followed late, or never, where both were recorded.
-  Signal sent_reference() const;
 };
 
 /// A revolute joint's angle, or a spherical one's quaternion w x y z.

@@ -14,6 +14,7 @@ namespace {
 constexpr double together = 0.8;          // correlation, from which a slope is believed; chosen
 constexpr double widest_of_torques = 30;  // friction and efficiency count twice; chosen
 constexpr double beyond_stretch = 2;      // times: of a path that is more than that; chosen
+constexpr double of_a_third = 1.0 / 3;
 constexpr int fewest = 30;
 
 /// The slope of y on x, and their correlation, when a mean and what goes with `beside` are taken
@@ -157,10 +158,22 @@ void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) con
   std::vector<Column> columns = crossed_by(a);
   columns.push_back({Quantity::shaft, a});
   if (weighed) columns.push_back({Quantity::tension, a});
-  const Law path_law{Law::Kind::path, columns, path, line, line_of(path, line)};
+  const double wound_m = of_a_third * actuator.spindle.radius_m * rms(shaft);
+  const Law path_law{.kind = Law::Kind::path,
+                     .columns = columns,
+                     .foretold = path,
+                     .said = line,
+                     .line = line_of(path, line),
+                     .small_difference = rms(path) < wound_m};
   const double pull_N = weighed ? 0 : swing_of_pull_N(a, means);
   if (rms(path) > beyond_stretch * pull_N / stiffness) laws.push_back(path_law);
-  if (weighed) laws.push_back({Law::Kind::spring, columns, pull, tension, line_of(pull, tension)});
+  if (weighed)
+    laws.push_back({.kind = Law::Kind::spring,
+                    .columns = columns,
+                    .foretold = pull,
+                    .said = tension,
+                    .line = line_of(pull, tension),
+                    .small_difference = rms(tension) < stiffness * wound_m});
 }
 
 }  // namespace sim::soundness

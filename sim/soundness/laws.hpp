@@ -25,6 +25,9 @@ struct Law {
   Signal foretold, said;
   Line line;
   double widest = 3;  ///< times as much: few effects of a robot are as large; chosen
+  /// A measure that is a third off, as effects are, would be more than all of it: a line wound up
+  /// to pull harder, not to move a joint.
+  bool small_difference = false;
 
   bool believed() const;  ///< both sides go together
   bool silent() const;    ///< both move, and do not
