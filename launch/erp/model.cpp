@@ -132,8 +132,8 @@ int model_effects(const std::string& part, std::ostream& out) {
     out << fmt::format("{}  on: {}  shown by: {}\n", about.type,
                        whole ? "robot, by its name" : word(about.seat), about.shown_by);
     for (const auto& p : sim::effects::parameters(effect))
-      out << fmt::format("    {:<26} {:>8} … {:<8} default {}\n", p.name, p.bounds.low,
-                         p.bounds.high, *p.value);
+      out << fmt::format("    {:<26} {:>8} … {:<8} default {}{}\n", p.name, p.bounds.low,
+                         p.bounds.high, *p.value, p.fitted ? "" : ", which erp gap takes as it is");
   }
   if (!any) throw std::invalid_argument("no type of effect contains \"" + part + "\"");
   return 0;

@@ -8,6 +8,7 @@
 #include "interfaces/xml/words.hpp"
 #include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
+#include "launch/gap/rehearsed.hpp"
 #include "launch/gap/words.hpp"
 #include "launch/text/progress.hpp"
 #include "launch/text/text_files.hpp"
@@ -140,7 +141,9 @@ void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
 void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
            std::ostream& out) {
   print_answer(d, out);
-  if (!free_run.channels.empty())
+  if (!free_run.channels.empty() && d.answer.empty())
+    out << fmt::format("free run    {:.3g} times what noise alone would do\n", free_run.all.before);
+  else if (!free_run.channels.empty())
     out << fmt::format(
         "free run    {:.3g} times what noise alone would do before, {:.3g} after: {}\n",
         free_run.all.before, free_run.all.after, closed_words(free_run.all));
@@ -163,25 +166,6 @@ void write_found(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& f
   if (d.verdict == diagnosis::Verdict::supported)
     write_mended(mended, options.robot, found, {added, found.effects.end()});
   else std::filesystem::remove(mended);  // of an earlier diagnosis
-}
-
-/// The answer in the simulator, on the recordings held out. Nothing without an answer, and nothing
-/// of drives, which the simulator does not run.
-sim::rehearsal::FreeRun run_freely(const diagnosis::Diagnosis& d,
-                                   const std::vector<residuals::Episode>& episodes,
-                                   const erp::Robot& robot, const erp::Robot& found,
-                                   const DiagnoseOptions& options, Progress& progress) {
-  if (d.answer.empty() || !options.free_run || !robot.drives.empty()) return {};
-  std::vector<residuals::Episode> held_out;
-  for (const auto& e : episodes)
-    if (std::ranges::count(d.held_out, e.name)) held_out.push_back(e);
-  for (const auto& [recording, judged_from_s] : d.shared)
-    if (const auto e = std::ranges::find(held_out, recording, &residuals::Episode::name);
-        e != held_out.end())
-      e->judge_from(judged_from_s);
-  return sim::rehearsal::free_run(
-      robot, found, held_out,
-      {options.threads, options.seed, [&](double share) { progress.tell("free run", share); }});
 }
 
 /// What is written there must not cost anybody a model.
@@ -239,14 +223,14 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
                                  .seed = options.seed};
   how.progress = [&](const std::string& what, double share) { progress->tell(what, share); };
   diagnosis::Diagnosis d = diagnosis::diagnose(robot, read.episodes, how);
+  const auto free_run = run_freely(d, read.episodes, robot, options,
+                                   [&](double share) { progress->tell("free run", share); });
   erp::Robot found = erp::read_robot(options.robot);
   for (const auto& n : d.answer) found.effects.push_back(sim::effects::written(n.placed));
-  const auto free_run = run_freely(d, read.episodes, robot, found, options, *progress);
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
-  if (d.verdict == diagnosis::Verdict::supported)
-    for (const std::string& doubt : {free_run_doubt(free_run.all), zero_doubt(d.answer, robot)})
-      if (!doubt.empty()) d.warnings.push_back(doubt);
+  if (!free_run.channels.empty() || d.verdict == diagnosis::Verdict::supported)
+    for (const std::string& doubt : doubts(d, free_run.all, robot)) d.warnings.push_back(doubt);
   d.mend_first = read.odd;
   if (!options.withhold.empty())
     out << fmt::format("withheld    {}\n", fmt::join(options.withhold, ", "));

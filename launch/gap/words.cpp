@@ -6,9 +6,53 @@
 #include <cmath>
 
 namespace launch::gap {
+namespace {
+
+using sim::diagnosis::Named;
+
+constexpr double barely = 1.5;  // times the noise: more than that; chosen
+constexpr double plain = 2;     // a gap
+constexpr double rest = 3;      // and what is left of one
+
+/// A stage that was at its floor and is not any more.
+std::string opened_doubt(const sim::diagnosis::Diagnosis& d) {
+  for (const auto& u : d.unexplained) {
+    const auto before = sim::diagnosis::find_stage(d.stages, u.stage, u.on);
+    if (before != d.stages.end() && before->judged && !before->open)
+      return fmt::format(
+          "with the answer the {} of {} leaves its floor, where it was: it may only look like the "
+          "cause; record other motions",
+          sim::effects::word(u.stage), u.on);
+  }
+  return "";
+}
+
+/// What a time column that is wrong, or a column behind the others, would look like.
+std::string time_doubt(const std::vector<Named>& answer, const erp::Robot& robot) {
+  constexpr double small = 0.02, alike = 0.2;  // chosen
+  double low = small, high = -small;
+  std::size_t motors = 0;
+  for (const Named& n : answer) {
+    if (n.type.ends_with("_low_pass"))
+      return fmt::format(
+          "a reading that comes {:.3g} ms late looks much like this {} on {}: is its "
+          "column as old as the others?",
+          1e3 * n.values[0], n.type, n.on);
+    if (n.type == "motor_torque_constant")
+      ++motors, low = std::min(low, n.values[0]), high = std::max(high, n.values[0]);
+  }
+  const double widest = std::max(std::abs(low), std::abs(high));
+  if (motors < 2 || motors < robot.actuators.size() || widest >= small ||
+      high - low > alike * widest)
+    return "";
+  return fmt::format("the same on every motor: a time_s that runs {:.2g} % too {} looks alike",
+                     100 * widest, high > 0 ? "fast" : "slowly");
+}
+
+}  // namespace
 
 std::string closed_words(const sim::diagnosis::Closed& c) {
-  if (c.before <= c.floor) return "there was nothing to close";
+  if (c.before <= c.floor && c.after <= plain * c.floor) return "no more than noise";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
   return fmt::format("{:.1f} % closed", 100 * std::min(1.0, c.closed));
 }
@@ -48,20 +92,39 @@ std::string zero_doubt(const std::vector<sim::diagnosis::Named>& answer, const e
   return "";
 }
 
-std::string free_run_doubt(const sim::diagnosis::Closed& c) {
-  constexpr double plain = 2, enough = 0.5;  // chosen: of the noise, and closed
-  constexpr double rest = 3;                 // chosen: of the noise
+std::string free_run_doubt(const sim::diagnosis::Diagnosis& d, const sim::diagnosis::Closed& c) {
+  constexpr double enough = 0.5;  // closed; chosen
+  if (d.verdict == sim::diagnosis::Verdict::no_gap)
+    return c.before <= barely * c.floor
+               ? ""
+               : fmt::format(
+                     "no stage leaves its floor, but let run freely the model is {:.3g} times what "
+                     "noise alone would do off: something small adds up that these motions show "
+                     "too "
+                     "little of; record stronger and faster ones",
+                     c.before);
   if (c.closed >= enough && c.after > rest * c.floor)
     return fmt::format(
         "let run freely with them, the simulator stays {:.3g} times what noise alone would do off: "
         "something small is left that these residuals show too little of; record other motions",
         c.after);
-  if (c.before <= plain * c.floor || c.closed >= enough) return "";
+  if (std::max(c.before, c.after) <= plain * c.floor || c.closed >= enough) return "";
   return fmt::format(
       "let run freely, the simulator is {:.3g} times what noise alone would do off, and {:.3g} "
       "with "
       "the effects: they may only look like the cause; record other motions",
       c.before, c.after);
+}
+
+std::vector<std::string> doubts(const sim::diagnosis::Diagnosis& d,
+                                const sim::diagnosis::Closed& free_run, const erp::Robot& robot) {
+  std::vector<std::string> all{free_run_doubt(d, free_run)};
+  if (d.verdict == sim::diagnosis::Verdict::supported)
+    for (std::string& doubt :
+         std::vector{opened_doubt(d), zero_doubt(d.answer, robot), time_doubt(d.answer, robot)})
+      all.push_back(std::move(doubt));
+  std::erase(all, "");
+  return all;
 }
 
 }  // namespace launch::gap

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "sim/diagnosis/diagnose.hpp"
 
@@ -22,8 +23,14 @@ std::string share_words(double share);
 /// off by more than its effect may be. Empty: nothing.
 std::string zero_doubt(const std::vector<sim::diagnosis::Named>& answer, const erp::Robot& robot);
 
-/// Why effects that explain the residuals may still not be the cause: let run freely with them, the
-/// simulator stays about as far from what was recorded. Empty if it comes nearer.
-std::string free_run_doubt(const sim::diagnosis::Closed& free_run);
+/// Why effects that explain the residuals may still not be the cause, or a model without a gap not be
+/// the robot: let run freely, the simulator stays far from what was recorded. Empty if it does not.
+std::string free_run_doubt(const sim::diagnosis::Diagnosis& diagnosis,
+                           const sim::diagnosis::Closed& free_run);
+
+/// Those, and what else speaks against an answer that the recordings support: a stage that it takes
+/// from its floor, a time column or one that is late that would look alike.
+std::vector<std::string> doubts(const sim::diagnosis::Diagnosis& diagnosis,
+                                const sim::diagnosis::Closed& free_run, const erp::Robot& robot);
 
 }  // namespace launch::gap

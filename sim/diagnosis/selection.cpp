@@ -79,8 +79,12 @@ Selection select(const Evidence& evidence, const Trials& trials,
   s.answer = {s.ranked[0]};
   const DiagnoseOptions& options = evidence.options;
   Together together = one_after_another(evidence, trials, first[0].fit.placed);
-  if (together.leave_open(together.size() == 1 ? options.alone : options.together))
-    if (auto batch = of_one_batch(evidence, trials, first)) together = std::move(*batch);
+  const bool left_open =
+      together.leave_open(together.size() == 1 ? options.alone : options.together);
+  if (left_open || together.size() > 1)
+    if (auto batch = of_one_batch(evidence, trials, first))
+      if (left_open || (batch->size() <= together.size() && batch->square() < together.square()))
+        together = std::move(*batch);
   const bool alone = together.size() == 1;
   if (!alone || !s.answer[0].is(together.chosen()[0])) settle(evidence, trials, together, s);
   else

@@ -5,8 +5,8 @@
 #include "sim/diagnosis/evidence.hpp"
 
 /// Which effects together explain the residuals: the best alone, others on top of it while a stage
-/// stays open, each reconsidered when another joins; where that leaves one open, the same effect on
-/// every actuator that shows it.
+/// stays open, each reconsidered when another joins; where that leaves one open, or takes as many and
+/// leaves more, the same effect on every actuator that differs.
 namespace sim::diagnosis {
 
 struct Selection {

@@ -113,7 +113,7 @@ std::vector<std::string> that_differ(const Evidence& evidence, const Trials& tri
 /// Of actuators, the kinds of effect that relieve one of them, the best first.
 std::vector<effects::AnyEffect> kinds_of(const std::vector<Ranked>& ranked,
                                          const std::vector<std::string>& actuators) {
-  constexpr std::size_t most = 6;  // chosen
+  constexpr std::size_t most = 10;  // chosen
   std::vector<effects::AnyEffect> kinds;
   for (const Ranked& r : ranked) {
     const effects::AnyEffect& effect = r.fit.placed.effect;

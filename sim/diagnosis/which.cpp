@@ -120,7 +120,7 @@ std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked, const Whi
   std::vector<std::size_t> same;
   for (std::size_t n = 1; n < ranked.size(); ++n) {
     if (!ranked[n].relieves()) continue;
-    if (ranked[0].gain - ranked[n].gain < practical ||
+    if (std::min(1.0, ranked[0].gain) - std::min(1.0, ranked[n].gain) < practical ||
         worse_by(ranked[n], ranked[0], options).low <= 0)
       same.push_back(n);
   }

@@ -47,7 +47,8 @@ struct Ranked {
 std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOptions& options);
 
 /// Of `ranked`, which cannot be told from the first: their paired difference to it includes zero,
-/// or is below `practical` of the gap. The first is not among them.
+/// or is below `practical` of the gap, of which none takes more than all: beyond is noise. The first
+/// is not among them.
 std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked, const WhichOptions& options,
                                     double practical = 0.01);
 

@@ -12,6 +12,7 @@ namespace sim::soundness {
 namespace {
 
 constexpr double together = 0.8;          // correlation, from which a slope is believed; chosen
+constexpr double nothing_else = 0.98;     // the same, of what a measure that is off turns round
 constexpr double widest_of_torques = 30;  // friction and efficiency count twice; chosen
 constexpr double beyond_stretch = 2;      // times: of a path that is more than that; chosen
 constexpr double of_a_third = 1.0 / 3;
@@ -69,9 +70,13 @@ bool pulls_nothing(const erp::Robot& robot, const erp::Actuator& actuator) {
 
 bool Law::believed() const { return std::abs(line.correlation) > together; }
 
-bool Law::silent() const { return line.correlation != 0 && !believed(); }
+bool Law::silent() const { return line.correlation != 0 && !good() && !odd(); }
 
-bool Law::odd() const { return believed() && !(line.slope < widest && line.slope > 1 / widest); }
+bool Law::near() const { return line.slope < widest && line.slope > 1 / widest; }
+
+bool Law::odd() const {
+  return std::abs(line.correlation) > (small_difference ? nothing_else : together) && !near();
+}
 
 Means Laws::means(const Episode& episode, std::size_t from, std::size_t until) {
   Means means = means_of(episode, from, until);

@@ -30,9 +30,11 @@ struct Law {
   bool small_difference = false;
 
   bool believed() const;  ///< both sides go together
-  bool silent() const;    ///< both move, and do not
-  bool odd() const;       ///< believed, and against each other or far from equal
-  bool good() const { return believed() && !odd(); }
+  bool silent() const;    ///< both move, and neither good nor odd may be said of it
+  bool near() const;      ///< they go the same way, about as far
+  bool good() const { return believed() && near(); }
+  /// Against each other or far from equal; of a small difference only where nothing else is in it.
+  bool odd() const;
 };
 
 class Laws {

@@ -48,8 +48,7 @@ bool pulls(const Signal& tension) {
 
 /// No unit explains it, and no effect could.
 bool absurd(const Law& law) {
-  return law.odd() && !law.small_difference &&
-         !(law.line.slope < beyond_all && law.line.slope > 1 / beyond_all);
+  return law.odd() && !(law.line.slope < beyond_all && law.line.slope > 1 / beyond_all);
 }
 
 /// As if it were mended; of a scaled column `times` is what it is divided by.

@@ -243,5 +243,7 @@ TEST_CASE("CSV and MCAP are told apart by their first bytes") {
   test::write_file(folder / "a.data", "time_s,j.angle_rad\n0,1\n");
   CHECK(csv_of(folder / "a.data") == "time_s,j.angle_rad\n0,1\n");
   test::write_file(folder / "b.data", "{}");
+  std::ofstream(folder / "robot.xml") << "<?xml version=\"1.0\"?><robot/>";
+  CHECK_THROWS_WITH(read_table(folder / "robot.xml"), Catch::Contains("this is XML, no recording"));
   CHECK_THROWS_WITH(read_table(folder / "b.data"), Catch::Contains("b.data:1:1:"));
 }
