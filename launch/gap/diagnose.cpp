@@ -69,7 +69,7 @@ std::string told(const diagnosis::Named& n) {
   for (std::size_t k = 0; k < n.names.size(); ++k)
     text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", n.names[k], n.values[k],
                         n.intervals[k].low, n.intervals[k].high);
-  return text;
+  return text + taken_as_it_is(n);
 }
 
 /// Places that share a part of the gap alike could not be told apart.

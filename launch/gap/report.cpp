@@ -50,7 +50,7 @@ std::string parameters_of(const Named& n) {
   for (std::size_t k = 0; k < n.names.size(); ++k)
     text += fmt::format("{}{} = {:.4g} ({:.4g} … {:.4g})", k ? ", " : "", n.names[k], n.values[k],
                         n.intervals[k].low, n.intervals[k].high);
-  return text;
+  return text + taken_as_it_is(n);
 }
 
 /// What nothing that follows may be believed before.

@@ -71,6 +71,14 @@ std::string judged_on(const sim::diagnosis::Diagnosis& d) {
   return only_rests ? "the rest of the recording" : "held-out recordings";
 }
 
+std::string taken_as_it_is(const Named& n) {
+  std::string text;
+  sim::effects::AnyEffect effect = n.placed.effect;
+  for (const sim::effects::Parameter& p : sim::effects::parameters(effect))
+    if (!p.fitted) text += fmt::format("; {} = {:g}, not fitted", p.name, *p.value);
+  return text;
+}
+
 std::string share_words(double share) {
   return share < 0.005 ? "under 1 %" : fmt::format("{:.0f} %", 100 * share);
 }

@@ -16,6 +16,9 @@ std::string closed_interval(const sim::diagnosis::Closed& closed);
 /// "held-out recordings", where there were any; else the part of one that was.
 std::string judged_on(const sim::diagnosis::Diagnosis& diagnosis);
 
+/// "; distance_m = 0.25, not fitted": what of an effect was taken as it is. Empty: nothing.
+std::string taken_as_it_is(const sim::diagnosis::Named& effect);
+
 /// "61 %" of a share that is not none.
 std::string share_words(double share);
 

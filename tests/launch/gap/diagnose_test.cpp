@@ -178,6 +178,15 @@ TEST_CASE("a tendon that is longer than a zero may be off is told as that, with 
                                        Catch::Contains("add -3 to the column"));
 }
 
+TEST_CASE("what of an effect was not fitted is said beside what was") {
+  const auto said = [](const char* type) {
+    return launch::gap::taken_as_it_is(
+        sim::diagnosis::named(sim::effects::Placed{"forearm", *sim::effects::neutral(type)}));
+  };
+  CHECK_THAT(said("skeleton_payload"), Catch::StartsWith("; ") && Catch::Contains("not fitted"));
+  CHECK(said("skeleton_mass").empty());
+}
+
 TEST_CASE("the report shows where, which and how far, and needs no other file") {
   const Folder folder;
   diagnosed(folder,
