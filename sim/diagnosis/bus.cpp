@@ -75,17 +75,17 @@ void add_ages(const residuals::Episode& episode, const residuals::ActuatorSignal
   }
 }
 
-/// By what it says itself: the command it follows is the newest with that set-point.
+/// By what it says itself: it follows the one command with that set-point.
 void add_ages_said(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
                    Ages& ages) {
   for (std::size_t k = oldest; k < s.sent.size(); ++k) {
     if (!episode.judged(k) || !(std::abs(s.sent[k] - s.sent[k - 1]) > 0)) continue;  // too alike
-    ++ages.tried;
+    std::vector<std::size_t> may_be;
     for (std::size_t age = 0; age < oldest; ++age)
-      if (s.sent[k - age] == s.followed[k]) {
-        ++ages.ticks[age], ++ages.told;
-        break;
-      }
+      if (s.sent[k - age] == s.followed[k]) may_be.push_back(age);
+    if (may_be.size() > 1) continue;  // the same was sent more than once
+    ++ages.tried;
+    if (may_be.size() == 1) ++ages.ticks[may_be[0]], ++ages.told;
   }
 }
 
