@@ -35,7 +35,7 @@ std::string_view signal_of(std::string_view column) {
   return dot == column.npos ? column : column.substr(dot + 1);
 }
 
-std::string sent_to(int ecu, int channel) {
+std::string channel_name(int ecu, int channel) {
   return "ecu" + std::to_string(ecu) + "." + std::to_string(channel);
 }
 

@@ -46,8 +46,8 @@ const std::vector<std::string_view>& known_signals();
 /// "flexor.tension_N" → "tension_N"; the whole name when it has no dot.
 std::string_view signal_of(std::string_view column);
 bool holds_mode(std::string_view column);
-/// Whose the columns are that tell what was sent to a channel of an ECU.
-std::string sent_to(int ecu, int channel);
+/// Before the signal, in the columns of a channel of an ECU: "ecu0.1".
+std::string channel_name(int ecu, int channel);
 
 struct TableOptions {
   std::string robot;       ///< empty: the only one in the recording

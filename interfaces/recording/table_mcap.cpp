@@ -144,7 +144,7 @@ class Builder {
   static void take_set_points(const Members& message, const char* sequence,
                               std::vector<SetPoint>& all) {
     each_in(message, "channels", [&](const Members& sample) {
-      all.push_back({sent_to(int(number_in(sample, "ecu")), int(number_in(sample, "channel"))),
+      all.push_back({channel_name(int(number_in(sample, "ecu")), int(number_in(sample, "channel"))),
                      number_in(sample, "request"), number_in(sample, "setpoint"),
                      integer_in<std::uint64_t>(message, sequence)});
     });

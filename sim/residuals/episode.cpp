@@ -202,7 +202,7 @@ DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
 
 /// What an actuator's ECU was sent and what it followed.
 void add_set_points(Layout& layout, const erp::Actuator& actuator, ActuatorSignals& signals) {
-  const std::string channel = recording::sent_to(actuator.ecu, actuator.channel);
+  const std::string channel = recording::channel_name(actuator.ecu, actuator.channel);
   signals.sent = layout.held(channel + ".sent");
   signals.followed = layout.held(channel + ".followed");
   const Signal sent_as = layout.held(channel + ".sent_request"),

@@ -11,8 +11,7 @@ namespace {
 
 constexpr double long_s = 2;  // chosen, as the shares below
 constexpr double of_supply = 0.1, of_range = 0.1, of_noise = 20;
-constexpr double of_noise_all_along =
-    5;  // a converter that says the same of it for a whole recording
+constexpr double of_noise_all_along = 5;  // where it says the same for a whole recording
 constexpr double way_m = 0.005, way_without_tension_m = 0.015;
 
 struct Run {

@@ -210,10 +210,6 @@ class Vote {
   int gain_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 /// What is mended by itself later is no alternative to what was mended before.
 void drop_later(std::vector<Either>& all) {
   for (auto either = all.begin(); either != all.end(); ++either)

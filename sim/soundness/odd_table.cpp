@@ -16,7 +16,7 @@ std::vector<std::string> parts_of(const erp::Robot& robot) {
   for (const auto& drive : robot.drives) names.push_back(drive.name);
   for (const auto& actuator : robot.actuators) {
     names.push_back(actuator.name);
-    names.push_back(recording::sent_to(actuator.ecu, actuator.channel));
+    names.push_back(recording::channel_name(actuator.ecu, actuator.channel));
   }
   for (const auto& joint : robot.joints()) names.push_back(joint.name);
   for (const auto& sensor : robot.joint_sensors)

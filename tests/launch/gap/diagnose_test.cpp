@@ -9,7 +9,6 @@
 #include "interfaces/recording/csv.hpp"
 #include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
-#include "launch/gap/words.hpp"
 #include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -165,28 +164,6 @@ TEST_CASE("a folder that cannot be made is refused first; a diagnosis that fails
   CHECK_FALSE(fs::exists(folder.path / "new"));
 }
 
-TEST_CASE("a tendon that is longer than a zero may be off is told as that, with what to add") {
-  const erp::Robot robot = erp::read_robot(robot_file);
-  const auto doubt = [&](double length_m) {
-    sim::diagnosis::Named n{"tendon_length_offset", "flexor"};
-    n.values = {length_m};
-    return launch::gap::zero_doubt({n}, robot);
-  };
-  const double radius_m = robot.actuators[0].spindle.radius_m;
-  CHECK(doubt(0.9 * radius_m).empty());
-  CHECK_THAT(doubt(-3 * radius_m), Catch::Contains("a zero that is 3 rad off") &&
-                                       Catch::Contains("add -3 to the column"));
-}
-
-TEST_CASE("what of an effect was not fitted is said beside what was") {
-  const auto said = [](const char* type) {
-    return launch::gap::taken_as_it_is(
-        sim::diagnosis::named(sim::effects::Placed{"forearm", *sim::effects::neutral(type)}));
-  };
-  CHECK_THAT(said("skeleton_payload"), Catch::StartsWith("; ") && Catch::Contains("not fitted"));
-  CHECK(said("skeleton_mass").empty());
-}
-
 TEST_CASE("the report shows where, which and how far, and needs no other file") {
   const Folder folder;
   diagnosed(folder,
@@ -243,59 +220,4 @@ TEST_CASE("a model in the folder of a diagnosis is neither written over nor remo
     std::ifstream in(robot_file);
     return std::string(std::istreambuf_iterator<char>(in), {});
   }());
-}
-
-TEST_CASE("an answer with which the simulator comes no nearer is doubted") {
-  const auto doubt = [](double before, double after) {
-    sim::diagnosis::Closed run{.unit = "noise", .before = before, .floor = 1, .after = after};
-    run.closed = (before - after) / (before - 1);
-    sim::diagnosis::Diagnosis d;
-    d.verdict = sim::diagnosis::Verdict::supported;
-    return launch::gap::free_run_doubt(d, run);
-  };
-  CHECK_THAT(doubt(3.14, 3.05),
-             Catch::Contains("is 3.14 times") && Catch::Contains("and 3.05 with"));
-  CHECK_FALSE(doubt(121, 223).empty());
-  CHECK(doubt(48, 1.3).empty());
-  CHECK(doubt(1.6, 1.5).empty());                      // a gap that hardly shows there
-  CHECK_FALSE(doubt(0.99, 10.1).empty());              // it makes one
-  CHECK_FALSE(doubt(45, 6.1).empty());                 // it leaves much
-  CHECK(launch::gap::free_run_doubt({}, {}).empty());  // not run
-}
-
-TEST_CASE("a model without a gap that runs away from the robot is doubted") {
-  sim::diagnosis::Closed run{.unit = "noise", .before = 15, .floor = 1, .after = 15};
-  CHECK_THAT(launch::gap::free_run_doubt({}, run), Catch::Contains("15 times"));
-  run.before = run.after = 1.2;
-  CHECK(launch::gap::free_run_doubt({}, run).empty());
-}
-
-TEST_CASE("what speaks against an answer is said: a stage it opens, a clock, a late column") {
-  using sim::effects::Stage;
-  const erp::Robot robot = erp::read_robot(robot_file);
-  sim::diagnosis::Diagnosis d;
-  d.verdict = sim::diagnosis::Verdict::supported;
-  d.stages = {{Stage::motor, "flexor"}, {Stage::gearbox, "flexor"}};
-  d.stages[0].judged = d.stages[1].judged = d.stages[0].open = true;
-  const auto say = [&] { return launch::gap::doubts(d, {}, robot); };
-  d.unexplained = {{Stage::motor, "flexor", 8}};
-  CHECK(say().empty());
-  d.unexplained = {{Stage::gearbox, "flexor", 8}};
-  REQUIRE(say().size() == 1);
-  CHECK_THAT(say()[0], Catch::Contains("the gearbox of flexor leaves its floor"));
-  d.unexplained.clear();
-  const auto named = [](const char* type, const char* on, double value) {
-    sim::diagnosis::Named n{type, on};
-    n.values = {value};
-    return n;
-  };
-  d.answer = {named("motor_torque_constant", "flexor", 0.005),
-              named("motor_torque_constant", "extensor", 0.0051)};
-  REQUIRE(say().size() == 1);
-  CHECK_THAT(say()[0], Catch::Contains("time_s that runs 0.51 % too fast"));
-  d.answer[1].values = {0.009};
-  CHECK(say().empty());
-  d.answer = {named("sensor_joint_low_pass", "elbow", 0.01)};
-  REQUIRE(say().size() == 1);
-  CHECK_THAT(say()[0], Catch::Contains("10 ms late"));
 }
