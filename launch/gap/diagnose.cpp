@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <ostream>
@@ -86,6 +87,23 @@ void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
   }
 }
 
+/// Constants of the robot as built; those that the recordings hardly determine are only counted.
+void print_constants(const diagnosis::Diagnosis& d, std::ostream& out) {
+  if (d.constants.empty()) return;
+  std::size_t determined = 0;
+  for (const auto& c : d.constants) determined += c.determined > 0.75;
+  out << fmt::format(
+      "constants   the robot's constants differ from robot.xml: {} of {} determined by the "
+      "recordings, {} beyond 2.5 tolerances\n",
+      determined, d.constants.size(),
+      std::ranges::count_if(d.constants, &diagnosis::ConstantEstimate::beyond));
+  for (const auto& c : d.constants)
+    if (const bool differs = c.interval.low > c.nominal || c.interval.high < c.nominal;
+        differs && c.determined > 0.75 && std::abs(c.value - c.nominal) > 0.5 * c.tolerance)
+      out << fmt::format("            {} {}  {:.4g} ({:.4g} to {:.4g}), nominal {:.4g}\n", c.on,
+                         c.name, c.value, c.interval.low, c.interval.high, c.nominal);
+}
+
 void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
   print_where(d, out);
   const char* which = d.verdict == diagnosis::Verdict::supported          ? "which       "
@@ -109,11 +127,12 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
                          100 * (u.shape->explained - u.shape->constant), u.shape->variable);
     out << "\n";
   }
-  if (d.overall.before > 0 && !d.answer.empty())
+  print_constants(d, out);
+  if (d.overall.before > 0 && (!d.answer.empty() || d.as_built))
     out << fmt::format("how far     {:.3g} times the noise before, {:.3g} after: {}, on {}\n",
                        d.overall.before, d.overall.after, closed_words(d.overall), judged_on(d));
   for (const auto& c : d.channels)
-    if (c.gapes() && c.driven_by > 0 && !d.answer.empty())
+    if (c.gapes() && c.driven_by > 0 && (!d.answer.empty() || d.as_built))
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
@@ -141,7 +160,7 @@ void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
 void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
            std::ostream& out) {
   print_answer(d, out);
-  if (!free_run.channels.empty() && d.answer.empty())
+  if (!free_run.channels.empty() && d.answer.empty() && !d.as_built)
     out << fmt::format("free run    {:.3g} times what noise alone would do\n", free_run.all.before);
   else if (!free_run.channels.empty())
     out << fmt::format(
@@ -162,9 +181,11 @@ void write_found(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& f
   write_file(options.out + "/diagnosis.json", diagnosis_json(d, free_run, robot));
   write_file(options.out + "/report.html", diagnosis_report(d, free_run, robot));
   const std::string mended = options.out + "/robot.xml";
-  const auto added = found.effects.end() - std::ptrdiff_t(d.answer.size());
-  if (d.verdict == diagnosis::Verdict::supported)
-    write_mended(mended, options.robot, found, {added, found.effects.end()});
+  if (d.verdict == diagnosis::Verdict::supported && d.as_built)
+    write_file(mended, erp::write_robot(found));
+  else if (d.verdict == diagnosis::Verdict::supported)
+    write_mended(mended, options.robot, found,
+                 {found.effects.end() - std::ptrdiff_t(d.answer.size()), found.effects.end()});
   else std::filesystem::remove(mended);  // of an earlier diagnosis
 }
 
@@ -225,8 +246,8 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   diagnosis::Diagnosis d = diagnosis::diagnose(robot, read.episodes, how);
   const auto free_run = run_freely(d, read.episodes, robot, options,
                                    [&](double share) { progress->tell("free run", share); });
-  erp::Robot found = erp::read_robot(options.robot);
-  for (const auto& n : d.answer) found.effects.push_back(sim::effects::written(n.placed));
+  erp::Robot found = d.as_built ? *d.as_built : erp::read_robot(options.robot);
+  for (const auto& n : d.as_built ? std::vector<diagnosis::Named>{} : d.answer) found.effects.push_back(sim::effects::written(n.placed));
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
   if (!free_run.channels.empty() || d.verdict == diagnosis::Verdict::supported)

@@ -75,6 +75,18 @@ Json json_of(const StageGap& gap) {
           {"open", gap.open}};
 }
 
+Json json_of(const ConstantEstimate& c) {
+  return {{"name", c.name},
+          {"on", c.on},
+          {"stage", sim::effects::word(c.stage)},
+          {"nominal", c.nominal},
+          {"tolerance", rounded(c.tolerance)},
+          {"value", rounded(c.value)},
+          {"interval", pair_of(c.interval)},
+          {"determined", rounded(std::clamp(c.determined, 0.0, 1.0))},
+          {"beyond", c.beyond}};
+}
+
 template <class Items>
 Json list_of(const Items& items) {
   Json list = Json::array();
@@ -147,6 +159,7 @@ std::string diagnosis_json(const Diagnosis& d, const sim::rehearsal::FreeRun& fr
                  {"where", list_of(d.where)},
                  {"effects", effects_of(d)},
                  {"confusable", confusable_of(d)},
+                 {"constants", list_of(d.constants)},
                  {"gap", gap},
                  {"unexplained", unexplained},
                  {"residuals", list_of(d.stages)},

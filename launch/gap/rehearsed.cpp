@@ -47,6 +47,9 @@ class Rehearsals {
   rehearsal::FreeRun of(const std::vector<Named>& answer) const {
     erp::Robot found = robot_;
     for (const Named& n : answer) found.effects.push_back(sim::effects::written(n.placed));
+    return of(found);
+  }
+  rehearsal::FreeRun of(const erp::Robot& found) const {
     return rehearsal::free_run(robot_, found, held_out_, how_);
   }
 
@@ -64,9 +67,10 @@ rehearsal::FreeRun run_freely(diagnosis::Diagnosis& d,
                               const std::function<void(double)>& progress) {
   constexpr double plain = 2, much = 0.5;  // of the noise; of what is left; chosen
   constexpr std::size_t most = 4;          // others that are tried; chosen
-  const bool nothing = d.answer.empty() && d.verdict != diagnosis::Verdict::no_gap;
+  const bool nothing = d.answer.empty() && !d.as_built && d.verdict != diagnosis::Verdict::no_gap;
   if (nothing || !options.free_run || !robot.drives.empty()) return {};
   const Rehearsals rehearsals(d, episodes, robot, options, progress);
+  if (d.as_built) return rehearsals.of(*d.as_built);
   rehearsal::FreeRun best = rehearsals.of(d.answer);
   if (d.verdict != diagnosis::Verdict::supported || d.answer.size() != 1 ||
       !(best.all.after > plain * best.all.floor))

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/diagnosis/built.hpp"
 #include "sim/diagnosis/closing.hpp"
 #include "sim/diagnosis/located.hpp"
 
@@ -25,6 +26,10 @@ struct Diagnosis {
   std::vector<StageGap> stages;  ///< of the nominal robot, all recordings
   std::vector<Named> answer;     ///< effects that together close the gap
   std::vector<Named> ranked;     ///< one by one, best first
+  /// The robot as it was built, if that explains what a few effects alone do not: robot.xml's
+  /// constants as estimated, with the effects of `answer` beside them.
+  std::optional<erp::Robot> as_built;
+  std::vector<ConstantEstimate> constants;  ///< of that robot
   double interaction = 0;        ///< of the gap: what the answer's effects close only together
   std::vector<Moment> worst;
   Closed overall;

@@ -51,6 +51,13 @@ std::vector<StageGap> held_out(const Evidence& evidence, const Trials& trials, c
 
 }  // namespace
 
+bool stays_open(double excess, double was, const Tolerance& tolerance,
+                const std::function<double()>& follows) {
+  return excess > std::max(tolerance.excess, tolerance.share * was) ||
+         excess > std::max(quarter_excess, quarter * was) ||
+         (excess > bent_excess && follows() > bent);
+}
+
 std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,
                                 const Tolerance& tolerance) {
   const auto before = held_out(evidence, trials, trials.bare());
@@ -65,10 +72,9 @@ std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, 
       gap.open = false;
       continue;
     }
-    gap.open = gap.excess > std::max(tolerance.excess, tolerance.share * was) ||
-               gap.excess > std::max(quarter_excess, quarter * was) ||
-               (gap.excess > bent_excess &&
-                follows(trials, trial, gap.stage, gap.on, evidence.sets) > bent);
+    gap.open = stays_open(gap.excess, was, tolerance, [&] {
+      return follows(trials, trial, gap.stage, gap.on, evidence.sets);
+    });
   }
   return gaps;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "sim/diagnosis/answer.hpp"
@@ -24,6 +25,11 @@ struct Selection {
 /// `stages`: those that signatures are told by.
 Selection select(const Evidence& evidence, const Trials& trials,
                  const std::vector<StageGap>& stages);
+
+/// Whether a stage that keeps `excess` of what `was` there is not explained. `follows`: how much of the
+/// rest follows one variable, asked only where that decides.
+bool stays_open(double excess, double was, const Tolerance& tolerance,
+                const std::function<double()>& follows);
 
 /// The stages that `trial` leaves open on the held-out recordings.
 std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,

@@ -9,6 +9,7 @@
 #include "sim/effects/gearbox/asymmetric.hpp"
 #include "sim/effects/gearbox/backlash.hpp"
 #include "sim/effects/gearbox/coulomb.hpp"
+#include "sim/effects/gearbox/efficiency.hpp"
 #include "sim/effects/gearbox/inertia.hpp"
 #include "sim/effects/gearbox/load_dependent.hpp"
 #include "sim/effects/gearbox/shaft_compliance.hpp"
@@ -62,7 +63,7 @@ using AnyEffect = std::variant<
     CommandDelay, SensorDelay, Jitter, FrameLoss,
     MotorResistance, MotorTorqueConstant, MotorInductance, MotorThermalResistance, MotorCogging,
     MotorDeadBand, SupplySag,
-    GearboxCoulomb, GearboxAsymmetric, GearboxViscous, GearboxStribeck, GearboxLoadDependent,
+    GearboxCoulomb, GearboxAsymmetric, GearboxViscous, GearboxStribeck, GearboxLoadDependent, GearboxEfficiency,
     GearboxBacklash, GearboxInertia, GearboxShaftCompliance,
     SpindleRadius, SpindleLayers, SpindleSlip,
     TendonStiffness, TendonStiffening, TendonDamping, TendonCreep, TendonHysteresis,

@@ -3,11 +3,10 @@
 
 #include "interfaces/robot/mass.hpp"
 #include "sim/effects/library.hpp"
+#include "sim/effects/own.hpp"
 
 namespace sim::effects {
-namespace {
 
-/// A motor type of this actuator's own.
 erp::MotorType& own_motor(erp::Robot& robot, erp::Actuator& actuator) {
   const std::string name = actuator.motor + " of " + actuator.name;
   if (!actuator.motor.ends_with(" of " + actuator.name)) {
@@ -20,7 +19,6 @@ erp::MotorType& own_motor(erp::Robot& robot, erp::Actuator& actuator) {
   throw std::logic_error("a motor type that was just added is gone");
 }
 
-/// Its mass as numbers, whatever it was made of.
 void resolve(erp::Body& body) {
   const erp::Mass mass = erp::mass_of(body);
   const auto& i = mass.inertia_kg_m2;
@@ -30,6 +28,8 @@ void resolve(erp::Body& body) {
   std::erase_if(body.parts,
                 [](const erp::Part& part) { return std::holds_alternative<erp::Weight>(part); });
 }
+
+namespace {
 
 /// Applies the seams that change constants. False: it has none, and is to act.
 struct Change {

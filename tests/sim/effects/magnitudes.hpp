@@ -26,6 +26,7 @@ inline const std::map<std::string, std::map<std::string, double>>& all() {
       {"gearbox_viscous", {{"extra_Nm_s_per_rad", 0.01}}},
       {"gearbox_stribeck", {{"extra_Nm", 0.03}, {"speed_rad_per_s", 0.3}}},
       {"gearbox_load_dependent", {{"share", 0.2}}},
+      {"gearbox_efficiency", {{"relative", -0.15}}},
       {"gearbox_backlash", {{"width_rad", 0.05}}},
       {"gearbox_inertia", {{"relative", 0.5}}},
       {"gearbox_shaft_compliance", {{"rad_per_Nm", 1}}},

@@ -1,0 +1,145 @@
+#include "sim/diagnosis/built.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/diagnosis/selection.hpp"
+#include "sim/diagnosis/shape.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+std::vector<residuals::Episode> some(const Evidence& evidence, const std::vector<std::size_t>& set) {
+  std::vector<residuals::Episode> episodes;
+  for (const std::size_t k : set) episodes.push_back(evidence.episodes[k]);
+  return episodes;
+}
+
+std::vector<ConstantEstimate> constants_of(const gap::AsBuilt& built) {
+  std::vector<ConstantEstimate> all;
+  for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) {
+    const gap::Constant& c = built.uncertain.constants[k];
+    const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
+    all.push_back({c.name, c.on, c.stage, c.nominal, c.tolerance, c.value(x),
+                   {c.value(x - half), c.value(x + half)}, gap::determined(built, k),
+                   std::ranges::count(built.beyond, k) > 0});
+  }
+  return all;
+}
+
+/// A constant as the effect that is such a change.
+Named as_effect(const gap::AsBuilt& built, std::size_t k) {
+  const gap::Constant& c = built.uncertain.constants[k];
+  effects::Placed placed{c.on, *effects::neutral(c.effect)};
+  const effects::Parameter p = effects::parameters(placed.effect)[0];
+  const auto changed = [&](double x) {
+    return std::clamp(c.effect_scale * (c.value(x) - c.nominal), p.bounds.low, p.bounds.high);
+  };
+  const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
+  *p.value = changed(x);
+  Named n = named(placed);
+  n.intervals[0] = {changed(x - half), changed(x + half)};
+  return n;
+}
+
+/// The effects found, with their intervals; the second: one ends at a bound or may be neutral.
+std::pair<std::vector<Named>, bool> effects_of(const gap::AsBuilt& built) {
+  std::vector<Named> all;
+  std::size_t k = built.uncertain.constants.size();
+  bool doubtful = false;
+  for (const effects::Placed& placed : built.estimate.point.effects) {
+    Named n = named(placed);
+    for (std::size_t p = 0; p < n.values.size(); ++p, ++k) {
+      const double half = 1.96 * built.estimate.sigma(k) + 0.02 * std::abs(n.values[p]);
+      n.intervals[p] = {std::max(n.values[p] - half, n.bounds[p].low),
+                        std::min(n.values[p] + half, n.bounds[p].high)};
+      doubtful |= built.estimate.bound[k];
+    }
+    all.push_back(std::move(n));
+  }
+  return {all, doubtful};
+}
+
+Trials trials_of(const Evidence& evidence, const erp::Robot& robot) {
+  return {robot, evidence.episodes, evidence.options.seed};
+}
+
+/// Σ z² of the recordings held out, by a robot with that point.
+double square_at(const Evidence& evidence, const Trials& plain, const erp::Robot& robot) {
+  residuals::Stages stages(robot);
+  Trial trial{{}, std::vector<residuals::Explanation>(evidence.episodes.size())};
+  for (const std::size_t e : evidence.sets.held_out)
+    trial.of_episode[e] = stages.explain(evidence.episodes[e]);
+  return sum(plain.blocks(trial, evidence.sets.held_out)).square;
+}
+
+/// What the recordings held out lose without each part of the answer, as a share of the gap.
+void set_gains(const Evidence& evidence, const Trials& plain, const gap::AsBuilt& built,
+               std::vector<Named>& answer) {
+  const ScoreBlock before = sum(plain.blocks(plain.bare(), evidence.sets.held_out));
+  const double gap = std::max(before.square - double(before.windows), 1e-9);
+  const double all = square_at(evidence, plain, built.robot);
+  const std::size_t effects = built.estimate.point.effects.size();
+  for (std::size_t k = 0; k < answer.size(); ++k) {
+    gap::Point without = built.estimate.point;
+    if (k < effects) without.effects.erase(without.effects.begin() + std::ptrdiff_t(k));
+    else without.x[built.beyond[k - effects]] = 0;
+    const double left = square_at(evidence, plain, gap::robot_at(built.uncertain, without));
+    answer[k].gain = std::clamp((left - all) / gap, 0.0, 1.0);
+    answer[k].gain_interval = {answer[k].gain, answer[k].gain};
+    answer[k].supported = true;
+  }
+}
+
+std::vector<StageGap> left_by(const Evidence& evidence, const Trials& plain, const Trials& built) {
+  const auto held_out = [&](const Trials& trials) {
+    return where(trials, trials.bare(), evidence.sets.held_out, evidence.where_options());
+  };
+  const auto before = held_out(plain);
+  auto left = held_out(built);
+  for (StageGap& gap : left) {
+    const auto was = find_stage(before, gap.stage, gap.on);
+    gap.open = gap.open && stays_open(gap.excess, was->excess, evidence.options.together, [&] {
+                 return follows(built, built.bare(), gap.stage, gap.on, evidence.sets);
+               });
+  }
+  return left;
+}
+
+}  // namespace
+
+bool Built::explained() const {
+  return !at_bound && std::ranges::none_of(left, &StageGap::open);
+}
+
+Built as_built(const Evidence& evidence, const Trials& plain) {
+  const auto train = some(evidence, evidence.sets.train),
+             held_out = some(evidence, evidence.sets.held_out);
+  gap::AsBuiltOptions options;
+  options.estimate.threads = evidence.options.threads, options.estimate.seed = evidence.options.seed;
+  options.search.withhold = evidence.options.withhold;
+  options.search.most_effects = evidence.options.most_effects;
+  options.search.progress = [&](const std::string& what, double share) {
+    evidence.tell(what, 0.6 + 0.3 * share);
+  };
+  const gap::AsBuilt found = gap::as_built(evidence.robot, train, held_out, options);
+  auto [answer, doubtful] = effects_of(found);
+  for (const std::size_t k : found.beyond) answer.push_back(as_effect(found, k));
+  set_gains(evidence, plain, found, answer);
+  Built built{found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot),
+              {}, doubtful};
+  built.left = left_by(evidence, plain, built.trials);
+  return built;
+}
+
+double worse_by(const std::vector<StageGap>& one, const std::vector<StageGap>& other) {
+  double most = 0;
+  for (const StageGap& gap : one) {
+    const auto same = find_stage(other, gap.stage, gap.on);
+    if (same != other.end())
+      most = std::max(most, std::max(0.0, gap.excess) - std::max(0.0, same->excess));
+  }
+  return most;
+}
+
+}  // namespace sim::diagnosis

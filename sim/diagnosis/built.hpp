@@ -1,0 +1,41 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/diagnosis/answer.hpp"
+#include "sim/diagnosis/evidence.hpp"
+#include "sim/gap/as_built.hpp"
+
+/// The gap of a robot none of whose constants is exactly what its description says (sim/gap), told as
+/// an answer: constants within their tolerances, constants beyond, and effects that are missing.
+namespace sim::diagnosis {
+
+/// A constant of robot.xml as the recordings have it.
+struct ConstantEstimate {
+  std::string name, on;
+  effects::Stage stage;
+  double nominal = 0, tolerance = 0;  ///< tolerance: one standard deviation
+  double value = 0;
+  Interval interval;      ///< 95 %
+  double determined = 0;  ///< 1: by the recordings alone, 0: by its tolerance alone
+  bool beyond = false;    ///< more than 2.5 tolerances from nominal, and determined
+};
+
+struct Built {
+  erp::Robot robot;
+  std::vector<ConstantEstimate> constants;  ///< in the order of the chain
+  std::vector<Named> answer;                ///< effects, then constants beyond their tolerances
+  Trials trials;                            ///< of `robot`
+  std::vector<StageGap> left;               ///< on the recordings held out; open: not explained
+  bool at_bound = false;                    ///< a parameter ends at a bound or may be neutral
+
+  bool explained() const;
+};
+
+Built as_built(const Evidence& evidence, const Trials& plain);
+
+/// How much larger a stage's residual may stay, (r/σ)², before another explanation is better.
+double worse_by(const std::vector<StageGap>& one, const std::vector<StageGap>& other);
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,31 @@
+#pragma once
+#include "sim/gap/search.hpp"
+
+/// A robot as it was built: every constant a little off its description, some beyond what building
+/// allows, and effects that the description lacks.
+namespace sim::gap {
+
+struct AsBuilt {
+  Uncertain uncertain;
+  Estimate estimate;
+  std::vector<std::size_t> beyond;  ///< constants off by more than their tolerances, the farthest first
+  erp::Robot robot;                 ///< nominal with all that was found
+};
+
+struct AsBuiltOptions {
+  EstimateOptions estimate;
+  SearchOptions search;
+};
+
+/// Constants estimated on `train`, effects judged on `held_out`. Throws as residuals::Stages.
+AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                 std::span<const residuals::Episode> held_out, const AsBuiltOptions& options = {});
+
+/// The constants alone: no effect is looked for.
+AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                   const EstimateOptions& options = {});
+
+/// How well a constant is determined: 1 − (its deviation after/before)², 0: not at all.
+double determined(const AsBuilt& built, std::size_t constant);
+
+}  // namespace sim::gap

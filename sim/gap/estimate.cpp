@@ -1,0 +1,193 @@
+#include "sim/gap/estimate.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "sim/parallel/in_parallel.hpp"
+
+namespace sim::gap {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Columns `from` … of ∂z/∂unknown, by forward differences.
+std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector& residuals,
+                                                           const Unknowns& at, const Estimate& here,
+                                                           std::size_t from, int threads) {
+  const residuals::Stages stages(at.robot());
+  std::vector<std::vector<std::pair<Index, double>>> all(at.count() - from);
+  in_parallel(all.size(), threads, [&](std::size_t n) {
+    const std::size_t k = from + n;
+    const double step = at.step(k);
+    const VectorXd other = residuals.z(residuals.explain(
+        at.with(k, at.value(k) + step).robot(), here.explained, at.reach(k, stages)));
+    for (Index row = 0; row < other.size(); ++row)
+      if (const double d = (other[row] - here.z[row]) / step; d != 0) all[n].emplace_back(row, d);
+  });
+  return all;
+}
+
+/// Those of the constants from `known` if it is given.
+Sparse jacobian(const ResidualVector& residuals, const Unknowns& at, const Estimate& here,
+                const Sparse* known, int threads) {
+  const std::size_t from = known ? at.constants() : 0;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index k = 0; k < Index(from); ++k)
+    for (Sparse::InnerIterator i(*known, k); i; ++i)
+      entries.emplace_back(int(i.row()), int(k), i.value());
+  const auto all = columns(residuals, at, here, from, threads);
+  for (std::size_t n = 0; n < all.size(); ++n)
+    for (const auto& [row, d] : all[n]) entries.emplace_back(int(row), int(from + n), d);
+  Sparse j(here.z.size(), Index(at.count()));
+  j.setFromTriplets(entries.begin(), entries.end());
+  return j;
+}
+
+/// How many windows one independent one stands for.
+double correlated(std::span<const double> z) {
+  constexpr std::size_t furthest = 50;  // windows: a second
+  double square = 0;
+  for (const double x : z) square += x * x;
+  double sum = 1;
+  for (std::size_t lag = 1; lag < std::min(furthest, z.size()) && square > 0; ++lag) {
+    double product = 0;
+    for (std::size_t k = lag; k < z.size(); ++k) product += z[k] * z[k - lag];
+    if (product < 0.05 * square) break;
+    sum += 2 * product / square;
+  }
+  return sum;
+}
+
+/// Sets weights and mean squares by what is left.
+void weigh(const ResidualVector& residuals, Estimate& e) {
+  std::vector<double> square(residuals.stages()), count(square), correlation(square);
+  for (const Block& b : residuals.blocks()) {
+    const std::span<const double> here(e.z.data() + b.first, std::size_t(b.count));
+    const auto judged = double(here.size()) - double(std::ranges::count(here, 0.0));
+    if (judged < 2) continue;
+    square[b.stage] += e.z.segment(b.first, b.count).squaredNorm(), count[b.stage] += judged;
+    correlation[b.stage] += judged * correlated(here);
+  }
+  e.mean_square.assign(square.size(), 0);
+  std::vector<double> weight(square.size(), 1);
+  for (std::size_t s = 0; s < square.size(); ++s) {
+    if (count[s] == 0) continue;
+    e.mean_square[s] = square[s] / count[s];
+    weight[s] = 1 / (std::max(1.0, e.mean_square[s]) * (correlation[s] / count[s]));
+  }
+  e.weight.resize(e.z.size());
+  for (const Block& b : residuals.blocks())
+    e.weight.segment(b.first, b.count).setConstant(weight[b.stage]);
+}
+
+struct Normal {
+  MatrixXd hessian;
+  VectorXd gradient;
+};
+
+Normal normal_equations(const Estimate& e, const Unknowns& at) {
+  Normal n{MatrixXd(e.jacobian.transpose() * (e.weight.asDiagonal() * e.jacobian)),
+           e.jacobian.transpose() * e.weight.cwiseProduct(e.z)};
+  for (std::size_t k = 0; k < at.constants(); ++k) {
+    const double precision = 1 / (at.prior(k) * at.prior(k));
+    n.hessian(Index(k), Index(k)) += precision;
+    n.gradient[Index(k)] += precision * at.value(k);
+  }
+  for (std::size_t k = at.constants(); k < at.count(); ++k) {  // nothing may depend on it
+    double& own = n.hessian(Index(k), Index(k));
+    own += 1e-9 * own + 1e-12;
+  }
+  return n;
+}
+
+MatrixXd inverse(const MatrixXd& hessian) {
+  return hessian.ldlt().solve(MatrixXd::Identity(hessian.rows(), hessian.cols()));
+}
+
+}  // namespace
+
+Estimator::Estimator(const erp::Robot& nominal, std::span<const residuals::Episode> episodes,
+                     const EstimateOptions& options)
+    : residuals_(nominal, episodes, options.seed, options.threads), options_(options) {}
+
+double Estimator::cost(const Uncertain& uncertain, const Point& point, const VectorXd& z,
+                       const VectorXd& weight) const {
+  double cost = weight.dot(z.cwiseAbs2());
+  for (std::size_t k = 0; k < point.x.size(); ++k)
+    cost += std::pow(point.x[k] / uncertain.prior[k], 2);
+  return cost;
+}
+
+namespace {
+
+/// Levenberg-Marquardt steps until one no longer helps.
+void descend(const Estimator& estimator, const Uncertain& uncertain, Unknowns at, Estimate& e,
+             const Estimate* base, int iterations, int threads) {
+  constexpr double enough = 1e-4;  // of the cost, that a step is worth; chosen
+  const ResidualVector& residuals = estimator.residuals();
+  double damping = 0;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    if (!base) weigh(residuals, e);
+    e.jacobian = jacobian(residuals, at, e, base ? &base->jacobian : nullptr, threads);
+    const Normal normal = normal_equations(e, at);
+    e.covariance = inverse(normal.hessian);
+    e.cost = estimator.cost(uncertain, at.point(), e.z, e.weight);
+    bool better = false, done = false;
+    for (int attempt = 0; attempt < 4 && !better; ++attempt) {
+      MatrixXd damped = normal.hessian;
+      damped.diagonal() *= 1 + damping;
+      const Unknowns next = at.moved(-damped.ldlt().solve(normal.gradient));
+      Explained explained = residuals.explain(next.robot(), threads);
+      const VectorXd z = residuals.z(explained);
+      const double after = estimator.cost(uncertain, next.point(), z, e.weight);
+      better = after < e.cost;
+      done = e.cost - after < enough * e.cost;
+      if (!better) damping = std::max(1e-6, damping) * 30;
+      else at = next, e.z = z, e.explained = std::move(explained), e.cost = after, damping *= 0.1;
+    }
+    if (!better || done) break;
+  }
+  e.point = at.point();
+  e.bound.clear();
+  for (std::size_t k = 0; k < at.count(); ++k) e.bound.push_back(at.at_bound(k));
+}
+
+/// Weights, derivatives and covariance where an estimate ended.
+void settle(const Estimator& estimator, const Uncertain& uncertain, Estimate& e) {
+  const Unknowns at(uncertain, e.point);
+  weigh(estimator.residuals(), e);
+  e.jacobian = jacobian(estimator.residuals(), at, e, nullptr, estimator.options().threads);
+  const Normal normal = normal_equations(e, at);
+  e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
+  e.cost = estimator.cost(uncertain, e.point, e.z, e.weight);
+}
+
+}  // namespace
+
+Estimate Estimator::run(const Uncertain& uncertain, Point start) const {
+  const Unknowns at(uncertain, std::move(start));
+  Estimate e;
+  e.explained = residuals_.explain(at.robot(), options_.threads);
+  e.z = residuals_.z(e.explained);
+  descend(*this, uncertain, at, e, nullptr, options_.iterations, options_.threads);
+  settle(*this, uncertain, e);
+  return e;
+}
+
+Estimate Estimator::beside(const Uncertain& uncertain, const Estimate& base, Point start,
+                           int iterations) const {
+  const Unknowns at(uncertain, std::move(start));
+  Estimate e;
+  e.explained = residuals_.explain(at.robot(), 1);
+  e.z = residuals_.z(e.explained), e.weight = base.weight;
+  descend(*this, uncertain, at, e, &base, iterations, 1);
+  const VectorXd weight = e.weight;
+  weigh(residuals_, e);
+  e.weight = weight;
+  return e;
+}
+
+}  // namespace sim::gap

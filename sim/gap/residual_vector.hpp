@@ -1,0 +1,54 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/residuals/stages.hpp"
+
+namespace sim::gap {
+
+/// What a robot makes of every episode, and of the same with other noise.
+struct Explained {
+  std::vector<residuals::Explanation> real, disturbed;
+};
+
+/// One stage of one episode within the vector of all z.
+struct Block {
+  std::size_t stage;
+  Eigen::Index first, count;
+};
+
+/// The stage residuals of all episodes in units of their noise, z = r/σ, as one vector; 0 where the
+/// nominal robot cannot judge. Where another robot cannot, the nominal residual stays.
+///
+/// σ is the noise floor of the robot at hand, not of the nominal one: else a constant that multiplies a
+/// noisy signal comes out too small (errors in variables), and one that scales an equation down would
+/// scale its error down (σ² = ⟨(r(y + n) − r(y))²⟩, n: noise of the sensors' data sheets).
+class ResidualVector {
+ public:
+  /// `nominal` and `episodes` stay with the caller.
+  ResidualVector(const erp::Robot& nominal, std::span<const residuals::Episode> episodes,
+                 std::uint64_t seed, int threads);
+
+  Explained explain(const erp::Robot& robot, int threads) const;
+  /// Of a robot that differs from that of `base` by what `reach` states.
+  Explained explain(const erp::Robot& robot, const Explained& base,
+                    const residuals::Reach& reach) const;
+  Eigen::VectorXd z(const Explained& explained) const;
+
+  std::span<const Block> blocks() const { return blocks_; }
+  std::size_t stages() const { return stages_; }
+  /// The nominal robot's; its residuals name the stages.
+  const residuals::Explanation& first() const { return bare_.front(); }
+
+ private:
+  std::span<const residuals::Episode> episodes_;
+  std::vector<residuals::Episode> disturbed_;
+  std::vector<residuals::Explanation> bare_;
+  std::vector<Block> blocks_;
+  std::size_t stages_ = 0;
+  Eigen::Index size_ = 0;
+};
+
+}  // namespace sim::gap

@@ -1,0 +1,74 @@
+#include "sim/gap/unknowns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim::gap {
+
+erp::Robot robot_at(const Uncertain& uncertain, const Point& point) {
+  erp::Robot robot = with_constants(uncertain.nominal, uncertain.constants, point.x);
+  for (const effects::Placed& placed : point.effects)
+    robot.effects.push_back(effects::written(placed));
+  return robot;
+}
+
+Unknowns::Unknowns(const Uncertain& uncertain, Point at)
+    : uncertain_(&uncertain), at_(std::move(at)) {
+  at_.x.resize(uncertain.constants.size(), 0.0);
+  for (std::size_t n = 0; n < at_.effects.size(); ++n) {
+    const auto all = effects::parameters(at_.effects[n].effect);
+    for (std::size_t p = 0; p < all.size(); ++p)
+      if (all[p].fitted) places_.push_back({n, p});
+  }
+}
+
+effects::Parameter Unknowns::parameter(std::size_t k) const {
+  const Place& place = places_[k - constants()];
+  auto& effect = const_cast<effects::AnyEffect&>(at_.effects[place.effect].effect);
+  return effects::parameters(effect)[place.parameter];
+}
+
+double Unknowns::value(std::size_t k) const {
+  return k < constants() ? at_.x[k] : *parameter(k).value;
+}
+
+double Unknowns::step(std::size_t k) const {
+  constexpr double of_tolerance = 0.1, of_bounds = 2e-4, of_value = 0.01;  // chosen
+  if (k < constants()) return of_tolerance;
+  const effects::Bounds bounds = parameter(k).bounds;
+  const double own = of_value * std::abs(value(k));
+  const double step = own > 0 ? own : of_bounds * std::max(std::abs(bounds.low), bounds.high);
+  return value(k) + step > bounds.high ? -step : step;
+}
+
+Unknowns Unknowns::with(std::size_t k, double value) const {
+  Unknowns other = *this;
+  if (k < constants()) other.at_.x[k] = value;
+  else {
+    const effects::Parameter p = other.parameter(k);
+    *p.value = std::clamp(value, p.bounds.low, p.bounds.high);
+  }
+  return other;
+}
+
+Unknowns Unknowns::moved(const Eigen::VectorXd& by) const {
+  Unknowns other = *this;
+  for (std::size_t k = 0; k < count(); ++k)
+    other = other.with(k, value(k) + by[Eigen::Index(k)]);
+  return other;
+}
+
+residuals::Reach Unknowns::reach(std::size_t k, const residuals::Stages& stages) const {
+  return k < constants() ? uncertain_->constants[k].reach
+                         : stages.reach(at_.effects[places_[k - constants()].effect]);
+}
+
+bool Unknowns::at_bound(std::size_t k) const {
+  if (k < constants()) return false;
+  const effects::Parameter p = parameter(k);
+  const double near = 1e-3 * (p.bounds.high - p.bounds.low);
+  return *p.value > p.bounds.high - near ||
+         (*p.value < p.bounds.low + near && p.bounds.low != 0);
+}
+
+}  // namespace sim::gap
