@@ -7,6 +7,8 @@
 
 #include "sim/diagnosis/bus.hpp"
 #include "sim/diagnosis/where.hpp"
+#include "sim/gap/limits.hpp"
+#include "sim/gap/row_timing.hpp"
 #include "sim/residuals/common_signals.hpp"
 #include "sim/residuals/drives.hpp"
 #include "sim/soundness/odd_table.hpp"
@@ -38,12 +40,14 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
 struct Bus {
   std::vector<diagnosis::Ages> ages;
   bool there, told, late;
+  double voltage_late_s;  ///< row_timing.hpp
 };
 
 Bus look_at_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& episodes) {
   Bus bus;
   for (const auto& e : episodes) bus.ages.push_back(diagnosis::command_ages(e, robot));
   bus.there = robot.drives.empty(), bus.told = bus.there && diagnosis::told(bus.ages);
+  bus.voltage_late_s = episodes.empty() ? 0 : episodes[0].voltage_late_s;
   bus.late = bus.told && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
   return bus;
 }
@@ -67,6 +71,11 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
         "the bus is late: in {:.0f} % of the ticks with a new command the ECUs followed "
         "an older one, {:.3g} ms old in the mean\n",
         100 * diagnosis::late_share(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
+  if (const double late_s = bus.voltage_late_s; late_s > 0)
+    out << fmt::format(
+        "the bus is late: voltages act {:.3g} ms after their rows, or all sensors are reported so "
+        "late\n",
+        1e3 * late_s);
   if (!open.empty()) out << "the gap is in: " << open << "\n";
   else if (!some) out << "nothing could be judged; record some seconds in which everything moves\n";
   else if (bus.late)
@@ -118,6 +127,8 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
   }
   read.odd = odd.take();
   residuals::keep_common(read.episodes, robot, read.mended);
+  sim::gap::undo(sim::gap::row_timing(read.episodes), read.episodes, read.mended);
+  sim::gap::apply_limits(robot, read.episodes, read.mended);
   return read;
 }
 

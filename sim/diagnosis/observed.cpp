@@ -8,6 +8,24 @@
 namespace sim::diagnosis {
 namespace {
 
+/// A delay between voltages and all sensors, seen in the motors' law: of commands or of sensors, which
+/// no recording tells apart.
+void add_row_delay(const Evidence& evidence, Observed& observed) {
+  const double late_s = evidence.episodes[0].voltage_late_s;
+  if (late_s == 0) return;
+  observed.bus_told = true;
+  for (const char* type : {"bus_command_delay", "bus_sensor_delay"}) {
+    if (std::ranges::count(evidence.options.withhold, type)) continue;
+    effects::Placed placed{evidence.robot.name, *effects::neutral(type)};
+    *effects::parameters(placed.effect)[0].value = late_s;
+    Named n = named(placed);
+    const double half = evidence.episodes[0].period_s / 2;
+    n.intervals[0] = {late_s - half, late_s + half};
+    n.gain = 1, n.gain_interval = {1, 1}, n.supported = true;
+    observed.bus.push_back(std::move(n));
+  }
+}
+
 void look_at_bus(const Evidence& evidence, Observed& observed) {
   const auto ages = [&](const std::vector<std::size_t>& set) {
     std::vector<Ages> all;
@@ -58,6 +76,7 @@ void look_at_steps(const Evidence& evidence, const Trials& plain, Observed& obse
 Observed observe(const Evidence& evidence, const Trials& plain) {
   Observed observed;
   look_at_bus(evidence, observed);
+  if (!observed.bus_differs()) add_row_delay(evidence, observed);
   look_at_steps(evidence, plain, observed);
   return observed;
 }

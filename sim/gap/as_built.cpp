@@ -41,6 +41,7 @@ void release(const Estimator& train, AsBuilt& built) {
     built.uncertain.prior[*far] = widened;
     built.estimate = train.run(built.uncertain, built.estimate.point);
   }
+  built.beyond.clear();
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k)
     if (std::abs(built.estimate.point.x[k]) > beyond &&
         determined(built.uncertain, built.estimate, k) > well)
@@ -71,7 +72,9 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
   const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
   AsBuilt built{uncertain_of(nominal, options.search.withhold), {}, {}, {}};
   const Search search(estimator, judged, built.uncertain, options.search);
-  built.estimate = search.run(estimator.run(built.uncertain, {})).train;
+  built.estimate = estimator.run(built.uncertain, {});
+  release(estimator, built);
+  built.estimate = search.run(built.estimate).train;
   release(estimator, built);
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;

@@ -53,6 +53,9 @@ struct Episode {
   /// same.
   std::size_t judged_from = 0, judged_until = std::numeric_limits<std::size_t>::max();
 
+  /// By how much later than recorded voltages act, or all sensors are; undone already.
+  double voltage_late_s = 0;
+
   void judge_from(double time_s) {
     judged_from = static_cast<std::size_t>(std::lround(time_s / period_s));
   }
