@@ -53,6 +53,20 @@ void add_diagnose(CLI::App& gap, Chosen& chosen) {
       [=, &chosen] { chosen = [=] { return gap::diagnose(*o, std::cout, std::cerr); }; });
 }
 
+void add_gap_calibrate(CLI::App& gap, Chosen& chosen) {
+  auto o = std::make_shared<gap::CalibrateOptions>();
+  o->threads = all_cores();
+  auto* calibrate = gap.add_subcommand(
+      "calibrate", "All constants of a robot as built, from recordings: the robot.xml of this robot");
+  calibrate->add_option("--robot", o->robot, "robot.xml, the model")->required();
+  calibrate->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")->required();
+  calibrate->add_option("--out", o->out, "file for the robot.xml with the constants found");
+  calibrate->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
+  calibrate->add_option("--seed", o->seed, "of the noise floors");
+  calibrate->callback(
+      [=, &chosen] { chosen = [=] { return gap::calibrate(*o, std::cout, std::cerr); }; });
+}
+
 void add_plan(CLI::App& gap, Chosen& chosen) {
   auto o = std::make_shared<gap::PlanOptions>();
   o->threads = all_cores();
@@ -163,6 +177,7 @@ void add_gap(CLI::App& app, Chosen& chosen) {
   gap->require_subcommand(1);
   add_where(*gap, chosen);
   add_diagnose(*gap, chosen);
+  add_gap_calibrate(*gap, chosen);
   add_plan(*gap, chosen);
   add_twins(*gap, chosen);
   add_monitor(*gap, chosen);

@@ -47,6 +47,18 @@ struct DiagnoseOptions {
 /// gap_where. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
 int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
 
+struct CalibrateOptions {
+  std::string robot, out;  ///< out: a file; empty: nothing is written
+  std::vector<std::string> recordings;
+  int threads = 2;
+  std::uint64_t seed = 1;
+};
+
+/// Estimates all constants of a robot together and prints a row for each: nominal, found, 95 % interval;
+/// writes the robot.xml of this robot. Throws as where; std::invalid_argument for a robot of drives.
+/// Returns 0.
+int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& remarks);
+
 struct TwinsOptions {
   std::string robot;
   std::vector<std::string> recordings = {};  ///< none: the simulator records four

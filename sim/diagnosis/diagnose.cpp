@@ -158,7 +158,12 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
     d.warnings.push_back(fmt::format(
         "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
         bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
-  const Selection selection = select(evidence, known, d.stages);
+  const bool may_differ = robot.drives.empty() && observed.sensors.empty();
+  std::optional<Built> built;
+  Selection selection = select(evidence, known, d.stages,
+                               may_differ ? Depth::unless_widespread : Depth::full);
+  if (may_differ && selection.gap && selection.told) built.emplace(as_built(evidence, plain));
+  if (selection.widespread && !built->explained()) selection = select(evidence, known, d.stages);
   const Verdict verdict = judge(selection, observed, d.stages);
   const bool explained = verdict == Verdict::supported;
   d.verdict = explained && !d.judged_apart() ? Verdict::not_identifiable : verdict;
@@ -178,11 +183,10 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);
   d.overall = closed_overall(evidence, plain, known, selection.trial);
   d.worst = worst_moments(evidence, plain, selection.trial, d.stages);
-  if (selection.gap && selection.told && robot.drives.empty() && observed.sensors.empty()) {
-    const Built built = as_built(evidence, plain);
+  if (built) {
     const auto exact =
         where(known, selection.trial, evidence.sets.held_out, evidence.where_options());
-    if (is_better(built, selection, exact)) take(evidence, plain, built, selection, d);
+    if (is_better(*built, selection, exact)) take(evidence, plain, *built, selection, d);
   }
   evidence.tell("done", 1);
   return d;

@@ -52,12 +52,18 @@ Together one_after_another(const Evidence& evidence, const Trials& trials, const
   return together;
 }
 
+/// More than three stages and a third of them.
+bool is_widespread(const std::vector<StageGap>& left) {
+  const auto open = std::ranges::count_if(left, &StageGap::open);
+  return open > 3 && 3 * open > std::ssize(left);
+}
+
 }  // namespace
 
 bool Selection::explained() const { return !answer.empty() && !any_open(left); }
 
 Selection select(const Evidence& evidence, const Trials& trials,
-                 const std::vector<StageGap>& stages) {
+                 const std::vector<StageGap>& stages, Depth depth) {
   Selection s{
       .left = where(trials, trials.bare(), evidence.sets.held_out, evidence.where_options()),
       .trial = trials.bare()};
@@ -77,6 +83,14 @@ Selection select(const Evidence& evidence, const Trials& trials,
     return s;
   }
   s.answer = {s.ranked[0]};
+  if (depth == Depth::unless_widespread) {
+    s.trial = trials.with(trials.bare(), first[0].fit.placed, evidence.sets.all());
+    s.left = left_open(evidence, trials, s.trial, evidence.options.alone);
+    if (is_widespread(s.left)) {
+      s.widespread = true;
+      return s;
+    }
+  }
   const DiagnoseOptions& options = evidence.options;
   Together together = one_after_another(evidence, trials, first[0].fit.placed);
   const bool left_open =

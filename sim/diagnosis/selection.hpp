@@ -12,6 +12,7 @@ namespace sim::diagnosis {
 
 struct Selection {
   bool gap = false;  ///< some stage leaves its floor
+  bool widespread = false;  ///< the best alone leaves many stages open: no others were looked for
   bool told = true;  ///< false: the recordings held out show too little of it to judge an effect
   std::vector<Named> ranked = {};   ///< one by one, best first
   std::vector<Named> answer = {};   ///< effects that together close the gap, the most telling first
@@ -22,9 +23,13 @@ struct Selection {
   bool explained() const;  ///< there is an answer, and no stage stays open
 };
 
+/// How far to look: a robot whose every constant is a little off opens most stages, and no few effects
+/// explain it.
+enum class Depth { unless_widespread, full };
+
 /// `stages`: those that signatures are told by.
-Selection select(const Evidence& evidence, const Trials& trials,
-                 const std::vector<StageGap>& stages);
+Selection select(const Evidence& evidence, const Trials& trials, const std::vector<StageGap>& stages,
+                 Depth depth = Depth::full);
 
 /// Whether a stage that keeps `excess` of what `was` there is not explained. `follows`: how much of the
 /// rest follows one variable, asked only where that decides.

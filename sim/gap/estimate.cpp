@@ -13,7 +13,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Columns `from` … of ∂z/∂unknown, by forward differences.
+/// The smaller of two slopes, 0 if they differ in sign: where a line goes slack on one side, z jumps
+/// there, and a jump over a small step is no derivative.
+double smaller(double forward, double backward) {
+  if (forward * backward <= 0) return 0;
+  return std::abs(forward) < std::abs(backward) ? forward : backward;
+}
+
+/// Columns `from` … of ∂z/∂unknown, by differences to both sides.
 std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector& residuals,
                                                            const Unknowns& at, const Estimate& here,
                                                            std::size_t from, int threads) {
@@ -21,11 +28,18 @@ std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector&
   std::vector<std::vector<std::pair<Index, double>>> all(at.count() - from);
   in_parallel(all.size(), threads, [&](std::size_t n) {
     const std::size_t k = from + n;
-    const double step = at.step(k);
-    const VectorXd other = residuals.z(residuals.explain(
-        at.with(k, at.value(k) + step).robot(), here.explained, at.reach(k, stages)));
-    for (Index row = 0; row < other.size(); ++row)
-      if (const double d = (other[row] - here.z[row]) / step; d != 0) all[n].emplace_back(row, d);
+    const auto slope = [&](double step) -> VectorXd {
+      const Unknowns other = at.with(k, at.value(k) + step);
+      if (other.value(k) == at.value(k)) return {};  // at a bound
+      return (residuals.z(residuals.explain(other.robot(), here.explained, at.reach(k, stages))) -
+              here.z) /
+             (other.value(k) - at.value(k));
+    };
+    const VectorXd forward = slope(at.step(k)), backward = slope(-at.step(k));
+    for (Index row = 0; row < forward.size(); ++row)
+      if (const double d = backward.size() ? smaller(forward[row], backward[row]) : forward[row];
+          d != 0)
+        all[n].emplace_back(row, d);
   });
   return all;
 }
@@ -63,6 +77,7 @@ double correlated(std::span<const double> z) {
 
 /// Sets weights and mean squares by what is left.
 void weigh(const ResidualVector& residuals, Estimate& e) {
+  constexpr double of_laws = 0.25;  // windows count so much: laws are approximations too; chosen
   std::vector<double> square(residuals.stages()), count(square), correlation(square);
   for (const Block& b : residuals.blocks()) {
     const std::span<const double> here(e.z.data() + b.first, std::size_t(b.count));
@@ -76,7 +91,7 @@ void weigh(const ResidualVector& residuals, Estimate& e) {
   for (std::size_t s = 0; s < square.size(); ++s) {
     if (count[s] == 0) continue;
     e.mean_square[s] = square[s] / count[s];
-    weight[s] = 1 / (std::max(1.0, e.mean_square[s]) * (correlation[s] / count[s]));
+    weight[s] = of_laws / (std::max(1.0, e.mean_square[s]) * (correlation[s] / count[s]));
   }
   e.weight.resize(e.z.size());
   for (const Block& b : residuals.blocks())

@@ -10,8 +10,9 @@
 /// stage residuals of recordings: maximum a posteriori by Gauss-Newton.
 ///
 ///   min over x, p   Σ_s w_s Σ_k z_sk(x, p)² + Σ_j (x_j/s_j)²      z: residual_vector.hpp
-///   w_s = 1/(c_s v_s)      c_s = max(1, ⟨z_s²⟩): a stage that keeps more than noise counts less
+///   w_s = 1/(4 c_s v_s)    c_s = max(1, ⟨z_s²⟩): a stage that keeps more than noise counts less
 ///                          v_s: windows that one independent one stands for, 1 + 2 Σ ρ_l
+///                          4: chosen, for what the laws themselves approximate
 ///
 /// x: deviations of constants in tolerances, s: their prior; p: parameters of effects, without a prior
 /// but within their bounds. The covariance is the inverse of the Hessian.

@@ -62,13 +62,25 @@ bool is_searched(const effects::About& about, const Uncertain& uncertain,
 }  // namespace
 
 std::vector<double> excess(const ResidualVector& residuals, const VectorXd& z) {
-  std::vector<double> square(residuals.stages()), count(square);
+  constexpr double median_of_chi_square = 0.455, event = 36;  // six deviations; chosen
+  std::vector<std::vector<double>> square(residuals.stages());
   for (const Block& b : residuals.blocks())
     for (Index k = b.first; k < b.first + b.count; ++k)
-      if (z[k] != 0) square[b.stage] += z[k] * z[k], ++count[b.stage];
-  for (std::size_t s = 0; s < square.size(); ++s)
-    square[s] = count[s] > 0 ? square[s] / count[s] - 1 : 0;
-  return square;
+      if (z[k] != 0) square[b.stage].push_back(z[k] * z[k]);
+  std::vector<double> all;
+  for (auto& of_stage : square) {
+    if (of_stage.empty()) {
+      all.push_back(0);
+      continue;
+    }
+    const auto middle = of_stage.begin() + std::ptrdiff_t(of_stage.size() / 2);
+    std::ranges::nth_element(of_stage, middle);
+    const double most = event * std::max(1.0, *middle / median_of_chi_square);
+    double sum = 0;
+    for (const double x : of_stage) sum += std::min(x, most);
+    all.push_back(sum / double(of_stage.size()) - 1);
+  }
+  return all;
 }
 
 Search::Search(const Estimator& train, const ResidualVector& held_out, const Uncertain& uncertain,

@@ -67,7 +67,8 @@ class Search {
   SearchOptions options_;
 };
 
-/// ⟨z²⟩ − 1 of each stage; 0: nothing but noise.
+/// ⟨z²⟩ − 1 of each stage; 0: nothing but noise. A window counts for no more than six deviations of its
+/// stage, so that one event does not pass for a law.
 std::vector<double> excess(const ResidualVector& residuals, const Eigen::VectorXd& z);
 
 }  // namespace sim::gap

@@ -33,7 +33,7 @@ double Unknowns::value(std::size_t k) const {
 }
 
 double Unknowns::step(std::size_t k) const {
-  constexpr double of_tolerance = 0.1, of_bounds = 2e-4, of_value = 0.01;  // chosen
+  constexpr double of_tolerance = 0.01, of_bounds = 2e-4, of_value = 3e-3;  // chosen
   if (k < constants()) return of_tolerance;
   const effects::Bounds bounds = parameter(k).bounds;
   const double own = of_value * std::abs(value(k));

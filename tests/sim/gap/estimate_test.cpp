@@ -1,0 +1,111 @@
+#include "sim/gap/as_built.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/sim/diagnosis/blind_recording.hpp"
+
+using namespace sim::gap;
+using blind_recording::hinge_rig;
+
+namespace {
+
+/// Recordings, laid out for the nominal rig, of a rig with other numbers; recorded by the blind cases'
+/// own physics.
+std::vector<sim::residuals::Episode> recordings_of(const erp::Robot& built, double seconds = 10) {
+  std::vector<sim::residuals::Episode> all;
+  std::vector<std::string> remarks;
+  for (int k = 0; k < 3; ++k)
+    all.push_back(sim::residuals::lay_out(
+        sim::blind::record(built, blind_recording::nothing_hidden(),
+                           sim::excitation(built, k, seconds, 5), std::uint64_t(k)),
+        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
+  return all;
+}
+
+std::size_t index_of(const AsBuilt& built, const std::string& on, const std::string& name) {
+  const auto& all = built.uncertain.constants;
+  const auto found = std::ranges::find_if(
+      all, [&](const Constant& c) { return c.on == on && c.name == name; });
+  REQUIRE(found != all.end());
+  return std::size_t(found - all.begin());
+}
+
+double value_of(const AsBuilt& built, const std::string& on, const std::string& name) {
+  const std::size_t k = index_of(built, on, name);
+  return built.uncertain.constants[k].value(built.estimate.point.x[k]);
+}
+
+void check_within(const AsBuilt& built, const std::string& on, const std::string& name,
+                  double truth) {
+  INFO(on << " " << name);
+  const std::size_t k = index_of(built, on, name);
+  const Constant& c = built.uncertain.constants[k];
+  const double half = 2.6 * built.estimate.sigma(k) * c.tolerance + 0.01 * truth;
+  CHECK(std::abs(value_of(built, on, name) - truth) < half);
+}
+
+}  // namespace
+
+TEST_CASE("constants that are 3 to 7 % off are found together, and leave each stage at its noise") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.06;
+  built.motor_types[0].rotor_inertia_kg_m2 *= 1.05;
+  for (erp::Actuator& a : built.actuators) a.spindle.radius_m *= 1.03;
+  built.skeletons[0].bodies[1].mass_kg *= 0.95;
+  const auto recordings = recordings_of(built);
+  const AsBuilt found = calibrated(hinge_rig(), recordings);
+  for (const char* on : {"flexor", "extensor"}) {
+    check_within(found, on, "resistance_ohm", 1.06 * 0.516);
+    check_within(found, on, "rotor_inertia_kg_m2", 1.05 * 14.5e-7);
+    check_within(found, on, "back_emf_V_s_per_rad", 11.5e-3);
+    // A larger spindle under a larger moment arm, with a softer spring, looks nearly the same.
+    CHECK(value_of(found, on, "radius_m") / value_of(found, on, "moment_arm") ==
+          Approx(1.03 * 0.0045).epsilon(0.005));
+  }
+  check_within(found, "forearm", "mass", 0.95);
+  for (const double square : found.estimate.mean_square) CHECK(square < 1.3);
+  CHECK(found.beyond.empty());
+}
+
+TEST_CASE("the robot of a calibration holds the numbers that were found") {
+  erp::Robot built = hinge_rig();
+  for (erp::Actuator& a : built.actuators) a.tendon.stiffness_N_per_m *= 1.3;
+  const auto recordings = recordings_of(built, 6);
+  const AsBuilt found = calibrated(hinge_rig(), recordings);
+  REQUIRE_FALSE(found.beyond.empty());  // six tolerances
+  CHECK(found.uncertain.constants[found.beyond[0]].name == "stiffness_N_per_m");
+  for (const erp::Actuator& a : found.robot.actuators)
+    CHECK(a.tendon.stiffness_N_per_m == Approx(value_of(found, a.name, "stiffness_N_per_m")));
+  CHECK(found.robot.actuators[0].tendon.stiffness_N_per_m == Approx(7800).epsilon(0.03));
+}
+
+TEST_CASE("an effect is found beside constants that are all a little off") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.03, built.motor_types[0].torque_Nm_per_A *= 0.98;
+  built.actuators[0].spindle.radius_m *= 1.02, built.actuators[1].tendon.stiffness_N_per_m *= 0.97;
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[1].creep_N_per_m = 1500, blind.quirks.chains[1].creep_s = 2;  // extensor
+  std::vector<sim::residuals::Episode> all;
+  std::vector<std::string> remarks;
+  for (int k = 0; k < 3; ++k)
+    all.push_back(sim::residuals::lay_out(
+        sim::blind::record(built, blind, sim::excitation(built, k, 10, 5), std::uint64_t(k)),
+        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
+  const std::span<const sim::residuals::Episode> each(all);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  REQUIRE(found.estimate.point.effects.size() == 1);
+  CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_creep on extensor");
+}
+
+TEST_CASE("a constant of a withheld type is not estimated") {
+  const auto recordings = recordings_of(hinge_rig(), 3);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  AsBuiltOptions options;
+  options.search.withhold = {"motor_resistance"};
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1), options);
+  CHECK(std::ranges::none_of(found.uncertain.constants,
+                             [](const Constant& c) { return c.name == "resistance_ohm"; }));
+  CHECK(found.estimate.point.effects.empty());
+}

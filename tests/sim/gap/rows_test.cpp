@@ -1,0 +1,87 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/gap/limits.hpp"
+#include "sim/gap/row_timing.hpp"
+#include "tests/sim/diagnosis/blind_recording.hpp"
+
+using namespace sim::gap;
+using sim::residuals::Episode;
+using sim::residuals::Signal;
+
+namespace {
+
+std::vector<Episode> recordings() {
+  return blind_recording::episodes(blind_recording::nothing_hidden(), 5, 2);
+}
+
+void make_early(Signal& signal, std::size_t rows) {
+  for (std::size_t k = 0; k + rows < signal.size(); ++k) signal[k] = signal[k + rows];
+}
+
+std::size_t missing(const Signal& signal) {
+  return std::size_t(std::ranges::count_if(signal, [](double x) { return std::isnan(x); }));
+}
+
+}  // namespace
+
+TEST_CASE("a recording whose voltage holds until its row has no lag") {
+  CHECK(row_timing(recordings()).rows == 0);
+}
+
+TEST_CASE("a voltage that holds from its row is found, and moved with mode and reference") {
+  auto all = recordings();
+  const auto as_it_was = all;
+  for (Episode& e : all)
+    for (auto& s : e.actuators) make_early(s.voltage_V, 1), make_early(s.reference, 1), make_early(s.mode, 1);
+  const RowTiming timing = row_timing(all);
+  CHECK(timing.from_row());
+  std::vector<std::string> remarks;
+  undo(timing, all, remarks);
+  CHECK(remarks.size() == 1);
+  CHECK(all[0].actuators[0].voltage_V[100] == as_it_was[0].actuators[0].voltage_V[100]);
+  CHECK(all[0].actuators[0].reference[100] == as_it_was[0].actuators[0].reference[100]);
+  CHECK(all[0].voltage_late_s == 0);
+}
+
+TEST_CASE("a voltage that acts 8 ms late is a delay of 8 ms") {
+  auto all = recordings();
+  for (Episode& e : all)
+    for (auto& s : e.actuators) make_early(s.voltage_V, 4);
+  const RowTiming timing = row_timing(all);
+  CHECK(timing.delay_s() == Approx(0.008));
+  std::vector<std::string> remarks;
+  undo(timing, all, remarks);
+  CHECK(all[0].voltage_late_s == Approx(0.008));
+}
+
+TEST_CASE("one actuator that lags alone is no lag of rows") {
+  auto all = recordings();
+  for (Episode& e : all) make_early(e.actuators[0].voltage_V, 3);
+  CHECK(row_timing(all).rows == 0);
+}
+
+TEST_CASE("rows at which a driver holds its current limit are left out, and others stay") {
+  auto all = recordings();
+  auto& s = all[0].actuators[0];
+  for (std::size_t k = 1000; k < 1050; ++k) s.current_A[k] = 3.99, s.voltage_V[k] = 11.5;
+  const std::size_t before = missing(s.voltage_V);
+  std::vector<std::string> remarks;
+  apply_limits(blind_recording::hinge_rig(), all, remarks);
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0].find("current limit of 4 A in 50 rows") != std::string::npos);
+  CHECK(missing(s.voltage_V) - before == 52);
+  CHECK(std::isnan(s.current_A[1020]));
+  CHECK_FALSE(std::isnan(s.tension_N[1020]));
+}
+
+TEST_CASE("a voltage above the supply is the supply's, a reading at the end of its range none") {
+  auto all = recordings();
+  auto& s = all[0].actuators[1];
+  s.voltage_V[500] = -20, s.tension_N[600] = 250;
+  std::vector<std::string> remarks;
+  apply_limits(blind_recording::hinge_rig(), all, remarks);
+  CHECK(s.voltage_V[500] == -12);
+  CHECK(std::isnan(s.tension_N[600]));
+  CHECK(remarks.size() == 2);
+}
