@@ -20,9 +20,9 @@ constexpr double well = 0.75;
 void print_row(const gap::AsBuilt& built, std::size_t k, std::ostream& out) {
   const gap::Constant& c = built.uncertain.constants[k];
   const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
-  const char* remark = gap::determined(built, k) < well           ? "not determined"
+  const char* remark = gap::determined(built, k) < well          ? "not determined"
                        : std::ranges::count(built.beyond, k) > 0 ? "beyond its tolerance"
-                                                                  : "";
+                                                                 : "";
   out << fmt::format("{:<16} {:<28} {:>11.5g} {:>11.5g} {:>11.5g} … {:<11.5g} {}\n", c.on, c.name,
                      c.nominal, c.value(x), c.value(x - half), c.value(x + half), remark);
 }
@@ -32,9 +32,10 @@ void print_left(const std::vector<std::string>& names, const gap::AsBuilt& built
                 std::ostream& out) {
   for (std::size_t s = 0; s < names.size(); ++s)
     if (built.estimate.mean_square[s] > 1.5)
-      out << fmt::format("left over   {}, {:.3g} times its noise: no constant explains it; see erp "
-                         "gap diagnose\n",
-                         names[s], std::sqrt(built.estimate.mean_square[s]));
+      out << fmt::format(
+          "left over   {}, {:.3g} times its noise: no constant explains it; see erp "
+          "gap diagnose\n",
+          names[s], std::sqrt(built.estimate.mean_square[s]));
 }
 
 }  // namespace
@@ -42,11 +43,12 @@ void print_left(const std::vector<std::string>& names, const gap::AsBuilt& built
 int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(options.robot);
   if (!robot.drives.empty())
-    throw std::invalid_argument(options.robot +
-                                ": has drives, whose constants erp gap diagnose estimates as effects");
+    throw std::invalid_argument(
+        options.robot + ": has drives, whose constants erp gap diagnose estimates as effects");
   if (!options.out.empty() && std::filesystem::exists(options.out) &&
       std::filesystem::equivalent(options.out, options.robot))
-    throw std::invalid_argument("--out " + options.out + ": is the model itself; name another file");
+    throw std::invalid_argument("--out " + options.out +
+                                ": is the model itself; name another file");
   const Reading read = read_episodes(robot, options.recordings);
   tell(read.mended, remarks), tell_odd(read, remarks);
   gap::EstimateOptions how;

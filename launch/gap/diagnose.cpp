@@ -247,7 +247,8 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   const auto free_run = run_freely(d, read.episodes, robot, options,
                                    [&](double share) { progress->tell("free run", share); });
   erp::Robot found = d.as_built ? *d.as_built : erp::read_robot(options.robot);
-  for (const auto& n : d.as_built ? std::vector<diagnosis::Named>{} : d.answer) found.effects.push_back(sim::effects::written(n.placed));
+  for (const auto& n : d.as_built ? std::vector<diagnosis::Named>{} : d.answer)
+    found.effects.push_back(sim::effects::written(n.placed));
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
   if (!free_run.channels.empty() || d.verdict == diagnosis::Verdict::supported)

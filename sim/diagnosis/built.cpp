@@ -9,7 +9,8 @@
 namespace sim::diagnosis {
 namespace {
 
-std::vector<residuals::Episode> some(const Evidence& evidence, const std::vector<std::size_t>& set) {
+std::vector<residuals::Episode> some(const Evidence& evidence,
+                                     const std::vector<std::size_t>& set) {
   std::vector<residuals::Episode> episodes;
   for (const std::size_t k : set) episodes.push_back(evidence.episodes[k]);
   return episodes;
@@ -20,8 +21,14 @@ std::vector<ConstantEstimate> constants_of(const gap::AsBuilt& built) {
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) {
     const gap::Constant& c = built.uncertain.constants[k];
     const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
-    all.push_back({c.name, c.on, c.stage, c.nominal, c.tolerance, c.value(x),
-                   {c.value(x - half), c.value(x + half)}, gap::determined(built, k),
+    all.push_back({c.name,
+                   c.on,
+                   c.stage,
+                   c.nominal,
+                   c.tolerance,
+                   c.value(x),
+                   {c.value(x - half), c.value(x + half)},
+                   gap::determined(built, k),
                    std::ranges::count(built.beyond, k) > 0});
   }
   return all;
@@ -92,7 +99,8 @@ void set_gains(const Evidence& evidence, const Trials& plain, const gap::AsBuilt
 }
 
 /// Excess of a stage without the hundredth of its seconds that keeps most: one event is no law.
-double without_events(const Trials& trials, const StageGap& gap, const std::vector<std::size_t>& set) {
+double without_events(const Trials& trials, const StageGap& gap,
+                      const std::vector<std::size_t>& set) {
   auto blocks = trials.blocks(trials.bare(), set, [&](const residuals::Residual& r) {
     return same_stage(r, gap.stage, gap.on);
   });
@@ -111,7 +119,8 @@ std::vector<StageGap> left_by(const Evidence& evidence, const Trials& plain, con
   for (StageGap& gap : left) {
     const auto was = find_stage(before, gap.stage, gap.on);
     const double usual = without_events(built, gap, evidence.sets.held_out);
-    gap.open = gap.open && usual > evidence.where_options().practical_excess && stays_open(gap.excess, was->excess, evidence.options.together, [&] {
+    gap.open = gap.open && usual > evidence.where_options().practical_excess &&
+               stays_open(gap.excess, was->excess, evidence.options.together, [&] {
                  return follows(built, built.bare(), gap.stage, gap.on, evidence.sets);
                });
   }
@@ -120,15 +129,14 @@ std::vector<StageGap> left_by(const Evidence& evidence, const Trials& plain, con
 
 }  // namespace
 
-bool Built::explained() const {
-  return !at_bound && std::ranges::none_of(left, &StageGap::open);
-}
+bool Built::explained() const { return !at_bound && std::ranges::none_of(left, &StageGap::open); }
 
 Built as_built(const Evidence& evidence, const Trials& plain) {
   const auto train = some(evidence, evidence.sets.train),
              held_out = some(evidence, evidence.sets.held_out);
   gap::AsBuiltOptions options;
-  options.estimate.threads = evidence.options.threads, options.estimate.seed = evidence.options.seed;
+  options.estimate.threads = evidence.options.threads,
+  options.estimate.seed = evidence.options.seed;
   options.search.withhold = evidence.options.withhold;
   options.search.most_effects = evidence.options.most_effects;
   options.search.progress = [&](const std::string& what, double share) {
@@ -138,8 +146,9 @@ Built as_built(const Evidence& evidence, const Trials& plain) {
   auto [answer, doubtful] = effects_of(found);
   for (const std::size_t k : found.beyond) answer.push_back(as_effect(found, k));
   set_gains(evidence, plain, found, answer);
-  Built built{found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot),
-              {}, doubtful};
+  Built built{
+      found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot), {},
+      doubtful};
   built.left = left_by(evidence, plain, built.trials);
   return built;
 }
@@ -148,8 +157,8 @@ double worse_by(const std::vector<StageGap>& one, const std::vector<StageGap>& o
   double most = 0;
   for (const StageGap& gap : one) {
     const auto same = find_stage(other, gap.stage, gap.on);
-    if (same != other.end())
-      most = std::max(most, std::max(0.0, gap.excess) - std::max(0.0, same->excess));
+    const double stays = same != other.end() ? std::max(0.0, same->excess) : 0;
+    most = std::max(most, std::max(0.0, gap.excess) - stays);
   }
   return most;
 }

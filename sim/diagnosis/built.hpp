@@ -35,7 +35,8 @@ struct Built {
 
 Built as_built(const Evidence& evidence, const Trials& plain);
 
-/// How much larger a stage's residual may stay, (r/σ)², before another explanation is better.
+/// By how much more `one` leaves of a stage than `other`, in the noise's square, at most over all stages;
+/// what `other` lacks counts as at its noise.
 double worse_by(const std::vector<StageGap>& one, const std::vector<StageGap>& other);
 
 }  // namespace sim::diagnosis

@@ -82,9 +82,11 @@ void add_unexplained_bus(const std::string& robot, const Observed& observed, Dia
 
 /// A robot with a few effects, its constants exact, is the simpler explanation: it stands where it
 /// explains, and leaves no stage much more than the robot as built does.
-bool is_better(const Built& built, const Selection& selection, const std::vector<StageGap>& exact) {
-  constexpr double notably = 0.2;  // of the noise's square; chosen
-  if (selection.explained()) return built.explained() && worse_by(exact, built.left) > notably;
+constexpr double notably = 0.2;  // of the noise's square; chosen
+
+bool is_better(const Built& built, const Selection& selection) {
+  if (selection.explained())
+    return built.explained() && worse_by(selection.left, built.left) > notably;
   const auto open = [](const std::vector<StageGap>& gaps) {
     return std::ranges::count_if(gaps, &StageGap::open);
   };
@@ -94,7 +96,7 @@ bool is_better(const Built& built, const Selection& selection, const std::vector
 /// The answer by a robot whose constants all differ a little.
 void take(const Evidence& evidence, const Trials& plain, const Built& built,
           const Selection& selection, Diagnosis& d) {
-  d.verdict = !d.judged_apart()     ? Verdict::not_identifiable
+  d.verdict = !d.judged_apart()   ? Verdict::not_identifiable
               : built.explained() ? Verdict::supported
                                   : Verdict::none_of_the_known;
   d.answer = built.answer, d.constants = built.constants, d.as_built = built.robot;
@@ -160,9 +162,11 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
         bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
   const bool may_differ = robot.drives.empty() && observed.sensors.empty();
   std::optional<Built> built;
-  Selection selection = select(evidence, known, d.stages,
-                               may_differ ? Depth::unless_widespread : Depth::full);
-  if (may_differ && selection.gap && selection.told) built.emplace(as_built(evidence, plain));
+  Selection selection =
+      select(evidence, known, d.stages, may_differ ? Depth::unless_widespread : Depth::full);
+  const bool at_noise = selection.explained() && worse_by(selection.left, {}) < notably;
+  if (may_differ && selection.gap && selection.told && !at_noise)
+    built.emplace(as_built(evidence, plain));
   if (selection.widespread && !built->explained()) selection = select(evidence, known, d.stages);
   const Verdict verdict = judge(selection, observed, d.stages);
   const bool explained = verdict == Verdict::supported;
@@ -183,11 +187,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);
   d.overall = closed_overall(evidence, plain, known, selection.trial);
   d.worst = worst_moments(evidence, plain, selection.trial, d.stages);
-  if (built) {
-    const auto exact =
-        where(known, selection.trial, evidence.sets.held_out, evidence.where_options());
-    if (is_better(*built, selection, exact)) take(evidence, plain, *built, selection, d);
-  }
+  if (built && is_better(*built, selection)) take(evidence, plain, *built, selection, d);
   evidence.tell("done", 1);
   return d;
 }

@@ -30,7 +30,7 @@ struct Diagnosis {
   /// constants as estimated, with the effects of `answer` beside them.
   std::optional<erp::Robot> as_built;
   std::vector<ConstantEstimate> constants;  ///< of that robot
-  double interaction = 0;        ///< of the gap: what the answer's effects close only together
+  double interaction = 0;  ///< of the gap: what the answer's effects close only together
   std::vector<Moment> worst;
   Closed overall;
   std::vector<Closed> channels;

@@ -52,10 +52,10 @@ Together one_after_another(const Evidence& evidence, const Trials& trials, const
   return together;
 }
 
-/// More than three stages and a third of them.
+/// More than three stages and 60 % of them; chosen.
 bool is_widespread(const std::vector<StageGap>& left) {
   const auto open = std::ranges::count_if(left, &StageGap::open);
-  return open > 3 && 3 * open > std::ssize(left);
+  return open > 3 && 10 * open > 6 * std::ssize(left);
 }
 
 }  // namespace

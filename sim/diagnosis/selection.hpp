@@ -11,7 +11,7 @@
 namespace sim::diagnosis {
 
 struct Selection {
-  bool gap = false;  ///< some stage leaves its floor
+  bool gap = false;         ///< some stage leaves its floor
   bool widespread = false;  ///< the best alone leaves many stages open: no others were looked for
   bool told = true;  ///< false: the recordings held out show too little of it to judge an effect
   std::vector<Named> ranked = {};   ///< one by one, best first
@@ -28,8 +28,8 @@ struct Selection {
 enum class Depth { unless_widespread, full };
 
 /// `stages`: those that signatures are told by.
-Selection select(const Evidence& evidence, const Trials& trials, const std::vector<StageGap>& stages,
-                 Depth depth = Depth::full);
+Selection select(const Evidence& evidence, const Trials& trials,
+                 const std::vector<StageGap>& stages, Depth depth = Depth::full);
 
 /// Whether a stage that keeps `excess` of what `was` there is not explained. `follows`: how much of the
 /// rest follows one variable, asked only where that decides.

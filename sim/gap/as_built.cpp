@@ -6,9 +6,9 @@
 namespace sim::gap {
 namespace {
 
-constexpr double beyond = 2.5;      // tolerances; chosen
-constexpr double widened = 10;      // tolerances: the prior of a constant beyond; chosen
-constexpr double well = 0.75;       // determined: half its tolerance; chosen
+constexpr double beyond = 2.5;  // tolerances; chosen
+constexpr double widened = 10;  // tolerances: the prior of a constant beyond; chosen
+constexpr double well = 0.75;   // determined: half its tolerance; chosen
 constexpr std::size_t most_beyond = 12;
 
 Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>& withhold) {

@@ -8,8 +8,9 @@ namespace sim::gap {
 struct AsBuilt {
   Uncertain uncertain;
   Estimate estimate;
-  std::vector<std::size_t> beyond;  ///< constants off by more than their tolerances, the farthest first
-  erp::Robot robot;                 ///< nominal with all that was found
+  std::vector<std::size_t>
+      beyond;        ///< constants off by more than their tolerances, the farthest first
+  erp::Robot robot;  ///< nominal with all that was found
 };
 
 struct AsBuiltOptions {

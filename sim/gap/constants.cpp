@@ -23,16 +23,21 @@ struct MotorNumber {
 };
 constexpr MotorNumber motor_numbers[] = {
     {"resistance_ohm", Stage::motor, &erp::MotorType::resistance_ohm, 0.05, "motor_resistance"},
-    {"back_emf_V_s_per_rad", Stage::motor, &erp::MotorType::back_emf_V_s_per_rad, 0.04, "motor_torque_constant"},
+    {"back_emf_V_s_per_rad", Stage::motor, &erp::MotorType::back_emf_V_s_per_rad, 0.04,
+     "motor_torque_constant"},
     {"inductance_H", Stage::motor, &erp::MotorType::inductance_H, 0.1, "motor_inductance"},
-    {"torque_Nm_per_A", Stage::gearbox, &erp::MotorType::torque_Nm_per_A, 0.04, "motor_torque_constant"},
-    {"gear_efficiency", Stage::gearbox, &erp::MotorType::gear_efficiency, 0.05, "gearbox_efficiency"},
-    {"rotor_inertia_kg_m2", Stage::gearbox, &erp::MotorType::rotor_inertia_kg_m2, 0.05, "gearbox_inertia"},
+    {"torque_Nm_per_A", Stage::gearbox, &erp::MotorType::torque_Nm_per_A, 0.04,
+     "motor_torque_constant"},
+    {"gear_efficiency", Stage::gearbox, &erp::MotorType::gear_efficiency, 0.05,
+     "gearbox_efficiency"},
+    {"rotor_inertia_kg_m2", Stage::gearbox, &erp::MotorType::rotor_inertia_kg_m2, 0.05,
+     "gearbox_inertia"},
     {"gear_coulomb_Nm", Stage::gearbox, &erp::MotorType::gear_coulomb_Nm, 0.2, "gearbox_coulomb"},
-    {"gear_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::gear_viscous_Nm_s_per_rad, 0.2, "gearbox_viscous"},
+    {"gear_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::gear_viscous_Nm_s_per_rad, 0.2,
+     "gearbox_viscous"},
     {"rotor_coulomb_Nm", Stage::gearbox, &erp::MotorType::rotor_coulomb_Nm, 0.2, "gearbox_coulomb"},
-    {"rotor_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::rotor_viscous_Nm_s_per_rad,
-     0.2, "gearbox_viscous"},
+    {"rotor_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::rotor_viscous_Nm_s_per_rad, 0.2,
+     "gearbox_viscous"},
 };
 
 constexpr double of_radius = 0.02, of_stiffness = 0.05, of_damping = 0.2, of_moment_arm = 0.03;
@@ -70,7 +75,8 @@ auto by_effect(const char* type, const std::string& on, double nominal) {
 
 /// Of an effect's first parameter to the number: relative, or in units at the gearbox shaft.
 double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) {
-  if (number == &erp::MotorType::gear_coulomb_Nm || number == &erp::MotorType::gear_viscous_Nm_s_per_rad)
+  if (number == &erp::MotorType::gear_coulomb_Nm ||
+      number == &erp::MotorType::gear_viscous_Nm_s_per_rad)
     return 1;
   if (number == &erp::MotorType::rotor_coulomb_Nm) return motor.gear_ratio;
   if (number == &erp::MotorType::rotor_viscous_Nm_s_per_rad)
@@ -83,11 +89,18 @@ void add_motor(std::vector<Constant>& all, const erp::Robot& robot, std::size_t 
   for (const auto& [name, stage, number, relative, effect] : motor_numbers) {
     const double nominal = robot.motor_of(actuator).*number;
     if (!(nominal > 0)) continue;
-    all.push_back({name, stage, actuator.name, nominal, relative * nominal, 0.05 * nominal,
+    all.push_back({name,
+                   stage,
+                   actuator.name,
+                   nominal,
+                   relative * nominal,
+                   0.05 * nominal,
                    {.line = stage != Stage::motor, .chain = a},
                    [on = actuator.name, number](erp::Robot& r, double value) {
                      effects::own_motor(r, actuator_of(r, on)).*number = value;
-                   }, effect, motor_scale(robot.motor_of(actuator), number)});
+                   },
+                   effect,
+                   motor_scale(robot.motor_of(actuator), number)});
   }
 }
 
@@ -100,18 +113,19 @@ void add_line(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a
       all.push_back({name, stage, actuator.name, nominal, relative * nominal, 0.05 * nominal, line,
                      [on = actuator.name, set](erp::Robot& r, double value) {
                        set(actuator_of(r, on), value);
-                     }, effect, std::string_view(name) == "damping_N_s_per_m" ? 1 : 1 / nominal});
+                     },
+                     effect, std::string_view(name) == "damping_N_s_per_m" ? 1 : 1 / nominal});
   };
-  number("radius_m", Stage::spindle, actuator.spindle.radius_m, of_radius,
-         "spindle_radius", [](erp::Actuator& x, double v) { x.spindle.radius_m = v; });
+  number("radius_m", Stage::spindle, actuator.spindle.radius_m, of_radius, "spindle_radius",
+         [](erp::Actuator& x, double v) { x.spindle.radius_m = v; });
   number("stiffness_N_per_m", Stage::tendon, actuator.tendon.stiffness_N_per_m, of_stiffness,
          "tendon_stiffness", [](erp::Actuator& x, double v) { x.tendon.stiffness_N_per_m = v; });
   number("damping_N_s_per_m", Stage::tendon, actuator.tendon.damping_N_s_per_m, of_damping,
          "tendon_damping", [](erp::Actuator& x, double v) { x.tendon.damping_N_s_per_m = v; });
   const auto effect = [&](const char* name, Stage stage, const char* type, double nominal,
                           double tolerance, residuals::Reach reach, bool zero) {
-    all.push_back({name, stage, actuator.name, nominal, tolerance,
-                   zero ? any : 0.5, reach, by_effect(type, actuator.name, nominal), type, 1, zero});
+    all.push_back({name, stage, actuator.name, nominal, tolerance, zero ? any : 0.5, reach,
+                   by_effect(type, actuator.name, nominal), type, 1, zero});
   };
   effect("moment_arm", Stage::routing, "routing_moment_arm", 1, of_moment_arm,
          {.line = true, .chain = a, .path = a}, false);
@@ -126,19 +140,33 @@ void add_joint(std::vector<Constant>& all, const erp::Joint& joint) {
   const auto number = [&](const char* name, double nominal, double erp::Joint::*field,
                           const char* effect) {
     if (nominal > 0)
-      all.push_back({name, Stage::joint, joint.name, nominal, of_joint_friction * nominal, 0,
-                     {.bones = true}, [on = joint.name, field](erp::Robot& r, double value) {
+      all.push_back({name,
+                     Stage::joint,
+                     joint.name,
+                     nominal,
+                     of_joint_friction * nominal,
+                     0,
+                     {.bones = true},
+                     [on = joint.name, field](erp::Robot& r, double value) {
                        joint_of(r, on).*field = value;
-                     }, effect});
+                     },
+                     effect});
   };
   number("viscous_Nm_s_per_rad", joint.viscous_Nm_s_per_rad, &erp::Joint::viscous_Nm_s_per_rad,
          "joint_viscous");
   number("coulomb_Nm", joint.coulomb_Nm, &erp::Joint::coulomb_Nm, "joint_coulomb");
   if (joint.type == erp::JointType::revolute)
-    all.push_back({"angle_zero_rad", Stage::sensor, joint.name, 0, angle_zero_rad, any,
+    all.push_back({"angle_zero_rad",
+                   Stage::sensor,
+                   joint.name,
+                   0,
+                   angle_zero_rad,
+                   any,
                    {.joints = true, .bones = true},
-                   by_effect("sensor_joint_offset", joint.name, 0), "sensor_joint_offset",
-                   1, true});
+                   by_effect("sensor_joint_offset", joint.name, 0),
+                   "sensor_joint_offset",
+                   1,
+                   true});
 }
 
 /// Factors of what robot.xml gives, however it gives it.
@@ -148,13 +176,21 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
   const double com_m = std::hypot(com[0], com[1], com[2]);
   const auto factor = [&](const char* name, double tolerance, const char* effect,
                           double effect_scale, auto scale) {
-    all.push_back({name, Stage::skeleton, body, 1, tolerance, 0.05, {.bones = true},
+    all.push_back({name,
+                   Stage::skeleton,
+                   body,
+                   1,
+                   tolerance,
+                   0.05,
+                   {.bones = true},
                    [body, scale](erp::Robot& r, double value) {
                      if (value == 1) return;
                      erp::Body& b = body_of(r, body);
                      effects::resolve(b);
                      scale(b, value);
-                   }, effect, effect_scale});
+                   },
+                   effect,
+                   effect_scale});
   };
   factor("mass", of_mass, "skeleton_mass", 1, [](erp::Body& b, double v) { b.mass_kg *= v; });
   factor("com", of_com, "skeleton_com", com_m, [](erp::Body& b, double v) {

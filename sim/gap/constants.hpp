@@ -14,16 +14,17 @@
 namespace sim::gap {
 
 struct Constant {
-  std::string name;  ///< "resistance_ohm", as in robot.xml; of a factor or a zero "moment_arm", "tension_zero_N"
+  std::string
+      name;  ///< "resistance_ohm", as in robot.xml; of a factor or a zero "moment_arm", "tension_zero_N"
   effects::Stage stage;
   std::string on;             ///< actuator, joint or body
   double nominal, tolerance;  ///< tolerance: one standard deviation, in the number's unit
   double lowest;              ///< no number below it makes sense; in the number's unit
   residuals::Reach reach;     ///< what it changes of an explanation
   std::function<void(erp::Robot&, double value)> set;
-  std::string effect;  ///< the type of the library that is such a change
+  std::string effect;       ///< the type of the library that is such a change
   double effect_scale = 1;  ///< of that effect's first parameter to value − nominal
-  bool zero = false;  ///< where something is zero, not what it amounts to
+  bool zero = false;        ///< where something is zero, not what it amounts to
 
   double value(double x) const { return std::max(lowest, nominal + tolerance * x); }
 };

@@ -75,8 +75,9 @@ double correlated(std::span<const double> z) {
   return sum;
 }
 
-/// Sets weights and mean squares by what is left.
-void weigh(const ResidualVector& residuals, Estimate& e) {
+/// Sets weights and mean squares by what is left. `trust`: exponent of c_s; below 1 a stage that is far
+/// off draws harder.
+void weigh(const ResidualVector& residuals, Estimate& e, double trust = 1) {
   constexpr double of_laws = 0.25;  // windows count so much: laws are approximations too; chosen
   std::vector<double> square(residuals.stages()), count(square), correlation(square);
   for (const Block& b : residuals.blocks()) {
@@ -91,7 +92,8 @@ void weigh(const ResidualVector& residuals, Estimate& e) {
   for (std::size_t s = 0; s < square.size(); ++s) {
     if (count[s] == 0) continue;
     e.mean_square[s] = square[s] / count[s];
-    weight[s] = of_laws / (std::max(1.0, e.mean_square[s]) * (correlation[s] / count[s]));
+    weight[s] =
+        of_laws / (std::pow(std::max(1.0, e.mean_square[s]), trust) * (correlation[s] / count[s]));
   }
   e.weight.resize(e.z.size());
   for (const Block& b : residuals.blocks())
@@ -142,10 +144,12 @@ namespace {
 void descend(const Estimator& estimator, const Uncertain& uncertain, Unknowns at, Estimate& e,
              const Estimate* base, int iterations, int threads) {
   constexpr double enough = 1e-4;  // of the cost, that a step is worth; chosen
+  constexpr int first_far = 3;     // steps; chosen
   const ResidualVector& residuals = estimator.residuals();
   double damping = 0;
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    if (!base) weigh(residuals, e);
+    const bool far = !base && iteration < first_far;
+    if (!base) weigh(residuals, e, far ? 0.5 : 1);
     e.jacobian = jacobian(residuals, at, e, base ? &base->jacobian : nullptr, threads);
     const Normal normal = normal_equations(e, at);
     e.covariance = inverse(normal.hessian);
@@ -163,7 +167,7 @@ void descend(const Estimator& estimator, const Uncertain& uncertain, Unknowns at
       if (!better) damping = std::max(1e-6, damping) * 30;
       else at = next, e.z = z, e.explained = std::move(explained), e.cost = after, damping *= 0.1;
     }
-    if (!better || done) break;
+    if ((!better || done) && !far) break;
   }
   e.point = at.point();
   e.bound.clear();

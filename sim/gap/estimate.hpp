@@ -20,7 +20,7 @@
 namespace sim::gap {
 
 struct EstimateOptions {
-  int iterations = 8;
+  int iterations = 10;
   int threads = 2;
   std::uint64_t seed = 1;
 };

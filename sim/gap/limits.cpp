@@ -15,8 +15,8 @@ namespace {
 using residuals::ActuatorSignals;
 using residuals::Signal;
 
-constexpr double near_limit = 0.97;   // of a current limit; chosen
-constexpr double beyond_law = 0.1;    // of R i_max: a command that would drive more; chosen
+constexpr double near_limit = 0.97;  // of a current limit; chosen
+constexpr double beyond_law = 0.1;   // of R i_max: a command that would drive more; chosen
 
 std::size_t clip_to_supply(const erp::MotorType& motor, Signal& voltage_V) {
   std::size_t clipped = 0;
@@ -65,9 +65,10 @@ void apply_limits(const erp::Robot& robot, std::vector<residuals::Episode>& epis
       const SensorScale scale(motor, robot.sensors_of(actuator));
       ActuatorSignals& s = e.actuators[a];
       if (const std::size_t rows = clip_to_supply(motor, s.voltage_V); rows > 0)
-        remarks.push_back(fmt::format("{}: {}.voltage_V is above the supply of {:g} V in {} rows: "
-                                      "the supply is taken",
-                                      e.name, actuator.name, motor.supply_V, rows));
+        remarks.push_back(
+            fmt::format("{}: {}.voltage_V is above the supply of {:g} V in {} rows: "
+                        "the supply is taken",
+                        e.name, actuator.name, motor.supply_V, rows));
       if (const std::size_t rows = forget_held(motor, e.period_s, s); rows > 0)
         remarks.push_back(fmt::format(
             "{}: {} is held at its current limit of {:g} A in {} rows: what voltage and current "
@@ -75,17 +76,19 @@ void apply_limits(const erp::Robot& robot, std::vector<residuals::Episode>& epis
             e.name, actuator.name, motor.current_limit_A, rows));
       const double most_A = (scale.current_counts_max - 0.5) * scale.current_A_per_count;
       if (const std::size_t rows = forget_beyond(s.current_A, -most_A, most_A); rows > 0)
-        remarks.push_back(fmt::format("{}: {}.current_A is at the end of its range in {} rows: left "
-                                      "out",
-                                      e.name, actuator.name, rows));
-      const double most_N = (scale.tension_counts_max - scale.tension_zero_counts - 0.5) *
-                            scale.tension_N_per_count;
+        remarks.push_back(
+            fmt::format("{}: {}.current_A is at the end of its range in {} rows: left "
+                        "out",
+                        e.name, actuator.name, rows));
+      const double most_N =
+          (scale.tension_counts_max - scale.tension_zero_counts - 0.5) * scale.tension_N_per_count;
       if (const std::size_t rows =
               forget_beyond(s.tension_N, -std::numeric_limits<double>::infinity(), most_N);
           rows > 0)
-        remarks.push_back(fmt::format("{}: {}.tension_N is at the end of its range in {} rows: left "
-                                      "out",
-                                      e.name, actuator.name, rows));
+        remarks.push_back(
+            fmt::format("{}: {}.tension_N is at the end of its range in {} rows: left "
+                        "out",
+                        e.name, actuator.name, rows));
     }
 }
 

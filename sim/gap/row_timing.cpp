@@ -15,9 +15,9 @@ namespace {
 using residuals::ActuatorSignals;
 using residuals::Signal;
 
-constexpr std::size_t most_rows = 20;       // chosen
+constexpr std::size_t most_rows = 20;        // chosen
 constexpr std::size_t fewest_samples = 500;  // chosen
-constexpr double clear = 1.0 / 3;           // of the variance without a lag; chosen
+constexpr double clear = 1.0 / 3;            // of the variance without a lag; chosen
 
 /// The normal equations of V on i, ω, di/dt and 1 for one lag.
 struct Regression {
@@ -90,14 +90,14 @@ void undo(const RowTiming& timing, std::vector<residuals::Episode>& episodes,
   for (residuals::Episode& e : episodes) {
     for (ActuatorSignals& s : e.actuators) {
       s.voltage_V = moved(s.voltage_V, timing.rows);
-      if (timing.from_row())
-        s.mode = moved(s.mode, 1), s.reference = moved(s.reference, 1);
+      if (timing.from_row()) s.mode = moved(s.mode, 1), s.reference = moved(s.reference, 1);
     }
     if (timing.late()) e.voltage_late_s = timing.delay_s();
   }
   remarks.push_back(
       timing.from_row()
-          ? "voltage, mode and reference hold from their row to the next, by the motors' law; taken so"
+          ? "voltage, mode and reference hold from their row to the next, by the motors' law; "
+            "taken so"
           : fmt::format("voltages act {:.3g} ms after the row that gives them, or all sensors are "
                         "reported so late, by the motors' law; undone",
                         1e3 * timing.delay_s()));

@@ -16,7 +16,7 @@
 namespace sim::gap {
 
 struct RowTiming {
-  std::size_t rows = 0;     ///< s, the same for every actuator
+  std::size_t rows = 0;  ///< s, the same for every actuator
   double period_s = 0;
   bool from_row() const { return rows == 1; }
   bool late() const { return rows > 1; }

@@ -10,10 +10,10 @@
 namespace sim::gap {
 namespace {
 
+using effects::Placed;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using effects::Placed;
 
 constexpr double left_excess = 0.6;  // of a stage: below, no effect is looked for; chosen
 constexpr double worth = 0.3;        // of a stage's excess that an effect must take away; chosen
@@ -100,10 +100,11 @@ double Search::profile(const Estimate& base, const VectorXd& z) const {
   const auto left = excess(train_.residuals(), z);
   std::vector<double> windows(left.size());
   for (const Block& b : train_.residuals().blocks())
-    windows[b.stage] += double(b.count) * base.weight[b.first] *
-                        std::max(1.0, base.mean_square[b.stage]);
+    windows[b.stage] +=
+        double(b.count) * base.weight[b.first] * std::max(1.0, base.mean_square[b.stage]);
   double sum = 0;
-  for (std::size_t s = 0; s < left.size(); ++s) sum += windows[s] * std::log1p(std::max(0.0, left[s]));
+  for (std::size_t s = 0; s < left.size(); ++s)
+    sum += windows[s] * std::log1p(std::max(0.0, left[s]));
   return sum;
 }
 
@@ -113,11 +114,12 @@ double Search::cost(const Found& found, const Estimate& base) const {
   const auto blocks = train_.residuals().blocks();
   for (const Block& b : held_out_.blocks()) {
     const auto same = std::ranges::find(blocks, b.stage, &Block::stage);
-    windows[b.stage] += double(b.count) * base.weight[same->first] *
-                        std::max(1.0, base.mean_square[b.stage]);
+    windows[b.stage] +=
+        double(b.count) * base.weight[same->first] * std::max(1.0, base.mean_square[b.stage]);
   }
   double sum = 0;
-  for (std::size_t s = 0; s < left.size(); ++s) sum += windows[s] * std::log1p(std::max(0.0, left[s]));
+  for (std::size_t s = 0; s < left.size(); ++s)
+    sum += windows[s] * std::log1p(std::max(0.0, left[s]));
   for (std::size_t k = 0; k < found.train.point.x.size(); ++k)
     sum += std::pow(found.train.point.x[k] / uncertain_.prior[k], 2);
   return sum;
@@ -190,8 +192,8 @@ Candidate Search::screen(const Estimate& base, const Directions& all) const {
   const effects::Parameter& size = values[all.sizes[0]];
   const double sized = *size.value + step[0] * all.nudge[0];
   if (sized < size.bounds.low || sized > size.bounds.high) return candidate;
-  const VectorXd z = base.z + all.d * step -
-                     base.jacobian * (base.covariance * base.gradient + shared * step);
+  const VectorXd z =
+      base.z + all.d * step - base.jacobian * (base.covariance * base.gradient + shared * step);
   candidate.score = profile(base, base.z) - profile(base, z);
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
@@ -246,8 +248,8 @@ std::optional<Found> Search::best_beside(const Found& base) const {
     start.effects.push_back(candidates[k].start);
     joined[k] = judge(train_.beside(uncertain_, base.train, std::move(start), iterations));
   });
-  const auto best = std::ranges::min_element(
-      joined, {}, [&](const auto& j) { return cost(*j, base.train); });
+  const auto best =
+      std::ranges::min_element(joined, {}, [&](const auto& j) { return cost(*j, base.train); });
   if (best == joined.end()) return std::nullopt;
   const auto was = excess(held_out_, base.z_held_out), is = excess(held_out_, (*best)->z_held_out);
   for (std::size_t s = 0; s < was.size(); ++s)
@@ -260,15 +262,14 @@ std::optional<Found> Search::best_beside(const Found& base) const {
 
 /// An earlier choice may have been a compromise between two: each is looked for again beside the others.
 Found Search::exchanged(Found found) const {
-  for (std::size_t k = 0; found.train.point.effects.size() > 1 &&
-                          k + 1 < found.train.point.effects.size(); ++k) {
+  for (std::size_t k = 0;
+       found.train.point.effects.size() > 1 && k + 1 < found.train.point.effects.size(); ++k) {
     Point others = found.train.point;
     others.effects.erase(others.effects.begin() + std::ptrdiff_t(k));
     const Found without = judge(train_.run(uncertain_, others));
     const auto other = best_beside(without);
     constexpr double better = 0.98;  // chosen
-    if (other && cost(*other, without.train) < better * cost(found, without.train))
-      found = *other;
+    if (other && cost(*other, without.train) < better * cost(found, without.train)) found = *other;
   }
   return found;
 }
@@ -276,7 +277,8 @@ Found Search::exchanged(Found found) const {
 Found Search::run(Estimate base) const {
   Found found = judge(std::move(base));
   const auto keeps = [&](const Found& f) {
-    const auto train = excess(train_.residuals(), f.train.z), held = excess(held_out_, f.z_held_out);
+    const auto train = excess(train_.residuals(), f.train.z),
+               held = excess(held_out_, f.z_held_out);
     return std::ranges::any_of(train, [](double e) { return e > left_excess; }) ||
            std::ranges::any_of(held, [](double e) { return e > left_excess; });
   };

@@ -53,8 +53,7 @@ Unknowns Unknowns::with(std::size_t k, double value) const {
 
 Unknowns Unknowns::moved(const Eigen::VectorXd& by) const {
   Unknowns other = *this;
-  for (std::size_t k = 0; k < count(); ++k)
-    other = other.with(k, value(k) + by[Eigen::Index(k)]);
+  for (std::size_t k = 0; k < count(); ++k) other = other.with(k, value(k) + by[Eigen::Index(k)]);
   return other;
 }
 
@@ -67,8 +66,7 @@ bool Unknowns::at_bound(std::size_t k) const {
   if (k < constants()) return false;
   const effects::Parameter p = parameter(k);
   const double near = 1e-3 * (p.bounds.high - p.bounds.low);
-  return *p.value > p.bounds.high - near ||
-         (*p.value < p.bounds.low + near && p.bounds.low != 0);
+  return *p.value > p.bounds.high - near || (*p.value < p.bounds.low + near && p.bounds.low != 0);
 }
 
 }  // namespace sim::gap

@@ -26,8 +26,8 @@ std::vector<sim::residuals::Episode> recordings_of(const erp::Robot& built, doub
 
 std::size_t index_of(const AsBuilt& built, const std::string& on, const std::string& name) {
   const auto& all = built.uncertain.constants;
-  const auto found = std::ranges::find_if(
-      all, [&](const Constant& c) { return c.on == on && c.name == name; });
+  const auto found =
+      std::ranges::find_if(all, [&](const Constant& c) { return c.on == on && c.name == name; });
   REQUIRE(found != all.end());
   return std::size_t(found - all.begin());
 }
@@ -72,7 +72,7 @@ TEST_CASE("constants that are 3 to 7 % off are found together, and leave each st
 TEST_CASE("the robot of a calibration holds the numbers that were found") {
   erp::Robot built = hinge_rig();
   for (erp::Actuator& a : built.actuators) a.tendon.stiffness_N_per_m *= 1.3;
-  const auto recordings = recordings_of(built, 6);
+  const auto recordings = recordings_of(built);
   const AsBuilt found = calibrated(hinge_rig(), recordings);
   REQUIRE_FALSE(found.beyond.empty());  // six tolerances
   CHECK(found.uncertain.constants[found.beyond[0]].name == "stiffness_N_per_m");

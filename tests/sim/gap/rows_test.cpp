@@ -33,7 +33,8 @@ TEST_CASE("a voltage that holds from its row is found, and moved with mode and r
   auto all = recordings();
   const auto as_it_was = all;
   for (Episode& e : all)
-    for (auto& s : e.actuators) make_early(s.voltage_V, 1), make_early(s.reference, 1), make_early(s.mode, 1);
+    for (auto& s : e.actuators)
+      make_early(s.voltage_V, 1), make_early(s.reference, 1), make_early(s.mode, 1);
   const RowTiming timing = row_timing(all);
   CHECK(timing.from_row());
   std::vector<std::string> remarks;
