@@ -49,7 +49,7 @@ Named as_effect(const gap::AsBuilt& built, std::size_t k) {
   return n;
 }
 
-/// The effects found, with their intervals; the second: one ends at a bound or may be neutral.
+/// The effects found, with their intervals; the second: a parameter ends at a bound.
 std::pair<std::vector<Named>, bool> effects_of(const gap::AsBuilt& built) {
   std::vector<Named> all;
   std::size_t k = built.uncertain.constants.size();

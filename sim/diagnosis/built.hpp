@@ -7,7 +7,7 @@
 #include "sim/diagnosis/evidence.hpp"
 #include "sim/gap/as_built.hpp"
 
-/// The gap of a robot none of whose constants is exactly what its description says (sim/gap), told as
+/// The gap of a robot none of whose constants is exactly what its description says (sim/gap), as
 /// an answer: constants within their tolerances, constants beyond, and effects that are missing.
 namespace sim::diagnosis {
 
@@ -28,7 +28,7 @@ struct Built {
   std::vector<Named> answer;                ///< effects, then constants beyond their tolerances
   Trials trials;                            ///< of `robot`
   std::vector<StageGap> left;               ///< on the recordings held out; open: not explained
-  bool at_bound = false;                    ///< a parameter ends at a bound or may be neutral
+  bool at_bound = false;                    ///< a parameter of an effect ends at a bound
 
   bool explained() const;
 };

@@ -80,10 +80,10 @@ void add_unexplained_bus(const std::string& robot, const Observed& observed, Dia
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
 
-/// A robot with a few effects, its constants exact, is the simpler explanation: it stands where it
-/// explains, and leaves no stage much more than the robot as built does.
 constexpr double notably = 0.2;  // of the noise's square; chosen
 
+/// A robot with a few effects, its constants exact, is the simpler explanation: it stands where it
+/// explains, and leaves no stage much more than the robot as built does.
 bool is_better(const Built& built, const Selection& selection) {
   if (selection.explained())
     return built.explained() && worse_by(selection.left, built.left) > notably;

@@ -9,7 +9,7 @@ namespace sim::diagnosis {
 namespace {
 
 /// A delay between voltages and all sensors, seen in the motors' law: of commands or of sensors, which
-/// no recording tells apart.
+/// are indistinguishable.
 void add_row_delay(const Evidence& evidence, Observed& observed) {
   const double late_s = evidence.episodes[0].voltage_late_s;
   if (late_s == 0) return;
