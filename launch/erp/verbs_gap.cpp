@@ -57,9 +57,11 @@ void add_gap_calibrate(CLI::App& gap, Chosen& chosen) {
   auto o = std::make_shared<gap::CalibrateOptions>();
   o->threads = all_cores();
   auto* calibrate = gap.add_subcommand(
-      "calibrate", "All constants of a robot as built, from recordings: the robot.xml of this robot");
+      "calibrate",
+      "All constants of a robot as built, from recordings: the robot.xml of this robot");
   calibrate->add_option("--robot", o->robot, "robot.xml, the model")->required();
-  calibrate->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")->required();
+  calibrate->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")
+      ->required();
   calibrate->add_option("--out", o->out, "file for the robot.xml with the constants found");
   calibrate->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
   calibrate->add_option("--seed", o->seed, "of the noise floors");
@@ -123,6 +125,10 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->add_option("--recordings", o->recordings, "a case; default: 4")->check(above_zero());
   make->add_option("--seconds", o->seconds, "a recording; default: 10")
       ->check(CLI::Range(2.0, 600.0));
+  make->add_option("--tolerance", o->tolerance,
+                   "every physical number of the robot is off by this share of it (one standard "
+                   "deviation, at most 0.2); default: 0")
+      ->check(CLI::Range(0.0, 0.2));
   make->add_option("--seed", o->seed, "of the first case, the next ones follow; default: 1");
   make->add_option("--without", o->without, "signals not recorded")
       ->check(CLI::IsMember({"tension", "current", "joint"}));

@@ -51,10 +51,14 @@ Json truth_of(const std::string& name, const sim::blind::Case& blind) {
     hidden.push_back(
         {{"type", h.type}, {"stage", h.stage}, {"on", h.on}, {"parameters", parameters}});
   }
+  Json numbers = Json::array();
+  for (const sim::blind::Drawn& d : blind.built.drawn)
+    numbers.push_back({{"on", d.on}, {"name", d.name}, {"value", d.value}});
   return {{"case", name},
           {"kind", sim::blind::word(blind.kind)},
           {"seed", blind.seed},
-          {"hidden", hidden}};
+          {"hidden", hidden},
+          {"numbers", numbers}};
 }
 
 /// A case as it was recorded: one CSV a recording.
@@ -74,6 +78,9 @@ Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64
                                          options.only, shows),
                    {},
                    draw};
+    if (options.tolerance > 0)
+      found.blind.built =
+          sim::blind::as_built(robot, options.tolerance, found.blind.seed, found.blind.quirks);
     try {
       for (int r = 0; r < options.recordings; ++r) {
         const auto excitation = sim::excitation(robot, r, options.seconds, seed);

@@ -16,6 +16,7 @@ struct BlindMakeOptions {
   std::string robot, out, truth, kind = "single";
   int cases = 10, recordings = 4, threads = 2;
   double seconds = 10;
+  double tolerance = 0;  ///< every physical number is off by, relative, one standard deviation
   std::uint64_t seed = 1;
   std::vector<std::string> only;     ///< types to hide; empty: all
   std::vector<std::string> without;  ///< signals that are not recorded: tension, current, joint

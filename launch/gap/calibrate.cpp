@@ -14,15 +14,12 @@ namespace {
 
 namespace gap = sim::gap;
 
-/// Half its tolerance is left or less.
-constexpr double well = 0.75;
-
 void print_row(const gap::AsBuilt& built, std::size_t k, std::ostream& out) {
   const gap::Constant& c = built.uncertain.constants[k];
   const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
-  const char* remark = gap::determined(built, k) < well          ? "not determined"
-                       : std::ranges::count(built.beyond, k) > 0 ? "beyond its tolerance"
-                                                                 : "";
+  const char* remark = gap::determined(built, k) < gap::well_determined ? "not determined"
+                       : std::ranges::count(built.beyond, k) > 0        ? "beyond its tolerance"
+                                                                        : "";
   out << fmt::format("{:<16} {:<28} {:>11.5g} {:>11.5g} {:>11.5g} … {:<11.5g} {}\n", c.on, c.name,
                      c.nominal, c.value(x), c.value(x - half), c.value(x + half), remark);
 }

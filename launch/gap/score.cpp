@@ -9,6 +9,7 @@
 #include "launch/gap/blind.hpp"
 #include "launch/gap/truth.hpp"
 #include "launch/text/text_files.hpp"
+#include "sim/gap/as_built.hpp"
 
 namespace launch::gap {
 namespace {
@@ -171,6 +172,40 @@ void score_null(const Json& truth, const Json& d, Score& score) {
         fmt::format("{}: nothing | {}", truth["case"].get<std::string>(), said(d)));
 }
 
+/// Whether an effect is one that constants stand for.
+bool is_constant(const Json& effect, const std::vector<std::string>& of_constants) {
+  return std::ranges::count(of_constants, type_of(effect)) > 0;
+}
+
+/// Of constants that the recordings determined, whose intervals hold the number drawn.
+void count_numbers(const Json& truth, const Json& d, Rate& rate) {
+  for (const Json& number : truth["numbers"])
+    for (const Json& c : d["constants"])
+      if (c["on"] == number["on"] && c["name"] == number["name"] &&
+          c["determined"] > sim::gap::well_determined)
+        rate.count(c["interval"][0] <= number["value"] && number["value"] <= c["interval"][1]);
+}
+
+/// Nothing hidden, but every number a little off.
+void score_tolerance(const Json& truth, const Json& d, const std::vector<std::string>& of_constants,
+                     Score& score) {
+  const auto answer = answer_of(d);
+  const bool structural =
+      std::ranges::any_of(answer, [&](const Json& e) { return !is_constant(e, of_constants); });
+  const bool explained = d["verdict"] == "supported" || d["verdict"] == "no_gap";
+  const double closed = d["verdict"] == "no_gap" ? 1 : d["gap"]["closed"].get<double>();
+  score.rates["1 explained, no effect that it lacks"].count(explained && !structural);
+  score.rates["2 98 % closed"].count(closed >= 0.98);
+  count_numbers(truth, d, score.rates["3 interval holds the number"]);
+  if (!explained || structural) score.failures.push_back(failure(truth, d));
+}
+
+std::vector<std::string> effects_of_constants(const erp::Robot& robot) {
+  std::vector<std::string> all;
+  for (const auto& c : sim::gap::constants_of(robot)) all.push_back(c.effect);
+  return all;
+}
+
 void print(const std::string& kind, const Score& score, std::ostream& out) {
   out << kind << "\n";
   for (const auto& [name, rate] : score.rates)
@@ -200,6 +235,7 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
                                 ", its hash is another; give the file that --truth named when the "
                                 "cases were made");
   const Json truths = Json::parse(sealed);
+  const auto of_constants = effects_of_constants(erp::read_robot(folder + "/robot.xml"));
   std::map<std::string, Score> scores;
   int missing = 0;
   for (const Json& truth : truths) {
@@ -209,12 +245,17 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
       continue;
     }
     const Json d = Json::parse(read_text(file));
-    const std::string kind = truth["kind"];
+    const bool built = !truth.value("numbers", Json::array()).empty();
+    const std::string hides = truth["kind"], kind = hides + (built ? ", as built" : "");
     Score& score = scores[kind];
-    if (kind == "single") score_single(truth, d, closed_by_truth(folder, truth), score);
-    if (kind == "null") score_null(truth, d, score);
-    if (kind == "pair") score_pair(truth, d, score);
-    if (kind == "outside" || kind == "withheld") score_none(truth, d, score);
+    if (hides == "single") {
+      score_single(truth, d, built ? std::nullopt : closed_by_truth(folder, truth), score);
+      count_numbers(truth, d, score.rates["7 interval holds the number"]);
+    }
+    if (hides == "null" && built) score_tolerance(truth, d, of_constants, score);
+    if (hides == "null" && !built) score_null(truth, d, score);
+    if (hides == "pair") score_pair(truth, d, score);
+    if (hides == "outside" || hides == "withheld") score_none(truth, d, score);
   }
   for (const auto& [kind, score] : scores) print(kind, score, out);
   if (missing)

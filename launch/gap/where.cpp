@@ -9,6 +9,7 @@
 #include "sim/diagnosis/where.hpp"
 #include "sim/gap/limits.hpp"
 #include "sim/gap/row_timing.hpp"
+#include "sim/gap/spoilt_rows.hpp"
 #include "sim/residuals/common_signals.hpp"
 #include "sim/residuals/drives.hpp"
 #include "sim/soundness/odd_table.hpp"
@@ -127,6 +128,7 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
   }
   read.odd = odd.take();
   residuals::keep_common(read.episodes, robot, read.mended);
+  sim::gap::mend_spoilt_rows(read.episodes, read.mended);
   sim::gap::undo(sim::gap::row_timing(read.episodes), read.episodes, read.mended);
   sim::gap::apply_limits(robot, read.episodes, read.mended);
   return read;

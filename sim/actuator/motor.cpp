@@ -41,13 +41,14 @@ double Motor::dry_Nm(const MotorLoad& load, int direction) const {
 Vec2 Motor::input(const Branch& b, double voltage_V, const MotorLoad& load, int direction) const {
   const double friction = direction * (b.efficiency * type_.gear_ratio * type_.rotor_coulomb_Nm +
                                        dry_Nm(load, direction));
+  const double rotor = b.efficiency * type_.gear_ratio * load.rotor_Nm;
   return {voltage_V / type_.inductance_H,
-          -(friction + radius_m_ * load.tension_N) / b.inertia_kg_m2};
+          -(friction + rotor + radius_m_ * load.tension_N) / b.inertia_kg_m2};
 }
 
 double Motor::mesh_constant(const MotorLoad& load, int direction) const {
   const double n = type_.gear_ratio;
-  return -n * type_.gear_inertia_kg_m2 * direction * type_.rotor_coulomb_Nm +
+  return -n * type_.gear_inertia_kg_m2 * (direction * type_.rotor_coulomb_Nm + load.rotor_Nm) +
          type_.rotor_inertia_kg_m2 * n * n *
              (direction * dry_Nm(load, direction) + radius_m_ * load.tension_N);
 }
@@ -64,8 +65,8 @@ Motor::Band Motor::band(const MotorLoad& load) const {
   const double up = radius_m_ * load.tension_N + dry_Nm(load, 1);
   const double down = radius_m_ * load.tension_N - dry_Nm(load, -1);
   const double e_up = up >= 0 ? eta : 1 / eta, e_down = down > 0 ? 1 / eta : eta;
-  return {(down / (e_down * n) - type_.rotor_coulomb_Nm) / type_.torque_Nm_per_A,
-          (up / (e_up * n) + type_.rotor_coulomb_Nm) / type_.torque_Nm_per_A};
+  return {(down / (e_down * n) - type_.rotor_coulomb_Nm + load.rotor_Nm) / type_.torque_Nm_per_A,
+          (up / (e_up * n) + type_.rotor_coulomb_Nm + load.rotor_Nm) / type_.torque_Nm_per_A};
 }
 
 int Motor::breakaway(double current_A, const MotorLoad& load) const {

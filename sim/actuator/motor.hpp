@@ -41,6 +41,7 @@ inline double top_line_speed_m_per_s(const erp::MotorType& type, double spindle_
 struct MotorLoad {
   double tension_N = 0;                     ///< F
   double more_up_Nm = 0, more_down_Nm = 0;  ///< added to τ_CG winding up and unwinding
+  double rotor_Nm = 0;                      ///< against winding up, on the motor's own shaft
 };
 
 /// A motor's constants, prepared. Throws std::invalid_argument if they make no stable motor.

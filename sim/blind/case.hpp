@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "interfaces/robot/robot.hpp"
-#include "sim/blind/quirks.hpp"
+#include "sim/blind/tolerance.hpp"
 
 /// A blind case: what is hidden in it, drawn from a seed.
 namespace sim::blind {
@@ -25,6 +25,7 @@ struct Case {
   Kind kind = Kind::single;
   std::vector<Hidden> hidden;
   Quirks quirks;
+  AsBuilt built;                      ///< draws nothing: as it is described
   std::vector<std::string> withhold;  ///< what the diagnosis is told to do without
   int drawn_anew = 0;                 ///< what would not have shown in any reading
 };

@@ -61,8 +61,9 @@ Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx)
   const double rate = path_slope * path_rate + wound_slope * speed;  // slip is slow
 
   double force = spring_N(k, stretch) + k.damping * rate;
-  if (q.line_m_per_N > 0) {  // Δx = x + c F, F = spring(x) + d ẋ
-    force = std::max(0.0, stretch - x[c::inner]) / q.line_m_per_N;
+  if (q.line_m_per_N > 0) {  // Δx = x + c l/l₀ F, F = spring(x) + d ẋ
+    const double free_length = k.shape.length_m / k.start_m;  // what is wound up does not stretch
+    force = std::max(0.0, stretch - x[c::inner]) / (q.line_m_per_N * free_length);
     dx[c::inner] = (force - spring_N(k, x[c::inner])) / std::max(k.damping, line_damps_N_s_per_m);
   }
   force += q.creep_N_per_m * (stretch - x[c::flowed]);

@@ -98,7 +98,10 @@ class Line {
 class Run {
  public:
   Run(const erp::Robot& nominal, const Case& blind, std::uint64_t seed)
-      : nominal_(nominal), quirks_(blind.quirks), plant_(nominal, blind.quirks), random_(seed) {
+      : nominal_(nominal),
+        quirks_(blind.quirks),
+        plant_(blind.built.drawn.empty() ? nominal : blind.built.robot, blind.quirks),
+        random_(seed) {
     for (std::size_t a = 0; a < nominal.actuators.size(); ++a)
       units_.push_back(make_unit(nominal, nominal.actuators[a], quirks_.chains[a]));
     const auto joints = nominal.joints();

@@ -49,22 +49,36 @@ Named as_effect(const gap::AsBuilt& built, std::size_t k) {
   return n;
 }
 
-/// The effects found, with their intervals; the second: a parameter ends at a bound.
-std::pair<std::vector<Named>, bool> effects_of(const gap::AsBuilt& built) {
+Named with_intervals(gap::Sized sized) {
+  constexpr double of_method = 0.02;  // of the value: what windows approximate; chosen
+  Named n = named(sized.effect);
+  std::size_t p = 0, estimated = 0;
+  for (const effects::Parameter& parameter : effects::parameters(sized.effect.effect)) {
+    if (!gap::is_estimated(parameter)) continue;
+    const double sigma = sized.sigma[estimated++];
+    if (!parameter.fitted) continue;
+    const double half = 1.96 * sigma + of_method * std::abs(n.values[p]);
+    n.intervals[p] = {std::max(n.values[p] - half, n.bounds[p].low),
+                      std::min(n.values[p] + half, n.bounds[p].high)};
+    ++p;
+  }
+  return n;
+}
+
+/// The effects found, with their intervals and what could stand for each.
+std::vector<Named> effects_of(const gap::AsBuilt& built) {
   std::vector<Named> all;
-  std::size_t k = built.uncertain.constants.size();
-  bool doubtful = false;
-  for (const effects::Placed& placed : built.estimate.point.effects) {
-    Named n = named(placed);
-    for (std::size_t p = 0; p < n.values.size(); ++p, ++k) {
-      const double half = 1.96 * built.estimate.sigma(k) + 0.02 * std::abs(n.values[p]);
-      n.intervals[p] = {std::max(n.values[p] - half, n.bounds[p].low),
-                        std::min(n.values[p] + half, n.bounds[p].high)};
-      doubtful |= built.estimate.bound[k];
-    }
+  for (const gap::Sized& sized : gap::sized(built.estimate)) {
+    Named n = with_intervals(sized);
+    for (const gap::Sized& other : built.alike[all.size()])
+      n.alike.push_back(with_intervals(other));
     all.push_back(std::move(n));
   }
-  return {all, doubtful};
+  return all;
+}
+
+bool ends_at_bound(const gap::Estimate& estimate) {
+  return std::ranges::count(estimate.bound, true) > 0;
 }
 
 Trials trials_of(const Evidence& evidence, const erp::Robot& robot) {
@@ -131,36 +145,26 @@ std::vector<StageGap> left_by(const Evidence& evidence, const Trials& plain, con
 
 bool Built::explained() const { return !at_bound && std::ranges::none_of(left, &StageGap::open); }
 
-Built as_built(const Evidence& evidence, const Trials& plain) {
+Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<Named>& suggested) {
   const auto train = some(evidence, evidence.sets.train),
              held_out = some(evidence, evidence.sets.held_out);
   gap::AsBuiltOptions options;
   options.estimate.threads = evidence.options.threads,
   options.estimate.seed = evidence.options.seed;
+  for (const Named& n : suggested) options.suggested.push_back(n.placed);
   options.search.withhold = evidence.options.withhold;
   options.search.most_effects = evidence.options.most_effects;
   options.search.progress = [&](const std::string& what, double share) {
     evidence.tell(what, 0.6 + 0.3 * share);
   };
   const gap::AsBuilt found = gap::as_built(evidence.robot, train, held_out, options);
-  auto [answer, doubtful] = effects_of(found);
+  std::vector<Named> answer = effects_of(found);
   for (const std::size_t k : found.beyond) answer.push_back(as_effect(found, k));
   set_gains(evidence, plain, found, answer);
-  Built built{
-      found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot), {},
-      doubtful};
+  Built built{found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot),
+              {},          found.exact,         ends_at_bound(found.estimate)};
   built.left = left_by(evidence, plain, built.trials);
   return built;
-}
-
-double worse_by(const std::vector<StageGap>& one, const std::vector<StageGap>& other) {
-  double most = 0;
-  for (const StageGap& gap : one) {
-    const auto same = find_stage(other, gap.stage, gap.on);
-    const double stays = same != other.end() ? std::max(0.0, same->excess) : 0;
-    most = std::max(most, std::max(0.0, gap.excess) - stays);
-  }
-  return most;
 }
 
 }  // namespace sim::diagnosis

@@ -28,15 +28,13 @@ struct Built {
   std::vector<Named> answer;                ///< effects, then constants beyond their tolerances
   Trials trials;                            ///< of `robot`
   std::vector<StageGap> left;               ///< on the recordings held out; open: not explained
-  bool at_bound = false;                    ///< a parameter of an effect ends at a bound
+  bool exact = false;     ///< constants are as described, but for zeros and the like
+  bool at_bound = false;  ///< a parameter of an effect ends at a bound
 
   bool explained() const;
 };
 
-Built as_built(const Evidence& evidence, const Trials& plain);
-
-/// By how much more `one` leaves of a stage than `other`, in the noise's square, at most over all stages;
-/// what `other` lacks counts as at its noise.
-double worse_by(const std::vector<StageGap>& one, const std::vector<StageGap>& other);
+/// `suggested`: effects that a search with constants as they are described has found.
+Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<Named>& suggested);
 
 }  // namespace sim::diagnosis

@@ -54,6 +54,16 @@ Verdict judge(const Selection& selection, const Observed& observed,
   return observed.sensors.empty() ? Verdict::no_gap : Verdict::supported;
 }
 
+/// The bus changes no residual: it comes last where others do.
+void add_bus(const Observed& observed, Diagnosis& d) {
+  if (!observed.bus_differs()) return;
+  constexpr double alike = 0.01;  // of the likelihood's gain; chosen
+  d.answer.push_back(observed.bus[0]);
+  for (std::size_t k = 1; k < observed.bus.size(); ++k)
+    if (observed.bus[0].gain - observed.bus[k].gain < alike)
+      d.answer.back().alike.push_back(observed.bus[k]);
+}
+
 /// What was seen without a fit comes first where it is all there is to say, the bus last where
 /// residuals have a cause of their own: it changes none of them.
 void add_observed(const Observed& observed, Diagnosis& d) {
@@ -63,12 +73,7 @@ void add_observed(const Observed& observed, Diagnosis& d) {
   put_first(d.answer, observed.sensors);
   put_first(d.ranked, observed.bus);
   put_first(d.ranked, observed.sensors);
-  if (!observed.bus_differs()) return;
-  constexpr double alike = 0.01;  // of the likelihood's gain; chosen
-  d.answer.push_back(observed.bus[0]);
-  for (std::size_t k = 1; k < observed.bus.size(); ++k)
-    if (observed.bus[0].gain - observed.bus[k].gain < alike)
-      d.answer.back().alike.push_back(observed.bus[k]);
+  add_bus(observed, d);
 }
 
 /// It changes no residual, so it is the whole gap where they are closed.
@@ -80,27 +85,32 @@ void add_unexplained_bus(const std::string& robot, const Observed& observed, Dia
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
 
-constexpr double notably = 0.2;  // of the noise's square; chosen
+/// Both name the same one effect, and say that it explains.
+bool agree(const Built& built, const Selection& selection) {
+  return built.exact && built.answer.size() == 1 && selection.explained() &&
+         selection.answer.size() == 1 && built.answer[0].is(selection.answer[0].placed);
+}
 
-/// A robot with a few effects, its constants exact, is the simpler explanation: it stands where it
-/// explains, and leaves no stage much more than the robot as built does.
-bool is_better(const Built& built, const Selection& selection) {
-  if (selection.explained())
-    return built.explained() && worse_by(selection.left, built.left) > notably;
-  const auto open = [](const std::vector<StageGap>& gaps) {
-    return std::ranges::count_if(gaps, &StageGap::open);
-  };
-  return built.explained() || open(built.left) < open(selection.left);
+std::ptrdiff_t open_in(const std::vector<StageGap>& gaps) {
+  return std::ranges::count_if(gaps, &StageGap::open);
+}
+
+/// What stands for the answer by the one way or by the other.
+void join_alike(Named& answer, const Named& other) {
+  for (const Named& n : other.alike)
+    if (std::ranges::none_of(answer.alike, [&](const Named& a) { return a.is(n.placed); }))
+      answer.alike.push_back(n);
 }
 
 /// The answer by a robot whose constants all differ a little.
 void take(const Evidence& evidence, const Trials& plain, const Built& built,
-          const Selection& selection, Diagnosis& d) {
+          const Selection& selection, const Observed& observed, Diagnosis& d) {
   d.verdict = !d.judged_apart()   ? Verdict::not_identifiable
               : built.explained() ? Verdict::supported
                                   : Verdict::none_of_the_known;
   d.answer = built.answer, d.constants = built.constants, d.as_built = built.robot;
   d.interaction = 0;
+  add_bus(observed, d);
   d.where = d.answer.empty() || !built.explained()
                 ? std::vector<Located>{}
                 : where_of_answer(evidence, plain, d.stages, d.answer);
@@ -161,13 +171,18 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
         "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
         bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
   const bool may_differ = robot.drives.empty() && observed.sensors.empty();
-  std::optional<Built> built;
   Selection selection =
-      select(evidence, known, d.stages, may_differ ? Depth::unless_widespread : Depth::full);
-  const bool at_noise = selection.explained() && worse_by(selection.left, {}) < notably;
-  if (may_differ && selection.gap && selection.told && !at_noise)
-    built.emplace(as_built(evidence, plain));
-  if (selection.widespread && !built->explained()) selection = select(evidence, known, d.stages);
+      select(evidence, known, d.stages, may_differ ? Depth::best_alone : Depth::full);
+  std::optional<Built> built;
+  if (may_differ && selection.gap && selection.told)
+    built.emplace(as_built(evidence, plain, selection.answer));
+  if (built && agree(*built, selection)) {
+    join_alike(selection.answer[0], built->answer[0]);
+    built.reset();
+  } else if (built && !built->explained()) {
+    selection = select(evidence, known, d.stages);
+    if (selection.explained() || open_in(selection.left) <= open_in(built->left)) built.reset();
+  }
   const Verdict verdict = judge(selection, observed, d.stages);
   const bool explained = verdict == Verdict::supported;
   d.verdict = explained && !d.judged_apart() ? Verdict::not_identifiable : verdict;
@@ -187,7 +202,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   d.channels = closed_by_stage(evidence, plain, known, selection.trial);
   d.overall = closed_overall(evidence, plain, known, selection.trial);
   d.worst = worst_moments(evidence, plain, selection.trial, d.stages);
-  if (built && is_better(*built, selection)) take(evidence, plain, *built, selection, d);
+  if (built) take(evidence, plain, *built, selection, observed, d);
   evidence.tell("done", 1);
   return d;
 }

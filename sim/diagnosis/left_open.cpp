@@ -72,9 +72,8 @@ std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, 
       gap.open = false;
       continue;
     }
-    gap.open = stays_open(gap.excess, was, tolerance, [&] {
-      return follows(trials, trial, gap.stage, gap.on, evidence.sets);
-    });
+    gap.open = stays_open(gap.excess, was, tolerance,
+                          [&] { return follows(trials, trial, gap.stage, gap.on, evidence.sets); });
   }
   return gaps;
 }

@@ -8,22 +8,25 @@
 namespace sim::diagnosis {
 namespace {
 
-/// A delay between voltages and all sensors, seen in the motors' law: of commands or of sensors, which
-/// are indistinguishable.
-void add_row_delay(const Evidence& evidence, Observed& observed) {
-  const double late_s = evidence.episodes[0].voltage_late_s;
-  if (late_s == 0) return;
-  observed.bus_told = true;
-  for (const char* type : {"bus_command_delay", "bus_sensor_delay"}) {
-    if (std::ranges::count(evidence.options.withhold, type)) continue;
+/// What the rows themselves show of the bus (sim/gap/row_timing, spoilt_rows): a value, and half of
+/// its interval. A delay of commands and one of sensors are indistinguishable.
+void add_rows(const Evidence& evidence, Observed& observed) {
+  const residuals::Episode& any = evidence.episodes[0];
+  const auto add = [&](const char* type, double value, double half) {
+    if (value == 0 || std::ranges::count(evidence.options.withhold, type)) return;
     effects::Placed placed{evidence.robot.name, *effects::neutral(type)};
-    *effects::parameters(placed.effect)[0].value = late_s;
+    *effects::parameters(placed.effect)[0].value = value;
     Named n = named(placed);
-    const double half = evidence.episodes[0].period_s / 2;
-    n.intervals[0] = {late_s - half, late_s + half};
+    n.intervals[0] = {value - half, value + half};
     n.gain = 1, n.gain_interval = {1, 1}, n.supported = true;
     observed.bus.push_back(std::move(n));
-  }
+    observed.bus_told = true;
+  };
+  constexpr double of_share = 0.1, of_spread = 0.1;  // of the value; chosen
+  add("bus_frame_loss", any.repeated_share, of_share * any.repeated_share);
+  add("bus_command_delay", any.voltage_late_s, any.period_s / 2);
+  add("bus_sensor_delay", any.voltage_late_s, any.period_s / 2);
+  add("bus_jitter", any.jitter_s, of_spread * any.jitter_s);
 }
 
 void look_at_bus(const Evidence& evidence, Observed& observed) {
@@ -75,8 +78,8 @@ void look_at_steps(const Evidence& evidence, const Trials& plain, Observed& obse
 
 Observed observe(const Evidence& evidence, const Trials& plain) {
   Observed observed;
-  look_at_bus(evidence, observed);
-  if (!observed.bus_differs()) add_row_delay(evidence, observed);
+  add_rows(evidence, observed);
+  if (!observed.bus_differs()) look_at_bus(evidence, observed);
   look_at_steps(evidence, plain, observed);
   return observed;
 }

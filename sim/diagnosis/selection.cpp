@@ -52,12 +52,6 @@ Together one_after_another(const Evidence& evidence, const Trials& trials, const
   return together;
 }
 
-/// More than three stages and 60 % of them; chosen.
-bool is_widespread(const std::vector<StageGap>& left) {
-  const auto open = std::ranges::count_if(left, &StageGap::open);
-  return open > 3 && 10 * open > 6 * std::ssize(left);
-}
-
 }  // namespace
 
 bool Selection::explained() const { return !answer.empty() && !any_open(left); }
@@ -83,13 +77,12 @@ Selection select(const Evidence& evidence, const Trials& trials,
     return s;
   }
   s.answer = {s.ranked[0]};
-  if (depth == Depth::unless_widespread) {
+  if (depth == Depth::best_alone) {
     s.trial = trials.with(trials.bare(), first[0].fit.placed, evidence.sets.all());
     s.left = left_open(evidence, trials, s.trial, evidence.options.alone);
-    if (is_widespread(s.left)) {
-      s.widespread = true;
-      return s;
-    }
+    for (const std::size_t k : confusable(first, evidence.which_options()))
+      s.answer[0].alike.push_back(s.ranked[k]);
+    return s;
   }
   const DiagnoseOptions& options = evidence.options;
   Together together = one_after_another(evidence, trials, first[0].fit.placed);

@@ -11,8 +11,7 @@
 namespace sim::diagnosis {
 
 struct Selection {
-  bool gap = false;         ///< some stage leaves its floor
-  bool widespread = false;  ///< the best alone leaves many stages open: no others were looked for
+  bool gap = false;  ///< some stage leaves its floor
   bool told = true;  ///< false: the recordings held out show too little of it to judge an effect
   std::vector<Named> ranked = {};   ///< one by one, best first
   std::vector<Named> answer = {};   ///< effects that together close the gap, the most telling first
@@ -23,9 +22,8 @@ struct Selection {
   bool explained() const;  ///< there is an answer, and no stage stays open
 };
 
-/// How far to look: a robot whose every constant is a little off opens most stages, and no few effects
-/// explain it.
-enum class Depth { unless_widespread, full };
+/// How far to look: for the best alone, or for others on top of it too.
+enum class Depth { best_alone, full };
 
 /// `stages`: those that signatures are told by.
 Selection select(const Evidence& evidence, const Trials& trials,

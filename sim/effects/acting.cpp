@@ -66,10 +66,10 @@ double Acting::resistance_ohm(double ohm, const ChainSample& s) {
   return ohm;
 }
 
-double Acting::torque_Nm(const ChainSample& s) {
+double Acting::rotor_Nm(const ChainSample& s) {
   double sum = 0;
   each(
-      [&](auto& e, Memory&) requires requires { e.torque_Nm(s); } { sum += e.torque_Nm(s); });
+      [&](auto& e, Memory&) requires requires { e.rotor_Nm(s); } { sum += e.rotor_Nm(s); });
   return sum;
 }
 

@@ -32,7 +32,7 @@ class Acting {
 
   double voltage_V(double volts, const ChainSample& s);
   double resistance_ohm(double ohm, const ChainSample& s);
-  double torque_Nm(const ChainSample& s);
+  double rotor_Nm(const ChainSample& s);
   double friction_Nm(int direction, const ChainSample& s);
   Sloped wound(const ChainSample& s, Sloped line);
   Sloped path(const ChainSample& s, Sloped path);

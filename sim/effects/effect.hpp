@@ -14,11 +14,11 @@
 /// Seams that change constants, once (`auto&`: structs of interfaces/robot, which are not
 /// included):
 ///   change_motor(motor)  change_actuator(actuator)  change_joint(joint)  change_body(body)
-///   change_robot(robot, on)
+///   change_robot(robot, on)                  acts_besides: those below act as well
 /// Seams in the chain of an actuator, each step:
 ///   voltage_V(V, s)                   at the motor's terminals, from what the ECU applies
 ///   resistance_ohm(R, s, memory)      of the winding
-///   torque_Nm(s)                      against winding up, on the gearbox shaft
+///   rotor_Nm(s)                       against winding up, on the motor's own shaft
 ///   friction_Nm(direction, s)         added to the gearbox's Coulomb friction
 ///   wound(s, wound, memory)           the line on the spindle
 ///   path(path, s)                     the length of the tendon's path

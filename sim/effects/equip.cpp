@@ -31,7 +31,7 @@ void resolve(erp::Body& body) {
 
 namespace {
 
-/// Applies the seams that change constants. False: it has none, and is to act.
+/// Applies the seams that change constants. False: it is to act, having none or others besides.
 struct Change {
   erp::Robot& robot;
   const std::string& on;
@@ -50,6 +50,7 @@ struct Change {
     }
     if constexpr (requires { effect.change_robot(robot, on); })
       effect.change_robot(robot, on), changed = true;
+    if constexpr (requires { effect.acts_besides; }) return false;
     return changed;
   }
   bool change(const auto& effect, erp::Actuator& actuator) {

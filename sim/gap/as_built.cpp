@@ -6,62 +6,81 @@
 namespace sim::gap {
 namespace {
 
-constexpr double beyond = 2.5;  // tolerances; chosen
-constexpr double widened = 10;  // tolerances: the prior of a constant beyond; chosen
-constexpr double well = 0.75;   // determined: half its tolerance; chosen
-constexpr std::size_t most_beyond = 12;
+constexpr double beyond = 2.5, beyond_zero = 5;  // tolerances; chosen
 
-Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>& withhold) {
-  Uncertain u{nominal, constants_of(nominal), {}};
-  std::erase_if(u.constants,
-                [&](const Constant& c) { return std::ranges::count(withhold, c.effect) > 0; });
-  u.prior.assign(u.constants.size(), 1.0);
+/// What nobody measures when a robot is drawn: where things are zero, and how a body's mass is spread.
+bool is_never_certain(const Constant& c) { return c.zero || c.name == "inertia"; }
+
+/// All of its constants, or those alone that are never certain.
+Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>& withhold,
+                       bool exact) {
+  Uncertain u{nominal, constants_of(nominal)};
+  std::erase_if(u.constants, [&](const Constant& c) {
+    return (exact && !is_never_certain(c)) || std::ranges::count(withhold, c.effect) > 0;
+  });
   return u;
 }
 
-double determined(const Uncertain& u, const Estimate& e, std::size_t k) {
-  return 1 - std::pow(e.sigma(k) / u.prior[k], 2);
-}
-
-/// The determined constant farthest beyond its tolerance whose prior is not wide yet.
-std::optional<std::size_t> farthest(const Uncertain& u, const Estimate& e) {
-  std::optional<std::size_t> far;
-  for (std::size_t k = 0; k < u.constants.size(); ++k)
-    if (u.prior[k] == 1 && std::abs(e.point.x[k]) > beyond && determined(u, e, k) > well)
-      if (!far || std::abs(e.point.x[k]) > std::abs(e.point.x[*far])) far = k;
-  return far;
-}
-
-/// A prior that holds one back makes others give way: the farthest is set free, then all are
-/// estimated again.
-void release(const Estimator& train, AsBuilt& built) {
-  for (std::size_t n = 0; n < most_beyond; ++n) {
-    const auto far = farthest(built.uncertain, built.estimate);
-    if (!far) break;
-    built.uncertain.prior[*far] = widened;
-    built.estimate = train.run(built.uncertain, built.estimate.point);
-  }
-  built.beyond.clear();
+void list_beyond(AsBuilt& built) {
+  const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k)
-    if (std::abs(built.estimate.point.x[k]) > beyond &&
-        determined(built.uncertain, built.estimate, k) > well)
+    if (far(k) > (built.uncertain.constants[k].zero ? beyond_zero : beyond) &&
+        determined(built, k) > well_determined)
       built.beyond.push_back(k);
-  std::ranges::sort(built.beyond, std::greater(),
-                    [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); });
+  std::ranges::sort(built.beyond, std::greater(), far);
+}
+
+/// More than three stages and a fifth of them keep more than noise: no few effects do that; chosen.
+bool is_widespread(const Found& found) {
+  const std::size_t open = stages_kept(found);
+  return open > 3 && 5 * open > found.tolerated.size();
+}
+
+bool are_same(const std::vector<effects::Placed>& a, const std::vector<effects::Placed>& b) {
+  return std::ranges::is_permutation(
+      a, b, {}, [](const effects::Placed& p) { return std::pair(p.on, p.effect.index()); },
+      [](const effects::Placed& p) { return std::pair(p.on, p.effect.index()); });
+}
+
+struct Evidence {
+  const erp::Robot& nominal;
+  const Estimator& train;
+  const ResidualVector& held_out;
+  const AsBuiltOptions& options;
+};
+
+AsBuilt explained(const Evidence& evidence, bool exact) {
+  AsBuilt built{
+      .uncertain = uncertain_of(evidence.nominal, evidence.options.search.withhold, exact),
+      .exact = exact};
+  const Search search(evidence.train, evidence.held_out, built.uncertain, evidence.options.search);
+  std::size_t most = evidence.options.search.most_effects;
+  Found found = search.run(search.with({}), exact ? 1 : most);
+  if (exact && !is_widespread(found)) found = search.run(std::move(found), most);
+  const auto& suggested = evidence.options.suggested;
+  if (exact && !suggested.empty() && !are_same(found.train.point.effects, suggested))
+    if (Found other = search.with(suggested); other.cost < found.cost) found = std::move(other);
+  for (std::size_t k = 0; k < found.train.point.effects.size(); ++k)
+    built.alike.push_back(keeps(found) ? std::vector<Sized>{} : alike(found, k));
+  built.cost = found.cost, built.keeps = keeps(found);
+  built.estimate = std::move(found.train);
+  list_beyond(built);
+  built.robot = robot_at(built.uncertain, built.estimate.point);
+  return built;
 }
 
 }  // namespace
 
 double determined(const AsBuilt& built, std::size_t constant) {
-  return determined(built.uncertain, built.estimate, constant);
+  return std::max(0.0, 1 - std::pow(built.estimate.sigma(constant), 2));
 }
 
 AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                    const EstimateOptions& options) {
   const Estimator estimator(nominal, train, options);
-  AsBuilt built{uncertain_of(nominal, {}), {}, {}, {}};
+  AsBuilt built{.uncertain = uncertain_of(nominal, {}, false)};
   built.estimate = estimator.run(built.uncertain, {});
-  release(estimator, built);
+  list_beyond(built);
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;
 }
@@ -70,14 +89,11 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options) {
   const Estimator estimator(nominal, train, options.estimate);
   const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
-  AsBuilt built{uncertain_of(nominal, options.search.withhold), {}, {}, {}};
-  const Search search(estimator, judged, built.uncertain, options.search);
-  built.estimate = estimator.run(built.uncertain, {});
-  release(estimator, built);
-  built.estimate = search.run(built.estimate).train;
-  release(estimator, built);
-  built.robot = robot_at(built.uncertain, built.estimate.point);
-  return built;
+  const Evidence evidence{nominal, estimator, judged, options};
+  AsBuilt exact = explained(evidence, true);
+  if (!exact.keeps) return exact;
+  AsBuilt built = explained(evidence, false);
+  return exact.cost < built.cost ? exact : built;
 }
 
 }  // namespace sim::gap

@@ -11,11 +11,16 @@ struct AsBuilt {
   std::vector<std::size_t>
       beyond;        ///< constants off by more than their tolerances, the farthest first
   erp::Robot robot;  ///< nominal with all that was found
+  std::vector<std::vector<Sized>> alike;  ///< of each effect: what could stand for it
+  double cost = 0;                        ///< search.hpp
+  bool keeps = false;                     ///< a stage keeps more than noise
+  bool exact = false;  ///< no constant differs from robot.xml but those that are never certain
 };
 
 struct AsBuiltOptions {
   EstimateOptions estimate;
   SearchOptions search;
+  std::vector<effects::Placed> suggested = {};  ///< an answer found otherwise
 };
 
 /// Constants estimated on `train`, effects judged on `held_out`. Throws as residuals::Stages.
@@ -25,6 +30,9 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
 /// The constants alone: no effect is looked for.
 AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                    const EstimateOptions& options = {});
+
+/// A constant is determined if less than 0.63 of its tolerance is left; chosen.
+inline constexpr double well_determined = 0.6;
 
 /// How well a constant is determined: 1 − (its deviation after/before)², 0: not at all.
 double determined(const AsBuilt& built, std::size_t constant);

@@ -60,21 +60,6 @@ Sparse jacobian(const ResidualVector& residuals, const Unknowns& at, const Estim
   return j;
 }
 
-/// How many windows one independent one stands for.
-double correlated(std::span<const double> z) {
-  constexpr std::size_t furthest = 50;  // windows: a second
-  double square = 0;
-  for (const double x : z) square += x * x;
-  double sum = 1;
-  for (std::size_t lag = 1; lag < std::min(furthest, z.size()) && square > 0; ++lag) {
-    double product = 0;
-    for (std::size_t k = lag; k < z.size(); ++k) product += z[k] * z[k - lag];
-    if (product < 0.05 * square) break;
-    sum += 2 * product / square;
-  }
-  return sum;
-}
-
 /// Sets weights and mean squares by what is left. `trust`: exponent of c_s; below 1 a stage that is far
 /// off draws harder.
 void weigh(const ResidualVector& residuals, Estimate& e, double trust = 1) {
@@ -109,13 +94,14 @@ Normal normal_equations(const Estimate& e, const Unknowns& at) {
   Normal n{MatrixXd(e.jacobian.transpose() * (e.weight.asDiagonal() * e.jacobian)),
            e.jacobian.transpose() * e.weight.cwiseProduct(e.z)};
   for (std::size_t k = 0; k < at.constants(); ++k) {
-    const double precision = 1 / (at.prior(k) * at.prior(k));
+    const double precision = prior_precision(at.value(k));
     n.hessian(Index(k), Index(k)) += precision;
     n.gradient[Index(k)] += precision * at.value(k);
   }
-  for (std::size_t k = at.constants(); k < at.count(); ++k) {  // nothing may depend on it
+  for (std::size_t k = at.constants(); k < at.count();
+       ++k) {  // nothing may depend on it; a step is short then
     double& own = n.hessian(Index(k), Index(k));
-    own += 1e-9 * own + 1e-12;
+    own += at.is_logarithm(k) ? 1 : 1e-9 * own + 1e-12;
   }
   return n;
 }
@@ -130,44 +116,58 @@ Estimator::Estimator(const erp::Robot& nominal, std::span<const residuals::Episo
                      const EstimateOptions& options)
     : residuals_(nominal, episodes, options.seed, options.threads), options_(options) {}
 
-double Estimator::cost(const Uncertain& uncertain, const Point& point, const VectorXd& z,
-                       const VectorXd& weight) const {
-  double cost = weight.dot(z.cwiseAbs2());
-  for (std::size_t k = 0; k < point.x.size(); ++k)
-    cost += std::pow(point.x[k] / uncertain.prior[k], 2);
-  return cost;
+double cost_of(const Point& point, const VectorXd& z, const VectorXd& weight) {
+  return weight.dot(z.cwiseAbs2()) + prior_cost(point);
 }
 
 namespace {
 
-/// Levenberg-Marquardt steps until one no longer helps.
-void descend(const Estimator& estimator, const Uncertain& uncertain, Unknowns at, Estimate& e,
-             const Estimate* base, int iterations, int threads) {
+/// One Levenberg-Marquardt step, with less length until it helps.
+struct Step {
+  bool better = false;
+  double gained = 0, promised = 0;  ///< of the cost, by the step and by its linear model
+};
+
+Step step(const ResidualVector& residuals, Unknowns& at, Estimate& e, double& damping,
+          int threads) {
+  const Normal normal = normal_equations(e, at);
+  e.covariance = inverse(normal.hessian);
+  e.cost = cost_of(at.point(), e.z, e.weight);
+  Step taken;
+  for (int attempt = 0; attempt < 4 && !taken.better; ++attempt) {
+    MatrixXd damped = normal.hessian;
+    damped.diagonal() *= 1 + damping;
+    const VectorXd by = -damped.ldlt().solve(normal.gradient);
+    const Unknowns next = at.moved(by);
+    Explained explained = residuals.explain(next.robot(), threads);
+    const VectorXd z = residuals.z(explained);
+    const double after = cost_of(next.point(), z, e.weight);
+    taken = {after < e.cost, e.cost - after,
+             -(2 * normal.gradient.dot(by) + by.dot(normal.hessian * by))};
+    if (!taken.better) damping = std::max(1e-6, damping) * 30;
+    else at = next, e.z = z, e.explained = std::move(explained), e.cost = after, damping *= 0.1;
+  }
+  return taken;
+}
+
+/// Steps until one no longer helps. Derivatives are taken anew where a step gained much less than they
+/// promised (chord method: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, ch. 5).
+void descend(const ResidualVector& residuals, Unknowns at, Estimate& e, const Estimate* base,
+             int iterations, int threads) {
   constexpr double enough = 1e-4;  // of the cost, that a step is worth; chosen
+  constexpr double kept = 0.6;     // of what was promised: derivatives still hold; chosen
   constexpr int first_far = 3;     // steps; chosen
-  const ResidualVector& residuals = estimator.residuals();
   double damping = 0;
+  bool fresh = false, stale = true;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const bool far = !base && iteration < first_far;
     if (!base) weigh(residuals, e, far ? 0.5 : 1);
-    e.jacobian = jacobian(residuals, at, e, base ? &base->jacobian : nullptr, threads);
-    const Normal normal = normal_equations(e, at);
-    e.covariance = inverse(normal.hessian);
-    e.cost = estimator.cost(uncertain, at.point(), e.z, e.weight);
-    bool better = false, done = false;
-    for (int attempt = 0; attempt < 4 && !better; ++attempt) {
-      MatrixXd damped = normal.hessian;
-      damped.diagonal() *= 1 + damping;
-      const Unknowns next = at.moved(-damped.ldlt().solve(normal.gradient));
-      Explained explained = residuals.explain(next.robot(), threads);
-      const VectorXd z = residuals.z(explained);
-      const double after = estimator.cost(uncertain, next.point(), z, e.weight);
-      better = after < e.cost;
-      done = e.cost - after < enough * e.cost;
-      if (!better) damping = std::max(1e-6, damping) * 30;
-      else at = next, e.z = z, e.explained = std::move(explained), e.cost = after, damping *= 0.1;
-    }
-    if ((!better || done) && !far) break;
+    if (stale) e.jacobian = jacobian(residuals, at, e, base ? &base->jacobian : nullptr, threads);
+    fresh = stale;
+    const Step taken = step(residuals, at, e, damping, threads);
+    const bool done = !taken.better || taken.gained < enough * e.cost;
+    if (done && fresh && !far) break;
+    stale = done || taken.gained < kept * taken.promised;
   }
   e.point = at.point();
   e.bound.clear();
@@ -175,13 +175,12 @@ void descend(const Estimator& estimator, const Uncertain& uncertain, Unknowns at
 }
 
 /// Weights, derivatives and covariance where an estimate ended.
-void settle(const Estimator& estimator, const Uncertain& uncertain, Estimate& e) {
-  const Unknowns at(uncertain, e.point);
-  weigh(estimator.residuals(), e);
-  e.jacobian = jacobian(estimator.residuals(), at, e, nullptr, estimator.options().threads);
+void settle(const ResidualVector& residuals, const Unknowns& at, Estimate& e, int threads) {
+  weigh(residuals, e);
+  e.jacobian = jacobian(residuals, at, e, nullptr, threads);
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
-  e.cost = estimator.cost(uncertain, e.point, e.z, e.weight);
+  e.cost = cost_of(e.point, e.z, e.weight);
 }
 
 }  // namespace
@@ -191,8 +190,8 @@ Estimate Estimator::run(const Uncertain& uncertain, Point start) const {
   Estimate e;
   e.explained = residuals_.explain(at.robot(), options_.threads);
   e.z = residuals_.z(e.explained);
-  descend(*this, uncertain, at, e, nullptr, options_.iterations, options_.threads);
-  settle(*this, uncertain, e);
+  descend(residuals_, at, e, nullptr, options_.iterations, options_.threads);
+  settle(residuals_, {uncertain, e.point}, e, options_.threads);
   return e;
 }
 
@@ -202,7 +201,7 @@ Estimate Estimator::beside(const Uncertain& uncertain, const Estimate& base, Poi
   Estimate e;
   e.explained = residuals_.explain(at.robot(), 1);
   e.z = residuals_.z(e.explained), e.weight = base.weight;
-  descend(*this, uncertain, at, e, &base, iterations, 1);
+  descend(residuals_, at, e, &base, iterations, 1);
   const VectorXd weight = e.weight;
   weigh(residuals_, e);
   e.weight = weight;

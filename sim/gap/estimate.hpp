@@ -9,14 +9,14 @@
 /// All constants of a robot, and the parameters of effects beside them, estimated together from the
 /// stage residuals of recordings: maximum a posteriori by Gauss-Newton.
 ///
-///   min over x, p   Σ_s w_s Σ_k z_sk(x, p)² + Σ_j (x_j/s_j)²      z: residual_vector.hpp
+///   min over x, p   Σ_s w_s Σ_k z_sk(x, p)² + Σ_j ν log(1 + x_j²/ν)    z: residual_vector.hpp
 ///   w_s = 1/(4 c_s v_s)    c_s = max(1, ⟨z_s²⟩): a stage that keeps more than noise counts less
 ///                          v_s: windows that one independent one stands for, 1 + 2 Σ ρ_l
 ///                          4: chosen, for what the laws themselves approximate
 ///
-/// x: deviations of constants in tolerances, s: their prior; p: parameters of effects, without a prior
-/// but within their bounds. The covariance is the inverse of the Hessian.
-/// Source: Gelman et al., Bayesian Data Analysis, ch. 4; v_s: effective sample size, Geyer 1992.
+/// x: deviations of constants in tolerances, their prior in unknowns.hpp; p: parameters of effects,
+/// without a prior but within their bounds. The covariance is the inverse of the Hessian.
+/// Source: Gelman et al., Bayesian Data Analysis, ch. 4 and 17.
 namespace sim::gap {
 
 struct EstimateOptions {
@@ -50,9 +50,6 @@ class Estimator {
 
   const ResidualVector& residuals() const { return residuals_; }
   const EstimateOptions& options() const { return options_; }
-  /// Σ w z² + Σ (x/s)², with the weights of `weight`.
-  double cost(const Uncertain& uncertain, const Point& point, const Eigen::VectorXd& z,
-              const Eigen::VectorXd& weight) const;
 
   Estimate run(const Uncertain& uncertain, Point start) const;
   /// The same for few steps, as a candidate beside `base`: derivatives by the constants and weights

@@ -30,7 +30,8 @@ ResidualVector::ResidualVector(const erp::Robot& nominal,
     : episodes_(episodes) {
   for (const residuals::Episode& episode : episodes)
     disturbed_.push_back(residuals::said_again(episode, nominal, seed));
-  bare_ = explain(nominal, threads).real;
+  Explained bare = explain(nominal, threads);
+  bare_ = bare.real;
   for (const residuals::Explanation& e : bare_) {
     stages_ = e.residuals.size();
     for (std::size_t r = 0; r < stages_; ++r) {
@@ -38,6 +39,41 @@ ResidualVector::ResidualVector(const erp::Robot& nominal,
       size_ += blocks_.back().count;
     }
   }
+  floors_ = floors(bare);
+  count_independent(bare);
+}
+
+void ResidualVector::count_independent(const Explained& nominal) {
+  independent_.assign(stages_, 0);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t e = b / stages_, r = b % stages_;
+    const auto &real = nominal.real[e].residuals[r].value,
+               &disturbed = nominal.disturbed[e].residuals[r].value;
+    std::vector<double> noise;
+    for (std::size_t k = 0; k < real.size(); ++k)
+      if (const double change = disturbed[k] - real[k]; !std::isnan(change))
+        noise.push_back(change);
+    independent_[r] += double(noise.size()) / correlated(noise);
+  }
+}
+
+std::vector<double> ResidualVector::floors(const Explained& explained) const {
+  std::vector<double> all;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t e = b / stages_, r = b % stages_;
+    all.push_back(floor_of(explained.real[e].residuals[r], explained.disturbed[e].residuals[r]));
+  }
+  return all;
+}
+
+std::vector<double> ResidualVector::raised(const Explained& explained) const {
+  const auto is = floors(explained);
+  std::vector<double> now(stages_), nominal(stages_), all(stages_, 1.0);
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    now[blocks_[b].stage] += is[b] * is[b], nominal[blocks_[b].stage] += floors_[b] * floors_[b];
+  for (std::size_t s = 0; s < stages_; ++s)
+    if (nominal[s] > 0) all[s] = std::sqrt(now[s] / nominal[s]);
+  return all;
 }
 
 Explained ResidualVector::explain(const erp::Robot& robot, int threads) const {
@@ -65,18 +101,32 @@ Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base
 
 VectorXd ResidualVector::z(const Explained& explained) const {
   VectorXd z = VectorXd::Zero(size_);
-  std::size_t b = 0;
-  for (std::size_t e = 0; e < bare_.size(); ++e)
-    for (std::size_t r = 0; r < bare_[e].residuals.size(); ++r, ++b) {
-      const auto &was = bare_[e].residuals[r], &is = explained.real[e].residuals[r];
-      const double floor = floor_of(is, explained.disturbed[e].residuals[r]);
-      for (std::size_t k = 0; k < was.value.size() && floor > 0; ++k) {
-        if (std::isnan(was.value[k])) continue;
-        const auto& taken = std::isnan(is.value[k]) ? was : is;
-        z[blocks_[b].first + Index(k)] = taken.value[k] / floor;
-      }
+  const auto floors = this->floors(explained);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t e = b / stages_, r = b % stages_;
+    const auto &was = bare_[e].residuals[r], &is = explained.real[e].residuals[r];
+    for (std::size_t k = 0; k < was.value.size() && floors[b] > 0; ++k) {
+      if (std::isnan(was.value[k])) continue;
+      const auto& taken = std::isnan(is.value[k]) ? was : is;
+      z[blocks_[b].first + Index(k)] = taken.value[k] / floors[b];
     }
+  }
   return z;
+}
+
+double correlated(std::span<const double> series) {
+  constexpr std::size_t furthest = 50;  // windows: a second
+  constexpr double small = 0.05;        // a correlation; chosen
+  double square = 0;
+  for (const double x : series) square += x * x;
+  double sum = 1;
+  for (std::size_t lag = 1; lag < std::min(furthest, series.size()) && square > 0; ++lag) {
+    double product = 0;
+    for (std::size_t k = lag; k < series.size(); ++k) product += series[k] * series[k - lag];
+    if (product < small * square) break;
+    sum += 2 * product / square;
+  }
+  return sum;
 }
 
 }  // namespace sim::gap

@@ -36,19 +36,31 @@ class ResidualVector {
   Explained explain(const erp::Robot& robot, const Explained& base,
                     const residuals::Reach& reach) const;
   Eigen::VectorXd z(const Explained& explained) const;
+  /// The noise floor of each stage in that of the nominal robot; 1 where that has none.
+  std::vector<double> raised(const Explained& explained) const;
 
   std::span<const Block> blocks() const { return blocks_; }
+  /// Of each stage: windows that the sensors' noise makes independent, Σ n/(1 + 2 Σ ρ_l).
+  std::span<const double> independent() const { return independent_; }
   std::size_t stages() const { return stages_; }
   /// The nominal robot's; its residuals name the stages.
   const residuals::Explanation& first() const { return bare_.front(); }
 
  private:
+  std::vector<double> floors(const Explained& explained) const;
+  void count_independent(const Explained& nominal);
+
   std::span<const residuals::Episode> episodes_;
   std::vector<residuals::Episode> disturbed_;
   std::vector<residuals::Explanation> bare_;
   std::vector<Block> blocks_;
+  std::vector<double> floors_, independent_;  ///< of the nominal robot: one a block, one a stage
   std::size_t stages_ = 0;
   Eigen::Index size_ = 0;
 };
+
+/// How many values of a series one independent one stands for, 1 + 2 Σ ρ_l; 0 are values not judged.
+/// Source: effective sample size, Geyer 1992.
+double correlated(std::span<const double> series);
 
 }  // namespace sim::gap

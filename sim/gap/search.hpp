@@ -4,17 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "sim/gap/estimate.hpp"
+#include "sim/gap/screen.hpp"
 
-/// Which effects of the library a robot has beside constants that differ: screened by what each could
-/// explain that the constants and the effects found so far cannot, then estimated together with them.
+/// Which effects of the library a robot has beside its constants: candidates are screened, the best are
+/// estimated together with the constants, and the one joins that costs least,
 ///
-///   score = gᵀ G⁻¹ g      g = Dᵀ W z,  G = Dᵀ W D − (Jᵀ W D)ᵀ H⁻¹ (Jᵀ W D)
+///   cost = misfit (left.hpp, recordings taught with and held out) + prior of the constants
 ///
-/// D: what the effect's parameters change in z, J and H: of everything that is estimated already
-/// (orthogonal least squares: Chen, Billings, Luo 1989). All stages and recordings take part, each
-/// stage weighed by what it keeps. Parameters that shape a law (speeds, time constants, periods) are
-/// scanned.
+/// while a stage keeps more than noise. An earlier choice is looked for again beside later ones.
 namespace sim::gap {
 
 struct SearchOptions {
@@ -24,51 +21,62 @@ struct SearchOptions {
   std::function<void(const std::string&, double)> progress = {};
 };
 
-struct Candidate {
-  effects::Placed start;  ///< with the values that would explain most
-  double score = 0;
+/// An effect, with the standard deviations of its estimated parameters.
+struct Sized {
+  effects::Placed effect;
+  std::vector<double> sigma;
+};
+/// Of an estimate, each of its effects.
+std::vector<Sized> sized(const Estimate& estimate);
+
+/// What came near an effect of an answer.
+struct Rivals {
+  std::vector<Sized> all;
+  std::vector<double> cost;  ///< of the answer with each instead, the cheapest first
+  double gain = 0;           ///< cost without the effect less that with it
 };
 
-/// An estimate with effects, and what it leaves of the recordings held out.
+/// An estimate with effects, what it leaves, and what it costs.
 struct Found {
   Estimate train;
-  Explained held_out;
-  Eigen::VectorXd z_held_out;
+  Left on_train, held_out;
+  double cost = 0;
+  std::vector<Rivals> rivals = {};  ///< one an effect
+  std::vector<double> tolerated;    ///< excess of each stage that is not worth an effect
 };
-
-struct Directions;
 
 class Search {
  public:
   Search(const Estimator& train, const ResidualVector& held_out, const Uncertain& uncertain,
          const SearchOptions& options);
 
-  /// Best first; at most one a type and place.
-  std::vector<Candidate> screen(const Estimate& base) const;
-  /// Adds effects to `base` while a stage is left with more than noise and one helps.
-  Found run(Estimate base) const;
   Found judge(Estimate estimate) const;
+  /// With some effects as given.
+  Found with(const std::vector<effects::Placed>& effects) const;
+  /// Adds effects, to `most` in all, while a stage keeps more than noise and one helps.
+  Found run(Found found, std::size_t most) const;
 
  private:
-  Candidate screen(const Estimate& base, const effects::Placed& neutral) const;
+  /// `base` with each of the candidates, the cheapest first.
+  std::vector<Found> each_beside(const Found& base) const;
   std::optional<Found> best_beside(const Found& base) const;
+  Found with_best_of(const std::vector<Found>& joined, const Found& base) const;
   Found exchanged(Found found) const;
-  Candidate screen(const Estimate& base, const Directions& directions) const;
-  double profile(const Estimate& base, const Eigen::VectorXd& z) const;
-  /// The same of the recordings held out, and the prior's share.
-  double cost(const Found& found, const Estimate& base) const;
-  void report(double share) const {
-    if (options_.progress) options_.progress("effects", share);
-  }
+  Found without(const Found& found, std::size_t effect) const;
 
   const Estimator& train_;
   const ResidualVector& held_out_;
   const Uncertain& uncertain_;
   SearchOptions options_;
+  Screen screen_;
+  std::vector<double> tolerated_;
 };
 
-/// ⟨z²⟩ − 1 of each stage; 0: nothing but noise. A window counts for no more than six deviations of its
-/// stage, so that one event does not pass for a law.
-std::vector<double> excess(const ResidualVector& residuals, const Eigen::VectorXd& z);
+/// What could stand for one of its effects as well: what costs little more, the cheapest first.
+std::vector<Sized> alike(const Found& found, std::size_t effect);
+
+/// Stages that keep more than is tolerated, of recordings taught with or held out.
+std::size_t stages_kept(const Found& found);
+inline bool keeps(const Found& found) { return stages_kept(found) > 0; }
 
 }  // namespace sim::gap

@@ -12,13 +12,29 @@ erp::Robot robot_at(const Uncertain& uncertain, const Point& point) {
   return robot;
 }
 
+namespace {
+constexpr double nu = 6;  // chosen
+}
+
+double prior_cost(const Point& point) {
+  double sum = 0;
+  for (const double x : point.x) sum += nu * std::log1p(x * x / nu);
+  return sum;
+}
+
+double prior_precision(double x) { return 1 / (1 + x * x / nu); }
+
+bool is_estimated(const effects::Parameter& p) {
+  return p.fitted || (p.bounds.low > 0 && std::string_view(p.name) != "periods_per_turn");
+}
+
 Unknowns::Unknowns(const Uncertain& uncertain, Point at)
     : uncertain_(&uncertain), at_(std::move(at)) {
   at_.x.resize(uncertain.constants.size(), 0.0);
   for (std::size_t n = 0; n < at_.effects.size(); ++n) {
     const auto all = effects::parameters(at_.effects[n].effect);
     for (std::size_t p = 0; p < all.size(); ++p)
-      if (all[p].fitted) places_.push_back({n, p});
+      if (is_estimated(all[p])) places_.push_back({n, p});
   }
 }
 
@@ -29,12 +45,16 @@ effects::Parameter Unknowns::parameter(std::size_t k) const {
 }
 
 double Unknowns::value(std::size_t k) const {
-  return k < constants() ? at_.x[k] : *parameter(k).value;
+  if (k < constants()) return at_.x[k];
+  const effects::Parameter p = parameter(k);
+  return p.fitted ? *p.value : std::log(*p.value);
 }
 
 double Unknowns::step(std::size_t k) const {
-  constexpr double of_tolerance = 0.01, of_bounds = 2e-4, of_value = 3e-3;  // chosen
+  constexpr double of_tolerance = 0.01, of_bounds = 2e-4, of_value = 3e-3,
+                   of_logarithm = 0.03;  // chosen
   if (k < constants()) return of_tolerance;
+  if (!parameter(k).fitted) return of_logarithm;
   const effects::Bounds bounds = parameter(k).bounds;
   const double own = of_value * std::abs(value(k));
   const double step = own > 0 ? own : of_bounds * std::max(std::abs(bounds.low), bounds.high);
@@ -46,7 +66,7 @@ Unknowns Unknowns::with(std::size_t k, double value) const {
   if (k < constants()) other.at_.x[k] = value;
   else {
     const effects::Parameter p = other.parameter(k);
-    *p.value = std::clamp(value, p.bounds.low, p.bounds.high);
+    *p.value = std::clamp(p.fitted ? value : std::exp(value), p.bounds.low, p.bounds.high);
   }
   return other;
 }
@@ -63,7 +83,7 @@ residuals::Reach Unknowns::reach(std::size_t k, const residuals::Stages& stages)
 }
 
 bool Unknowns::at_bound(std::size_t k) const {
-  if (k < constants()) return false;
+  if (k < constants() || is_logarithm(k)) return false;
   const effects::Parameter p = parameter(k);
   const double near = 1e-3 * (p.bounds.high - p.bounds.low);
   return *p.value > p.bounds.high - near || (*p.value < p.bounds.low + near && p.bounds.low != 0);

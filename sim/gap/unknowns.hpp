@@ -11,7 +11,6 @@ namespace sim::gap {
 struct Uncertain {
   erp::Robot nominal;
   std::vector<Constant> constants;
-  std::vector<double> prior;  ///< standard deviations of x, one a constant; 1: its tolerance
 };
 
 /// A point among what is possible.
@@ -22,8 +21,19 @@ struct Point {
 
 erp::Robot robot_at(const Uncertain& uncertain, const Point& point);
 
-/// A point's coordinates one after the other: x, then each parameter. Parameters of effects that are
-/// counts (a cogging's periods) are none.
+/// −2 log of the prior of x, ν log(1 + x²/ν), ν = 6: a normal one of standard deviation 1 near 0, with
+/// the heavier tails of Student's t, so that a constant far off costs little more than one that is
+/// three tolerances off, and others need not give way.
+double prior_cost(const Point& point);
+/// Of the normal one that has the same slope at x.
+double prior_precision(double x);
+
+/// Parameters that are fitted, and times and speeds that are given elsewhere; not counts (a cogging's
+/// periods).
+bool is_estimated(const effects::Parameter& parameter);
+
+/// A point's coordinates one after the other: x, then each estimated parameter, the logarithm of one that is
+/// not fitted elsewhere.
 class Unknowns {
  public:
   /// `uncertain` stays with the caller.
@@ -35,7 +45,6 @@ class Unknowns {
   erp::Robot robot() const { return robot_at(*uncertain_, at_); }
 
   double value(std::size_t k) const;
-  double prior(std::size_t constant) const { return uncertain_->prior[constant]; }
   /// For a forward difference, within the bounds.
   double step(std::size_t k) const;
   /// Another value of one, or all moved; parameters stay within their bounds.
@@ -43,6 +52,7 @@ class Unknowns {
   Unknowns moved(const Eigen::VectorXd& by) const;
   residuals::Reach reach(std::size_t k, const residuals::Stages& stages) const;
   bool at_bound(std::size_t k) const;
+  bool is_logarithm(std::size_t k) const { return k >= constants() && !parameter(k).fitted; }
 
  private:
   struct Place {

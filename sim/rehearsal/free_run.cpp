@@ -1,9 +1,12 @@
 #include "sim/rehearsal/free_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "interfaces/xml/values.hpp"
 #include "sim/actuator/ecu_units.hpp"
@@ -90,11 +93,12 @@ using Errors = std::map<std::string, std::pair<std::string, std::vector<Second>>
 
 /// Three rehearsals of one recording, compared with it.
 Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& found,
-                 std::uint64_t seed) {
+                 std::uint64_t seed, const LearnedEcu* learned) {
   const Score score = score_of(e, nominal);
   std::vector<std::string> remarks;
   const auto run = [&](const erp::Robot& robot, std::uint64_t noise) {
-    return residuals::lay_out(rehearse(robot, score, noise), nominal, e.name, remarks);
+    return residuals::lay_out(rehearse(robot, score, noise, {&nominal, learned}), nominal, e.name,
+                              remarks);
   };
   const Episode before = run(nominal, seed), after = run(found, seed), again = run(found, seed + 1);
   const auto real = residuals::measured(e, nominal), was = residuals::measured(before, nominal),
@@ -142,11 +146,30 @@ Closed all_of(const Errors& errors, std::span<const std::size_t> drawn) {
   return c;
 }
 
+/// The ECU's laws, where they are not those of our firmware and can be learned.
+std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const erp::Robot& robot,
+                                      std::vector<std::string>& remarks) {
+  constexpr double ours = 0.05, known = 0.5;  // of the voltages' variance; of that; chosen
+  const double unexplained = unexplained_by_firmware(recordings, robot);
+  if (unexplained < ours) return {};
+  LearnedEcu ecu = learn(recordings, robot);
+  std::erase_if(ecu, [&](const auto& law) { return law.second.unexplained > known * unexplained; });
+  if (ecu.empty()) return {};
+  double worst = 0;
+  for (const auto& [mode, law] : ecu) worst = std::max(worst, law.unexplained);
+  remarks.push_back(fmt::format(
+      "the free run's ECUs follow laws learned from the recordings, which leave {:.2g} % of the "
+      "variance of the voltages; this firmware's own leave {:.3g} %",
+      100 * worst, 100 * std::min(1.0, unexplained)));
+  return ecu;
+}
+
 }  // namespace
 
 FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
                  std::span<const Episode> recordings, const FreeRunOptions& options) {
   FreeRun result;
+  const auto learned = foreign_ecu(recordings, nominal, result.remarks);
   std::vector<Errors> of_recording(recordings.size());
   std::vector<std::string> why(recordings.size());
   std::size_t done = 0;
@@ -155,7 +178,8 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
     why[r] = obstacle(recordings[r], nominal);
     try {
       if (why[r].empty())
-        of_recording[r] = errors_of(recordings[r], nominal, found, options.seed + 2 * r);
+        of_recording[r] = errors_of(recordings[r], nominal, found, options.seed + 2 * r,
+                                    learned ? &*learned : nullptr);
     } catch (const std::exception& failed) {
       why[r] = failed.what();
     }

@@ -4,17 +4,17 @@
 
 namespace sim::rehearsal {
 
-Puppet::Puppet(const erp::Robot& robot, std::uint64_t seed)
+Puppet::Puppet(const erp::Robot& robot, const erp::Robot& configured, std::uint64_t seed)
     : robot_(robot), world_(robot), ecus_(robot, {.seed = seed}) {
-  for (const erp::Actuator& a : robot.actuators)
-    units_.emplace_back(robot.motor_of(a), robot.sensors_of(a), a.spindle);
-  give_gains();
+  for (const erp::Actuator& a : configured.actuators)
+    units_.emplace_back(configured.motor_of(a), configured.sensors_of(a), a.spindle);
+  give_gains(configured);
   send(std::vector<Asked>(units_.size()));
 }
 
-void Puppet::give_gains() {
-  for (const erp::Actuator& a : robot_.actuators) {
-    const auto gains = design_parameters(robot_, a, {.stuck_share = 0});
+void Puppet::give_gains(const erp::Robot& configured) {
+  for (const erp::Actuator& a : configured.actuators) {
+    const auto gains = design_parameters(configured, a, {.stuck_share = 0});
     erp::EcuParameter message;
     for (std::size_t k = 0; k < gains.size(); ++k)
       erp::append(message.values,

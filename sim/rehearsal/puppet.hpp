@@ -25,8 +25,9 @@ struct Unsound : std::runtime_error {
 class Puppet {
  public:
   /// Starts at the initial pose, at pretension, ECUs armed with the gains that the plant would give
-  /// them. Lends the robot. Throws as World does.
-  explicit Puppet(const erp::Robot& robot, std::uint64_t seed = 1);
+  /// them for `configured`. Lends the robots. Throws as World does.
+  Puppet(const erp::Robot& robot, const erp::Robot& configured, std::uint64_t seed);
+  explicit Puppet(const erp::Robot& robot, std::uint64_t seed = 1) : Puppet(robot, robot, seed) {}
 
   /// One tick of the ECUs, 2 ms, asked so much by actuator. Throws Unsound.
   void tick(std::span<const Asked> asked);
@@ -38,7 +39,7 @@ class Puppet {
   const EcuUnits& units(std::size_t actuator) const { return units_[actuator]; }
 
  private:
-  void give_gains();
+  void give_gains(const erp::Robot& configured);
   void send(std::span<const Asked> asked);
 
   const erp::Robot& robot_;

@@ -1,5 +1,6 @@
 #include "sim/rehearsal/rehearse.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -14,9 +15,18 @@ constexpr double tick_s = 0.002;
 
 class Stage {
  public:
-  Stage(const erp::Robot& robot, std::uint64_t seed)
-      : robot_(robot), puppet_(robot, seed), noise_(seed) {
+  Stage(const erp::Robot& robot, std::uint64_t seed, const Ecus& ecus)
+      : robot_(robot),
+        puppet_(robot, ecus.configured ? *ecus.configured : robot, seed),
+        noise_(seed),
+        ecu_(ecus.learned) {
     last_.resize(robot.actuators.size());
+    for (const erp::Actuator& a : robot.actuators)
+      loops_.push_back({{erp::Mode::off, a.spindle.radius_m},
+                        a.spindle.radius_m,
+                        robot.motor_of(a).supply_V,
+                        erp::Mode::off,
+                        {}});
     table_.columns.push_back({"time_s", {}});
     for (std::string& name : recording::columns_of(robot_))
       table_.columns.push_back({std::move(name), {}});
@@ -26,13 +36,43 @@ class Stage {
     for (const auto& asked : score) {
       for (std::size_t a = 0; a < last_.size(); ++a)
         if (!std::isnan(asked[a].reference)) last_[a] = asked[a];
-      puppet_.tick(last_);
+      puppet_.tick(commanded());
       put(tick_s * static_cast<double>(table_.rows()));
     }
     return std::move(table_);
   }
 
  private:
+  /// A learned law at work: what it has seen since its mode began.
+  struct Loop {
+    Regressors regressors;
+    double radius_m, supply_V;
+    erp::Mode mode;
+    std::vector<Eigen::Vector<double, Regressors::count>> seen;
+  };
+
+  /// What the firmware is asked: what the recording was, or the voltage of a learned law.
+  std::vector<Asked> commanded() {
+    std::vector<Asked> all = last_;
+    if (table_.rows() == 0) return all;  // nothing is measured yet
+    for (std::size_t a = 0; ecu_ && a < all.size(); ++a)
+      if (const auto law = ecu_->find({a, last_[a].mode}); law != ecu_->end())
+        all[a] = {erp::Mode::voltage, voltage_of(law->second, loops_[a], a)};
+    return all;
+  }
+  double voltage_of(const LearnedLaw& law, Loop& loop, std::size_t a) {
+    if (loop.mode != last_[a].mode)
+      loop.mode = last_[a].mode, loop.regressors = {loop.mode, loop.radius_m}, loop.seen.clear();
+    const auto& said = puppet_.said_of(a);
+    const EcuUnits& units = puppet_.units(a);
+    loop.seen.push_back(loop.regressors.next(
+        {last_[a].reference, units.shaft_rad(said.encoder_counts),
+         said.current_counts * units.current_A_per_count, units.tension_N(said.tension_counts)}));
+    const std::size_t back = std::min(law.lag, loop.seen.size());
+    return std::clamp(law.weights.dot(loop.seen[loop.seen.size() - back]), -loop.supply_V,
+                      loop.supply_V);
+  }
+
   /// As its sensor says, or as it is where there is none.
   double angle_of(std::size_t joint, const std::string& name) const {
     for (const erp::JointSensor& sensor : robot_.joint_sensors)
@@ -71,6 +111,8 @@ class Stage {
   Puppet puppet_;
   std::vector<Asked> last_;
   Noise noise_;
+  const LearnedEcu* ecu_;
+  std::vector<Loop> loops_;
   recording::Table table_;
 };
 
@@ -85,8 +127,9 @@ Score score_of(const Excitation& excitation) {
   return score;
 }
 
-recording::Table rehearse(const erp::Robot& robot, const Score& score, std::uint64_t seed) {
-  return Stage(robot, seed).play(score);
+recording::Table rehearse(const erp::Robot& robot, const Score& score, std::uint64_t seed,
+                          const Ecus& ecus) {
+  return Stage(robot, seed, ecus).play(score);
 }
 
 }  // namespace sim::rehearsal

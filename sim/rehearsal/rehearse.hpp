@@ -4,6 +4,7 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "sim/actuator/excitation.hpp"
+#include "sim/rehearsal/learned_ecu.hpp"
 #include "sim/rehearsal/puppet.hpp"
 
 /// A robot under its ECUs, asked what a recording or a plan asks, in the simulator: what would have
@@ -14,8 +15,16 @@ namespace sim::rehearsal {
 using Score = std::vector<std::vector<Asked>>;
 Score score_of(const Excitation& excitation);
 
+/// Whose ECUs they are.
+struct Ecus {
+  const erp::Robot* configured =
+      nullptr;                          ///< the robot that gains are designed for; null: this one
+  const LearnedEcu* learned = nullptr;  ///< laws that take the place of the firmware's
+};
+
 /// A table as interfaces/recording has it, a row a tick. The robot's effects act. Starts at the
 /// initial pose, at pretension. Throws as World does; std::runtime_error: the motion is not finite.
-recording::Table rehearse(const erp::Robot& robot, const Score& score, std::uint64_t seed = 1);
+recording::Table rehearse(const erp::Robot& robot, const Score& score, std::uint64_t seed = 1,
+                          const Ecus& ecus = {});
 
 }  // namespace sim::rehearsal

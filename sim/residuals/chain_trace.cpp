@@ -194,10 +194,9 @@ class Tracer {
         m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
     s.load_Nm = wound_slope_[k] * near_N;
     const double dry = std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(way, s));
-    const double load =
-        m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm + m_.effects.torque_Nm(s);
+    const double load = m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm;
     const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
-    return out_.motor_Nm[k] - n * way * m.rotor_coulomb_Nm - load / e;
+    return out_.motor_Nm[k] - n * (way * m.rotor_coulomb_Nm + m_.effects.rotor_Nm(s)) - load / e;
   }
 
   ChainModel m_;

@@ -55,6 +55,8 @@ struct Episode {
 
   /// By how much later than recorded voltages act, or all sensors are; undone already.
   double voltage_late_s = 0;
+  double repeated_share = 0;  ///< of rows that were the row before again; filled in already
+  double jitter_s = 0;        ///< up to how much later than stamped rows are taken
 
   void judge_from(double time_s) {
     judged_from = static_cast<std::size_t>(std::lround(time_s / period_s));

@@ -65,11 +65,29 @@ void delay(Signal& signal) {
     signal[k] = said[k] - late * (said[k + 1] - said[k - 1]) / 2;
 }
 
+/// Rows taken later than stamped, all signals alike.
+void disturb_times(Episode& e, Noise& noise) {
+  Signal late_s(e.rows);
+  for (double& t : late_s) t = e.jitter_s * noise.uniform();
+  const auto disturb = [&](Signal& signal) {
+    const Signal said = signal;
+    for (std::size_t k = 0; k < signal.size(); ++k)
+      signal[k] += rate_of(said, k, e.period_s) * late_s[k];
+  };
+  for (ActuatorSignals& s : e.actuators)
+    disturb(s.voltage_V), disturb(s.current_A), disturb(s.shaft_rad), disturb(s.tension_N);
+  for (JointSignals& j : e.joints) {
+    disturb(j.angle_rad);
+    for (Signal& part : j.quaternion) disturb(part);
+  }
+}
+
 }  // namespace
 
 Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_t seed) {
   Episode again = episode;
   Noise noise(seed);
+  if (again.jitter_s > 0) disturb_times(again, noise);
   const auto coarse = effects::read_effects(robot);
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const erp::SensorType& sensors = robot.sensors_of(robot.actuators[a]);

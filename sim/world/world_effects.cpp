@@ -51,8 +51,8 @@ void World::turn_motor(std::size_t k, double voltage_V, double tension_N, double
   if (std::abs(ohm / chain.motor.type().resistance_ohm - 1) > noticeable) heat(chain, ohm);
   const double r = chain.motor.spindle_radius_m();
   s.load_Nm = chain.wound.slope * chain.effects.motor_side_N(tension_N, s);
-  const MotorLoad load{(s.load_Nm + chain.effects.torque_Nm(s)) / r,
-                       chain.effects.friction_Nm(1, s), chain.effects.friction_Nm(-1, s)};
+  const MotorLoad load{s.load_Nm / r, chain.effects.friction_Nm(1, s),
+                       chain.effects.friction_Nm(-1, s), chain.effects.rotor_Nm(s)};
   chain.state =
       sim::step(chain.motor, chain.state, chain.effects.voltage_V(voltage_V, s), load, dt_s);
 }

@@ -7,9 +7,9 @@ namespace sim::effects {
 
 /// The rotor's teeth are drawn to the magnets: a torque that comes and goes with its angle.
 ///
-///   τ = N (a sin n N θ + b cos n N θ)          against winding up, on the gearbox shaft
+///   τ = a sin n N θ + b cos n N θ          against winding up, on the motor's shaft
 ///
-/// As its mean over what is turned in a step. The gear's efficiency is left out of it.
+/// As its mean over what is turned in a step.
 /// Source: Hanselman, Brushless Permanent Magnet Motor Design, 2006, ch. 7.
 struct MotorCogging {
   static constexpr About about{"motor_cogging", Stage::motor, Seat::actuator,
@@ -23,11 +23,11 @@ struct MotorCogging {
     v("cosine_Nm", cosine_Nm, Bounds{-0.02, 0.02});
     v.shape("periods_per_turn", periods_per_turn, Bounds{1, 100});
   }
-  double torque_Nm(const ChainSample& s) const {
+  double rotor_Nm(const ChainSample& s) const {
     const double turns = periods_per_turn * s.gear_ratio;
     const double phase = turns * s.shaft_rad, swept = turns * s.speed_rad_per_s * s.dt_s / 2;
     const double mean = std::abs(swept) > 1e-6 ? std::sin(swept) / swept : 1;
-    return s.gear_ratio * mean * (sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase));
+    return mean * (sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase));
   }
 };
 

@@ -19,7 +19,7 @@ struct MotorThermalResistance {
   double time_constant_s = 20;  // T_th
 
   void visit(auto& v) {
-    v("kelvin_per_W", kelvin_per_W, Bounds{0, 100});
+    v("kelvin_per_W", kelvin_per_W, Bounds{0, 1e4});
     v.shape("time_constant_s", time_constant_s, Bounds{1, 1000});
   }
   double resistance_ohm(double cold_ohm, const ChainSample& s, Memory& memory) const {

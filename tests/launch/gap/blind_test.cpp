@@ -139,3 +139,30 @@ TEST_CASE("pairs: both found, and F1 of all that was named") {
   CHECK_THAT(out.str(), Catch::Contains("0.805"));  // of means 7/9 and 5/6
   CHECK_THAT(out.str(), Catch::Contains("one_of_three: a on flexor + b on flexor | supported"));
 }
+
+TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored by its own rows") {
+  const Folder folder;
+  const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
+  std::ostringstream out, remarks;
+  launch::gap::BlindMakeOptions make{
+      .robot = robot_file, .out = cases, .truth = truth, .kind = "null"};
+  make.cases = 1, make.recordings = 3, make.seconds = 8, make.seed = 3, make.tolerance = 0.03;
+  REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
+  const auto hidden = nlohmann::json::parse(std::ifstream(truth));
+  CHECK(hidden[0]["hidden"].empty());
+  double most = 0;
+  for (const auto& number : hidden[0]["numbers"])
+    if (number["name"] == "resistance_ohm") {
+      const double off = number["value"].get<double>() / 0.516 - 1;
+      CHECK(off != 0);
+      most = std::max(most, std::abs(off));
+    }
+  CHECK(most < 0.15);
+  REQUIRE(launch::gap::blind_run(cases, 2, out, remarks) == 0);
+  out.str("");
+  REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("null, as built") &&
+                            Catch::Contains("no effect that it lacks    100.0 %"));
+  const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
+  CHECK_FALSE(d["constants"].empty());
+}

@@ -111,6 +111,24 @@ TEST_CASE("capstan: Euler's ratio, the greater pull at the end the line runs to"
   CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(0.4)));
   s.line_speed_m_per_s = -0.1;
   CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.4)));
+  rubs.post = 0.1;  // whatever the bend
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.5)));
+  s.wrap_rad = 0;
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.1)));
+}
+
+TEST_CASE("a line that stretches gives less when much of it is wound up") {
+  constexpr double spring = 6000, c = 1e-4, stretch_m = 0.005, start_m = 0.3;
+  const TendonKiteLine line{c};
+  Memory memory{};
+  for (const double length_m : {0.2, 0.3, 0.4}) {
+    ChainSample s;
+    s.path_m = length_m, s.path_change_m = length_m - start_m, s.stretch_m = stretch_m;
+    const double at_start = 1 / (1 / spring + c);  // change_actuator has made the spring that soft
+    s.stiffness_N_per_m = at_start;
+    const double exact_N = stretch_m / (1 / spring + c * length_m / start_m);
+    CHECK(at_start * stretch_m + line.pull(s, memory).value == Approx(exact_N));
+  }
 }
 
 TEST_CASE("the winding's warmth: steady rise of resistance, and its time") {
@@ -200,8 +218,8 @@ TEST_CASE("cogging is averaged over what is turned in a step") {
   const MotorCogging teeth{1e-3, 0};
   ChainSample s;
   s.gear_ratio = 100, s.dt_s = 0.002, s.shaft_rad = 0.0013;
-  const double still = teeth.torque_Nm(s);
-  CHECK(still == Approx(0.1 * std::sin(1200 * 0.0013)));
+  const double still = teeth.rotor_Nm(s);
+  CHECK(still == Approx(1e-3 * std::sin(1200 * 0.0013)));
   s.speed_rad_per_s = 2.617993878;  // 1200 · ω · dt = 2π: all of a tooth
-  CHECK(std::abs(teeth.torque_Nm(s)) < 1e-9);
+  CHECK(std::abs(teeth.rotor_Nm(s)) < 1e-9);
 }

@@ -3,6 +3,7 @@
 
 #include "sim/gap/limits.hpp"
 #include "sim/gap/row_timing.hpp"
+#include "sim/gap/spoilt_rows.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
 
 using namespace sim::gap;
@@ -85,4 +86,70 @@ TEST_CASE("a voltage above the supply is the supply's, a reading at the end of i
   CHECK(s.voltage_V[500] == -12);
   CHECK(std::isnan(s.tension_N[600]));
   CHECK(remarks.size() == 2);
+}
+
+namespace {
+
+/// Every `each`-th row and those after it are the row before.
+void lose_reports(Episode& e, std::size_t each, std::size_t burst) {
+  const auto repeat = [&](Signal& signal) {
+    for (std::size_t k = each; k < signal.size(); ++k)
+      if (k % each < burst) signal[k] = signal[k - 1];
+  };
+  for (auto& s : e.actuators)
+    repeat(s.voltage_V), repeat(s.current_A), repeat(s.shaft_rad), repeat(s.tension_N);
+  for (auto& j : e.joints) repeat(j.angle_rad);
+}
+
+/// Samples every row up to `most_s` after its stamp.
+void sample_late(Episode& e, double most_s) {
+  std::vector<double> late_s(e.rows);
+  std::uint32_t state = 1;
+  for (double& t : late_s) {
+    state = state * 1664525u + 1013904223u;
+    t = most_s * double(state >> 8) / double(1 << 24);
+  }
+  const auto sample = [&](Signal& signal) {
+    const Signal was = signal;
+    for (std::size_t k = 0; k + 1 < was.size(); ++k)
+      signal[k] += (was[k + 1] - was[k]) * late_s[k] / e.period_s;
+  };
+  for (auto& s : e.actuators) sample(s.current_A), sample(s.shaft_rad), sample(s.tension_N);
+  for (auto& j : e.joints) sample(j.angle_rad);
+}
+
+}  // namespace
+
+TEST_CASE("a sound recording has neither repeated rows nor jitter, nor has a robot at rest") {
+  auto all = recordings();
+  CHECK(repeated_rows(all).share == 0);
+  CHECK(row_jitter_s(all) == 0);
+  for (Episode& e : all) lose_reports(e, 1'000'000, 0);
+  Episode still = all[0];
+  lose_reports(still, 1, 1);  // every row as the first
+  CHECK(repeated_rows(std::span(&still, 1)).share == 0);
+}
+
+TEST_CASE("reports that repeat the last one are lost ones: filled in, or forgotten, and told") {
+  auto all = recordings();
+  const auto truth = all;
+  for (Episode& e : all) lose_reports(e, 40, 4);
+  CHECK(repeated_rows(all).share == Approx(0.1).epsilon(0.1));
+  std::vector<std::string> remarks;
+  mend_spoilt_rows(all, remarks);
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0].find("reports were lost") != std::string::npos);
+  CHECK(all[0].repeated_share == Approx(0.1).epsilon(0.1));
+  const std::size_t lost = 1001;  // 1000 … 1003
+  const auto &is = all[0].actuators[0], &was = truth[0].actuators[0];
+  CHECK(std::isnan(is.voltage_V[lost]));
+  CHECK(std::isnan(is.current_A[lost]));
+  CHECK(is.shaft_rad[lost] == Approx(was.shaft_rad[lost]).margin(0.02));
+  CHECK(is.shaft_rad[lost] != is.shaft_rad[lost - 1]);
+}
+
+TEST_CASE("rows taken up to 1.5 ms late by all sensors are jitter, of one sensor noise") {
+  auto all = recordings();
+  for (Episode& e : all) sample_late(e, 0.0015);
+  CHECK(row_jitter_s(all) == Approx(0.0015).epsilon(0.15));
 }

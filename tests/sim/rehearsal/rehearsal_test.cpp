@@ -86,6 +86,54 @@ TEST_CASE("where rows are missing the last command goes on; where many are, it i
   CHECK_THAT(none.remarks[0], Catch::Contains("rows are missing at 2 s"));
 }
 
+namespace {
+
+/// V = 3000 V/m (ref + r θ) − 0.1 V s/rad ω, as an ECU of somebody else's has it.
+LearnedEcu somebody_elses() {
+  LearnedEcu ecu;
+  for (std::size_t a = 0; a < 2; ++a) {
+    LearnedLaw& law = ecu[{a, erp::Mode::length}];
+    law.weights.setZero();
+    law.weights[1] = 3000, law.weights[3] = -3000, law.weights[6] = -0.1;
+  }
+  return ecu;
+}
+
+std::vector<sim::residuals::Episode> under(const LearnedEcu& ecu, const erp::Robot& robot) {
+  std::vector<std::string> remarks;
+  const auto table = rehearse(robot, slow(robot, 6), 3, {.learned = &ecu});
+  return {sim::residuals::lay_out(table, blind_recording::hinge_rig(), "theirs", remarks)};
+}
+
+}  // namespace
+
+TEST_CASE("the law of an ECU that is not ours is learned, and the free run uses it") {
+  const erp::Robot robot = blind_recording::hinge_rig();
+  const LearnedEcu ecu = somebody_elses();
+  const auto theirs = under(ecu, robot);
+  CHECK(unexplained_by_firmware(theirs, robot) > 0.05);
+  const LearnedEcu learned = learn(theirs, robot);
+  REQUIRE(learned.size() == 2);
+  for (const auto& [which, law] : learned) {
+    CHECK(which.second == erp::Mode::length);
+    CHECK(law.lag == 1);
+    CHECK(law.unexplained < 1e-3);
+  }
+  const auto damped = placed("tendon_damping", "extensor", 150);
+  const FreeRun run =
+      free_run(robot, rig_with(damped), under(ecu, rig_with(damped)), {.threads = 1});
+  REQUIRE(run.remarks.size() == 1);
+  CHECK_THAT(run.remarks[0], Catch::Contains("laws learned from the recordings"));
+  CHECK(run.all.after < 3);
+  CHECK(run.all.closed > 0.8);
+}
+
+TEST_CASE("our own firmware foretells the voltages that it applied") {
+  const erp::Robot robot = blind_recording::hinge_rig();
+  const auto ours = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 2);
+  CHECK(unexplained_by_firmware(ours, robot) < 0.05);
+}
+
 TEST_CASE("a recording that begins elsewhere is left out, and it is said why") {
   auto recordings = blind_recording::episodes(blind_recording::nothing_hidden(), 3, 1);
   const erp::Robot robot = blind_recording::hinge_rig();
