@@ -19,10 +19,10 @@ constexpr double tick_s = residuals::tick_s;
 constexpr std::size_t most_lag = 3, least_rows = 500;  // chosen
 constexpr double clipped = 0.98;                       // of the supply; chosen
 
-std::optional<Known> known_at(const ActuatorSignals& s, std::size_t row) {
-  if (s.reference.empty() || s.shaft_rad.empty()) return {};
+std::optional<Known> known_at(const ActuatorSignals& s, std::size_t row, std::size_t asked) {
+  if (asked >= s.reference.size() || s.shaft_rad.empty()) return {};
   const auto of = [&](const residuals::Signal& signal) { return signal.empty() ? 0 : signal[row]; };
-  const Known known{s.reference[row], s.shaft_rad[row], of(s.current_A), of(s.tension_N)};
+  const Known known{s.reference[asked], s.shaft_rad[row], of(s.current_A), of(s.tension_N)};
   const bool told =
       !std::isnan(known.reference + known.shaft_rad + known.current_A + known.tension_N);
   return told ? std::optional(known) : std::nullopt;
@@ -39,14 +39,16 @@ bool in_mode(const ActuatorSignals& s, std::size_t row, erp::Mode mode) {
          std::lround(s.mode[row]) == std::lround(double(mode));
 }
 
-void add_rows(const Episode& e, std::size_t a, erp::Mode mode, double radius_m, double supply_V,
-              Rows& rows) {
+/// `newest`: references and modes are those of the row after the sensors'.
+void add_rows(const Episode& e, std::size_t a, erp::Mode mode, bool newest, double radius_m,
+              double supply_V, Rows& rows) {
   const ActuatorSignals& s = e.actuators[a];
   if (s.mode.empty() || s.voltage_V.empty()) return;
   std::optional<Regressors> law;
   for (std::size_t k = 0; k < e.rows; ++k) {
-    const auto known = known_at(s, k);
-    if (!in_mode(s, k, mode) || !known) {
+    const std::size_t asked = newest ? k + 1 : k;
+    const auto known = known_at(s, k, asked);
+    if (!in_mode(s, asked, mode) || !known) {
       law.reset();
       continue;
     }
@@ -71,7 +73,7 @@ LearnedLaw fit(const Rows& rows, std::size_t lag) {
     normal += rows.phi[k] * rows.phi[k].transpose(), right += rows.phi[k] * v;
     sum += v, square += v * v, ++count;
   }
-  LearnedLaw law{Phi::Zero(), lag, 1};
+  LearnedLaw law{Phi::Zero(), lag, true, 1};
   const double variance = square - sum * sum / std::max(1.0, count);
   if (count < double(least_rows) || !(variance > 0)) return law;
   scale = normal.diagonal().cwiseMax(1e-12).cwiseSqrt();
@@ -105,16 +107,19 @@ Phi Regressors::next(const Known& known) {
 LearnedEcu learn(std::span<const Episode> recordings, const erp::Robot& robot) {
   LearnedEcu ecu;
   for (std::size_t a = 0; a < robot.actuators.size(); ++a)
-    for (const erp::Mode mode : {erp::Mode::length, erp::Mode::current, erp::Mode::force}) {
-      Rows rows;
-      for (const Episode& e : recordings)
-        add_rows(e, a, mode, robot.actuators[a].spindle.radius_m,
-                 robot.motor_of(robot.actuators[a]).supply_V, rows);
-      std::optional<LearnedLaw> best;
-      for (std::size_t lag = 1; lag <= most_lag; ++lag)
-        if (const LearnedLaw law = fit(rows, lag); law.unexplained < (best ? best->unexplained : 1))
-          best = law;
-      if (best) ecu[{a, mode}] = *best;
+    for (const erp::Mode mode :
+         {erp::Mode::voltage, erp::Mode::length, erp::Mode::current, erp::Mode::force}) {
+      LearnedLaw best;
+      for (const bool newest : {true, false}) {
+        Rows rows;
+        for (const Episode& e : recordings)
+          add_rows(e, a, mode, newest, robot.actuators[a].spindle.radius_m,
+                   robot.motor_of(robot.actuators[a]).supply_V, rows);
+        for (std::size_t lag = 1; lag <= most_lag; ++lag)
+          if (LearnedLaw law = fit(rows, lag); law.unexplained < best.unexplained)
+            best = law, best.newest = newest;
+      }
+      if (best.unexplained < 1) ecu[{a, mode}] = best;
     }
   return ecu;
 }
@@ -142,7 +147,7 @@ void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, Misfit
   const EcuUnits units(robot.motor_of(actuator), robot.sensors_of(actuator), actuator.spindle);
   ecu_channel ecu = configured(robot, actuator);
   for (std::size_t k = 0; k + 1 < e.rows; ++k) {
-    const auto known = known_at(s, k);
+    const auto known = known_at(s, k, k);
     if (!known || std::isnan(s.mode[k + 1]) || std::isnan(s.reference[k + 1])) continue;
     const auto mode = static_cast<erp::Mode>(std::lround(s.mode[k + 1]));
     if (mode == erp::Mode::off) ecu_command(&ecu, ECU_REQUEST_ARM, 0);

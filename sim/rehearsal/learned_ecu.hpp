@@ -13,7 +13,8 @@
 ///   V(k) = w · φ(k − l),   φ = (1, ref, dref/dt, y, dy/dt, ∫(ref − y) dt, ω, i, F),   |V| ≤ supply
 ///
 /// y: what the mode controls (line wound −r θ, current or tension), ω: the shaft's speed, l: rows that
-/// the law needs; w by least squares over rows that are not clipped.
+/// the law needs. ref is that of the row after the sensors', which asks for the voltage, or that of the
+/// same row, whichever explains more. w by least squares over rows that are not clipped.
 namespace sim::rehearsal {
 
 /// What an ECU knows after a row.
@@ -39,13 +40,14 @@ class Regressors {
 struct LearnedLaw {
   Eigen::Vector<double, Regressors::count> weights;
   std::size_t lag = 1;     ///< rows
+  bool newest = true;      ///< the reference is that of the row after the sensors'
   double unexplained = 1;  ///< share of the voltage's variance
 };
 
 /// By actuator and mode.
 using LearnedEcu = std::map<std::pair<std::size_t, erp::Mode>, LearnedLaw>;
 
-/// Laws of the modes length, current and force that recordings show for a second or more.
+/// Laws of the modes voltage, length, current and force that recordings show for a second or more.
 LearnedEcu learn(std::span<const residuals::Episode> recordings, const erp::Robot& robot);
 
 /// Share of the voltages' variance that this product's firmware, with the gains designed for `robot`, does

@@ -21,7 +21,8 @@ class Stage {
         noise_(seed),
         ecu_(ecus.learned) {
     last_.resize(robot.actuators.size());
-    for (const erp::Actuator& a : robot.actuators)
+    const erp::Robot& configured = ecus.configured ? *ecus.configured : robot;
+    for (const erp::Actuator& a : configured.actuators)
       loops_.push_back({{erp::Mode::off, a.spindle.radius_m},
                         a.spindle.radius_m,
                         robot.motor_of(a).supply_V,
@@ -34,6 +35,7 @@ class Stage {
 
   recording::Table play(const Score& score) {
     for (const auto& asked : score) {
+      before_ = last_;
       for (std::size_t a = 0; a < last_.size(); ++a)
         if (!std::isnan(asked[a].reference)) last_[a] = asked[a];
       puppet_.tick(commanded());
@@ -56,18 +58,23 @@ class Stage {
     std::vector<Asked> all = last_;
     if (table_.rows() == 0) return all;  // nothing is measured yet
     for (std::size_t a = 0; ecu_ && a < all.size(); ++a)
-      if (const auto law = ecu_->find({a, last_[a].mode}); law != ecu_->end())
-        all[a] = {erp::Mode::voltage, voltage_of(law->second, loops_[a], a)};
+      for (const bool newest : {true, false}) {
+        const Asked& asked = newest ? last_[a] : before_[a];
+        if (const auto law = ecu_->find({a, asked.mode});
+            law != ecu_->end() && law->second.newest == newest)
+          all[a] = {erp::Mode::voltage, voltage_of(law->second, asked, a)};
+      }
     return all;
   }
-  double voltage_of(const LearnedLaw& law, Loop& loop, std::size_t a) {
-    if (loop.mode != last_[a].mode)
-      loop.mode = last_[a].mode, loop.regressors = {loop.mode, loop.radius_m}, loop.seen.clear();
+  double voltage_of(const LearnedLaw& law, const Asked& asked, std::size_t a) {
+    Loop& loop = loops_[a];
+    if (loop.mode != asked.mode)
+      loop.mode = asked.mode, loop.regressors = {loop.mode, loop.radius_m}, loop.seen.clear();
     const auto& said = puppet_.said_of(a);
     const EcuUnits& units = puppet_.units(a);
-    loop.seen.push_back(loop.regressors.next(
-        {last_[a].reference, units.shaft_rad(said.encoder_counts),
-         said.current_counts * units.current_A_per_count, units.tension_N(said.tension_counts)}));
+    loop.seen.push_back(loop.regressors.next({asked.reference, units.shaft_rad(said.encoder_counts),
+                                              said.current_counts * units.current_A_per_count,
+                                              units.tension_N(said.tension_counts)}));
     const std::size_t back = std::min(law.lag, loop.seen.size());
     return std::clamp(law.weights.dot(loop.seen[loop.seen.size() - back]), -loop.supply_V,
                       loop.supply_V);
@@ -109,7 +116,7 @@ class Stage {
 
   const erp::Robot& robot_;
   Puppet puppet_;
-  std::vector<Asked> last_;
+  std::vector<Asked> last_, before_;
   Noise noise_;
   const LearnedEcu* ecu_;
   std::vector<Loop> loops_;

@@ -162,7 +162,7 @@ TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored
   out.str("");
   REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("null, as built") &&
-                            Catch::Contains("no effect that it lacks    100.0 %"));
+                            Catch::Contains("explained by constants alone  100.0 %"));
   const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
   CHECK_FALSE(d["constants"].empty());
 }

@@ -88,13 +88,13 @@ TEST_CASE("where rows are missing the last command goes on; where many are, it i
 
 namespace {
 
-/// V = 3000 V/m (ref + r θ) − 0.1 V s/rad ω, as an ECU of somebody else's has it.
+/// V = −1000 V/m (ref + r θ) − 0.1 V s/rad ω, as an ECU of somebody else's has it.
 LearnedEcu somebody_elses() {
   LearnedEcu ecu;
   for (std::size_t a = 0; a < 2; ++a) {
     LearnedLaw& law = ecu[{a, erp::Mode::length}];
     law.weights.setZero();
-    law.weights[1] = 3000, law.weights[3] = -3000, law.weights[6] = -0.1;
+    law.weights[1] = -1000, law.weights[3] = 1000, law.weights[6] = -0.1;
   }
   return ecu;
 }
