@@ -91,6 +91,14 @@ bool agree(const Built& built, const Selection& selection) {
          selection.answer.size() == 1 && built.answer[0].is(selection.answer[0].placed);
 }
 
+/// Each cause of an answer at a place of its own: several at one place can bend to nearly any law.
+bool apart(const std::vector<Named>& answer) {
+  for (std::size_t a = 0; a < answer.size(); ++a)
+    for (std::size_t b = a + 1; b < answer.size(); ++b)
+      if (answer[a].stage == answer[b].stage && answer[a].on == answer[b].on) return false;
+  return true;
+}
+
 std::ptrdiff_t open_in(const std::vector<StageGap>& gaps) {
   return std::ranges::count_if(gaps, &StageGap::open);
 }
@@ -179,9 +187,10 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   if (built && agree(*built, selection)) {
     join_alike(selection.answer[0], built->answer[0]);
     built.reset();
-  } else if (built && !built->explained()) {
+  } else if (built && (!built->explained() || (built->exact && built->answer.size() != 1))) {
     selection = select(evidence, known, d.stages);
-    if (selection.explained() || open_in(selection.left) <= open_in(built->left)) built.reset();
+    const bool leaves_less = open_in(built->left) < open_in(selection.left);
+    if (selection.explained() || !leaves_less || !apart(built->answer)) built.reset();
   }
   const Verdict verdict = judge(selection, observed, d.stages);
   const bool explained = verdict == Verdict::supported;

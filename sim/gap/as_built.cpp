@@ -7,6 +7,8 @@ namespace sim::gap {
 namespace {
 
 constexpr double beyond = 2.5, beyond_zero = 5;  // tolerances; chosen
+/// A zero where all else is exact: tolerances, and of its own deviation; chosen.
+constexpr double exact_zero = 1, clear = 5;
 
 /// What nobody measures when a robot is drawn: where things are zero, and how a body's mass is spread.
 bool is_never_certain(const Constant& c) { return c.zero || c.name == "inertia"; }
@@ -23,10 +25,12 @@ Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>
 
 void list_beyond(AsBuilt& built) {
   const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
+  const auto least = [&](std::size_t k) {
+    if (!built.uncertain.constants[k].zero) return beyond;
+    return built.exact ? std::max(exact_zero, clear * built.estimate.sigma(k)) : beyond_zero;
+  };
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k)
-    if (far(k) > (built.uncertain.constants[k].zero ? beyond_zero : beyond) &&
-        determined(built, k) > well_determined)
-      built.beyond.push_back(k);
+    if (far(k) > least(k) && determined(built, k) > well_determined) built.beyond.push_back(k);
   std::ranges::sort(built.beyond, std::greater(), far);
 }
 
