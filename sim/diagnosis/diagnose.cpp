@@ -85,6 +85,15 @@ void add_unexplained_bus(const std::string& robot, const Observed& observed, Dia
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
 
+/// The best effect alone leaves nothing but noise, and the robot is one on which to doubt it costs many
+/// minutes: the time grows with the square of the actuators.
+bool stands_undoubted(const Evidence& evidence, const Selection& selection) {
+  constexpr std::size_t doubted = 12;  // actuators; chosen
+  constexpr double noise = 0.2;        // of its square; chosen
+  return evidence.robot.actuators.size() > doubted && selection.explained() &&
+         std::ranges::none_of(selection.left, [](const StageGap& g) { return g.excess > noise; });
+}
+
 /// Both name the same one effect, and say that it explains.
 bool agree(const Built& built, const Selection& selection) {
   return built.exact && built.answer.size() == 1 && selection.explained() &&
@@ -182,7 +191,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   Selection selection =
       select(evidence, known, d.stages, may_differ ? Depth::best_alone : Depth::full);
   std::optional<Built> built;
-  if (may_differ && selection.gap && selection.told)
+  if (may_differ && selection.gap && selection.told && !stands_undoubted(evidence, selection))
     built.emplace(as_built(evidence, plain, selection.answer));
   if (built && agree(*built, selection)) {
     join_alike(selection.answer[0], built->answer[0]);

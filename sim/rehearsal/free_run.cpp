@@ -164,12 +164,22 @@ std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const
   return ecu;
 }
 
+/// A law learned from voltages has the bus's delays in it.
+erp::Robot without_bus(erp::Robot robot) {
+  std::erase_if(robot.effects, [](const erp::Effect& e) {
+    const auto effect = effects::neutral(e.type);
+    return effect && effects::about(*effect).stage == effects::Stage::bus;
+  });
+  return robot;
+}
+
 }  // namespace
 
 FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
                  std::span<const Episode> recordings, const FreeRunOptions& options) {
   FreeRun result;
   const auto learned = foreign_ecu(recordings, nominal, result.remarks);
+  const erp::Robot free = learned ? without_bus(found) : found;
   std::vector<Errors> of_recording(recordings.size());
   std::vector<std::string> why(recordings.size());
   std::size_t done = 0;
@@ -178,7 +188,7 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
     why[r] = obstacle(recordings[r], nominal);
     try {
       if (why[r].empty())
-        of_recording[r] = errors_of(recordings[r], nominal, found, options.seed + 2 * r,
+        of_recording[r] = errors_of(recordings[r], nominal, free, options.seed + 2 * r,
                                     learned ? &*learned : nullptr);
     } catch (const std::exception& failed) {
       why[r] = failed.what();

@@ -9,24 +9,27 @@ cd "$(dirname "$0")/../.."
 erp=build/release/bin/erp
 out=erp_runs/gap_rows
 
-# name        robot      kind      cases  first seed  signals left out
+# name           robot      kind      cases  first seed  tolerance  signals left out
 rows="
-single        hinge_rig  single    300    310001
-null          hinge_rig  null      100    220001
-withheld      hinge_rig  withheld   60    330001
-outside       hinge_rig  outside    60    340001
-pair          hinge_rig  pair       60    250001
-arm           arm        single     60    260001
-no_tension    hinge_rig  single     60    270001       tension
-no_joint      hinge_rig  single     60    271001       joint
-no_current    hinge_rig  single     60    272001       current
+single           hinge_rig  single    300    310001      0
+null             hinge_rig  null      100    220001      0
+withheld         hinge_rig  withheld   60    330001      0
+outside          hinge_rig  outside    60    340001      0
+pair             hinge_rig  pair       60    250001      0
+arm              arm        single     60    260001      0
+no_tension       hinge_rig  single     60    270001      0          tension
+no_joint         hinge_rig  single     60    271001      0          joint
+no_current       hinge_rig  single     60    272001      0          current
+tolerance        hinge_rig  null       40    410001      0.03
+tolerance_single hinge_rig  single     40    420001      0.02
+tolerance_arm    arm        null       40    430001      0.03
 "
 
-run_row() {  # name robot kind cases seed without
+run_row() {  # name robot kind cases seed tolerance without
   local cases=$out/$1 truth=$out/$1.truth.json
   if [ ! -f "$truth" ]; then
     $erp gap blind make --robot "configs/$2/robot.xml" --kind "$3" --cases "$4" --seed "$5" \
-      --recordings 4 --seconds 25 --out "$cases" --truth "$truth" ${6:+--without "$6"}
+      --recordings 4 --seconds 25 --tolerance "$6" --out "$cases" --truth "$truth" ${7:+--without "$7"}
   fi
   $erp gap blind run "$cases"
   $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
@@ -36,12 +39,12 @@ run_row() {  # name robot kind cases seed without
 tell() {  # every row that has a score, with what was missed, case by case
   echo "# How well the diagnosis finds what it is not told"
   echo "By \`tests/bench/gap_rows.sh\`, 4 recordings of 25 s a case."
-  local name robot cases seed without
-  while read -r name robot _ cases seed without; do
+  local name robot cases seed tolerance without
+  while read -r name robot _ cases seed tolerance without; do
     [ -f "$out/$name.score" ] || continue
     echo
     echo "## $name"
-    echo "$cases cases of $robot, seeds from $seed${without:+, without $without}; $(cat "$out/$name.version")."
+    echo "$cases cases of $robot, seeds from $seed, numbers off by $tolerance${without:+, without $without}; $(cat "$out/$name.version")."
     echo '```'
     cat "$out/$name.score"
     echo '```'

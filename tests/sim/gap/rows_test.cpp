@@ -130,7 +130,7 @@ TEST_CASE("a sound recording has neither repeated rows nor jitter, nor has a rob
   CHECK(repeated_rows(std::span(&still, 1)).share == 0);
 }
 
-TEST_CASE("reports that repeat the last one are lost ones: filled in, or forgotten, and told") {
+TEST_CASE("reports that repeat the last one are lost ones: filled in or forgotten, and reported") {
   auto all = recordings();
   const auto truth = all;
   for (Episode& e : all) lose_reports(e, 40, 4);
