@@ -250,7 +250,7 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
     Score& score = scores[kind];
     if (hides == "single") {
       score_single(truth, d, built ? std::nullopt : closed_by_truth(folder, truth), score);
-      count_numbers(truth, d, score.rates["7 interval holds the number"]);
+      if (built) count_numbers(truth, d, score.rates["7 interval holds the number"]);
     }
     if (hides == "null" && built) {
       if (of_constants.empty())

@@ -70,7 +70,7 @@ std::vector<Named> effects_of(const gap::AsBuilt& built) {
   std::vector<Named> all;
   for (const gap::Sized& sized : gap::sized(built.estimate)) {
     Named n = with_intervals(sized);
-    for (const gap::Sized& other : built.alike[all.size()])
+    for (const gap::Sized& other : built.indistinguishable[all.size()])
       n.alike.push_back(with_intervals(other));
     all.push_back(std::move(n));
   }
@@ -161,8 +161,13 @@ Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<
   std::vector<Named> answer = effects_of(found);
   for (const std::size_t k : found.beyond) answer.push_back(as_effect(found, k));
   set_gains(evidence, plain, found, answer);
-  Built built{found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot),
-              {},          found.exact,         ends_at_bound(found.estimate)};
+  Built built{found.robot,
+              constants_of(found),
+              std::move(answer),
+              trials_of(evidence, found.robot),
+              {},
+              found.exact,
+              ends_at_bound(found.estimate)};
   built.left = left_by(evidence, plain, built.trials);
   return built;
 }

@@ -7,8 +7,8 @@
 #include "sim/diagnosis/evidence.hpp"
 #include "sim/gap/as_built.hpp"
 
-/// The gap of a robot none of whose constants is exactly what its description says (sim/gap), as
-/// an answer: constants within their tolerances, constants beyond, and effects that are missing.
+/// What sim/gap finds, as an answer: effects that are missing, constants beyond their tolerances, and
+/// constants within them.
 namespace sim::diagnosis {
 
 /// A constant of robot.xml as the recordings have it.

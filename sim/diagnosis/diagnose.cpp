@@ -57,10 +57,10 @@ Verdict judge(const Selection& selection, const Observed& observed,
 /// The bus changes no residual: it comes last where others do.
 void add_bus(const Observed& observed, Diagnosis& d) {
   if (!observed.bus_differs()) return;
-  constexpr double alike = 0.01;  // of the likelihood's gain; chosen
+  constexpr double indistinguishable = 0.01;  // of the likelihood's gain; chosen
   d.answer.push_back(observed.bus[0]);
   for (std::size_t k = 1; k < observed.bus.size(); ++k)
-    if (observed.bus[0].gain - observed.bus[k].gain < alike)
+    if (observed.bus[0].gain - observed.bus[k].gain < indistinguishable)
       d.answer.back().alike.push_back(observed.bus[k]);
 }
 
@@ -85,12 +85,12 @@ void add_unexplained_bus(const std::string& robot, const Observed& observed, Dia
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
 
-/// The best effect alone leaves nothing but noise, and the robot is one on which to doubt it costs many
-/// minutes: the time grows with the square of the actuators.
-bool stands_undoubted(const Evidence& evidence, const Selection& selection) {
-  constexpr std::size_t doubted = 12;  // actuators; chosen
-  constexpr double noise = 0.2;        // of its square; chosen
-  return evidence.robot.actuators.size() > doubted && selection.explained() &&
+/// The best effect alone leaves nothing but noise, and the robot is one on which the joint estimate
+/// takes many minutes: its time grows with the square of the actuators.
+bool leaves_noise_on_large_robot(const Evidence& evidence, const Selection& selection) {
+  constexpr std::size_t large = 12;  // actuators; chosen
+  constexpr double noise = 0.2;      // of its square; chosen
+  return evidence.robot.actuators.size() > large && selection.explained() &&
          std::ranges::none_of(selection.left, [](const StageGap& g) { return g.excess > noise; });
 }
 
@@ -112,14 +112,14 @@ std::ptrdiff_t open_in(const std::vector<StageGap>& gaps) {
   return std::ranges::count_if(gaps, &StageGap::open);
 }
 
-/// What stands for the answer by the one way or by the other.
-void join_alike(Named& answer, const Named& other) {
+/// Effects that either way cannot distinguish from the answer.
+void add_indistinguishable(Named& answer, const Named& other) {
   for (const Named& n : other.alike)
     if (std::ranges::none_of(answer.alike, [&](const Named& a) { return a.is(n.placed); }))
       answer.alike.push_back(n);
 }
 
-/// The answer by a robot whose constants all differ a little.
+/// Takes the answer of sim/gap: effects and constants estimated together.
 void take(const Evidence& evidence, const Trials& plain, const Built& built,
           const Selection& selection, const Observed& observed, Diagnosis& d) {
   d.verdict = !d.judged_apart()   ? Verdict::not_identifiable
@@ -191,10 +191,11 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   Selection selection =
       select(evidence, known, d.stages, may_differ ? Depth::best_alone : Depth::full);
   std::optional<Built> built;
-  if (may_differ && selection.gap && selection.told && !stands_undoubted(evidence, selection))
+  if (may_differ && selection.gap && selection.told &&
+      !leaves_noise_on_large_robot(evidence, selection))
     built.emplace(as_built(evidence, plain, selection.answer));
   if (built && agree(*built, selection)) {
-    join_alike(selection.answer[0], built->answer[0]);
+    add_indistinguishable(selection.answer[0], built->answer[0]);
     built.reset();
   } else if (built && (!built->explained() || (built->exact && built->answer.size() != 1))) {
     selection = select(evidence, known, d.stages);

@@ -65,7 +65,8 @@ AsBuilt explained(const Evidence& evidence, bool exact) {
   if (exact && !suggested.empty() && !are_same(found.train.point.effects, suggested))
     if (Found other = search.with(suggested); other.cost < found.cost) found = std::move(other);
   for (std::size_t k = 0; k < found.train.point.effects.size(); ++k)
-    built.alike.push_back(keeps(found) ? std::vector<Sized>{} : alike(found, k));
+    built.indistinguishable.push_back(keeps(found) ? std::vector<Sized>{}
+                                                   : indistinguishable(found, k));
   built.cost = found.cost, built.keeps = keeps(found);
   built.estimate = std::move(found.train);
   list_beyond(built);

@@ -11,9 +11,9 @@ struct AsBuilt {
   std::vector<std::size_t>
       beyond;        ///< constants off by more than their tolerances, the farthest first
   erp::Robot robot;  ///< nominal with all that was found
-  std::vector<std::vector<Sized>> alike;  ///< of each effect: what could stand for it
-  double cost = 0;                        ///< search.hpp
-  bool keeps = false;                     ///< a stage keeps more than noise
+  std::vector<std::vector<Sized>> indistinguishable;  ///< of each effect: what could stand for it
+  double cost = 0;                                    ///< search.hpp
+  bool keeps = false;                                 ///< a stage keeps more than noise
   bool exact = false;  ///< no constant differs from robot.xml but those that are never certain
 };
 

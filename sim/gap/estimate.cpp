@@ -116,11 +116,11 @@ Estimator::Estimator(const erp::Robot& nominal, std::span<const residuals::Episo
                      const EstimateOptions& options)
     : residuals_(nominal, episodes, options.seed, options.threads), options_(options) {}
 
+namespace {
+
 double cost_of(const Point& point, const VectorXd& z, const VectorXd& weight) {
   return weight.dot(z.cwiseAbs2()) + prior_cost(point);
 }
-
-namespace {
 
 /// One Levenberg-Marquardt step, with less length until it helps.
 struct Step {

@@ -152,7 +152,7 @@ std::vector<Sized> sized(const Estimate& estimate) {
   return all;
 }
 
-std::vector<Sized> alike(const Found& found, std::size_t effect) {
+std::vector<Sized> indistinguishable(const Found& found, std::size_t effect) {
   constexpr double margin = 4, of_gain = 0.02;  // chosen
   const Rivals& rivals = found.rivals[effect];
   std::vector<Sized> all;

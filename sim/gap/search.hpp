@@ -73,7 +73,7 @@ class Search {
 };
 
 /// What could stand for one of its effects as well: what costs little more, the cheapest first.
-std::vector<Sized> alike(const Found& found, std::size_t effect);
+std::vector<Sized> indistinguishable(const Found& found, std::size_t effect);
 
 /// Stages that keep more than is tolerated, of recordings taught with or held out.
 std::size_t stages_kept(const Found& found);

@@ -53,7 +53,7 @@ double step_of(const Signal& signal) {
   return least;
 }
 
-/// Whether some shaft turns on over each of the five rows to both sides that are no repeats.
+/// Whether a shaft turns by more than two of its steps a row, in the mean over ten rows to both sides.
 class Turning {
  public:
   explicit Turning(const Episode& e) {

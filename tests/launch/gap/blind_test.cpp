@@ -151,12 +151,15 @@ TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored
   const auto hidden = nlohmann::json::parse(std::ifstream(truth));
   CHECK(hidden[0]["hidden"].empty());
   double most = 0;
+  int seen = 0;
   for (const auto& number : hidden[0]["numbers"])
     if (number["name"] == "resistance_ohm") {
       const double off = number["value"].get<double>() / 0.516 - 1;
       CHECK(off != 0);
+      ++seen;
       most = std::max(most, std::abs(off));
     }
+  CHECK(seen == 2);  // of two motors
   CHECK(most < 0.15);
   REQUIRE(launch::gap::blind_run(cases, 2, out, remarks) == 0);
   out.str("");

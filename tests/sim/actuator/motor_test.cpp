@@ -166,3 +166,31 @@ TEST_CASE("a motor without a stable equation is refused") {
   CHECK_THROWS_AS(Motor(m, spindle_radius_m), std::invalid_argument);
   CHECK_THROWS_AS(Motor(caliper(), 0.0), std::invalid_argument);
 }
+
+TEST_CASE(
+    "a torque on the rotor asks for the current that balances it, whatever the gear's efficiency") {
+  const erp::MotorType type = caliper();
+  const Motor motor(type, spindle_radius_m);
+  const double rotor_Nm = 1e-3, current_A = rotor_Nm / type.torque_Nm_per_A;
+  const auto edge_A = [&](double torque_Nm, int direction) {
+    double low = -5, high = 5;  // the current at which it starts to turn
+    for (int n = 0; n < 60; ++n) {
+      const double middle = (low + high) / 2;
+      const int way = motor.breakaway(middle, {.tension_N = 20, .rotor_Nm = torque_Nm});
+      (direction > 0 ? way > 0 : way >= 0) ? high = middle : low = middle;
+    }
+    return low;
+  };
+  for (const int direction : {1, -1})
+    CHECK(edge_A(rotor_Nm, direction) - edge_A(0, direction) == Approx(current_A));
+  const MotorState turns{edge_A(0, 1) + 1, 2, 0};
+  const auto after_s = [&](double extra_A, double torque_Nm) {
+    const double volts = type.resistance_ohm * (turns.current_A + extra_A) +
+                         type.back_emf_V_s_per_rad * type.gear_ratio * 2;
+    return step(motor, {turns.current_A + extra_A, 2, 0}, volts,
+                {.tension_N = 20, .rotor_Nm = torque_Nm}, 0.002)
+        .speed_rad_per_s;
+  };
+  CHECK(after_s(current_A, rotor_Nm) == Approx(after_s(0, 0)));
+  CHECK(after_s(0, rotor_Nm) < after_s(0, 0));
+}

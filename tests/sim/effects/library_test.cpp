@@ -103,6 +103,16 @@ TEST_CASE("the effect of one actuator's motor leaves the other's as it is") {
   CHECK(changed.motor_of(changed.actuators[1]).resistance_ohm == 0.516);
 }
 
+TEST_CASE(
+    "a line that stretches softens the spring at once, and acts with the length of the path") {
+  erp::Robot robot = hinge_rig();
+  robot.effects = {{{}, "tendon_kite_line", "flexor", {{{}, "compliance_m_per_N", "1e-4"}}}};
+  const auto [changed, acting] = effects::equip(robot);
+  CHECK(*changed.actuators[0].tendon.line_stiffness_N_per_m == Approx(1e4));
+  REQUIRE(acting.size() == 1);
+  CHECK(effects::name_of(acting[0]) == "tendon_kite_line on flexor");
+}
+
 TEST_CASE("a payload moves mass, centre and inertia by Steiner's theorem") {
   erp::Robot robot = hinge_rig();
   robot.effects = {{{}, "skeleton_payload", "forearm", {{{}, "mass_kg", "0.2"}}}};

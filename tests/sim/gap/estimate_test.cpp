@@ -99,6 +99,24 @@ TEST_CASE("an effect is found beside constants that are all a little off") {
   CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_creep on extensor");
 }
 
+TEST_CASE("a robot as described but for one effect is explained by that effect alone") {
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[0].spring = 0.2;  // flexor
+  std::vector<sim::residuals::Episode> all;
+  std::vector<std::string> remarks;
+  for (int k = 0; k < 3; ++k)
+    all.push_back(sim::residuals::lay_out(
+        sim::blind::record(hinge_rig(), blind, sim::excitation(hinge_rig(), k, 10, 5),
+                           std::uint64_t(k)),
+        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
+  const std::span<const sim::residuals::Episode> each(all);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  CHECK(found.exact);
+  CHECK_FALSE(found.keeps);
+  REQUIRE(found.estimate.point.effects.size() == 1);
+  CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_stiffness on flexor");
+}
+
 TEST_CASE("a constant of a withheld type is not estimated") {
   const auto recordings = recordings_of(hinge_rig(), 3);
   const std::span<const sim::residuals::Episode> each(recordings);
