@@ -150,7 +150,7 @@ Closed all_of(const Errors& errors, std::span<const std::size_t> drawn) {
 std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const erp::Robot& robot,
                                       std::vector<std::string>& remarks) {
   constexpr double ours = 0.05, known = 0.5;  // of the voltages' variance; of that; chosen
-  const double unexplained = unexplained_by_firmware(recordings, robot);
+  const double unexplained = unexplained_by_firmware(recordings, robot, ours);
   if (unexplained < ours) return {};
   LearnedEcu ecu = learn(recordings, robot);
   std::erase_if(ecu, [&](const auto& law) { return law.second.unexplained > known * unexplained; });
@@ -164,7 +164,15 @@ std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const
   return ecu;
 }
 
-/// A law learned from voltages has the bus's delays in it.
+/// A law learned from what was sent has the bus's delays in it, one learned from what the ECU says it
+/// followed has not.
+bool has_delays(const std::optional<LearnedEcu>& learned, std::span<const Episode> recordings) {
+  return learned && std::ranges::all_of(recordings, [](const Episode& e) {
+           return std::ranges::all_of(e.actuators,
+                                      [](const auto& a) { return a.sent.empty(); });
+         });
+}
+
 erp::Robot without_bus(erp::Robot robot) {
   std::erase_if(robot.effects, [](const erp::Effect& e) {
     const auto effect = effects::neutral(e.type);
@@ -179,7 +187,7 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
                  std::span<const Episode> recordings, const FreeRunOptions& options) {
   FreeRun result;
   const auto learned = foreign_ecu(recordings, nominal, result.remarks);
-  const erp::Robot free = learned ? without_bus(found) : found;
+  const erp::Robot free = has_delays(learned, recordings) ? without_bus(found) : found;
   std::vector<Errors> of_recording(recordings.size());
   std::vector<std::string> why(recordings.size());
   std::size_t done = 0;

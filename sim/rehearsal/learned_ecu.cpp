@@ -16,7 +16,8 @@ using residuals::Episode;
 using Phi = Eigen::Vector<double, Regressors::count>;
 
 constexpr double tick_s = residuals::tick_s;
-constexpr std::size_t most_lag = 3, least_rows = 500;  // chosen
+constexpr std::size_t most_lag = 3, least_rows = 500;   // chosen
+constexpr std::size_t oldest = 30, most_rows = 10'000;  // a command's age, a recording's rows; chosen
 constexpr double clipped = 0.98;                       // of the supply; chosen
 
 std::optional<Known> known_at(const ActuatorSignals& s, std::size_t row, std::size_t asked) {
@@ -140,25 +141,28 @@ struct Misfit {
   double square = 0, sum = 0, of = 0, rows = 0;
 };
 
-void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, Misfit& misfit) {
+/// Of a firmware that follows commands `age` rows old.
+void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, std::size_t age,
+                Misfit& misfit) {
   const ActuatorSignals& s = e.actuators[a];
   if (s.mode.empty() || s.voltage_V.empty()) return;
   const erp::Actuator& actuator = robot.actuators[a];
   const EcuUnits units(robot.motor_of(actuator), robot.sensors_of(actuator), actuator.spindle);
   ecu_channel ecu = configured(robot, actuator);
-  for (std::size_t k = 0; k + 1 < e.rows; ++k) {
-    const auto known = known_at(s, k, k);
-    if (!known || std::isnan(s.mode[k + 1]) || std::isnan(s.reference[k + 1])) continue;
-    const auto mode = static_cast<erp::Mode>(std::lround(s.mode[k + 1]));
+  for (std::size_t k = age; k + 1 < std::min(e.rows, most_rows); ++k) {
+    const std::size_t asked = k + 1 - age;
+    const auto known = known_at(s, k, asked);
+    if (!known || std::isnan(s.mode[asked])) continue;
+    const auto mode = static_cast<erp::Mode>(std::lround(s.mode[asked]));
     if (mode == erp::Mode::off) ecu_command(&ecu, ECU_REQUEST_ARM, 0);
-    else ecu_command(&ecu, EcuUnits::request(mode), units.setpoint(mode, s.reference[k + 1]));
+    else ecu_command(&ecu, EcuUnits::request(mode), units.setpoint(mode, known->reference));
     const ecu_inputs inputs{
         std::int32_t(std::lround(known->shaft_rad / units.shaft_rad_per_count)),
         std::int16_t(std::lround(known->current_A / units.current_A_per_count)),
         std::uint16_t(units.tension_zero_counts +
                       std::lround(known->tension_N / units.tension_N_per_count))};
     const double foretold = units.voltage_V(ecu_tick(&ecu, &inputs)), v = s.voltage_V[k + 1];
-    if (std::isnan(v) || mode == erp::Mode::off || mode == erp::Mode::voltage) continue;
+    if (std::isnan(v) || mode == erp::Mode::off) continue;
     misfit.square += (v - foretold) * (v - foretold);
     misfit.sum += v, misfit.of += v * v, ++misfit.rows;
   }
@@ -166,12 +170,19 @@ void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, Misfit
 
 }  // namespace
 
-double unexplained_by_firmware(std::span<const Episode> recordings, const erp::Robot& robot) {
-  Misfit misfit;
-  for (const Episode& e : recordings)
-    for (std::size_t a = 0; a < robot.actuators.size(); ++a) add_misfit(e, robot, a, misfit);
-  const double variance = misfit.of - misfit.sum * misfit.sum / std::max(1.0, misfit.rows);
-  return misfit.rows < double(least_rows) || !(variance > 0) ? 1 : misfit.square / variance;
+double unexplained_by_firmware(std::span<const Episode> recordings, const erp::Robot& robot,
+                               double enough) {
+  double least = 1;
+  for (std::size_t age = 0; age <= oldest && least > enough; ++age) {
+    Misfit misfit;
+    for (const Episode& e : recordings)
+      for (std::size_t a = 0; a < robot.actuators.size(); ++a)
+        add_misfit(e, robot, a, age, misfit);
+    const double variance = misfit.of - misfit.sum * misfit.sum / std::max(1.0, misfit.rows);
+    if (misfit.rows >= double(least_rows) && variance > 0)
+      least = std::min(least, misfit.square / variance);
+  }
+  return least;
 }
 
 }  // namespace sim::rehearsal

@@ -50,9 +50,11 @@ using LearnedEcu = std::map<std::pair<std::size_t, erp::Mode>, LearnedLaw>;
 /// Laws of the modes voltage, length, current and force that recordings show for a second or more.
 LearnedEcu learn(std::span<const residuals::Episode> recordings, const erp::Robot& robot);
 
-/// Share of the voltages' variance that this product's firmware, with the gains designed for `robot`, does
-/// not foretell from what was measured: near 0 if the recordings are of it; 1: nothing to judge by.
+/// Share of the voltages' variance that this product's firmware, with the gains designed for `robot`,
+/// does not predict from what was measured, with commands of the one age (0 to 60 ms) that predicts
+/// best or the first that leaves no more than `enough`: near 0 if the recordings are of it, on a bus
+/// however late; 1: nothing to judge by.
 double unexplained_by_firmware(std::span<const residuals::Episode> recordings,
-                               const erp::Robot& robot);
+                               const erp::Robot& robot, double enough = 0.05);
 
 }  // namespace sim::rehearsal

@@ -132,6 +132,9 @@ TEST_CASE("our own firmware foretells the voltages that it applied") {
   const erp::Robot robot = blind_recording::hinge_rig();
   const auto ours = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 2);
   CHECK(unexplained_by_firmware(ours, robot) < 0.05);
+  auto late = blind_recording::nothing_hidden();
+  late.quirks.command_delay_s = 0.02;
+  CHECK(unexplained_by_firmware(blind_recording::episodes(late, 6, 2), robot) < 0.05);
 }
 
 TEST_CASE("a recording that begins elsewhere is left out, and it is said why") {
