@@ -25,10 +25,10 @@ std::vector<ScoreBlock> beyond(const Trials& plain, const Trials& known, const T
       };
       const auto same = find_stage(residuals, residuals[r].stage, residuals[r].on);
       if (same - residuals.begin() != std::ptrdiff_t(r)) continue;  // a ball joint's others
-      const double coarser = known.floor(e)[r] / plain.floor(e)[r];
+      const double coarser = known.floor(e, r) / plain.floor(e, r);
       const auto of_stage = known.blocks(trial, only, this_one);
       blocks.resize(of_stage.size());
-      for (std::size_t k = 0; k < blocks.size() && plain.floor(e)[r] > 0; ++k) {
+      for (std::size_t k = 0; k < blocks.size() && plain.floor(e, r) > 0; ++k) {
         const auto windows = static_cast<double>(of_stage[k].windows);
         blocks[k].square += windows + coarser * coarser * (of_stage[k].square - windows);
         blocks[k].windows += of_stage[k].windows;

@@ -32,7 +32,7 @@ std::vector<Louder> louder(const Evidence& evidence, const Trials& trials, const
       const auto windows =
           static_cast<double>(here.size()) -
           static_cast<double>(std::ranges::count_if(here, [](double x) { return std::isnan(x); }));
-      const double ratio = r < now.size() && windows > 0 ? now[r] / trials.floor(e)[r] : 1;
+      const double ratio = r < now.size() && windows > 0 ? now[r].rms / trials.floor(e, r) : 1;
       place->more += windows * std::max(0.0, ratio * ratio - 1), place->windows += windows;
     }
   }

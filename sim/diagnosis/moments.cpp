@@ -21,7 +21,7 @@ void take(const Evidence& evidence, const Trials& plain, const Trial& trial, std
   const residuals::Explanation& bare = plain.bare().of_episode[e];
   const auto& before = bare.residuals[r].value;
   const auto& after = trial.of_episode[e].residuals[r].value;
-  into.recording = evidence.episodes[e].name, into.floor = plain.floor(e)[r];
+  into.recording = evidence.episodes[e].name, into.floor = plain.floor(e, r);
   into.time_s.clear(), into.before.clear(), into.after.clear();
   for (std::size_t k = peak < around ? 0 : peak - around;
        k < std::min(before.size(), peak + around); ++k) {

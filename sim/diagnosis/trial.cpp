@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
-
-#include "sim/residuals/floor.hpp"
 
 namespace sim::diagnosis {
 
@@ -34,7 +33,7 @@ erp::Robot Trials::robot_with(std::span<const effects::Placed> all) const {
   return robot;
 }
 
-std::vector<double> Trials::floor_under(const Trial& trial, std::size_t episode) const {
+std::vector<residuals::Floor> Trials::floor_under(const Trial& trial, std::size_t episode) const {
   residuals::Stages stages(robot_with(trial.effects));
   return residuals::floors(stages, episodes_[episode], nominal_, seed_);
 }
@@ -84,11 +83,30 @@ Trial Trials::with(std::span<const effects::Placed> all,
 
 namespace {
 
-/// Where something may take what it likes, noise counts as it does elsewhere in the mean: to let
-/// something do so gains nothing.
+/// The mean square of what noise N(0, 1) leaves beyond a band [−b, b] around a value that lies anywhere
+/// in it:
+///
+///   h(b) = E[(|u + n| − b)₊²] = (P(0) − P(−2b))/b,   P(x) = ((x³ + 3x) Φ(x) + (x² + 2) φ(x))/3
+///
+/// 1 for none, 0 for a wide one.
+double left_of_noise(double b) {
+  constexpr double little = 1e-3, wide = 1e3;
+  if (b < little) return 1;
+  if (b > wide) return 0;
+  const auto third = [](double x) {
+    const double phi = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi);
+    return ((x * x * x + 3 * x) * std::erfc(-x / std::numbers::sqrt2) / 2 + (x * x + 2) * phi) / 3;
+  };
+  return (third(0) - third(-2 * b)) / b;
+}
+
+/// Noise that a band hides is counted all the same, as it would be in the mean: to let something hide
+/// it gains nothing.
 double z_of(const residuals::Residual& residual, std::size_t window, double floor) {
   const double z = residual.value[window] / floor;
-  return residuals::banded(residual, window) ? std::copysign(std::hypot(1, z), z) : z;
+  if (!residuals::banded(residual, window)) return z;
+  const double hidden = 1 - left_of_noise(residual.band[window] / floor);
+  return std::copysign(std::sqrt(hidden + z * z), z);
 }
 
 }  // namespace
@@ -98,11 +116,11 @@ std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) co
   const auto& tried = trial.of_episode[episode].residuals;
   std::vector<double> all;
   for (std::size_t r = 0; r < bare.size(); ++r) {
-    const double floor = floors_[episode][r];
+    const residuals::Floor& floor = floors_[episode][r];
     for (std::size_t k = 0; k < bare[r].value.size(); ++k) {
-      const bool judged = floor > 0 && !std::isnan(bare[r].value[k]);
+      const bool judged = floor.rms > 0 && !std::isnan(bare[r].value[k]);
       const bool tells = r < tried.size() && !std::isnan(tried[r].value[k]);
-      all.push_back(judged ? z_of(tells ? tried[r] : bare[r], k, floor)
+      all.push_back(judged ? z_of(tells ? tried[r] : bare[r], k, floor.at[k])
                            : std::numeric_limits<double>::quiet_NaN());
     }
   }

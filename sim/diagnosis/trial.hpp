@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "sim/residuals/stages.hpp"
+#include "sim/residuals/floor.hpp"
 
 /// A robot with effects, tried on recordings: its residuals in units of their noise.
 ///
-///   z = r/σ     r residual of a stage at a window, σ the stage's noise floor in that recording
+///   z = r/σ     r residual of a stage at a window, σ its noise floor there
 ///   S = Σ z²    over stages and windows that the nominal robot can judge
 ///
 /// Where a trial cannot judge a window that the nominal robot can, the nominal residual stays: to
@@ -54,11 +54,13 @@ class Trials {
   std::vector<ScoreBlock> blocks(const Trial& trial, std::span<const std::size_t> episodes,
                                  const std::function<bool(const residuals::Residual&)>& counts = {},
                                  double block_s = 1) const;
-  /// σ of each residual of an episode.
-  std::span<const double> floor(std::size_t episode) const { return floors_[episode]; }
+  /// σ of each residual of an episode, rms over its windows.
+  double floor(std::size_t episode, std::size_t residual) const {
+    return floors_[episode][residual].rms;
+  }
   /// The same under a trial: where an effect is undone, some noise comes back that it had smoothed.
   /// In the order of the trial's residuals; costs two explanations of the recording.
-  std::vector<double> floor_under(const Trial& trial, std::size_t episode) const;
+  std::vector<residuals::Floor> floor_under(const Trial& trial, std::size_t episode) const;
 
   /// nominal() with these effects beside its own.
   erp::Robot robot_with(std::span<const effects::Placed> all) const;
@@ -72,7 +74,7 @@ class Trials {
   std::vector<residuals::Episode> episodes_;
   std::uint64_t seed_;
   Trial bare_;
-  std::vector<std::vector<double>> floors_;
+  std::vector<std::vector<residuals::Floor>> floors_;
 };
 
 /// Σ over blocks.

@@ -54,7 +54,7 @@ std::vector<Collected> collect(const Trials& trials, const Trial& trial,
       });
       if (place == all.end()) place = all.insert(place, {&residuals[r]});
       place->driver_square += residuals[r].driven_by * residuals[r].driven_by, ++place->recordings;
-      collect(std::span(z).subspan(first, residuals[r].value.size()), trials.floor(e)[r],
+      collect(std::span(z).subspan(first, residuals[r].value.size()), trials.floor(e, r),
               options.block_s, *place);
     }
   }

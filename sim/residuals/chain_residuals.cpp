@@ -1,5 +1,6 @@
 #include "sim/residuals/chain_residuals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -45,20 +46,25 @@ std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
   return value;
 }
 
-std::vector<double> gearbox_Nm(const Chain& c, std::span<const std::size_t> rows) {
+/// Adds the gearbox's residual: what is beyond the doubt of windows in which the shaft turns back.
+void add_gearbox(const Chain& c, std::span<const std::size_t> rows, Residual& residual) {
   const double viscous =
       c.motor.rotor_viscous_Nm_s_per_rad * c.motor.gear_ratio * c.motor.gear_ratio;
   const double a = c.trace.current_averaged, turned = turned_inertia_kg_m2(c.motor);
   TwoPeriodsAt around(c.motor, c.period_s);
-  std::vector<double> value;
   for (const std::size_t k : rows) {
     const double ohm = c.trace.resistance_ohm.empty() ? c.motor.resistance_ohm
                                                       : c.bump.mean(c.trace.resistance_ohm, k);
     const double inertia = (1 - a) * around.ohm(ohm).inertia_kg_m2 + a * turned;
-    value.push_back(inertia * c.bump.acceleration(c.trace.shaft_rad, k) +
-                    viscous * c.bump.rate(c.trace.shaft_rad, k) - c.bump.mean(c.trace.drive_Nm, k));
+    const double left = inertia * c.bump.acceleration(c.trace.shaft_rad, k) +
+                        viscous * c.bump.rate(c.trace.shaft_rad, k) -
+                        c.bump.mean(c.trace.drive_Nm, k);
+    const double unsure = c.bump.mean(c.trace.unsure_Nm, k);
+    residual.value.push_back(std::isnan(left)
+                                 ? nan
+                                 : std::copysign(std::max(0.0, std::abs(left) - unsure), left));
+    residual.band.push_back(unsure);
   }
-  return value;
 }
 
 std::vector<double> tendon_N(const Chain& c, std::span<const std::size_t> rows) {
@@ -85,9 +91,11 @@ std::vector<Residual> chain_residuals(const ChainTrace& trace, const erp::Actuat
   if (trace.current_measured && !trace.terminal_V.empty())
     all.push_back({effects::Stage::motor, actuator.name, "V", motor_V(chain, rows),
                    driven_by(chain, trace.terminal_V, rows)});
-  if (!trace.drive_Nm.empty())
-    all.push_back({effects::Stage::gearbox, actuator.name, "Nm", gearbox_Nm(chain, rows),
+  if (!trace.drive_Nm.empty()) {
+    all.push_back({effects::Stage::gearbox, actuator.name, "Nm", {},
                    driven_by(chain, trace.motor_Nm, rows)});
+    add_gearbox(chain, rows, all.back());
+  }
   if (trace.tension_measured && !trace.spring_N.empty())
     all.push_back({effects::Stage::tendon, actuator.name, "N", tendon_N(chain, rows),
                    driven_by(chain, trace.tension_N, rows)});

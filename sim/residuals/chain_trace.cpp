@@ -1,5 +1,6 @@
 #include "sim/residuals/chain_trace.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -177,17 +178,60 @@ class Tracer {
     const bool driven = out_.current_measured || !out_.terminal_V.empty();
     if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
     out_.drive_Nm.assign(rows_, nan), out_.motor_Nm.assign(rows_, nan);
+    out_.unsure_Nm.assign(rows_, 0);
+    direction_ = directions();
     for (std::size_t k = 1; k + 1 < rows_; ++k) {
       out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * around_A(k);
-      out_.drive_Nm[k] = drive_Nm(k);
+      const double omega = out_.speed_rad_per_s[k];
+      if (!(std::abs(omega) > resting_rad_per_s)) continue;
+      const double before = direction_[k], after = direction_[k + 1];
+      const double way = (before + after) / 2;
+      if (std::abs(way) == 1) {
+        out_.drive_Nm[k] = drive_Nm(k, way > 0 ? 1 : -1);
+        continue;
+      }
+      const double forwards = drive_Nm(k, 1), backwards = drive_Nm(k, -1);
+      out_.drive_Nm[k] = ((1 + way) * forwards + (1 - way) * backwards) / 2;
+      out_.unsure_Nm[k] =
+          (2 - std::abs(before) - std::abs(after)) / 4 * std::abs(forwards - backwards);
     }
   }
 
-  double drive_Nm(std::size_t k) {
+  /// In which direction the shaft turned over the period that ends at each row, −1 … 1 in the mean. Its
+  /// speed changes evenly within a period, from what the periods beside have:
+  ///
+  ///   v = Δθ/T,  Δv = √(((v₊ − v₋)/2)² + (step/T)²),  s = 2 v/Δv within ±1
+  ///
+  /// By an encoder of too coarse steps, v is the smoothed speed.
+  std::vector<double> directions() const {
+    const Signal& theta = out_.shaft_rad;
+    const double unsure = encoder_step_rad() / period_s_;
+    const bool fine = unsure > 0 && unsure < resting_rad_per_s;
+    const auto speed = [&](std::size_t k) {
+      return fine ? (theta[k] - theta[k - 1]) / period_s_
+                  : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;
+    };
+    std::vector<double> all(rows_, nan);
+    for (std::size_t k = 2; k + 1 < rows_; ++k) {
+      const double v = speed(k),
+                   change = std::hypot((speed(k + 1) - speed(k - 1)) / 2, fine ? unsure : 0);
+      all[k] = change > 0 ? std::clamp(2 * v / change, -1.0, 1.0) : v > 0 ? 1 : -1;
+    }
+    return all;
+  }
+  /// That it is told to have, or that it is seen to have.
+  double encoder_step_rad() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < rows_; ++k)
+      if (const double turned = std::abs(out_.shaft_rad[k] - out_.shaft_rad[k - 1]);
+          turned > 0.5 * m_.shaft_step_rad)
+        least = std::min(least, turned);
+    return m_.shaft_step_rad > 0 && std::isfinite(least) ? std::max(m_.shaft_step_rad, least) : 0;
+  }
+
+  double drive_Nm(std::size_t k, int way) {
     const erp::MotorType& m = m_.motor;
     const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
-    if (!(std::abs(omega) > resting_rad_per_s)) return nan;
-    const int way = omega > 0 ? 1 : -1;
     effects::ChainSample s = samples_[k];
     s.tension_N = out_.tension_N[k];
     const double near_N =
@@ -210,6 +254,7 @@ class Tracer {
   std::size_t rows_ = 0;
   Signal path_rate_, calm_path_m_, wound_slope_;
   std::vector<effects::ChainSample> samples_;
+  std::vector<double> direction_;  ///< of each period
   ChainTrace out_;
 };
 

@@ -12,6 +12,7 @@ struct ChainModel {
   const erp::Actuator& actuator;
   effects::Acting effects;  ///< a copy: remembers from row to row
   double start_m;           ///< length of the path at the initial pose
+  double shaft_step_rad;    ///< of its encoder; 0: not told
 };
 
 /// Empty: not to be had from what was recorded.
@@ -26,6 +27,7 @@ struct ChainTrace {
   Signal path_slope;       ///< of the effects on the path
   Signal motor_Nm;         ///< N K_T ī
   Signal drive_Nm;         ///< N (K_T ī − s τ_CM) − X/e; NaN where the shaft rests
+  Signal unsure_Nm;        ///< by how much that may err where the shaft turns back or stops
   bool tension_measured = false, current_measured = false;
   double current_averaged = 0;  ///< share in which the current is a mean around the row
 };

@@ -20,13 +20,13 @@ struct Residual {
   std::vector<double> value;
   /// rms of what drives the stage: V, motor torque, tension, pull of tendons
   double driven_by = 0;
-  /// Windows where something may take what it likes, friction at rest or a stop: the value is what
-  /// lies beyond that, and noise cannot be seen. Empty: none.
-  std::vector<bool> banded = {};
+  /// By window, how much something may take, friction at rest or a stop (infinity): the value is what
+  /// lies beyond that, and noise less than that cannot be seen. Empty: 0 everywhere.
+  std::vector<double> band = {};
 };
 
 inline bool banded(const Residual& residual, std::size_t window) {
-  return !residual.banded.empty() && residual.banded[window];
+  return !residual.band.empty() && residual.band[window] > 0;
 }
 
 /// Paths of tendons near a pose, as if their lengths were linear in it.

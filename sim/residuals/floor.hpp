@@ -14,9 +14,15 @@ namespace sim::residuals {
 /// excludes.
 Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_t seed);
 
-/// Of each residual of `stages.residuals(episode)`, the rms of what saying it again changes.
-/// `robot` has the sensors. A stage without a window has 0.
-std::vector<double> floors(Stages& stages, const Episode& episode, const erp::Robot& robot,
+/// σ of one residual: σ_k² = n² + d_k², n the rms of what noise changes, d_k what the doubts change at
+/// window k. A fast window is in more doubt than a slow one.
+struct Floor {
+  double rms = 0;          ///< over its windows; 0: none
+  std::vector<double> at;  ///< σ_k
+};
+
+/// Of each residual of `stages.residuals(episode)`; `robot` has the sensors.
+std::vector<Floor> floors(Stages& stages, const Episode& episode, const erp::Robot& robot,
                            std::uint64_t seed = 1);
 
 }  // namespace sim::residuals

@@ -29,6 +29,13 @@ std::pair<double, double> range(const Signal& signal, const Bump& bump, std::siz
   return {*low, *high};
 }
 
+/// Whether a ball joint's stop may push: it pushes along the axis of the rotation.
+bool near_stop(const JointReading& reading, const erp::Joint& joint, double speed_rad_per_s,
+               double half_width_s) {
+  const double angle_rad = 2 * std::acos(std::min(1.0, std::abs(reading.position[0])));
+  return angle_rad + speed_rad_per_s * half_width_s > joint.max_rad - near_stop_rad;
+}
+
 }  // namespace
 
 /// Bones that bend have joints that nobody measured. Each moves as its spring and damper have it,
@@ -107,7 +114,8 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   return trace;
 }
 
-/// Adds what a joint's friction and springs take along its coordinates. False: a ball joint rests.
+/// Adds what a joint's friction and springs take along its coordinates. False: a ball joint rests, or
+/// is at its stop.
 bool Stages::pass_joint(std::size_t j, const JointReading& reading,
                         Eigen::Ref<Eigen::VectorXd> torque) const {
   const erp::Joint& joint = bones_.joint_list()[j];
@@ -117,6 +125,7 @@ bool Stages::pass_joint(std::size_t j, const JointReading& reading,
   effects::Acting acting(equipped_.acting, joint.name, effects::Seat::joint);
   if (torque.size() == 1) torque[0] -= acting.joint_torque(reading.position[0]).value;
   torque += joint.viscous_Nm_s_per_rad * velocity;
+  if (torque.size() == 3 && near_stop(reading, joint, speed, windows_.half_width_s)) return false;
   if (speed < resting_rad_per_s) return torque.size() == 1;
   torque += (joint.coulomb_Nm + acting.joint_friction_Nm(speed)) * velocity / speed;
   return true;
@@ -151,17 +160,17 @@ Stages::Gait Stages::gait(const JointTrace& joints, std::size_t j, const Bump& b
 }
 
 /// What is left of a revolute joint's balance once a resting joint's friction and the push of a
-/// stop have taken their share, and whether they may.
-std::pair<double, bool> Stages::leave(const JointTrace& joints, std::size_t j, const Bump& bump,
+/// stop have taken their share, and how much they may take.
+std::pair<double, double> Stages::leave(const JointTrace& joints, std::size_t j, const Bump& bump,
                                       std::size_t row, double torque_Nm) const {
   const erp::Joint& joint = bones_.joint_list()[j];
-  if (joints.signals[j].angle_rad.empty()) return {torque_Nm, false};
+  if (joints.signals[j].angle_rad.empty()) return {torque_Nm, 0};
   const Gait gait = this->gait(joints, j, bump, row);
+  double band = 0;
   if (gait != Gait::glides) {
     effects::Acting acting(equipped_.acting, joint.name, effects::Seat::joint);
     const double friction = joint.coulomb_Nm + acting.joint_friction_Nm(0);
-    const double band =
-        gait == Gait::rests ? friction : 2 * friction;  // one was taken, may be wrong
+    band = gait == Gait::rests ? friction : 2 * friction;  // one was taken, may be wrong
     torque_Nm = std::copysign(std::max(0.0, std::abs(torque_Nm) - band), torque_Nm);
   }
   const auto [lowest, highest] = range(joints.signals[j].angle_rad, bump, row);
@@ -173,7 +182,8 @@ std::pair<double, bool> Stages::leave(const JointTrace& joints, std::size_t j, c
   if (below)
     torque_Nm = std::min(0.0, torque_Nm) -
                 stop_Nm_per_rad * std::max(0.0, joint.min_rad - stop_gives_rad - lowest);
-  return {torque_Nm, gait != Gait::glides || above || below};
+  if (above || below) band = std::numeric_limits<double>::infinity();
+  return {torque_Nm, band};
 }
 
 void Stages::add_joints(const Episode& episode, Explanation& e) const {
@@ -198,10 +208,10 @@ void Stages::add_joints(const Episode& episode, Explanation& e) const {
     for (int d = first; d < first + count; ++d) {
       Residual residual{effects::Stage::joint, joints[j].name, "Nm", {}, rms(pulls.row(d))};
       for (Eigen::Index k = 0; k < torques.cols(); ++k) {
-        const auto [left, banded] =
+        const auto [left, band] =
             count == 1 ? leave(*e.joints, j, bump, e.rows[std::size_t(k)], torques(d, k))
-                       : std::pair(torques(d, k), false);
-        residual.value.push_back(left), residual.banded.push_back(banded);
+                       : std::pair(torques(d, k), 0.0);
+        residual.value.push_back(left), residual.band.push_back(band);
       }
       e.residuals.push_back(std::move(residual));
     }

@@ -17,6 +17,17 @@ Episode lines_alone(const Episode& episode) {
   return lines;
 }
 
+/// The most D/κ of some lines.
+double slowest_damper_s(const erp::Robot& robot, std::span<const std::size_t> lines) {
+  double slowest_s = 0;
+  for (const std::size_t a : lines) {
+    const erp::Tendon& tendon = robot.actuators[a].tendon;
+    slowest_s =
+        std::max(slowest_s, tendon.damping_N_s_per_m / Spring::of(tendon).slope_N_per_m(0));
+  }
+  return slowest_s;
+}
+
 }  // namespace
 
 std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
@@ -64,7 +75,8 @@ void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTra
   const auto chains = [&](const std::vector<JointSignals>& signals) {
     return chains_of(pulled, lines, {.signals = signals, .nearby = trace.nearby});
   };
-  const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s);
+  const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s,
+                          slowest_damper_s(equipped_.robot, lines));
   if (lines.size() < search.unknowns()) return;
   constexpr int from_afar = 6, from_near = 2;  // steps, chosen
   if (near)
@@ -85,7 +97,8 @@ void Stages::find_crossings(const Episode& episode, JointTrace& trace,
   const auto chains = [&](const std::vector<JointSignals>& signals) {
     return chains_of(pulled, lines, {.signals = signals});
   };
-  const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s);
+  const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s,
+                          slowest_damper_s(equipped_.robot, lines));
   if (lines.size() < search.unknowns()) return;
   trace.by_lines = true;
   auto told = trace.signals;

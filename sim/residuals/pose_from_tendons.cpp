@@ -58,11 +58,12 @@ Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& here,
 }  // namespace
 
 PoseSearch::PoseSearch(const std::vector<erp::Joint>& joints, std::vector<std::size_t> missing,
-                       Chains chains, double period_s)
+                       Chains chains, double period_s, double damper_s)
     : joints_(joints),
       missing_(std::move(missing)),
       chains_(std::move(chains)),
-      period_s_(period_s) {
+      period_s_(period_s),
+      damper_s_(damper_s) {
   for (const std::size_t j : missing_)
     for (int axis = 0; axis < coordinates_of(joints_[j].type); ++axis)
       unknown_.push_back({j, axis});
@@ -127,12 +128,16 @@ void PoseSearch::better(std::vector<JointSignals>& signals, int steps, int slope
     const auto here = chains_(signals);
     if (n % slopes_every == 0) slope = slopes(signals, here);
     told.assign(std::size_t(slope.cols()), 0);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(Eigen::Index(unknown_.size()));
+    const double kept = damper_s_ / (damper_s_ + period_s_);
     for (std::size_t k = 0; k < told.size(); ++k) {
       const Eigen::Map<const Eigen::MatrixXd> at(slope.col(Eigen::Index(k)).data(),
                                                  Eigen::Index(here.size()),
                                                  Eigen::Index(unknown_.size()));
-      const Eigen::VectorXd step = step_at(k, here, at);
-      told[k] = step.size() > 0;
+      const Eigen::VectorXd of_springs = step_at(k, here, at);
+      told[k] = of_springs.size() > 0;
+      if (told[k]) step = kept * step + (1 - kept) * of_springs;
+      else step.setZero();
       for (Eigen::Index c = 0; c < step.size(); ++c)
         turn(signals, unknown_[std::size_t(c)], k, step[c]);
     }

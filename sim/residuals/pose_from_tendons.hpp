@@ -10,8 +10,9 @@
 ///
 ///   min_q Σ_a (F_a − F̂_a(L_a(q), θ_a))²      F̂ the tendon's law with the robot's effects
 ///
-/// by Gauss and Newton, all rows at once. The pose is smoothed, for the law's damper would answer
-/// to its noise. Slack tendons say nothing. What is left of the tendons' stages are their
+/// by Gauss and Newton, all rows at once. The damper couples rows: a step is that of a spring and a
+/// damper, κ δ + D δ̇, or rows would swing ever more. The pose is smoothed, for the law's damper would
+/// answer to its noise. Slack tendons say nothing. What is left of the tendons' stages are their
 /// contradictions, fewer than there are tendons.
 namespace sim::residuals {
 
@@ -20,9 +21,9 @@ using Chains = std::function<std::vector<ChainTrace>(const std::vector<JointSign
 
 class PoseSearch {
  public:
-  /// `missing`: joints to be found.
+  /// `missing`: joints to be found; `damper_s`: D/κ of the lines.
   PoseSearch(const std::vector<erp::Joint>& joints, std::vector<std::size_t> missing, Chains chains,
-             double period_s);
+             double period_s, double damper_s);
 
   /// Degrees of freedom to be found.
   std::size_t unknowns() const { return unknown_.size(); }
@@ -49,7 +50,7 @@ class PoseSearch {
   const std::vector<erp::Joint>& joints_;
   std::vector<std::size_t> missing_;
   Chains chains_;
-  double period_s_;
+  double period_s_, damper_s_;
   std::vector<Unknown> unknown_;
 };
 

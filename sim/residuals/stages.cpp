@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/actuator/sensors.hpp"
 #include "sim/residuals/chain_residuals.hpp"
 #include "sim/residuals/indices.hpp"
 
@@ -15,6 +16,13 @@ using Eigen::MatrixXd;
 template <class T>
 std::shared_ptr<const T> keep(T value) {
   return std::make_shared<const T>(std::move(value));
+}
+
+/// 0: not told.
+double shaft_step_rad(const erp::Robot& robot, const erp::Actuator& actuator) {
+  const erp::SensorType& sensors = robot.sensors_of(actuator);
+  if (!(sensors.encoder_counts_per_rev > 0)) return 0;
+  return SensorScale(robot.motor_of(actuator), sensors).shaft_rad_per_count;
 }
 
 /// For a robot whose tendons run otherwise.
@@ -84,7 +92,7 @@ ChainTrace Stages::chain(const Episode& episode, std::size_t a, const PathTrace&
   const erp::Actuator& actuator = equipped_.robot.actuators[a];
   return trace({equipped_.robot.motor_of(actuator), actuator,
                 effects::Acting(equipped_.acting, actuator.name, effects::Seat::actuator),
-                bones_.start_m(a)},
+                bones_.start_m(a), shaft_step_rad(equipped_.robot, actuator)},
                episode.actuators[a], path, episode.period_s, windows_.speed_half_width_s);
 }
 

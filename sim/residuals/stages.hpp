@@ -19,7 +19,8 @@
 /// each as a mean under a window (bump.hpp). The current at a row is that at the end of a period
 /// over which the voltage was held (held_voltage.hpp). Where a joint rests or turns back, friction
 /// is anything within a band, and a stop within reach may push: what remains beyond counts, and
-/// such a window never as less than noise. Windows in which a shaft rests are left out. Spindle and
+/// the noise that the band hides with it; so where a shaft turns back. Windows in which a shaft or a
+/// ball joint rests, or that joint is at its stop, are left out. Spindle and
 /// routing act within the tendon's stage, bodies within the joint's. Without a tension sensor the
 /// spring's law takes its place and the tendon's stage is part of those that use it; without a
 /// current the motor's law does.
@@ -86,7 +87,7 @@ class Stages {
   /// How a revolute joint moves over a window.
   enum class Gait { glides, rests, mixed };
   Gait gait(const JointTrace& joints, std::size_t joint, const Bump& bump, std::size_t row) const;
-  std::pair<double, bool> leave(const JointTrace& joints, std::size_t joint, const Bump& bump,
+  std::pair<double, double> leave(const JointTrace& joints, std::size_t joint, const Bump& bump,
                                 std::size_t row, double torque_Nm) const;
 
   effects::Equipped equipped_;
