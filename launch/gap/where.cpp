@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <stdexcept>
 
 #include "sim/diagnosis/bus.hpp"
 #include "sim/diagnosis/where.hpp"
@@ -12,6 +13,7 @@
 #include "sim/gap/spoilt_rows.hpp"
 #include "sim/residuals/common_signals.hpp"
 #include "sim/residuals/drives.hpp"
+#include "sim/soundness/dead_columns.hpp"
 #include "sim/soundness/odd_table.hpp"
 #include "sim/soundness/units.hpp"
 
@@ -123,6 +125,11 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
     const auto table =
         recording::read_table(file, {.robot = robot.name, .sequences = true, .sent = true});
     read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
+    if (soundness::nothing_changes(read.episodes.back()))
+      throw std::invalid_argument(fmt::format(
+          "{}: nothing changes in it: every signal of {} holds one value for {:.1f} s; record the robot "
+          "while it moves",
+          file, robot.name, double(table.rows()) * read.episodes.back().period_s));
     odd.add(file, soundness::odd_table(table, robot, file));
     odd.add(file, soundness::odd_units(read.episodes.back(), robot));
   }

@@ -62,7 +62,8 @@ Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx)
 
   double force = spring_N(k, stretch) + k.damping * rate;
   if (q.line_m_per_N > 0) {  // Δx = x + c l/l₀ F, F = spring(x) + d ẋ
-    const double free_length = k.shape.length_m / k.start_m;  // what is wound up does not stretch
+    const double free_length =
+        (k.shape.length_m - stretch) / k.start_m;  // what is wound up does not stretch
     force = std::max(0.0, stretch - x[c::inner]) / (q.line_m_per_N * free_length);
     dx[c::inner] = (force - spring_N(k, x[c::inner])) / std::max(k.damping, line_damps_N_s_per_m);
   }

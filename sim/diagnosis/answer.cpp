@@ -1,5 +1,7 @@
 #include "sim/diagnosis/answer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,6 +39,24 @@ Named named(const BusFit& fit) {
   n.intervals[0] = {fit.low - of_ticks, fit.high + of_ticks};
   n.gain = fit.gain, n.gain_interval = {fit.gain, fit.gain}, n.supported = fit.supported;
   return n;
+}
+
+std::string undetermined(const Named& effect) {
+  effects::AnyEffect neutral = *effects::neutral(effect.type);
+  bool holds_neutral = !effect.values.empty();
+  std::size_t k = 0;
+  for (const effects::Parameter& p : effects::parameters(neutral)) {
+    if (!p.fitted) continue;
+    const Interval& interval = effect.intervals[k];
+    const double value = effect.values[k], rounding = 1e-6 * (p.bounds.high - p.bounds.low);
+    const bool low = value <= p.bounds.low + rounding, high = value >= p.bounds.high - rounding;
+    if ((low && p.bounds.low != *p.value) || (high && p.bounds.high != *p.value))
+      return fmt::format("{} is at its bound, {:.3g}", p.name, value);
+    const double beyond = low || high ? rounding : 0;  // a bound that is neutral
+    holds_neutral &= interval.low <= *p.value + beyond && *p.value - beyond <= interval.high;
+    ++k;
+  }
+  return holds_neutral ? "its interval holds the value of a robot without it" : "";
 }
 
 void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names) {

@@ -36,6 +36,10 @@ Named named(const effects::Placed& placed);
 Named named(const Ranked& ranked, double least_gain);
 Named named(const BusFit& fit);
 
+/// Why its values are not determined: its intervals hold the neutral values of all its parameters, or one
+/// is at a bound that is not neutral; empty: they are.
+std::string undetermined(const Named& effect);
+
 /// Benjamini and Hochberg 1995, at 5 %: what is left of `supported`.
 void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names);
 

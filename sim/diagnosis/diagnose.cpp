@@ -64,15 +64,20 @@ void add_bus(const Observed& observed, Diagnosis& d) {
       d.answer.back().alike.push_back(observed.bus[k]);
 }
 
+void put_first(std::vector<Named>& into, const std::vector<Named>& what) {
+  into.insert(into.begin(), what.begin(), what.end());
+}
+
+void add_ranked(const Observed& observed, Diagnosis& d) {
+  put_first(d.ranked, observed.bus);
+  put_first(d.ranked, observed.sensors);
+}
+
 /// What was seen without a fit comes first where it is all there is to say, the bus last where
 /// residuals have a cause of their own: it changes none of them.
 void add_observed(const Observed& observed, Diagnosis& d) {
-  const auto put_first = [](std::vector<Named>& into, const std::vector<Named>& what) {
-    into.insert(into.begin(), what.begin(), what.end());
-  };
   put_first(d.answer, observed.sensors);
-  put_first(d.ranked, observed.bus);
-  put_first(d.ranked, observed.sensors);
+  add_ranked(observed, d);
   add_bus(observed, d);
 }
 
@@ -119,27 +124,110 @@ void add_indistinguishable(Named& answer, const Named& other) {
       answer.alike.push_back(n);
 }
 
+/// What a question is answered from.
+struct Question {
+  const Evidence& evidence;
+  const Trials& plain;  ///< of the robot as it is given
+  const Trials& known;  ///< of that with what was seen without a fit
+  const Observed& observed;
+};
+
 /// Takes the answer of sim/gap: effects and constants estimated together.
-void take(const Evidence& evidence, const Trials& plain, const Built& built,
-          const Selection& selection, const Observed& observed, Diagnosis& d) {
+void take(const Question& q, const Built& built, Selection selection, Diagnosis& d) {
   d.verdict = !d.judged_apart()   ? Verdict::not_identifiable
               : built.explained() ? Verdict::supported
                                   : Verdict::none_of_the_known;
   d.answer = built.answer, d.constants = built.constants, d.as_built = built.robot;
-  d.interaction = 0;
-  add_bus(observed, d);
-  d.where = d.answer.empty() || !built.explained()
-                ? std::vector<Located>{}
-                : where_of_answer(evidence, plain, d.stages, d.answer);
+  add_bus(q.observed, d);
+  if (built.explained() && !d.answer.empty())
+    d.where = where_of_answer(q.evidence, q.plain, d.stages, d.answer);
   for (const StageGap& gap : built.left)
     if (gap.open && !built.explained())
       d.where.push_back({gap.stage, gap.on, gap.share, {0, 1}, {}});
-  Selection s = selection;
-  s.answer = built.answer, s.left = built.left, s.trial = built.trials.bare();
-  d.unexplained = unexplained(evidence, built.trials, s);
-  d.channels = closed_by_stage(evidence, plain, built.trials, built.trials.bare());
-  d.overall = closed_overall(evidence, plain, built.trials, built.trials.bare());
-  d.worst = worst_moments(evidence, plain, built.trials.bare(), d.stages);
+  selection.answer = built.answer, selection.left = built.left,
+  selection.trial = built.trials.bare();
+  d.unexplained = unexplained(q.evidence, built.trials, selection);
+  d.channels = closed_by_stage(q.evidence, q.plain, built.trials, built.trials.bare());
+  d.overall = closed_overall(q.evidence, q.plain, built.trials, built.trials.bare());
+  d.worst = worst_moments(q.evidence, q.plain, built.trials.bare(), d.stages);
+}
+
+/// Takes the answer of a selection of effects on the robot's constants as given.
+void take(const Question& q, const Selection& selection, Diagnosis& d) {
+  const Verdict verdict = judge(selection, q.observed, d.stages);
+  const bool explained = verdict == Verdict::supported;
+  d.verdict = explained && !d.judged_apart() ? Verdict::not_identifiable : verdict;
+  d.answer = selection.answer, d.interaction = selection.interaction;
+  add_observed(q.observed, d);
+  if (verdict == Verdict::not_identifiable)
+    d.warnings.emplace_back(
+        selection.gap
+            ? "the recordings held out show too little of the gap to judge what causes it; "
+              "record more of what shows it, see where and when"
+            : "nothing could be judged; record all signals, of motions of some seconds");
+  d.where = explained ? where_of_answer(q.evidence, q.plain, d.stages, d.answer)
+                      : where_of_stages(q.evidence, q.plain, d.stages, d.ranked);
+  if (q.observed.bus_unexplained()) add_unexplained_bus(q.evidence.robot.name, q.observed, d);
+  if (selection.gap) d.unexplained = unexplained(q.evidence, q.known, selection);
+  d.channels = closed_by_stage(q.evidence, q.plain, q.known, selection.trial);
+  d.overall = closed_overall(q.evidence, q.plain, q.known, selection.trial);
+  d.worst = worst_moments(q.evidence, q.plain, selection.trial, d.stages);
+}
+
+/// An answer of sim/gap that need not be held against one of effects on the constants as given: of a
+/// drive, whose friction is all at one place, one that leaves only noise.
+bool stands(const Evidence& evidence, const Built& built) {
+  if (evidence.robot.drives.empty())
+    return built.explained() && (!built.exact || built.answer.size() == 1);
+  const double noise = evidence.options.together.excess;
+  return built.explained() &&
+         std::ranges::all_of(built.left, [&](const StageGap& g) { return g.excess < noise; });
+}
+
+/// The robot as built first, unless the effects alone explain as well or better.
+void answer(const Question& q, Diagnosis& d) {
+  const Evidence& evidence = q.evidence;
+  const bool may_differ = q.observed.sensors.empty();
+  Selection selection =
+      select(evidence, q.known, d.stages, may_differ ? Depth::best_alone : Depth::full);
+  std::optional<Built> built;
+  if (may_differ && selection.gap && selection.told &&
+      !leaves_noise_on_large_robot(evidence, selection))
+    built.emplace(as_built(evidence, q.plain, selection.answer));
+  if (built && agree(*built, selection)) {
+    add_indistinguishable(selection.answer[0], built->answer[0]);
+    built.reset();
+  } else if (built && !stands(evidence, *built)) {
+    selection = select(evidence, q.known, d.stages);
+    const bool leaves_less = open_in(built->left) < open_in(selection.left);
+    if (selection.explained() || !leaves_less || !apart(built->answer)) built.reset();
+  }
+  d.ranked = selection.ranked;
+  if (!built) return take(q, selection, d);
+  add_ranked(q.observed, d);
+  take(q, *built, std::move(selection), d);
+}
+
+/// Nothing is supported whose value the recordings do not determine.
+void doubt_undetermined(Diagnosis& d) {
+  if (d.verdict != Verdict::supported) return;
+  for (const Named& n : d.answer) {
+    const auto why = undetermined(n);
+    if (why.empty()) continue;
+    d.verdict = Verdict::not_identifiable;
+    d.warnings.push_back(fmt::format("{} on {}: {}; record motions that show more of it", n.type,
+                                     n.on, why));
+  }
+}
+
+void warn_unjudged(const Question& q, Diagnosis& d) {
+  d.not_judged = not_judged(q.evidence.robot, d.stages);
+  const bool bus_untold = q.evidence.robot.drives.empty() && !q.observed.bus_told;
+  if (bus_untold) d.not_judged.emplace_back("the bus");
+  if (d.not_judged.empty()) return;
+  d.warnings.push_back(fmt::format(
+      "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
+      bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
 }
 
 /// The robot with what was seen without a fit.
@@ -179,49 +267,10 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   std::optional<Trials> coarse;
   if (!observed.sensors.empty())
     coarse.emplace(as_observed(robot, observed), evidence.episodes, options.seed);
-  const Trials& known = coarse ? *coarse : plain;
-  d.not_judged = not_judged(robot, d.stages);
-  const bool bus_untold = robot.drives.empty() && !observed.bus_told;
-  if (bus_untold) d.not_judged.emplace_back("the bus");
-  if (!d.not_judged.empty())
-    d.warnings.push_back(fmt::format(
-        "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
-        bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
-  const bool may_differ = robot.drives.empty() && observed.sensors.empty();
-  Selection selection =
-      select(evidence, known, d.stages, may_differ ? Depth::best_alone : Depth::full);
-  std::optional<Built> built;
-  if (may_differ && selection.gap && selection.told &&
-      !leaves_noise_on_large_robot(evidence, selection))
-    built.emplace(as_built(evidence, plain, selection.answer));
-  if (built && agree(*built, selection)) {
-    add_indistinguishable(selection.answer[0], built->answer[0]);
-    built.reset();
-  } else if (built && (!built->explained() || (built->exact && built->answer.size() != 1))) {
-    selection = select(evidence, known, d.stages);
-    const bool leaves_less = open_in(built->left) < open_in(selection.left);
-    if (selection.explained() || !leaves_less || !apart(built->answer)) built.reset();
-  }
-  const Verdict verdict = judge(selection, observed, d.stages);
-  const bool explained = verdict == Verdict::supported;
-  d.verdict = explained && !d.judged_apart() ? Verdict::not_identifiable : verdict;
-  d.answer = selection.answer, d.ranked = selection.ranked;
-  d.interaction = selection.interaction;
-  add_observed(observed, d);
-  if (verdict == Verdict::not_identifiable)
-    d.warnings.emplace_back(
-        selection.gap
-            ? "the recordings held out show too little of the gap to judge what causes it; "
-              "record more of what shows it, see where and when"
-            : "nothing could be judged; record all signals, of motions of some seconds");
-  d.where = explained ? where_of_answer(evidence, plain, d.stages, d.answer)
-                      : where_of_stages(evidence, plain, d.stages, d.ranked);
-  if (observed.bus_unexplained()) add_unexplained_bus(robot.name, observed, d);
-  if (selection.gap) d.unexplained = unexplained(evidence, known, selection);
-  d.channels = closed_by_stage(evidence, plain, known, selection.trial);
-  d.overall = closed_overall(evidence, plain, known, selection.trial);
-  d.worst = worst_moments(evidence, plain, selection.trial, d.stages);
-  if (built) take(evidence, plain, *built, selection, observed, d);
+  const Question question{evidence, plain, coarse ? *coarse : plain, observed};
+  warn_unjudged(question, d);
+  answer(question, d);
+  doubt_undetermined(d);
   evidence.tell("done", 1);
   return d;
 }

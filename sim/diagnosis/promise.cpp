@@ -6,7 +6,7 @@
 
 #include "sim/diagnosis/tries.hpp"
 #include "sim/parallel/in_parallel.hpp"
-#include "sim/residuals/drives.hpp"
+#include "sim/gap/screen.hpp"
 #include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {
@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 /// z of one recording, 0 where nothing is judged.
 class Look {
  public:
-  Look(const Trials& trials, const Trial& base, std::size_t episode)
-      : trials_(trials), base_(base), only_{episode}, left_(z_of(base)) {
+  Look(const Trials& trials, const Trial& base, std::vector<std::size_t> episodes)
+      : trials_(trials), base_(base), only_(std::move(episodes)), left_(z_of(base)) {
     for (std::size_t e = 0; e < base.effects.size(); ++e) add_directions(e);
   }
 
@@ -36,10 +36,10 @@ class Look {
 
  private:
   VectorXd z_of(const Trial& trial) const {
-    const auto z = trials_.whitened(trial, only_[0]);
-    VectorXd all(static_cast<Eigen::Index>(z.size()));
-    for (std::size_t k = 0; k < z.size(); ++k) all[Eigen::Index(k)] = std::isnan(z[k]) ? 0 : z[k];
-    return all;
+    std::vector<double> all;
+    for (const std::size_t e : only_)
+      for (const double z : trials_.whitened(trial, e)) all.push_back(std::isnan(z) ? 0 : z);
+    return VectorXd::Map(all.data(), Eigen::Index(all.size()));
   }
 
   double along(VectorXd change) const {
@@ -77,25 +77,12 @@ class Look {
 std::vector<double> promises(const Trials& trials, const Trial& base, const WhichOptions& options,
                              const std::vector<Placed>& all) {
   std::vector<double> promised(all.size());
-  const Look look(trials, base, loudest(trials, base, options.train));
+  const bool drive = !trials.nominal().drives.empty();  // each of its recordings may be of one speed
+  const Look look(trials, base,
+                  drive ? options.train : std::vector{loudest(trials, base, options.train)});
   in_parallel(all.size(), options.threads,
               [&](std::size_t k) { promised[k] = look.promise(all[k]); });
   return promised;
-}
-
-/// An effect of a sensor that a drive has not: of a current that its control sets, of a pull without
-/// a torque sensor.
-bool of_no_sensor(const Trials& trials, const Placed& placed) {
-  const auto sense = effects::sense_of(placed.effect);
-  const erp::Drive* drive = sense ? residuals::drive_of(trials.nominal(), placed.on) : nullptr;
-  if (!drive) return false;
-  if (sense == effects::Sense::tension) return !drive->find<erp::TorqueSensor>();
-  const auto& actuators = trials.nominal().actuators;
-  const auto a = std::ranges::find(actuators, placed.on, &erp::Actuator::name) - actuators.begin();
-  return sense == effects::Sense::current &&
-         std::ranges::any_of(trials.episodes(), [&](const residuals::Episode& e) {
-           return e.actuators[std::size_t(a)].current_around;
-         });
 }
 
 }  // namespace
@@ -111,7 +98,7 @@ std::vector<Placed> candidates(const Trials& trials, const std::vector<std::stri
     if (std::ranges::count(withhold, about.type)) continue;
     for (const std::string& on : effects::places(trials.nominal(), about.seat))
       if (const Placed placed{on, effect};
-          !of_no_sensor(trials, placed) && !(estimated && nominal.reach(placed).joints))
+          gap::can_show(placed, trials.nominal(), trials.episodes()) && !(estimated && nominal.reach(placed).joints))
         all.push_back(placed);
   }
   return all;

@@ -53,6 +53,57 @@ struct Evidence {
   const AsBuiltOptions& options;
 };
 
+/// Constants that are farther off than building explains, the nearest first.
+std::vector<std::size_t> strained(const Uncertain& uncertain, const Found& found) {
+  constexpr double far = 2;  // tolerances; chosen
+  const std::vector<double>& x = found.train.point.x;
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (!uncertain.constants[k].zero && std::abs(x[k]) > far) all.push_back(k);
+  std::ranges::sort(all, {}, [&](std::size_t k) { return std::abs(x[k]); });
+  return all;
+}
+
+/// Where recordings determine only what two constants make together, the prior prefers one far off to
+/// two: each is let go in turn, for steps from between the two gain little.
+Found settled(const Uncertain& uncertain, const Search& search, Found found) {
+  constexpr std::size_t most = 4;  // chosen
+  auto far = strained(uncertain, found);
+  if (far.size() < 2) return found;
+  far.resize(std::min(most, far.size()));
+  for (const std::size_t k : far) {
+    Point start = found.train.point;
+    start.x[k] = 0;
+    if (Found other = search.from(std::move(start)); other.cost < found.cost) {
+      other.rivals = found.rivals;
+      found = std::move(other);
+    }
+  }
+  return found;
+}
+
+/// A strained constant may stand for an effect, which is looked for with that part as described: others of
+/// its constants would take the strain over.
+Found unstrained(const Evidence& evidence, const Uncertain& uncertain, const Search& search,
+                 Found found) {
+  const auto far = strained(uncertain, found);
+  const std::size_t most = evidence.options.search.most_effects;
+  if (far.empty() || !found.train.point.effects.empty()) return found;
+  Uncertain others = uncertain;
+  others.constants.clear();
+  for (std::size_t k = 0; k < uncertain.constants.size(); ++k)
+    if (std::ranges::none_of(far, [&](std::size_t f) {
+          return uncertain.constants[f].on == uncertain.constants[k].on;
+        }))
+      others.constants.push_back(uncertain.constants[k]);
+  const Search again(evidence.train, evidence.held_out, others, evidence.options.search);
+  const Found with_effects = again.run(again.with({}), most);
+  if (with_effects.train.point.effects.empty()) return found;
+  Found other = search.with(with_effects.train.point.effects);
+  other.rivals = with_effects.rivals;
+  return other.cost < found.cost ? other : found;
+}
+
 AsBuilt explained(const Evidence& evidence, bool exact) {
   AsBuilt built{
       .uncertain = uncertain_of(evidence.nominal, evidence.options.search.withhold, exact),
@@ -61,6 +112,10 @@ AsBuilt explained(const Evidence& evidence, bool exact) {
   std::size_t most = evidence.options.search.most_effects;
   Found found = search.run(search.with({}), exact ? 1 : most);
   if (exact && !is_widespread(found)) found = search.run(std::move(found), most);
+  if (!exact) {
+    found = unstrained(evidence, built.uncertain, search, std::move(found));
+    found = settled(built.uncertain, search, std::move(found));
+  }
   const auto& suggested = evidence.options.suggested;
   if (exact && !suggested.empty() && !are_same(found.train.point.effects, suggested))
     if (Found other = search.with(suggested); other.cost < found.cost) found = std::move(other);

@@ -43,6 +43,7 @@ class ResidualVector {
   /// Of each stage: windows that the sensors' noise makes independent, Σ n/(1 + 2 Σ ρ_l).
   std::span<const double> independent() const { return independent_; }
   std::size_t stages() const { return stages_; }
+  std::span<const residuals::Episode> episodes() const { return episodes_; }
   /// The nominal robot's; its residuals name the stages.
   const residuals::Explanation& first() const { return bare_.front(); }
 

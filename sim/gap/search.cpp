@@ -17,6 +17,11 @@ bool is_same(const effects::Placed& a, const effects::Placed& b) {
   return a.on == b.on && a.effect.index() == b.effect.index();
 }
 
+/// Several causes at one place can bend to nearly any law.
+bool are_at_one_place(const effects::Placed& a, const effects::Placed& b) {
+  return a.on == b.on && effects::about(a.effect).stage == effects::about(b.effect).stage;
+}
+
 /// Whether it takes a good part of what a stage keeps.
 bool relieves(const Found& is, const Found& was) {
   for (std::size_t s = 0; s < was.held_out.excess.size(); ++s) {
@@ -24,6 +29,19 @@ bool relieves(const Found& is, const Found& was) {
     if (before > was.tolerated[s] && before - is.held_out.excess[s] > worth * before) return true;
   }
   return false;
+}
+
+/// What came near an effect when it was looked for again, and led to `other`.
+Rivals rivals_of(const Found& found, std::size_t effect, const Found& other, double cost_without) {
+  Rivals rivals{.gain = cost_without - found.cost};
+  const auto add = [&](const Sized& one, double cost) {
+    if (is_same(one.effect, found.train.point.effects[effect])) return;
+    rivals.all.push_back(one), rivals.cost.push_back(cost);
+  };
+  add(sized(other.train).back(), other.cost);
+  const Rivals& of_other = other.rivals.back();
+  for (std::size_t k = 0; k < of_other.all.size(); ++k) add(of_other.all[k], of_other.cost[k]);
+  return rivals;
 }
 
 }  // namespace
@@ -58,15 +76,22 @@ Found Search::judge(Estimate estimate) const {
   return found;
 }
 
-Found Search::with(const std::vector<effects::Placed>& effects) const {
-  Found found = judge(train_.run(uncertain_, {{}, effects}));
-  found.rivals.resize(effects.size());
+Found Search::from(Point start) const {
+  const std::size_t effects = start.effects.size();
+  Found found = judge(train_.run(uncertain_, std::move(start)));
+  found.rivals.resize(effects);
   return found;
 }
 
 std::vector<Found> Search::each_beside(const Found& base) const {
   constexpr int iterations = 4;
   auto candidates = screen_.candidates(base.train);
+  const bool drive = !uncertain_.nominal.drives.empty();  // all its friction is at one place
+  std::erase_if(candidates, [&](const auto& c) {
+    return !drive && std::ranges::any_of(base.train.point.effects, [&](const auto& e) {
+             return are_at_one_place(e, c.start);
+           });
+  });
   if (candidates.size() > options_.estimated) candidates.resize(options_.estimated);
   std::vector<Found> joined(candidates.size());
   in_parallel(candidates.size(), train_.options().threads, [&](std::size_t k) {
@@ -122,9 +147,10 @@ Found Search::exchanged(Found found) const {
     const auto joined = each_beside(base);
     if (joined.empty()) continue;
     Found other = with_best_of(joined, base);
-    if (is_same(other.train.point.effects.back(), found.train.point.effects[k]))
-      found.rivals[k] = other.rivals.back();
-    else if (other.cost < better * found.cost) found = std::move(other);
+    if (!is_same(other.train.point.effects.back(), found.train.point.effects[k]) &&
+        other.cost < better * found.cost)
+      found = std::move(other);
+    else found.rivals[k] = rivals_of(found, k, other, base.cost);
   }
   return found;
 }

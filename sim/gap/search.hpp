@@ -11,7 +11,8 @@
 ///
 ///   cost = misfit (left.hpp, recordings taught with and held out) + prior of the constants
 ///
-/// while a stage keeps more than noise. An earlier choice is looked for again beside later ones.
+/// while a stage keeps more than noise; one at each place. An earlier choice is looked for again beside
+/// later ones.
 namespace sim::gap {
 
 struct SearchOptions {
@@ -52,7 +53,9 @@ class Search {
 
   Found judge(Estimate estimate) const;
   /// With some effects as given.
-  Found with(const std::vector<effects::Placed>& effects) const;
+  Found with(const std::vector<effects::Placed>& effects) const { return from({{}, effects}); }
+  /// Estimated from there.
+  Found from(Point start) const;
   /// Adds effects, to `most` in all, while a stage keeps more than noise and one helps.
   Found run(Found found, std::size_t most) const;
 

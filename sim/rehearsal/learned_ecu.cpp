@@ -18,6 +18,7 @@ using Phi = Eigen::Vector<double, Regressors::count>;
 constexpr double tick_s = residuals::tick_s;
 constexpr std::size_t most_lag = 3, least_rows = 500;   // chosen
 constexpr std::size_t oldest = 30, most_rows = 10'000;  // a command's age, a recording's rows; chosen
+constexpr double of_older = 0.1;  // of `enough`: one of many ages is always somewhat near; chosen
 constexpr double clipped = 0.98;                       // of the supply; chosen
 
 std::optional<Known> known_at(const ActuatorSignals& s, std::size_t row, std::size_t asked) {
@@ -168,21 +169,24 @@ void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, std::s
   }
 }
 
+double unexplained_at(std::span<const Episode> recordings, const erp::Robot& robot,
+                      std::size_t age) {
+  Misfit misfit;
+  for (const Episode& e : recordings)
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a) add_misfit(e, robot, a, age, misfit);
+  const double variance = misfit.of - misfit.sum * misfit.sum / std::max(1.0, misfit.rows);
+  return misfit.rows < double(least_rows) || !(variance > 0) ? 1 : misfit.square / variance;
+}
+
 }  // namespace
 
 double unexplained_by_firmware(std::span<const Episode> recordings, const erp::Robot& robot,
                                double enough) {
-  double least = 1;
-  for (std::size_t age = 0; age <= oldest && least > enough; ++age) {
-    Misfit misfit;
-    for (const Episode& e : recordings)
-      for (std::size_t a = 0; a < robot.actuators.size(); ++a)
-        add_misfit(e, robot, a, age, misfit);
-    const double variance = misfit.of - misfit.sum * misfit.sum / std::max(1.0, misfit.rows);
-    if (misfit.rows >= double(least_rows) && variance > 0)
-      least = std::min(least, misfit.square / variance);
-  }
-  return least;
+  const double newest = unexplained_at(recordings, robot, 0);
+  for (std::size_t age = 1; age <= oldest && newest > enough; ++age)
+    if (const double older = unexplained_at(recordings, robot, age); older < of_older * enough)
+      return older;
+  return newest;
 }
 
 }  // namespace sim::rehearsal

@@ -51,9 +51,9 @@ using LearnedEcu = std::map<std::pair<std::size_t, erp::Mode>, LearnedLaw>;
 LearnedEcu learn(std::span<const residuals::Episode> recordings, const erp::Robot& robot);
 
 /// Share of the voltages' variance that this product's firmware, with the gains designed for `robot`,
-/// does not predict from what was measured, with commands of the one age (0 to 60 ms) that predicts
-/// best or the first that leaves no more than `enough`: near 0 if the recordings are of it, on a bus
-/// however late; 1: nothing to judge by.
+/// does not predict from what was measured: with the newest commands or, where that is more than
+/// `enough`, with those of one age (up to 60 ms) that leaves less than a tenth of `enough`. Near 0 if
+/// the recordings are of it, on a bus however late; 1: nothing to judge by.
 double unexplained_by_firmware(std::span<const residuals::Episode> recordings,
                                const erp::Robot& robot, double enough = 0.05);
 

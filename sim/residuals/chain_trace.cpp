@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/residuals/held_voltage.hpp"
+#include "sim/residuals/signal_noise.hpp"
 
 namespace sim::residuals {
 namespace {
@@ -202,11 +203,12 @@ class Tracer {
   ///
   ///   v = Δθ/T,  Δv = √(((v₊ − v₋)/2)² + (step/T)²),  s = 2 v/Δv within ±1
   ///
-  /// By an encoder of too coarse steps, v is the smoothed speed.
+  /// step: what the encoder leaves unsure; where that is too much, v is the smoothed speed.
   std::vector<double> directions() const {
     const Signal& theta = out_.shaft_rad;
-    const double unsure = encoder_step_rad() / period_s_;
-    const bool fine = unsure > 0 && unsure < resting_rad_per_s;
+    constexpr double little = 0.02;  // of the usual speed; chosen
+    const double unsure = unsure_rad() / period_s_;
+    const bool fine = unsure < std::max(resting_rad_per_s, little * rms(out_.speed_rad_per_s));
     const auto speed = [&](std::size_t k) {
       return fine ? (theta[k] - theta[k - 1]) / period_s_
                   : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;
@@ -219,14 +221,15 @@ class Tracer {
     }
     return all;
   }
-  /// That it is told to have, or that it is seen to have.
-  double encoder_step_rad() const {
+  /// The step that the encoder is told to have, or that it is seen to have; if neither, its noise.
+  double unsure_rad() const {
+    if (!(m_.shaft_step_rad > 0)) return noise_of(out_.shaft_rad);
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < rows_; ++k)
       if (const double turned = std::abs(out_.shaft_rad[k] - out_.shaft_rad[k - 1]);
           turned > 0.5 * m_.shaft_step_rad)
         least = std::min(least, turned);
-    return m_.shaft_step_rad > 0 && std::isfinite(least) ? std::max(m_.shaft_step_rad, least) : 0;
+    return std::isfinite(least) ? std::max(m_.shaft_step_rad, least) : m_.shaft_step_rad;
   }
 
   double drive_Nm(std::size_t k, int way) {

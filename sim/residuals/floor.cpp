@@ -6,6 +6,7 @@
 
 #include "sim/actuator/noise.hpp"
 #include "sim/actuator/sensors.hpp"
+#include "sim/residuals/signal_noise.hpp"
 
 namespace sim::residuals {
 namespace {
@@ -24,21 +25,6 @@ double coarse_step(const std::vector<effects::Placed>& all, const char* type,
     if (effects::about(placed.effect).type == type && placed.on == on)
       return *effects::parameters(placed.effect)[0].value;
   return 0;
-}
-
-/// The noise of a signal that no data sheet tells of, from its third differences: they leave
-/// little of a motion, and 20 times the noise's variance.
-double noise_of(const Signal& signal) {
-  std::vector<double> square;
-  for (std::size_t k = 3; k < signal.size(); ++k)
-    if (const double d = signal[k] - 3 * signal[k - 1] + 3 * signal[k - 2] - signal[k - 3];
-        !std::isnan(d))
-      square.push_back(d * d);
-  if (square.empty()) return 0;
-  const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
-  std::nth_element(square.begin(), middle, square.end());
-  constexpr double median_of_chi_square = 0.455;
-  return std::sqrt(*middle / 20 / median_of_chi_square);
 }
 
 /// The error of a sensor with noise and steps, once more with its lattice elsewhere:
@@ -148,13 +134,6 @@ Signal changed(const Residual& said, const Residual& again) {
   return change;
 }
 
-double rms(const Signal& values) {
-  double square = 0, count = 0;
-  for (const double x : values)
-    if (!std::isnan(x)) square += x * x, ++count;
-  return count > 0 ? std::sqrt(square / count) : 0;
-}
-
 }  // namespace
 
 Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_t seed) {
@@ -176,7 +155,7 @@ std::vector<Floor> floors(Stages& stages, const Episode& episode, const erp::Rob
     const Signal of_doubt = changed(said[r], doubts[r]);
     Floor floor{std::hypot(of_noise, rms(of_doubt)), {}};
     for (const double d : of_doubt)
-      floor.at.push_back(std::isnan(d) ? floor.rms : std::hypot(of_noise, d));
+      floor.at.push_back(std::isnan(d) ? floor.rms : std::max(floor.rms, std::hypot(of_noise, d)));
     floors.push_back(std::move(floor));
   }
   return floors;

@@ -14,10 +14,14 @@ namespace sim::residuals {
 /// excludes.
 Episode said_again(const Episode& episode, const erp::Robot& robot, std::uint64_t seed);
 
-/// σ of one residual: σ_k² = n² + d_k², n the rms of what noise changes, d_k what the doubts change at
-/// window k. A fast window is in more doubt than a slow one.
+/// σ of one residual:
+///
+///   σ² = n² + ⟨d²⟩    σ_k² = max(σ², n² + d_k²)
+///
+/// n the rms of what noise changes, d_k what the doubts change at window k. A fast window is in more
+/// doubt than a slow one, but none is trusted beyond the rest: laws are approximations.
 struct Floor {
-  double rms = 0;          ///< over its windows; 0: none
+  double rms = 0;          ///< σ; 0: no window
   std::vector<double> at;  ///< σ_k
 };
 

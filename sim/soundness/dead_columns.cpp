@@ -166,6 +166,19 @@ class Movers {
 
 }  // namespace
 
+bool nothing_changes(const Episode& episode) {
+  return std::ranges::all_of(
+      residuals::all_columns(episode.actuators.size(), episode.joints.size()),
+      [&](const Column& column) {
+        double said = recording::not_taken;
+        for (const double x : signal_of(episode, column)) {
+          if (std::isnan(said)) said = x;
+          if (!std::isnan(x) && x != said) return false;
+        }
+        return true;
+      });
+}
+
 std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws) {
   std::vector<DeadColumn> dead;
   std::optional<Means> whole;

@@ -15,6 +15,9 @@ struct DeadColumn {
   std::vector<Column> told_by;  ///< what moves meanwhile
 };
 
+/// Every signal says one value all along, and no sensor even makes noise: no recording of a robot.
+bool nothing_changes(const Episode& episode);
+
 /// For two seconds, or all along.
 std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws);
 

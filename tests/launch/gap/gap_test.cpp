@@ -129,3 +129,18 @@ TEST_CASE("what several effects do together for one is told, and of what types i
   CHECK_THROWS_WITH(launch::gap::twins(options, out, remarks),
                     Catch::Contains("did you mean \"sensor_joint_offset\""));
 }
+
+TEST_CASE("a recording in which nothing changes is refused: place, what it holds, and what to do") {
+  const auto file = recorded("erp_gap_dead.csv", {});
+  recording::Table table = recording::read_table(file);
+  for (auto& column : table.columns)
+    if (column.name != "time_s" && !column.name.ends_with(".mode"))
+      std::ranges::fill(column.values, 0.0);
+  std::ofstream out(file);
+  recording::write_csv(table, out);
+  out.close();
+  std::ostringstream said, remarks;
+  CHECK_THROWS_WITH(launch::gap::where(robot_file, {file}, said, remarks),
+                    Catch::Contains("nothing changes in it") && Catch::Contains("while it moves"));
+  std::filesystem::remove(file);
+}
