@@ -98,7 +98,8 @@ std::vector<Placed> candidates(const Trials& trials, const std::vector<std::stri
     if (std::ranges::count(withhold, about.type)) continue;
     for (const std::string& on : effects::places(trials.nominal(), about.seat))
       if (const Placed placed{on, effect};
-          gap::can_show(placed, trials.nominal(), trials.episodes()) && !(estimated && nominal.reach(placed).joints))
+          gap::can_show(placed, trials.nominal(), trials.episodes()) &&
+          !(estimated && nominal.reach(placed).joints))
         all.push_back(placed);
   }
   return all;

@@ -82,11 +82,12 @@ Interval worse_by(const Ranked& other, const Ranked& best, const WhichOptions& o
 /// Of those as good as the first, the ones with fewer parameters come first, then those that
 /// correct a number of the model, then in the order of the chain.
 void prefer_plain(std::vector<Ranked>& ranked, const WhichOptions& options) {
-  constexpr double as_good = 1e-3;  // of the gap; chosen
+  constexpr double as_good = 1e-3, same = 1e-4;  // of the gap; chosen
   if (ranked.empty()) return;
   const Ranked best = ranked[0];
   const auto end = std::stable_partition(ranked.begin(), ranked.end(), [&](const Ranked& r) {
-    return r.relieves() && r.gain >= best.gain - as_good && worse_by(r, best, options).low <= 0;
+    return r.relieves() && r.gain >= best.gain - as_good &&
+           (r.gain >= best.gain - same || worse_by(r, best, options).low <= 0);
   });
   std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
     const auto plainness = [](const Ranked& r) {

@@ -53,9 +53,8 @@ struct Evidence {
   const AsBuiltOptions& options;
 };
 
-/// Constants that are farther off than building explains, the nearest first.
-std::vector<std::size_t> strained(const Uncertain& uncertain, const Found& found) {
-  constexpr double far = 2;  // tolerances; chosen
+/// Constants that are more than so many tolerances off, the nearest first.
+std::vector<std::size_t> strained(const Uncertain& uncertain, const Found& found, double far) {
   const std::vector<double>& x = found.train.point.x;
   std::vector<std::size_t> all;
   for (std::size_t k = 0; k < x.size(); ++k)
@@ -68,7 +67,8 @@ std::vector<std::size_t> strained(const Uncertain& uncertain, const Found& found
 /// two: each is let go in turn, for steps from between the two gain little.
 Found settled(const Uncertain& uncertain, const Search& search, Found found) {
   constexpr std::size_t most = 4;  // chosen
-  auto far = strained(uncertain, found);
+  constexpr double usual = 2;      // tolerances; chosen
+  auto far = strained(uncertain, found, usual);
   if (far.size() < 2) return found;
   far.resize(std::min(most, far.size()));
   for (const std::size_t k : far) {
@@ -86,7 +86,9 @@ Found settled(const Uncertain& uncertain, const Search& search, Found found) {
 /// its constants would take the strain over.
 Found unstrained(const Evidence& evidence, const Uncertain& uncertain, const Search& search,
                  Found found) {
-  const auto far = strained(uncertain, found);
+  constexpr double never = 4;             // tolerances: building explains no more; chosen
+  constexpr double worth_an_effect = 20;  // of the cost; chosen
+  const auto far = strained(uncertain, found, never);
   const std::size_t most = evidence.options.search.most_effects;
   if (far.empty() || !found.train.point.effects.empty()) return found;
   Uncertain others = uncertain;
@@ -101,7 +103,8 @@ Found unstrained(const Evidence& evidence, const Uncertain& uncertain, const Sea
   if (with_effects.train.point.effects.empty()) return found;
   Found other = search.with(with_effects.train.point.effects);
   other.rivals = with_effects.rivals;
-  return other.cost < found.cost ? other : found;
+  const double needed = worth_an_effect * double(other.train.point.effects.size());
+  return other.cost + needed < found.cost ? other : found;
 }
 
 AsBuilt explained(const Evidence& evidence, bool exact) {
