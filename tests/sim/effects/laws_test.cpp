@@ -126,7 +126,8 @@ TEST_CASE("a line that stretches gives less when much of it is wound up") {
     s.path_m = length_m, s.path_change_m = length_m - start_m, s.stretch_m = stretch_m;
     const double at_start = 1 / (1 / spring + c);  // change_actuator has made the spring that soft
     s.stiffness_N_per_m = at_start;
-    const double exact_N = stretch_m / (1 / spring + c * length_m / start_m);
+    const double unstretched_m = length_m - stretch_m;
+    const double exact_N = stretch_m / (1 / spring + c * unstretched_m / start_m);
     CHECK(at_start * stretch_m + line.pull(s, memory).value == Approx(exact_N));
   }
 }
