@@ -174,8 +174,9 @@ void take(const Question& q, const Selection& selection, Diagnosis& d) {
   d.worst = worst_moments(q.evidence, q.plain, selection.trial, d.stages);
 }
 
-/// An answer of sim/gap that need not be held against one of effects on the constants as given: of a
-/// drive, whose friction is all at one place, one that leaves only noise.
+/// Whether an answer of sim/gap needs no comparison with one of effects on the constants as given: it
+/// explains, with one effect alone or with estimated constants; of a drive, whose friction is all at one
+/// place, it leaves only noise.
 bool stands(const Evidence& evidence, const Built& built) {
   if (evidence.robot.drives.empty())
     return built.explained() && (!built.exact || built.answer.size() == 1);
@@ -220,6 +221,7 @@ void doubt_undetermined(Diagnosis& d) {
   }
 }
 
+/// Names the stages that the recordings show too little of.
 void warn_unjudged(const Question& q, Diagnosis& d) {
   d.not_judged = not_judged(q.evidence.robot, d.stages);
   const bool bus_untold = q.evidence.robot.drives.empty() && !q.observed.bus_told;

@@ -22,10 +22,10 @@ double rarer_way(std::span<const residuals::Episode> recordings, std::size_t act
   double forwards = 0, backwards = 0;
   for (const residuals::Episode& e : recordings) {
     const residuals::Signal& theta = e.actuators[actuator].shaft_rad;
-    const auto late = [&](std::size_t row) { return e.judged(row) && !std::isnan(theta[row]); };
+    const auto taken = [&](std::size_t row) { return e.judged(row) && !std::isnan(theta[row]); };
     constexpr std::size_t rows = 10;  // apart: noise turns to and fro
     for (std::size_t k = rows; k < theta.size(); k += rows)
-      if (late(k) && late(k - rows)) {
+      if (taken(k) && taken(k - rows)) {
         const double turned = theta[k] - theta[k - rows];
         (turned > 0 ? forwards : backwards) += std::abs(turned);
       }

@@ -173,6 +173,7 @@ bool has_delays(const std::optional<LearnedEcu>& learned, std::span<const Episod
          });
 }
 
+/// The robot without its effects on the bus.
 erp::Robot without_bus(erp::Robot robot) {
   std::erase_if(robot.effects, [](const erp::Effect& e) {
     const auto effect = effects::neutral(e.type);

@@ -221,7 +221,7 @@ class Tracer {
     }
     return all;
   }
-  /// The step that the encoder is told to have, or that it is seen to have; if neither, its noise.
+  /// The encoder's specified step, or the smallest in the recording if that is larger; not specified: noise.
   double unsure_rad() const {
     if (!(m_.shaft_step_rad > 0)) return noise_of(out_.shaft_rad);
     double least = std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@ struct ChainModel {
   const erp::Actuator& actuator;
   effects::Acting effects;  ///< a copy: remembers from row to row
   double start_m;           ///< length of the path at the initial pose
-  double shaft_step_rad;    ///< of its encoder; 0: not told
+  double shaft_step_rad;    ///< of its encoder; 0: not specified
 };
 
 /// Empty: not to be had from what was recorded.

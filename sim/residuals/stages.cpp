@@ -18,7 +18,7 @@ std::shared_ptr<const T> keep(T value) {
   return std::make_shared<const T>(std::move(value));
 }
 
-/// 0: not told.
+/// Of its encoder; 0: not specified.
 double shaft_step_rad(const erp::Robot& robot, const erp::Actuator& actuator) {
   const erp::SensorType& sensors = robot.sensors_of(actuator);
   if (!(sensors.encoder_counts_per_rev > 0)) return 0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Graphs of launch/ whose robot is as robot.xml says: a recording of each must show no gap.
-#   tests/bench/gap_graphs.sh                every graph with a recording, its whole motion: half an hour
+#   tests/bench/gap_graphs.sh                every graph whose components move the robot, its whole motion
 #   tests/bench/gap_graphs.sh arm 10s        one graph, this long
 # A line per graph: what `erp gap where` says of its recording. Ends with 1 if a gap is named.
 set -uo pipefail
@@ -52,7 +52,7 @@ while read -r graph length; do
   $erp gap where --robot "$robot" --real "$recording" >"$out/$graph.where" 2>&1
   code=$?
   says=$(grep '^the gap is in\|^the bus is late' "$out/$graph.where") && gaps=1 || says="no gap"
-  case $code in 0) judged=yes ;; 5) judged=little ;; *) judged="exit $code"; gaps=1 ;; esac
+  case $code in 0) judged=yes ;; 5) judged=little ;; *) judged="exit $code"; says="$out/$graph.where"; gaps=1 ;; esac
   printf '%-26s %-6s %-9s %s\n' "$graph" "$length" "$judged" "$says"
 done <<<"$graphs"
 exit $gaps
