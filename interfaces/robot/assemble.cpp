@@ -35,6 +35,7 @@ void append_part(Robot& robot, const Robot& part) {
   append(robot.imus, part.imus);
   append(robot.can_buses, part.can_buses);
   append(robot.effects, part.effects);
+  append(robot.tolerances, part.tolerances);
 }
 
 void shift_ecus(Robot& part, int offset) {

@@ -51,6 +51,20 @@ void check_reference(const Item& item, const char* attribute, const std::string&
                              : xml::did_you_mean(name, known));
 }
 
+void check_tolerances(const Robot& robot, const std::vector<std::string>& places,
+                      Findings& findings) {
+  for (const Tolerance& tolerance : robot.tolerances) {
+    if (!tolerance.on.empty())
+      check_reference(tolerance, "on", tolerance.on, places, "actuator, drive, joint or body",
+                      findings);
+    if (tolerance.relative.has_value() == tolerance.absolute.has_value())
+      findings.add(tolerance,
+                   tolerance.relative ? "relative and absolute are both given"
+                                      : "neither relative nor absolute is given",
+                   "give one: relative, of the number, or absolute, in its unit");
+  }
+}
+
 }  // namespace
 
 void check_names(const Robot& robot, Findings& findings) {
@@ -107,6 +121,7 @@ void check_references(const Robot& robot, Findings& findings) {
   for (const Effect& effect : robot.effects)
     check_reference(effect, "on", effect.on, places,
                     "actuator, drive, joint or body, nor the robot", findings);
+  check_tolerances(robot, places, findings);
 }
 
 }  // namespace erp::robot_check

@@ -80,6 +80,7 @@ Robot mirrored(Robot part, const Mirror& mirror) {
   for (Drive& drive : part.drives) renamed.each(drive.name, drive.motor);
   for (Pretension& pretension : part.pretensions) renamed(pretension.actuator);
   for (Effect& effect : part.effects) renamed(effect.on);
+  for (Tolerance& tolerance : part.tolerances) renamed(tolerance.on);
   for (JointSensor& sensor : part.joint_sensors) renamed(sensor.joint), reflect(sensor);
   for (Potentiometer& sensor : part.potentiometers) renamed(sensor.actuator);
   for (BusPlan& bus : part.can_buses) renamed(bus.name);

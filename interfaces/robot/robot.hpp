@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,24 @@ struct Pretension {
   void visit(auto& v) {
     v.required("actuator", actuator);
     v.required("tension_N", tension_N, xml::at_least_zero);
+  }
+};
+
+/// How far a number of a robot as it was built may be from what robot.xml says, one standard deviation:
+/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. Which numbers there are: sim/gap, which
+/// checks them. Who simulates or controls does not look at tolerances.
+struct Tolerance {
+  static constexpr auto element = "tolerance";
+  xml::Place place;
+  std::string of;  ///< name of the number
+  std::string on;  ///< actuator, drive, joint or body; empty: wherever there is such a number
+  std::optional<double> relative;  ///< of the number; exactly one of these two
+  std::optional<double> absolute;  ///< in the number's unit
+  void visit(auto& v) {
+    v.required("of", of);
+    v("on", on);
+    v("relative", relative, xml::at_least_zero);
+    v("absolute", absolute, xml::at_least_zero);
   }
 };
 
@@ -71,6 +90,7 @@ struct Robot {
   std::vector<Imu> imus;
   std::vector<BusPlan> can_buses;  ///< as they stand; `buses()` is never empty
   std::vector<Effect> effects;
+  std::vector<Tolerance> tolerances;    ///< the last one that names a number counts
   std::vector<Pretension> pretensions;  ///< the last one that names an actuator counts
   std::vector<Include> includes;
   std::vector<Mirror> mirrors;
@@ -88,6 +108,7 @@ struct Robot {
     v.list(imus);
     v.list(can_buses);
     v.list(effects);
+    v.list(tolerances);
     v.list(pretensions);
   }
 

@@ -34,21 +34,6 @@ std::vector<ConstantEstimate> constants_of(const gap::AsBuilt& built) {
   return all;
 }
 
-/// A constant as the effect that is such a change.
-Named as_effect(const gap::AsBuilt& built, std::size_t k) {
-  const gap::Constant& c = built.uncertain.constants[k];
-  effects::Placed placed{c.on, *effects::neutral(c.effect)};
-  const effects::Parameter p = effects::parameters(placed.effect)[0];
-  const auto changed = [&](double x) {
-    return std::clamp(c.effect_scale * (c.value(x) - c.nominal), p.bounds.low, p.bounds.high);
-  };
-  const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
-  *p.value = changed(x);
-  Named n = named(placed);
-  n.intervals[0] = {changed(x - half), changed(x + half)};
-  return n;
-}
-
 Named with_intervals(gap::Sized sized) {
   constexpr double of_method = 0.02;  // of the value: what windows approximate; chosen
   Named n = named(sized.effect);
@@ -63,6 +48,17 @@ Named with_intervals(gap::Sized sized) {
     ++p;
   }
   return n;
+}
+
+/// The n-th constant beyond its tolerance, with what could be in its place.
+Named beyond(const gap::AsBuilt& built, std::size_t n) {
+  const std::size_t k = built.beyond[n];
+  Named named = with_intervals(gap::as_effect(
+      built.uncertain.constants[k], {k, built.estimate.point.x[k], built.estimate.sigma(k)}));
+  for (const gap::Sized& other : built.instead[n])
+    if (effects::name_of(other.effect) != effects::name_of(named.placed))
+      named.alike.push_back(with_intervals(other));
+  return named;
 }
 
 /// The effects found, with their intervals and what could stand for each.
@@ -159,7 +155,7 @@ Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<
   };
   const gap::AsBuilt found = gap::as_built(evidence.robot, train, held_out, options);
   std::vector<Named> answer = effects_of(found);
-  for (const std::size_t k : found.beyond) answer.push_back(as_effect(found, k));
+  for (std::size_t n = 0; n < found.beyond.size(); ++n) answer.push_back(beyond(found, n));
   set_gains(evidence, plain, found, answer);
   Built built{found.robot,
               constants_of(found),

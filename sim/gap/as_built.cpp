@@ -6,9 +6,9 @@
 namespace sim::gap {
 namespace {
 
-constexpr double beyond = 2.5, beyond_zero = 5;  // tolerances; chosen
-/// A zero where all else is exact: tolerances, and of its own deviation; chosen.
-constexpr double exact_zero = 1, clear = 5;
+/// Of the exact hypothesis: a zero is told from so many tolerances, any other constant too; and from so many of
+/// its own deviations; chosen.
+constexpr double least_zero = 1, least = 2.5, clear = 5;
 
 /// What nobody measures when a robot is drawn: where things are zero, and how a body's mass is spread.
 bool is_never_certain(const Constant& c) { return c.zero || c.name == "inertia"; }
@@ -23,15 +23,38 @@ Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>
   return u;
 }
 
-void list_beyond(AsBuilt& built) {
+/// Of those that are never certain.
+void list_uncertain(AsBuilt& built) {
   const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
-  const auto least = [&](std::size_t k) {
-    if (!built.uncertain.constants[k].zero) return beyond;
-    return built.exact ? std::max(exact_zero, clear * built.estimate.sigma(k)) : beyond_zero;
+  const auto from = [&](std::size_t k) {
+    return built.uncertain.constants[k].zero
+               ? std::max(least_zero, clear * built.estimate.sigma(k))
+               : least;
   };
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k)
-    if (far(k) > least(k) && determined(built, k) > well_determined) built.beyond.push_back(k);
+    if (far(k) > from(k) && determined(built, k) > well_determined) built.beyond.push_back(k);
   std::ranges::sort(built.beyond, std::greater(), far);
+  built.instead.resize(built.beyond.size());
+}
+
+/// Which constants are far off, and all of them estimated again with that known.
+void settle_far_off(const Estimator& estimator, AsBuilt& built) {
+  constexpr int rounds = 4;  // the set follows the estimate, and the estimate the set; chosen
+  for (int round = 0; round < rounds; ++round) {
+    FarOff found = far_off(built.uncertain, built.estimate);
+    std::vector<bool> far(built.uncertain.constants.size());
+    built.beyond.clear();
+    for (const Deviation& d : found.all) far[d.constant] = true, built.beyond.push_back(d.constant);
+    built.instead.clear();
+    for (const auto& instead : found.instead) {
+      auto& each = built.instead.emplace_back();
+      for (const Deviation& d : instead)
+        each.push_back(as_effect(built.uncertain.constants[d.constant], d));
+    }
+    if (far == built.uncertain.far) return;
+    built.uncertain.far = std::move(far);
+    built.estimate = estimator.run(built.uncertain, built.estimate.point);
+  }
 }
 
 /// More than three stages and a fifth of them keep more than noise: no few effects do that; chosen.
@@ -53,58 +76,50 @@ struct Evidence {
   const AsBuiltOptions& options;
 };
 
-/// Constants that are more than so many tolerances off, the nearest first.
-std::vector<std::size_t> strained(const Uncertain& uncertain, const Found& found, double far) {
-  const std::vector<double>& x = found.train.point.x;
-  std::vector<std::size_t> all;
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (!uncertain.constants[k].zero && std::abs(x[k]) > far) all.push_back(k);
-  std::ranges::sort(all, {}, [&](std::size_t k) { return std::abs(x[k]); });
-  return all;
+void take(AsBuilt& built, const Found& found) {
+  built.indistinguishable.clear();
+  for (std::size_t k = 0; k < found.train.point.effects.size(); ++k)
+    built.indistinguishable.push_back(keeps(found) ? std::vector<Sized>{}
+                                                   : indistinguishable(found, k));
+  built.keeps = keeps(found);
+  built.estimate = found.train;
 }
 
-/// Where recordings determine only what two constants make together, the prior prefers one far off to
-/// two: each is let go in turn, for steps from between the two gain little.
-Found settled(const Uncertain& uncertain, const Search& search, Found found) {
-  constexpr std::size_t most = 4;  // chosen
-  constexpr double usual = 2;      // tolerances; chosen
-  auto far = strained(uncertain, found, usual);
-  if (far.size() < 2) return found;
-  far.resize(std::min(most, far.size()));
-  for (const std::size_t k : far) {
-    Point start = found.train.point;
-    start.x[k] = 0;
-    if (Found other = search.from(std::move(start)); other.cost < found.cost) {
-      other.rivals = found.rivals;
-      found = std::move(other);
-    }
-  }
-  return found;
+/// With constants far off. `search` refers to what `built` leaves uncertain.
+void settle(const Search& search, const Found& found, const Evidence& evidence, AsBuilt& built) {
+  take(built, found);
+  settle_far_off(evidence.train, built);
+  built.cost = search.judge(built.estimate).cost;
 }
 
-/// A strained constant may stand for an effect, which is looked for with that part as described: others of
-/// its constants would take the strain over.
-Found unstrained(const Evidence& evidence, const Uncertain& uncertain, const Search& search,
-                 Found found) {
-  constexpr double never = 4;             // tolerances: building explains no more; chosen
-  constexpr double worth_an_effect = 20;  // of the cost; chosen
-  const auto far = strained(uncertain, found, never);
-  const std::size_t most = evidence.options.search.most_effects;
-  if (far.empty() || !found.train.point.effects.empty()) return found;
-  Uncertain others = uncertain;
-  others.constants.clear();
-  for (std::size_t k = 0; k < uncertain.constants.size(); ++k)
-    if (std::ranges::none_of(far, [&](std::size_t f) {
-          return uncertain.constants[f].on == uncertain.constants[k].on;
-        }))
-      others.constants.push_back(uncertain.constants[k]);
-  const Search again(evidence.train, evidence.held_out, others, evidence.options.search);
-  const Found with_effects = again.run(again.with({}), most);
-  if (with_effects.train.point.effects.empty()) return found;
-  Found other = search.with(with_effects.train.point.effects);
-  other.rivals = with_effects.rivals;
-  const double needed = worth_an_effect * double(other.train.point.effects.size());
-  return other.cost + needed < found.cost ? other : found;
+/// Each may stand for the other where one constant far off or one effect more make nearly the same.
+void tell_either(AsBuilt& is, const AsBuilt& other, double gain) {
+  if (!are_indistinguishable(is.cost, other.cost, gain)) return;
+  const auto far_of = [](const AsBuilt& b) {
+    const std::size_t k = b.beyond[0];
+    return as_effect(b.uncertain.constants[k], {k, b.estimate.point.x[k], b.estimate.sigma(k)});
+  };
+  if (is.beyond.size() == 1 && other.beyond.empty())
+    is.instead[0].push_back(sized(other.estimate).back());
+  if (is.beyond.empty() && other.beyond.size() == 1)
+    is.indistinguishable.back().push_back(far_of(other));
+}
+
+/// An effect may be behind constants that are far off: it is looked for where none may be.
+AsBuilt or_effect(const Evidence& evidence, AsBuilt built) {
+  if (built.beyond.empty() ||
+      built.estimate.point.effects.size() >= evidence.options.search.most_effects)
+    return built;
+  AsBuilt other{.uncertain = built.uncertain};
+  other.uncertain.far.assign(other.uncertain.constants.size(), false);
+  const Search search(evidence.train, evidence.held_out, other.uncertain, evidence.options.search);
+  const Found base = search.from(built.estimate.point);
+  const auto found = search.best_beside(base);
+  if (!found) return built;
+  settle(search, *found, evidence, other);
+  const double gain = base.cost - std::min(built.cost, other.cost);
+  tell_either(built, other, gain), tell_either(other, built, gain);
+  return other.cost < built.cost && !other.keeps ? other : built;
 }
 
 AsBuilt explained(const Evidence& evidence, bool exact) {
@@ -114,21 +129,17 @@ AsBuilt explained(const Evidence& evidence, bool exact) {
   const Search search(evidence.train, evidence.held_out, built.uncertain, evidence.options.search);
   std::size_t most = evidence.options.search.most_effects;
   Found found = search.run(search.with({}), exact ? 1 : most);
-  if (exact && !is_widespread(found)) found = search.run(std::move(found), most);
   if (!exact) {
-    found = unstrained(evidence, built.uncertain, search, std::move(found));
-    found = settled(built.uncertain, search, std::move(found));
+    settle(search, found, evidence, built);
+    return or_effect(evidence, std::move(built));
   }
+  if (!is_widespread(found)) found = search.run(std::move(found), most);
   const auto& suggested = evidence.options.suggested;
-  if (exact && !suggested.empty() && !are_same(found.train.point.effects, suggested))
+  if (!suggested.empty() && !are_same(found.train.point.effects, suggested))
     if (Found other = search.with(suggested); other.cost < found.cost) found = std::move(other);
-  for (std::size_t k = 0; k < found.train.point.effects.size(); ++k)
-    built.indistinguishable.push_back(keeps(found) ? std::vector<Sized>{}
-                                                   : indistinguishable(found, k));
-  built.cost = found.cost, built.keeps = keeps(found);
-  built.estimate = std::move(found.train);
-  list_beyond(built);
-  built.robot = robot_at(built.uncertain, built.estimate.point);
+  take(built, found);
+  built.cost = found.cost;
+  list_uncertain(built);
   return built;
 }
 
@@ -143,7 +154,7 @@ AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode
   const Estimator estimator(nominal, train, options);
   AsBuilt built{.uncertain = uncertain_of(nominal, {}, false)};
   built.estimate = estimator.run(built.uncertain, {});
-  list_beyond(built);
+  settle_far_off(estimator, built);
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;
 }
@@ -153,10 +164,12 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
   const Estimator estimator(nominal, train, options.estimate);
   const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
   const Evidence evidence{nominal, estimator, judged, options};
-  AsBuilt exact = explained(evidence, true);
-  if (!exact.keeps) return exact;
-  AsBuilt built = explained(evidence, false);
-  return exact.cost < built.cost ? exact : built;
+  AsBuilt built = explained(evidence, true);
+  if (built.keeps)
+    if (AsBuilt other = explained(evidence, false); !(built.cost < other.cost))
+      built = std::move(other);
+  built.robot = robot_at(built.uncertain, built.estimate.point);
+  return built;
 }
 
 }  // namespace sim::gap

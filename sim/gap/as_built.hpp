@@ -1,4 +1,5 @@
 #pragma once
+#include "sim/gap/far_off.hpp"
 #include "sim/gap/search.hpp"
 
 /// A robot as it was built: every constant a little off its description, some beyond what building
@@ -8,9 +9,10 @@ namespace sim::gap {
 struct AsBuilt {
   Uncertain uncertain;
   Estimate estimate;
-  std::vector<std::size_t>
-      beyond;        ///< constants off by more than their tolerances, the farthest first
-  erp::Robot robot;  ///< nominal with all that was found
+  /// Constants off by more than their tolerances, the farthest first.
+  std::vector<std::size_t> beyond;
+  std::vector<std::vector<Sized>> instead;  ///< of each: what could be there in its place
+  erp::Robot robot;                         ///< nominal with all that was found
   std::vector<std::vector<Sized>> indistinguishable;  ///< of each effect: what could stand for it
   double cost = 0;                                    ///< search.hpp
   bool keeps = false;                                 ///< a stage keeps more than noise

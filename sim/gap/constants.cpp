@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "interfaces/robot/mass.hpp"
+#include "interfaces/xml/errors.hpp"
+#include "interfaces/xml/words.hpp"
 #include "sim/effects/own.hpp"
 
 namespace sim::gap {
@@ -40,8 +43,8 @@ constexpr MotorNumber motor_numbers[] = {
      "gearbox_viscous"},
 };
 
-constexpr double of_radius = 0.02, of_stiffness = 0.05, of_damping = 0.2, of_moment_arm = 0.03;
-constexpr double of_tension_gain = 0.01, of_current_gain = 0.01;
+constexpr double of_radius = 0.03, of_stiffness = 0.05, of_damping = 0.2, of_moment_arm = 0.03;
+constexpr double of_tension_gain = 0.02, of_current_gain = 0.02;
 constexpr double of_joint_friction = 0.2, of_mass = 0.04, of_com = 0.03, of_inertia = 0.06;
 constexpr double line_zero_m = 3e-4, tension_zero_N = 0.1, current_zero_A = 0.01,
                  angle_zero_rad = 0.005;
@@ -202,6 +205,41 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
   });
 }
 
+bool is_about(const erp::Tolerance& given, const Constant& c) {
+  return c.name == given.of && (given.on.empty() || c.on == given.on);
+}
+
+/// What of a <tolerance> cannot be: the message and the remedy; empty if nothing.
+std::pair<std::string, std::string> refused(const erp::Tolerance& given,
+                                            const std::vector<Constant>& all) {
+  std::set<std::string> names;
+  bool named = false, zero = false;
+  for (const Constant& c : all) {
+    names.insert(c.name);
+    if (is_about(given, c)) named = true, zero |= c.nominal == 0;
+  }
+  const std::string of = "of=" + xml::quote(given.of);
+  if (!named)
+    return {of + " names no number" + (given.on.empty() ? "" : " of " + given.on) +
+                " that is estimated",
+            xml::did_you_mean(given.of, {names.begin(), names.end()})};
+  if (zero && given.relative) return {of + " is 0 in robot.xml", "give absolute, in its unit"};
+  return {};
+}
+
+/// Sets tolerances as robot.xml gives them. A number that is known exactly is no constant.
+void apply_tolerances(std::vector<Constant>& all, const erp::Robot& robot) {
+  std::vector<xml::Error> errors;
+  for (const erp::Tolerance& given : robot.tolerances) {
+    if (const auto [what, remedy] = refused(given, all); !what.empty())
+      errors.push_back(xml::error_in(given.element, given.place, what, remedy));
+    for (Constant& c : all)
+      if (is_about(given, c)) c.tolerance = given.absolute ? *given.absolute : *given.relative * c.nominal;
+  }
+  xml::throw_if_any(std::move(errors));
+  std::erase_if(all, [](const Constant& c) { return c.tolerance == 0; });
+}
+
 }  // namespace
 
 std::vector<Constant> constants_of(const erp::Robot& robot) {
@@ -216,6 +254,7 @@ std::vector<Constant> constants_of(const erp::Robot& robot) {
       add_joint(all, joint);
   for (const erp::Joint& joint : robot.joints())
     if (joint.type != erp::JointType::fixed) add_body(all, robot, joint.child);
+  apply_tolerances(all, robot);
   return all;
 }
 

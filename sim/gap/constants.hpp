@@ -31,7 +31,8 @@ struct Constant {
 
 /// Those of a robot that recordings may determine, in the order of the chain: motor, gearbox,
 /// spindle, tendon, routing and sensors of each actuator, then joints and bodies. A tendon that is a
-/// rope, or a number that is 0 in robot.xml and has no default tolerance of its own, has none.
+/// rope, or a number that is 0 in robot.xml and has no default tolerance of its own, has none. Throws
+/// xml::Errors where a <tolerance> of robot.xml names no such number.
 std::vector<Constant> constants_of(const erp::Robot& robot);
 
 /// The robot with the numbers nominal + tolerance·x.

@@ -13,14 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// The smaller of two slopes, 0 if they differ in sign: where a line goes slack on one side, z jumps
-/// there, and a jump over a small step is no derivative.
-double smaller(double forward, double backward) {
-  if (forward * backward <= 0) return 0;
-  return std::abs(forward) < std::abs(backward) ? forward : backward;
-}
-
-/// Columns `from` … of ∂z/∂unknown, by differences to both sides.
+/// Columns `from` … of ∂z/∂unknown, by differences to both sides. Where a line goes slack z jumps: steps are
+/// so wide (unknowns.cpp) that a jump counts as the slope it makes over what the estimate may be off.
 std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector& residuals,
                                                            const Unknowns& at, const Estimate& here,
                                                            std::size_t from, int threads) {
@@ -37,7 +31,8 @@ std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector&
     };
     const VectorXd forward = slope(at.step(k)), backward = slope(-at.step(k));
     for (Index row = 0; row < forward.size(); ++row)
-      if (const double d = backward.size() ? smaller(forward[row], backward[row]) : forward[row];
+      if (const double d =
+              backward.size() ? (forward[row] + backward[row]) / 2 : forward[row];
           d != 0)
         all[n].emplace_back(row, d);
   });
@@ -94,7 +89,7 @@ Normal normal_equations(const Estimate& e, const Unknowns& at) {
   Normal n{MatrixXd(e.jacobian.transpose() * (e.weight.asDiagonal() * e.jacobian)),
            e.jacobian.transpose() * e.weight.cwiseProduct(e.z)};
   for (std::size_t k = 0; k < at.constants(); ++k) {
-    const double precision = prior_precision(at.value(k));
+    const double precision = prior_precision(at.uncertain(), at.point(), k);
     n.hessian(Index(k), Index(k)) += precision;
     n.gradient[Index(k)] += precision * at.value(k);
   }
@@ -118,8 +113,8 @@ Estimator::Estimator(const erp::Robot& nominal, std::span<const residuals::Episo
 
 namespace {
 
-double cost_of(const Point& point, const VectorXd& z, const VectorXd& weight) {
-  return weight.dot(z.cwiseAbs2()) + prior_cost(point);
+double cost_of(const Unknowns& at, const VectorXd& z, const VectorXd& weight) {
+  return weight.dot(z.cwiseAbs2()) + prior_cost(at.uncertain(), at.point());
 }
 
 /// One Levenberg-Marquardt step, with less length until it helps.
@@ -132,7 +127,7 @@ Step step(const ResidualVector& residuals, Unknowns& at, Estimate& e, double& da
           int threads) {
   const Normal normal = normal_equations(e, at);
   e.covariance = inverse(normal.hessian);
-  e.cost = cost_of(at.point(), e.z, e.weight);
+  e.cost = cost_of(at, e.z, e.weight);
   Step taken;
   for (int attempt = 0; attempt < 4 && !taken.better; ++attempt) {
     MatrixXd damped = normal.hessian;
@@ -141,7 +136,7 @@ Step step(const ResidualVector& residuals, Unknowns& at, Estimate& e, double& da
     const Unknowns next = at.moved(by);
     Explained explained = residuals.explain(next.robot(), threads);
     const VectorXd z = residuals.z(explained);
-    const double after = cost_of(next.point(), z, e.weight);
+    const double after = cost_of(next, z, e.weight);
     taken = {after < e.cost, e.cost - after,
              -(2 * normal.gradient.dot(by) + by.dot(normal.hessian * by))};
     if (!taken.better) damping = std::max(1e-6, damping) * 30;
@@ -180,7 +175,7 @@ void settle(const ResidualVector& residuals, const Unknowns& at, Estimate& e, in
   e.jacobian = jacobian(residuals, at, e, nullptr, threads);
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
-  e.cost = cost_of(e.point, e.z, e.weight);
+  e.cost = cost_of(at, e.z, e.weight);
 }
 
 }  // namespace

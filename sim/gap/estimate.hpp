@@ -9,12 +9,12 @@
 /// All constants of a robot, and the parameters of effects beside them, estimated together from the
 /// stage residuals of recordings: maximum a posteriori by Gauss-Newton.
 ///
-///   min over x, p   Σ_s w_s Σ_k z_sk(x, p)² + Σ_j ν log(1 + x_j²/ν)    z: residual_vector.hpp
+///   min over x, p   Σ_s w_s Σ_k z_sk(x, p)² + prior(x)    z: residual_vector.hpp, prior: unknowns.hpp
 ///   w_s = 1/(4 c_s v_s)    c_s = max(1, ⟨z_s²⟩): a stage that keeps more than noise counts less
 ///                          v_s: windows that one independent one stands for, 1 + 2 Σ ρ_l
 ///                          4: chosen, for what the laws themselves approximate
 ///
-/// x: deviations of constants in tolerances, their prior in unknowns.hpp; p: parameters of effects,
+/// x: deviations of constants in tolerances; p: parameters of effects,
 /// without a prior but within their bounds. The covariance is the inverse of the Hessian.
 /// Source: Gelman et al., Bayesian Data Analysis, ch. 4 and 17.
 namespace sim::gap {

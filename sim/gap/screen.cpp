@@ -141,6 +141,16 @@ Directions directions(const Placed& shape, const ChangedBy& changed_by) {
 
 }  // namespace
 
+/// By the linear model of `base`, where its unknowns moved, with what an effect changes in z.
+double Screen::cost_at(const Estimate& base, const Left& left, const VectorXd& changed,
+                       const VectorXd& moved) const {
+  Point after = base.point;
+  for (std::size_t k = 0; k < after.x.size(); ++k) after.x[k] += moved[Index(k)];
+  const ResidualVector& residuals = train_.residuals();
+  const VectorXd z = base.z + changed + base.jacobian * moved;
+  return misfit(left_by(residuals, left, z), residuals) + prior_cost(uncertain_, after);
+}
+
 /// Of one shape: the values that would explain most, and what they would explain.
 Candidate Screen::score(const Estimate& base, const Left& left, const Directions& all) const {
   const MatrixXd wd = base.weight.asDiagonal() * all.d;
@@ -148,7 +158,7 @@ Candidate Screen::score(const Estimate& base, const Left& left, const Directions
   MatrixXd own = all.d.transpose() * wd;
   const MatrixXd whole = own;
   own -= wd.transpose() * base.jacobian * shared;
-  constexpr double copy = 1e-3;  // of its square: less is a copy of what is estimated already
+  constexpr double copy = 1e-6;  // of its square: less is a copy of what is estimated already, and rounding
   Candidate candidate{all.shape, 0};
   if (!(own(0, 0) > copy * whole(0, 0)) || !(whole(0, 0) > 0)) return candidate;
   for (Index n = 1; n < own.rows(); ++n) own(n, n) += 1e-6 * whole(n, n) + 1e-12;
@@ -158,10 +168,9 @@ Candidate Screen::score(const Estimate& base, const Left& left, const Directions
   const effects::Parameter& size = values[all.sizes[0]];
   const double sized = *size.value + step[0] * all.nudge[0];
   if (sized < size.bounds.low || sized > size.bounds.high) return candidate;
-  const VectorXd z =
-      base.z + all.d * step - base.jacobian * (base.covariance * base.gradient + shared * step);
-  const ResidualVector& residuals = train_.residuals();
-  candidate.score = misfit(left, residuals) - misfit(left_by(residuals, left, z), residuals);
+  const VectorXd moved = -(base.covariance * base.gradient);
+  candidate.score = cost_at(base, left, VectorXd::Zero(base.z.size()), moved) -
+                    cost_at(base, left, all.d * step, moved - shared * step);
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool place = n > 0 && p.bounds.high != size.bounds.high;

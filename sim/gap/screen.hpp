@@ -42,6 +42,8 @@ class Screen {
   bool is_searched(const effects::About& about) const;
   Candidate best_shape(const Estimate& base, const Left& left,
                        const effects::Placed& neutral) const;
+  double cost_at(const Estimate& base, const Left& left, const Eigen::VectorXd& changed,
+                 const Eigen::VectorXd& moved) const;
   Candidate score(const Estimate& base, const Left& left, const Directions& directions) const;
 
   const Estimator& train_;

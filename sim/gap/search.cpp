@@ -9,6 +9,8 @@ namespace sim::gap {
 namespace {
 
 constexpr double worth = 0.3;  // of a stage's excess that an effect must take away; chosen
+/// −2 log of the odds that a robot has one effect; chosen, as that of a constant far off (unknowns.hpp).
+constexpr double effect_price = 9;
 
 /// Of a stage's excess: of little, and of much a small part, for laws are approximations; chosen.
 double tolerated(double nominal_excess) { return std::clamp(0.002 * nominal_excess, 0.6, 2.0); }
@@ -72,7 +74,8 @@ Found Search::judge(Estimate estimate) const {
   const Explained held_out = held_out_.explain(robot_at(uncertain_, found.train.point), 1);
   found.held_out = left_by(held_out_, held_out, held_out_.z(held_out));
   found.cost = misfit(found.on_train, train_.residuals()) + misfit(found.held_out, held_out_) +
-               prior_cost(found.train.point);
+               prior_cost(uncertain_, found.train.point) +
+               effect_price * double(found.train.point.effects.size());
   return found;
 }
 
@@ -125,8 +128,7 @@ Found Search::with_best_of(const std::vector<Found>& joined, const Found& base) 
 
 std::optional<Found> Search::best_beside(const Found& base) const {
   const auto joined = each_beside(base);
-  if (joined.empty() || !(joined[0].cost < base.cost) || !relieves(joined[0], base))
-    return std::nullopt;
+  if (joined.empty() || !(joined[0].cost < base.cost)) return std::nullopt;
   return with_best_of(joined, base);
 }
 
@@ -160,7 +162,7 @@ Found Search::run(Found found, std::size_t most) const {
     if (options_.progress)
       options_.progress("effects", double(found.train.point.effects.size()) / double(most));
     auto more = best_beside(found);
-    if (!more) break;
+    if (!more || !relieves(*more, found)) break;
     found = exchanged(std::move(*more));
   }
   return found;
@@ -178,12 +180,18 @@ std::vector<Sized> sized(const Estimate& estimate) {
   return all;
 }
 
-std::vector<Sized> indistinguishable(const Found& found, std::size_t effect) {
+bool are_indistinguishable(double cost, double other, double gain) {
   constexpr double margin = 4, of_gain = 0.02;  // chosen
+  return std::abs(other - cost) < margin + of_gain * gain;
+}
+
+std::vector<Sized> indistinguishable(const Found& found, std::size_t effect) {
   const Rivals& rivals = found.rivals[effect];
   std::vector<Sized> all;
   for (std::size_t k = 0; k < rivals.all.size(); ++k)
-    if (rivals.cost[k] < found.cost + margin + of_gain * rivals.gain) all.push_back(rivals.all[k]);
+    if (rivals.cost[k] < found.cost ||
+        are_indistinguishable(found.cost, rivals.cost[k], rivals.gain))
+      all.push_back(rivals.all[k]);
   return all;
 }
 

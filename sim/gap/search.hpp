@@ -10,6 +10,7 @@
 /// estimated together with the constants, and the one joins that costs least,
 ///
 ///   cost = misfit (left.hpp, recordings taught with and held out) + prior of the constants
+///          + price of each effect
 ///
 /// while a stage keeps more than noise; one at each place. An earlier choice is looked for again beside
 /// later ones.
@@ -58,11 +59,12 @@ class Search {
   Found from(Point start) const;
   /// Adds effects, to `most` in all, while a stage keeps more than noise and one helps.
   Found run(Found found, std::size_t most) const;
+  /// With the effect that makes it cheapest; none: nothing does.
+  std::optional<Found> best_beside(const Found& base) const;
 
  private:
   /// `base` with each of the candidates, the cheapest first.
   std::vector<Found> each_beside(const Found& base) const;
-  std::optional<Found> best_beside(const Found& base) const;
   Found with_best_of(const std::vector<Found>& joined, const Found& base) const;
   Found exchanged(Found found) const;
   Found without(const Found& found, std::size_t effect) const;
@@ -75,6 +77,8 @@ class Search {
   std::vector<double> tolerated_;
 };
 
+/// Whether two answers cost nearly the same, of which the better one gains so much.
+bool are_indistinguishable(double cost, double other, double gain);
 /// What could stand for one of its effects as well: what costs little more, the cheapest first.
 std::vector<Sized> indistinguishable(const Found& found, std::size_t effect);
 

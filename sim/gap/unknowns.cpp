@@ -16,13 +16,21 @@ namespace {
 constexpr double nu = 6;  // chosen
 }
 
-double prior_cost(const Point& point) {
+double prior_cost(const Uncertain& uncertain, const Point& point) {
   double sum = 0;
-  for (const double x : point.x) sum += nu * std::log1p(x * x / nu);
+  for (std::size_t k = 0; k < point.x.size(); ++k) {
+    const double square = point.x[k] * point.x[k];
+    if (uncertain.far.empty()) sum += nu * std::log1p(square / nu);
+    else if (!uncertain.far[k]) sum += square;
+    else sum += far_precision * square + far_price(uncertain.constants[k]);
+  }
   return sum;
 }
 
-double prior_precision(double x) { return 1 / (1 + x * x / nu); }
+double prior_precision(const Uncertain& uncertain, const Point& point, std::size_t k) {
+  if (uncertain.far.empty()) return 1 / (1 + point.x[k] * point.x[k] / nu);
+  return uncertain.far[k] ? far_precision : 1;
+}
 
 bool is_estimated(const effects::Parameter& p) {
   return p.fitted || (p.bounds.low > 0 && std::string_view(p.name) != "periods_per_turn");
@@ -51,7 +59,7 @@ double Unknowns::value(std::size_t k) const {
 }
 
 double Unknowns::step(std::size_t k) const {
-  constexpr double of_tolerance = 0.01, of_bounds = 2e-4, of_value = 3e-3,
+  constexpr double of_tolerance = 0.2, of_bounds = 1e-3, of_value = 0.02,
                    of_logarithm = 0.03;  // chosen
   if (k < constants()) return of_tolerance;
   if (!parameter(k).fitted) return of_logarithm;

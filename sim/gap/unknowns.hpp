@@ -11,6 +11,8 @@ namespace sim::gap {
 struct Uncertain {
   erp::Robot nominal;
   std::vector<Constant> constants;
+  /// Of each constant whether it is far off (far_off.hpp); empty: not known yet.
+  std::vector<bool> far = {};
 };
 
 /// A point among what is possible.
@@ -21,12 +23,18 @@ struct Point {
 
 erp::Robot robot_at(const Uncertain& uncertain, const Point& point);
 
-/// −2 log of the prior of x, ν log(1 + x²/ν), ν = 6: a normal one of standard deviation 1 near 0, with
-/// the heavier tails of Student's t, so that a constant far off costs little more than one that is
-/// three tolerances off, and others need not give way.
-double prior_cost(const Point& point);
-/// Of the normal one that has the same slope at x.
-double prior_precision(double x);
+/// −2 log of the prior of x. Where it is not known which constants are far off, ν log(1 + x²/ν), ν = 6: a
+/// normal one of standard deviation 1 near 0, with the heavier tails of Student's t, so that a constant
+/// far off costs little more than one that is three tolerances off. Where it is known, x², and
+/// x²/20² + price of one that is far off.
+double prior_cost(const Uncertain& uncertain, const Point& point);
+/// Of the normal one that has the same slope there.
+double prior_precision(const Uncertain& uncertain, const Point& point, std::size_t k);
+
+inline constexpr double far_precision = 1 / 400.0;
+/// −2 log of the odds that a constant is far off, 15 %, and of the normalisation of the wider prior, log 20²; of a
+/// zero five tolerances; chosen.
+inline double far_price(const Constant& c) { return c.zero ? 25 : 9.5; }
 
 /// Parameters that are fitted, and times and speeds that are given elsewhere; not counts (a cogging's
 /// periods).
@@ -41,6 +49,7 @@ class Unknowns {
 
   std::size_t count() const { return at_.x.size() + places_.size(); }
   std::size_t constants() const { return at_.x.size(); }
+  const Uncertain& uncertain() const { return *uncertain_; }
   const Point& point() const { return at_; }
   erp::Robot robot() const { return robot_at(*uncertain_, at_); }
 

@@ -1,0 +1,69 @@
+#include "sim/gap/constants.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <optional>
+
+#include "interfaces/xml/errors.hpp"
+#include "tests/sim/diagnosis/blind_recording.hpp"
+
+using namespace sim::gap;
+using blind_recording::hinge_rig;
+
+namespace {
+
+erp::Tolerance relative(const char* of, const char* on, double share) {
+  erp::Tolerance given;
+  given.of = of, given.on = on, given.relative = share;
+  return given;
+}
+
+erp::Tolerance absolute(const char* of, double by) {
+  erp::Tolerance given;
+  given.of = of, given.absolute = by;
+  return given;
+}
+
+/// In the number's unit; none if it is no constant.
+std::optional<double> tolerance_of(const erp::Robot& robot, const char* on, const char* name) {
+  for (const Constant& c : constants_of(robot))
+    if (c.on == on && c.name == name) return c.tolerance;
+  return std::nullopt;
+}
+
+std::string message_of(const erp::Tolerance& given) {
+  erp::Robot robot = hinge_rig();
+  robot.tolerances = {given};
+  try {
+    constants_of(robot);
+  } catch (const xml::Errors& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a tolerance of robot.xml stands for the default, of one part or of all") {
+  erp::Robot robot = hinge_rig();
+  robot.tolerances = {relative("resistance_ohm", "", 0.1), relative("resistance_ohm", "flexor", 0.2),
+                      absolute("line_zero_m", 0.002)};
+  CHECK(*tolerance_of(robot, "flexor", "resistance_ohm") == Approx(0.2 * 0.516));
+  CHECK(*tolerance_of(robot, "extensor", "resistance_ohm") == Approx(0.1 * 0.516));
+  CHECK(*tolerance_of(robot, "flexor", "line_zero_m") == Approx(0.002));
+  CHECK(*tolerance_of(robot, "flexor", "radius_m") == tolerance_of(hinge_rig(), "flexor", "radius_m"));
+}
+
+TEST_CASE("a number whose tolerance is 0 is not estimated") {
+  erp::Robot robot = hinge_rig();
+  robot.tolerances = {relative("mass", "forearm", 0)};
+  CHECK_FALSE(tolerance_of(robot, "forearm", "mass"));
+  CHECK(tolerance_of(hinge_rig(), "forearm", "mass"));
+}
+
+TEST_CASE("a tolerance of a number that is not estimated is refused, with the numbers there are") {
+  CHECK(message_of(relative("resistance", "", 0.1)).find("did you mean \"resistance_ohm\"?") !=
+        std::string::npos);
+  CHECK(message_of(relative("resistance_ohm", "elbow", 0.1)).find("of elbow") != std::string::npos);
+  CHECK(message_of(relative("line_zero_m", "", 0.1)).find("give absolute") != std::string::npos);
+}

@@ -1,0 +1,63 @@
+#include "sim/gap/far_off.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace sim::gap;
+
+namespace {
+
+/// Two factors of a robot without a name, nominal 1, tolerance 0.02, no less than 0.05.
+Uncertain two_factors() {
+  Uncertain u;
+  for (const char* type : {"routing_moment_arm", "spindle_radius"}) {
+    Constant c{};
+    c.name = type, c.on = "flexor", c.effect = type;
+    c.nominal = 1, c.tolerance = 0.02, c.lowest = 0.05;
+    u.constants.push_back(c);
+  }
+  return u;
+}
+
+/// A row: what is measured of x, with a deviation of 1.
+struct Row {
+  double of_first, of_second, measured;
+};
+
+Estimate at_nominal(const std::vector<Row>& rows) {
+  Estimate e;
+  e.point.x = {0, 0};
+  e.z.resize(Eigen::Index(rows.size())), e.weight = Eigen::VectorXd::Ones(e.z.size());
+  e.jacobian.resize(e.z.size(), 2);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    e.z[Eigen::Index(n)] = -rows[n].measured;
+    e.jacobian.insert(Eigen::Index(n), 0) = rows[n].of_first;
+    e.jacobian.insert(Eigen::Index(n), 1) = rows[n].of_second;
+  }
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("what two constants make together is told of one, and of the other in its place") {
+  const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}}));
+  REQUIRE(found.all.size() == 1);  // not three tolerances of each
+  CHECK(std::abs(found.all[0].x) == Approx(6).epsilon(0.1));
+  REQUIRE(found.instead[0].size() == 1);
+  CHECK(found.instead[0][0].constant == 1 - found.all[0].constant);
+  CHECK(found.instead[0][0].x == Approx(-found.all[0].x));
+}
+
+TEST_CASE("what recordings tell of one constant decides between two") {
+  const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}, {2, 0, 2 * 6}}));
+  REQUIRE(found.all.size() == 1);
+  CHECK(found.all[0].constant == 0);
+  CHECK(found.instead[0].empty());
+}
+
+TEST_CASE("no constant is far off that is two tolerances off, hardly determined, or would be negative") {
+  CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * 2}})).all.empty());
+  CHECK(far_off(two_factors(), at_nominal({{0.3, 0, 0.3 * 6}})).all.empty());
+  CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -60}})).all.empty());
+  CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -40}})).all.size() == 1);
+}
