@@ -11,6 +11,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "launch/erp/ask.hpp"
+#include "launch/gap/gap.hpp"
 #include "sim/calibration/parameters.hpp"
 #include "sim/cameras/view.hpp"
 #include "sim/effects/library.hpp"
@@ -47,6 +48,7 @@ class Checker {
     if (root.name == erp::Robot::element) {
       const erp::Robot robot = erp::read_robot(file);
       sim::effects::equip(robot);
+      launch::gap::read_chains(file);  // what its tolerances are of
       erp::refuse_overload(robot);
       praise(file);
       if (!robot.can_buses.empty())

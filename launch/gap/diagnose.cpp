@@ -94,7 +94,7 @@ void print_constants(const diagnosis::Diagnosis& d, std::ostream& out) {
   for (const auto& c : d.constants) determined += c.determined > 0.75;
   out << fmt::format(
       "constants   the robot's constants differ from robot.xml: {} of {} determined by the "
-      "recordings, {} beyond 2.5 tolerances\n",
+      "recordings, {} beyond their tolerances\n",
       determined, d.constants.size(),
       std::ranges::count_if(d.constants, &diagnosis::ConstantEstimate::beyond));
   for (const auto& c : d.constants)

@@ -8,6 +8,7 @@
 
 #include "sim/diagnosis/bus.hpp"
 #include "sim/diagnosis/where.hpp"
+#include "sim/gap/constants.hpp"
 #include "sim/gap/limits.hpp"
 #include "sim/gap/row_timing.hpp"
 #include "sim/gap/spoilt_rows.hpp"
@@ -115,7 +116,9 @@ class Remarks {
 }  // namespace
 
 erp::Robot read_chains(const std::string& robot_file) {
-  return residuals::as_chains(erp::read_robot(robot_file));
+  erp::Robot robot = residuals::as_chains(erp::read_robot(robot_file));
+  sim::gap::constants_of(robot);  // throws where a tolerance is of nothing
+  return robot;
 }
 
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings) {

@@ -19,7 +19,7 @@ struct ConstantEstimate {
   double value = 0;
   Interval interval;      ///< 95 %
   double determined = 0;  ///< 1: by the recordings alone, 0: by its tolerance alone
-  bool beyond = false;    ///< more than 2.5 tolerances from nominal, and determined
+  bool beyond = false;    ///< far off, or a zero that is off beside exact constants (sim/gap)
 };
 
 struct Built {

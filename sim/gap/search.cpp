@@ -112,8 +112,9 @@ Found Search::with_best_of(const std::vector<Found>& joined, const Found& base) 
       0.3;                         // of the gain: that far is one in few steps from its end; chosen
   constexpr std::size_t most = 4;  // chosen
   std::vector<Found> ended;
+  const double near = joined[0].cost + unsettled * (base.cost - joined[0].cost);
   for (const Found& one : joined)
-    if (ended.size() < most && one.cost < joined[0].cost + unsettled * (base.cost - joined[0].cost))
+    if (ended.empty() || (ended.size() < most && one.cost < near))
       ended.push_back(judge(train_.run(uncertain_, one.train.point)));
   std::ranges::stable_sort(ended, {}, &Found::cost);
   Rivals rivals{.gain = base.cost - ended[0].cost};

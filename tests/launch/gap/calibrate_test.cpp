@@ -1,0 +1,68 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "launch/gap/gap.hpp"
+#include "tests/sim/residuals/rig_recording.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A recording of the rig as modelled, and the model with tolerances.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("erp_calibrate_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+
+  std::string recorded() const {
+    std::ofstream out(path / "one.csv");
+    recording::write_csv(rig_recording::table_of_run(erp::read_robot(rigs::config("hinge_rig/robot.xml")), {.seconds = 5}), out);
+    return path / "one.csv";
+  }
+  std::string model_with(const erp::Tolerance& tolerance) const {
+    erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+    robot.tolerances = {tolerance};
+    std::ofstream(path / "robot.xml") << erp::write_robot(robot);
+    return path / "robot.xml";
+  }
+};
+
+erp::Tolerance tolerance(const char* of, double relative) {
+  erp::Tolerance t;
+  t.of = of, t.on = "forearm", t.relative = relative;
+  return t;
+}
+
+std::string calibrated(const std::string& robot, const std::string& recording) {
+  std::ostringstream out, remarks;
+  launch::gap::calibrate({.robot = robot, .recordings = {recording}}, out, remarks);
+  return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("a number that robot.xml knows exactly is not estimated, and its tolerance is kept") {
+  const Folder folder;
+  const auto recording = folder.recorded();
+  const auto exact = calibrated(folder.model_with(tolerance("mass", 0)), recording);
+  CHECK(exact.find(" mass ") == std::string::npos);
+  CHECK(exact.find(" com ") != std::string::npos);
+  const auto free = calibrated(folder.model_with(tolerance("mass", 0.1)), recording);
+  CHECK(free.find(" mass ") != std::string::npos);
+  const erp::Robot again = erp::read_robot(folder.path / "robot.xml");
+  REQUIRE(again.tolerances.size() == 1);
+  CHECK(again.tolerances[0].relative == 0.1);
+}
+
+TEST_CASE("a tolerance of no number is refused before the recordings are read") {
+  const Folder folder;
+  CHECK_THROWS_WITH(
+      calibrated(folder.model_with(tolerance("weight", 0.1)), folder.path / "no_such.csv"),
+      Catch::Contains("weight") && Catch::Contains("names no number of forearm"));
+}
