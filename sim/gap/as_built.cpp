@@ -27,9 +27,8 @@ Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>
 void list_uncertain(AsBuilt& built) {
   const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
   const auto from = [&](std::size_t k) {
-    return built.uncertain.constants[k].zero
-               ? std::max(least_zero, clear * built.estimate.sigma(k))
-               : least;
+    return built.uncertain.constants[k].zero ? std::max(least_zero, clear * built.estimate.sigma(k))
+                                             : least;
   };
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k)
     if (far(k) > from(k) && determined(built, k) > well_determined) built.beyond.push_back(k);

@@ -234,7 +234,8 @@ void apply_tolerances(std::vector<Constant>& all, const erp::Robot& robot) {
     if (const auto [what, remedy] = refused(given, all); !what.empty())
       errors.push_back(xml::error_in(given.element, given.place, what, remedy));
     for (Constant& c : all)
-      if (is_about(given, c)) c.tolerance = given.absolute ? *given.absolute : *given.relative * c.nominal;
+      if (is_about(given, c))
+        c.tolerance = given.absolute ? *given.absolute : *given.relative * c.nominal;
   }
   xml::throw_if_any(std::move(errors));
   std::erase_if(all, [](const Constant& c) { return c.tolerance == 0; });

@@ -31,8 +31,7 @@ std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector&
     };
     const VectorXd forward = slope(at.step(k)), backward = slope(-at.step(k));
     for (Index row = 0; row < forward.size(); ++row)
-      if (const double d =
-              backward.size() ? (forward[row] + backward[row]) / 2 : forward[row];
+      if (const double d = backward.size() ? (forward[row] + backward[row]) / 2 : forward[row];
           d != 0)
         all[n].emplace_back(row, d);
   });

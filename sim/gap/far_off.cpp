@@ -72,7 +72,8 @@ class LinearModel {
 };
 
 /// The constant that makes the set cheapest, and that cost; none: infinite.
-std::pair<std::size_t, double> cheapest(const LinearModel& model, const Minimum& m, const Set& far) {
+std::pair<std::size_t, double> cheapest(const LinearModel& model, const Minimum& m,
+                                        const Set& far) {
   std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < model.constants(); ++k)
     if (std::ranges::count(far, k) == 0 && model.may_be_far(m, k))
@@ -126,8 +127,7 @@ std::vector<Deviation> instead_of(const LinearModel& model, const Set& far, doub
 Sized as_effect(const Constant& c, const Deviation& d) {
   effects::Placed placed{c.on, *effects::neutral(c.effect)};
   const effects::Parameter p = effects::parameters(placed.effect)[0];
-  *p.value =
-      std::clamp(c.effect_scale * (c.value(d.x) - c.nominal), p.bounds.low, p.bounds.high);
+  *p.value = std::clamp(c.effect_scale * (c.value(d.x) - c.nominal), p.bounds.low, p.bounds.high);
   Sized sized{placed, {std::abs(c.effect_scale) * c.tolerance * d.sigma}};
   for (const effects::Parameter& other : effects::parameters(placed.effect))
     if (gap::is_estimated(other) && other.value != p.value) sized.sigma.push_back(0);
@@ -142,7 +142,8 @@ FarOff far_off(const Uncertain& uncertain, const Estimate& estimate) {
     const auto [k, cost] = cheapest(model, m, far);
     if (!(cost < m.cost)) break;
     far.push_back(k), m = model.minimum(far);
-    while (exchange(model, far, m)) {}
+    while (exchange(model, far, m)) {
+    }
   }
   std::ranges::sort(far, std::greater(), [&](std::size_t k) { return std::abs(m.x[Index(k)]); });
   FarOff found;

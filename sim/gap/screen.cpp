@@ -84,8 +84,9 @@ std::vector<Placed> shaped(const Placed& neutral) {
 bool can_show(const Placed& placed, const erp::Robot& robot,
               std::span<const residuals::Episode> recordings) {
   constexpr double enough = 0.02;  // of all turns; chosen
-  const std::size_t a = std::size_t(
-      std::ranges::find(robot.actuators, placed.on, &erp::Actuator::name) - robot.actuators.begin());
+  const std::size_t a =
+      std::size_t(std::ranges::find(robot.actuators, placed.on, &erp::Actuator::name) -
+                  robot.actuators.begin());
   if (is_of_no_sensor(placed, robot, a, recordings)) return false;
   return !std::holds_alternative<effects::GearboxAsymmetric>(placed.effect) ||
          rarer_way(recordings, a) > enough;
@@ -158,7 +159,8 @@ Candidate Screen::score(const Estimate& base, const Left& left, const Directions
   MatrixXd own = all.d.transpose() * wd;
   const MatrixXd whole = own;
   own -= wd.transpose() * base.jacobian * shared;
-  constexpr double copy = 1e-6;  // of its square: less is a copy of what is estimated already, and rounding
+  constexpr double copy =
+      1e-6;  // of its square: less is a copy of what is estimated already, and rounding
   Candidate candidate{all.shape, 0};
   if (!(own(0, 0) > copy * whole(0, 0)) || !(whole(0, 0) > 0)) return candidate;
   for (Index n = 1; n < own.rows(); ++n) own(n, n) += 1e-6 * whole(n, n) + 1e-12;

@@ -92,8 +92,8 @@ std::vector<Found> Search::each_beside(const Found& base) const {
   const bool drive = !uncertain_.nominal.drives.empty();  // all its friction is at one place
   std::erase_if(candidates, [&](const auto& c) {
     return !drive && std::ranges::any_of(base.train.point.effects, [&](const auto& e) {
-             return are_at_one_place(e, c.start);
-           });
+      return are_at_one_place(e, c.start);
+    });
   });
   if (candidates.size() > options_.estimated) candidates.resize(options_.estimated);
   std::vector<Found> joined(candidates.size());

@@ -22,7 +22,9 @@ struct Folder {
 
   std::string recorded() const {
     std::ofstream out(path / "one.csv");
-    recording::write_csv(rig_recording::table_of_run(erp::read_robot(rigs::config("hinge_rig/robot.xml")), {.seconds = 5}), out);
+    recording::write_csv(rig_recording::table_of_run(
+                             erp::read_robot(rigs::config("hinge_rig/robot.xml")), {.seconds = 5}),
+                         out);
     return path / "one.csv";
   }
   std::string model_with(const erp::Tolerance& tolerance) const {

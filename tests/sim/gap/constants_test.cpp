@@ -46,12 +46,13 @@ std::string message_of(const erp::Tolerance& given) {
 
 TEST_CASE("a tolerance of robot.xml stands for the default, of one part or of all") {
   erp::Robot robot = hinge_rig();
-  robot.tolerances = {relative("resistance_ohm", "", 0.1), relative("resistance_ohm", "flexor", 0.2),
-                      absolute("line_zero_m", 0.002)};
+  robot.tolerances = {relative("resistance_ohm", "", 0.1),
+                      relative("resistance_ohm", "flexor", 0.2), absolute("line_zero_m", 0.002)};
   CHECK(*tolerance_of(robot, "flexor", "resistance_ohm") == Approx(0.2 * 0.516));
   CHECK(*tolerance_of(robot, "extensor", "resistance_ohm") == Approx(0.1 * 0.516));
   CHECK(*tolerance_of(robot, "flexor", "line_zero_m") == Approx(0.002));
-  CHECK(*tolerance_of(robot, "flexor", "radius_m") == tolerance_of(hinge_rig(), "flexor", "radius_m"));
+  CHECK(*tolerance_of(robot, "flexor", "radius_m") ==
+        tolerance_of(hinge_rig(), "flexor", "radius_m"));
 }
 
 TEST_CASE("a number whose tolerance is 0 is not estimated") {

@@ -55,7 +55,8 @@ TEST_CASE("what recordings tell of one constant decides between two") {
   CHECK(found.instead[0].empty());
 }
 
-TEST_CASE("no constant is far off that is two tolerances off, hardly determined, or would be negative") {
+TEST_CASE(
+    "no constant is far off that is two tolerances off, hardly determined, or would be negative") {
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * 2}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{0.3, 0, 0.3 * 6}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -60}})).all.empty());
