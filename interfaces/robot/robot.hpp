@@ -28,9 +28,9 @@ struct Pretension {
   }
 };
 
-/// How far a number of a robot as it was built may be from what robot.xml says, one standard deviation:
-/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. Which numbers there are: sim/gap, which
-/// checks them. Who simulates or controls does not look at tolerances.
+/// The standard deviation of a number of the robot as built from its value in robot.xml:
+/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. The numbers are listed and checked in
+/// sim/gap. Simulation and control ignore tolerances.
 struct Tolerance {
   static constexpr auto element = "tolerance";
   xml::Place place;

@@ -48,7 +48,7 @@ class Checker {
     if (root.name == erp::Robot::element) {
       const erp::Robot robot = erp::read_robot(file);
       sim::effects::equip(robot);
-      launch::gap::read_chains(file);  // what its tolerances are of
+      launch::gap::read_chains(file);  // throws if a tolerance matches no number
       erp::refuse_overload(robot);
       praise(file);
       if (!robot.can_buses.empty())

@@ -117,7 +117,7 @@ class Remarks {
 
 erp::Robot read_chains(const std::string& robot_file) {
   erp::Robot robot = residuals::as_chains(erp::read_robot(robot_file));
-  sim::gap::constants_of(robot);  // throws where a tolerance is of nothing
+  sim::gap::constants_of(robot);  // throws if a tolerance matches no number
   return robot;
 }
 

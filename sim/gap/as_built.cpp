@@ -6,8 +6,8 @@
 namespace sim::gap {
 namespace {
 
-/// Of the exact hypothesis: a zero is told from so many tolerances, any other constant too; and from so many of
-/// its own deviations; chosen.
+/// Of the exact hypothesis: least deviation that is reported, in tolerances, of a zero and of any other
+/// constant; of a zero also in its own standard deviations; chosen.
 constexpr double least_zero = 1, least = 2.5, clear = 5;
 
 /// What nobody measures when a robot is drawn: where things are zero, and how a body's mass is spread.
@@ -23,7 +23,7 @@ Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>
   return u;
 }
 
-/// Of those that are never certain.
+/// Lists the constants beyond their tolerances under the exact hypothesis.
 void list_uncertain(AsBuilt& built) {
   const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
   const auto from = [&](std::size_t k) {
@@ -36,7 +36,7 @@ void list_uncertain(AsBuilt& built) {
   built.instead.resize(built.beyond.size());
 }
 
-/// Which constants are far off, and all of them estimated again with that known.
+/// Identifies the constants that are far off, and estimates all again with that known.
 void settle_far_off(const Estimator& estimator, AsBuilt& built) {
   constexpr int rounds = 4;  // the set follows the estimate, and the estimate the set; chosen
   for (int round = 0; round < rounds; ++round) {
@@ -84,15 +84,15 @@ void take(AsBuilt& built, const Found& found) {
   built.estimate = found.train;
 }
 
-/// With constants far off. `search` refers to what `built` leaves uncertain.
+/// Completes an answer with its constants that are far off. `search` must refer to `built.uncertain`.
 void settle(const Search& search, const Found& found, const Evidence& evidence, AsBuilt& built) {
   take(built, found);
   settle_far_off(evidence.train, built);
   built.cost = search.judge(built.estimate).cost;
 }
 
-/// Each may stand for the other where one constant far off or one effect more make nearly the same.
-void tell_either(AsBuilt& is, const AsBuilt& other, double gain) {
+/// Adds the other answer as an alternative, where one constant far off costs nearly the same as one effect.
+void add_alternatives(AsBuilt& is, const AsBuilt& other, double gain) {
   if (!are_indistinguishable(is.cost, other.cost, gain)) return;
   const auto far_of = [](const AsBuilt& b) {
     const std::size_t k = b.beyond[0];
@@ -104,7 +104,7 @@ void tell_either(AsBuilt& is, const AsBuilt& other, double gain) {
     is.indistinguishable.back().push_back(far_of(other));
 }
 
-/// An effect may be behind constants that are far off: it is looked for where none may be.
+/// The answer itself, or one with an effect instead of constants that are far off if that costs less.
 AsBuilt or_effect(const Evidence& evidence, AsBuilt built) {
   if (built.beyond.empty() ||
       built.estimate.point.effects.size() >= evidence.options.search.most_effects)
@@ -117,7 +117,7 @@ AsBuilt or_effect(const Evidence& evidence, AsBuilt built) {
   if (!found) return built;
   settle(search, *found, evidence, other);
   const double gain = base.cost - std::min(built.cost, other.cost);
-  tell_either(built, other, gain), tell_either(other, built, gain);
+  add_alternatives(built, other, gain), add_alternatives(other, built, gain);
   return other.cost < built.cost && !other.keeps ? other : built;
 }
 

@@ -11,7 +11,7 @@ struct AsBuilt {
   Estimate estimate;
   /// Constants off by more than their tolerances, the farthest first.
   std::vector<std::size_t> beyond;
-  std::vector<std::vector<Sized>> instead;            ///< of each: what could be there in its place
+  std::vector<std::vector<Sized>> instead;            ///< of each: alternatives
   erp::Robot robot;                                   ///< nominal with all that was found
   std::vector<std::vector<Sized>> indistinguishable;  ///< of each effect: what could stand for it
   double cost = 0;                                    ///< search.hpp

@@ -21,9 +21,8 @@ struct Deviation {
 };
 
 struct FarOff {
-  std::vector<Deviation> all;  ///< the farthest first
-  std::vector<std::vector<Deviation>>
-      instead;  ///< of each: what would cost little more in its place
+  std::vector<Deviation> all;                   ///< the farthest first
+  std::vector<std::vector<Deviation>> instead;  ///< of each: alternatives that cost little more
 };
 
 /// As the effect of the library that is such a change.

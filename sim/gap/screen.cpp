@@ -159,8 +159,7 @@ Candidate Screen::score(const Estimate& base, const Left& left, const Directions
   MatrixXd own = all.d.transpose() * wd;
   const MatrixXd whole = own;
   own -= wd.transpose() * base.jacobian * shared;
-  constexpr double copy =
-      1e-6;  // of its square: less is a copy of what is estimated already, and rounding
+  constexpr double copy = 1e-6;  // of its square: below, a copy of what is estimated already
   Candidate candidate{all.shape, 0};
   if (!(own(0, 0) > copy * whole(0, 0)) || !(whole(0, 0) > 0)) return candidate;
   for (Index n = 1; n < own.rows(); ++n) own(n, n) += 1e-6 * whole(n, n) + 1e-12;

@@ -49,7 +49,7 @@ std::string calibrated(const std::string& robot, const std::string& recording) {
 
 }  // namespace
 
-TEST_CASE("a number that robot.xml knows exactly is not estimated, and its tolerance is kept") {
+TEST_CASE("a number with a tolerance of 0 is not estimated; written robots keep tolerances") {
   const Folder folder;
   const auto recording = folder.recorded();
   const auto exact = calibrated(folder.model_with(tolerance("mass", 0)), recording);

@@ -44,7 +44,7 @@ std::string message_of(const erp::Tolerance& given) {
 
 }  // namespace
 
-TEST_CASE("a tolerance of robot.xml stands for the default, of one part or of all") {
+TEST_CASE("a tolerance of robot.xml replaces the default, of one part or of all") {
   erp::Robot robot = hinge_rig();
   robot.tolerances = {relative("resistance_ohm", "", 0.1),
                       relative("resistance_ohm", "flexor", 0.2), absolute("line_zero_m", 0.002)};

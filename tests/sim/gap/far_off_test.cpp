@@ -39,7 +39,7 @@ Estimate at_nominal(const std::vector<Row>& rows) {
 
 }  // namespace
 
-TEST_CASE("what two constants make together is told of one, and of the other in its place") {
+TEST_CASE("a ratio of two constants 6 tolerances off is reported as one of them, the other as alternative") {
   const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}}));
   REQUIRE(found.all.size() == 1);  // not three tolerances of each
   CHECK(std::abs(found.all[0].x) == Approx(6).epsilon(0.1));
@@ -48,7 +48,7 @@ TEST_CASE("what two constants make together is told of one, and of the other in 
   CHECK(found.instead[0][0].x == Approx(-found.all[0].x));
 }
 
-TEST_CASE("what recordings tell of one constant decides between two") {
+TEST_CASE("a separate measurement of one of two constants leaves no alternative") {
   const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}, {2, 0, 2 * 6}}));
   REQUIRE(found.all.size() == 1);
   CHECK(found.all[0].constant == 0);
@@ -56,7 +56,7 @@ TEST_CASE("what recordings tell of one constant decides between two") {
 }
 
 TEST_CASE(
-    "no constant is far off that is two tolerances off, hardly determined, or would be negative") {
+    "a constant 2 tolerances off, hardly determined or below its lowest value is not far off") {
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * 2}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{0.3, 0, 0.3 * 6}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -60}})).all.empty());
