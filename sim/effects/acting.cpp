@@ -1,6 +1,7 @@
 #include "sim/effects/acting.hpp"
 
 #include <algorithm>
+#include <array>
 #include <ranges>
 #include <type_traits>
 
@@ -26,16 +27,29 @@ Acting::Acting(std::span<const Placed> all, const std::string& on, Seat seat) {
   empty_ = items_.empty();
 }
 
+namespace {
+
+/// Of each effect of the library whether `Use` takes it.
+template <class Use, class... Effects>
+constexpr std::array<bool, sizeof...(Effects)> takes(std::type_identity<std::variant<Effects...>>) {
+  return {std::is_invocable_v<Use&, Effects&, Memory&>...};
+}
+
+}  // namespace
+
 /// Calls `use(effect, memory)` for those of `items` that it takes.
 template <class Use>
 void Acting::each(auto&& items, Use use) {
-  for (Item& item : items)
+  static constexpr auto taken = takes<Use>(std::type_identity<AnyEffect>{});
+  for (Item& item : items) {
+    if (!taken[item.effect.index()]) continue;
     std::visit(
         [&](auto& effect) {
           if constexpr (std::is_invocable_v<Use&, decltype(effect), Memory&>)
             use(effect, item.memory);
         },
         item.effect);
+  }
 }
 template <class Use>
 void Acting::each(Use use) {

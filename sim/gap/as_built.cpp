@@ -52,7 +52,7 @@ void settle_far_off(const Estimator& estimator, AsBuilt& built) {
     }
     if (far == built.uncertain.far) return;
     built.uncertain.far = std::move(far);
-    built.estimate = estimator.run(built.uncertain, built.estimate.point);
+    built.estimate = estimator.continued(built.uncertain, std::move(built.estimate));
   }
 }
 
@@ -121,6 +121,13 @@ AsBuilt or_effect(const Evidence& evidence, AsBuilt built) {
   return other.cost < built.cost && !other.keeps ? other : built;
 }
 
+/// −2 log of its evidence, by Laplace's approximation: constants that recordings determine had room before.
+double evidence_cost(const AsBuilt& built) {
+  const Eigen::Index n = Eigen::Index(built.uncertain.constants.size());
+  const Eigen::MatrixXd of_constants = built.estimate.covariance.topLeftCorner(n, n);
+  return built.cost - of_constants.ldlt().vectorD().array().log().sum();
+}
+
 AsBuilt explained(const Evidence& evidence, bool exact) {
   AsBuilt built{
       .uncertain = uncertain_of(evidence.nominal, evidence.options.search.withhold, exact),
@@ -165,7 +172,7 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
   const Evidence evidence{nominal, estimator, judged, options};
   AsBuilt built = explained(evidence, true);
   if (built.keeps)
-    if (AsBuilt other = explained(evidence, false); !(built.cost < other.cost))
+    if (AsBuilt other = explained(evidence, false); evidence_cost(other) < evidence_cost(built))
       built = std::move(other);
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;

@@ -144,58 +144,77 @@ Step step(const ResidualVector& residuals, Unknowns& at, Estimate& e, double& da
   return taken;
 }
 
+/// How an estimate descends.
+struct Descent {
+  int iterations, threads;
+  int far = 0;  ///< so many steps at first with weights of trust 0.5
+  const Estimate* base =
+      nullptr;         ///< whose weights and derivatives by the constants hold throughout
+  bool fresh = false;  ///< whether the derivatives are those of where the estimate is
+  bool stale = true;   ///< whether they are to be taken anew
+};
+
 /// Steps until one no longer helps. Derivatives are taken anew where a step gained much less than they
 /// promised (chord method: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, ch. 5).
-void descend(const ResidualVector& residuals, Unknowns at, Estimate& e, const Estimate* base,
-             int iterations, int threads) {
+void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent& d) {
   constexpr double enough = 1e-4;  // of the cost, that a step is worth; chosen
   constexpr double kept = 0.6;     // of what was promised: derivatives still hold; chosen
-  constexpr int first_far = 3;     // steps; chosen
   double damping = 0;
-  bool fresh = false, stale = true;
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    const bool far = !base && iteration < first_far;
-    if (!base) weigh(residuals, e, far ? 0.5 : 1);
-    if (stale) e.jacobian = jacobian(residuals, at, e, base ? &base->jacobian : nullptr, threads);
-    fresh = stale;
-    const Step taken = step(residuals, at, e, damping, threads);
+  for (int iteration = 0; iteration < d.iterations; ++iteration) {
+    const bool far = iteration < d.far;
+    if (!d.base) weigh(residuals, e, far ? 0.5 : 1);
+    if (d.stale) {
+      e.jacobian = jacobian(residuals, at, e, d.base ? &d.base->jacobian : nullptr, d.threads);
+      d.fresh = true;
+    }
+    const Step taken = step(residuals, at, e, damping, d.threads);
     const bool done = !taken.better || taken.gained < enough * e.cost;
-    if (done && fresh && !far) break;
-    stale = done || taken.gained < kept * taken.promised;
+    if (done && d.fresh && !far) break;
+    if (done && d.fresh) iteration = d.far - 1, d.stale = false;
+    else d.stale = done || taken.gained < kept * taken.promised, d.fresh = false;
   }
   e.point = at.point();
   e.bound.clear();
   for (std::size_t k = 0; k < at.count(); ++k) e.bound.push_back(at.at_bound(k));
 }
 
-/// Weights, derivatives and covariance where an estimate ended.
-void settle(const ResidualVector& residuals, const Unknowns& at, Estimate& e, int threads) {
+/// Descends, then sets weights, derivatives and covariance where the estimate ended.
+Estimate settled(const ResidualVector& residuals, Unknowns at, Estimate e, Descent d) {
+  descend(residuals, at, e, d);
   weigh(residuals, e);
-  e.jacobian = jacobian(residuals, at, e, nullptr, threads);
+  if (!d.fresh) e.jacobian = jacobian(residuals, at, e, nullptr, d.threads);
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
   e.cost = cost_of(at, e.z, e.weight);
+  return e;
 }
 
 }  // namespace
 
 Estimate Estimator::run(const Uncertain& uncertain, Point start) const {
+  constexpr int far = 3;  // steps; chosen
   const Unknowns at(uncertain, std::move(start));
   Estimate e;
   e.explained = residuals_.explain(at.robot(), options_.threads);
   e.z = residuals_.z(e.explained);
-  descend(residuals_, at, e, nullptr, options_.iterations, options_.threads);
-  settle(residuals_, {uncertain, e.point}, e, options_.threads);
-  return e;
+  return settled(residuals_, at, std::move(e), {options_.iterations, options_.threads, far});
+}
+
+Estimate Estimator::continued(const Uncertain& uncertain, Estimate from) const {
+  const Unknowns at(uncertain, from.point);
+  Descent descent{options_.iterations, options_.threads};
+  descent.stale = false;
+  return settled(residuals_, at, std::move(from), descent);
 }
 
 Estimate Estimator::beside(const Uncertain& uncertain, const Estimate& base, Point start,
                            int iterations) const {
-  const Unknowns at(uncertain, std::move(start));
+  Unknowns at(uncertain, std::move(start));
   Estimate e;
   e.explained = residuals_.explain(at.robot(), 1);
   e.z = residuals_.z(e.explained), e.weight = base.weight;
-  descend(residuals_, at, e, &base, iterations, 1);
+  Descent descent{iterations, 1, 0, &base};
+  descend(residuals_, at, e, descent);
   const VectorXd weight = e.weight;
   weigh(residuals_, e);
   e.weight = weight;

@@ -20,7 +20,7 @@
 namespace sim::gap {
 
 struct EstimateOptions {
-  int iterations = 10;
+  int iterations = 30;
   int threads = 2;
   std::uint64_t seed = 1;
 };
@@ -52,6 +52,8 @@ class Estimator {
   const EstimateOptions& options() const { return options_; }
 
   Estimate run(const Uncertain& uncertain, Point start) const;
+  /// From where another ended, with its derivatives until a step shows that they no longer hold.
+  Estimate continued(const Uncertain& uncertain, Estimate from) const;
   /// The same for few steps, as a candidate beside `base`: derivatives by the constants and weights
   /// are those of `base`, on one thread.
   Estimate beside(const Uncertain& uncertain, const Estimate& base, Point start,

@@ -3,8 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <span>
 
+#include "sim/gap/directions.hpp"
 #include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/drives.hpp"
 
@@ -47,38 +49,6 @@ bool is_of_no_sensor(const Placed& placed, const erp::Robot& robot, std::size_t 
          });
 }
 
-/// A parameter that shapes a law: without it the law's size means nothing.
-bool shapes(const effects::Parameter& p) { return p.bounds.low > 0; }
-
-/// Values to scan of a parameter that shapes a law.
-std::vector<double> grid(const effects::Parameter& p) {
-  std::vector<double> values;
-  if (std::string_view(p.name) == "periods_per_turn") {
-    for (int n = 1; n <= 24; ++n) values.push_back(n);
-    return values;
-  }
-  constexpr int points = 7;
-  for (int n = 0; n < points; ++n)
-    values.push_back(p.bounds.low * std::pow(p.bounds.high / p.bounds.low, (n + 0.5) / points));
-  return values;
-}
-
-/// The effect with each value of the parameter that shapes it.
-std::vector<Placed> shaped(const Placed& neutral) {
-  std::vector<Placed> all{neutral};
-  effects::AnyEffect probe = neutral.effect;
-  const auto parameters = effects::parameters(probe);
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    if (!shapes(parameters[p])) continue;
-    for (const double value : grid(parameters[p])) {
-      all.push_back(neutral);
-      *effects::parameters(all.back().effect)[p].value = value;
-    }
-    break;
-  }
-  return all;
-}
-
 }  // namespace
 
 bool can_show(const Placed& placed, const erp::Robot& robot,
@@ -92,52 +62,51 @@ bool can_show(const Placed& placed, const erp::Robot& robot,
          rarer_way(recordings, a) > enough;
 }
 
-/// One shape of an effect, its sizes as they are nudged, and what each nudge changes in z.
-struct Directions {
-  Placed shape;
-  std::vector<std::size_t> sizes;  ///< indices of parameters
-  std::vector<double> nudge;
-  MatrixXd d;
+/// What an effect is added to.
+struct Beginning {
+  const Estimate& estimate;
+  const std::vector<bool>& open;
+  Left left;
+  VectorXd moved;   ///< of the unknowns, by a last step without it
+  double cost = 0;  ///< after that step
 };
 
 namespace {
 
-using ChangedBy = std::function<VectorXd(const Placed&)>;
-
-/// A nudge of the first size that changes z by about its noise, whatever the parameter's bounds.
-double fitting_nudge(const Placed& shape, std::size_t size, const ChangedBy& changed_by) {
-  constexpr double of_bounds = 3e-3, least = 1e-4, most = 100;  // chosen
-  Placed nudged = shape;
-  const effects::Parameter p = effects::parameters(nudged.effect)[size];
-  const double first = of_bounds * (p.bounds.high > 0 ? p.bounds.high : p.bounds.low);
-  *p.value += first;
-  const VectorXd change = changed_by(nudged);
-  const double rms = change.norm() / std::sqrt(double(change.size()));
-  const double scale = std::clamp(0.3 / std::max(rms, 1e-12), least, most);
-  return std::min(first * scale, p.bounds.high - (*p.value - first));
+/// Whether it changes a stage that is open, or none is.
+bool changes(const ResidualVector& residuals, const MatrixXd& change,
+             const std::vector<bool>& open) {
+  constexpr double share = 1e-3;  // of the whole change; chosen
+  if (std::ranges::count(open, true) == 0) return true;
+  double of_open = 0;
+  for (const Block& b : residuals.blocks())
+    if (open[b.stage]) of_open += change.middleRows(b.first, b.count).squaredNorm();
+  return of_open > share * share * change.squaredNorm();
 }
 
-Directions directions(const Placed& shape, const ChangedBy& changed_by) {
-  Directions all{shape, {}, {}, {}};
-  effects::AnyEffect probe = shape.effect;
-  const auto parameters = effects::parameters(probe);
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-    if (!shapes(parameters[p]) && parameters[p].fitted) all.sizes.push_back(p);
-  const double first = fitting_nudge(shape, all.sizes[0], changed_by);
-  for (std::size_t n = 0; n < all.sizes.size(); ++n) {
-    const effects::Bounds bounds = parameters[all.sizes[n]].bounds;
-    const bool same = bounds.high == parameters[all.sizes[0]].bounds.high;
-    all.nudge.push_back(n == 0 || same ? first : 0.03 * bounds.high);
-    Placed nudged = shape;
-    const auto values = effects::parameters(nudged.effect);
-    *values[all.sizes[n]].value += all.nudge[n];
-    if (n > 0) *values[all.sizes[0]].value += first;  // a place means nothing without a size
-    const VectorXd change = changed_by(nudged);
-    if (n == 0) all.d.resize(change.size(), Index(all.sizes.size()));
-    all.d.col(Index(n)) = change;
-    if (n > 0) all.d.col(Index(n)) -= all.d.col(0);
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The step of sizes to the minimum of stepᵀ own step/2 − slopeᵀ step. One that is but a copy of what is
+/// estimated already, or that would leave its bounds, stays where it is. `whole`: as `own`, without what is
+/// estimated already.
+VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd& slope,
+                     std::span<const double> low, std::span<const double> high) {
+  constexpr double copy = 1e-6, ridge = 1e-6;  // of its square; chosen
+  std::vector<Index> free;
+  for (Index n = 0; n < own.rows(); ++n)
+    if (own(n, n) > copy * whole(n, n)) free.push_back(n);
+  while (!free.empty()) {
+    MatrixXd of_free = own(free, free);
+    for (Index n = 1; n < of_free.rows(); ++n) of_free(n, n) *= 1 + ridge;
+    const VectorXd solved = of_free.ldlt().solve(slope(free));
+    VectorXd step = VectorXd::Zero(own.rows());
+    step(free) = solved;
+    const auto leaves = [&](Index n) {
+      return step[n] < low[std::size_t(n)] || step[n] > high[std::size_t(n)];
+    };
+    if (std::erase_if(free, leaves) == 0) return step;
   }
-  return all;
+  return VectorXd::Zero(own.rows());
 }
 
 }  // namespace
@@ -153,35 +122,40 @@ double Screen::cost_at(const Estimate& base, const Left& left, const VectorXd& c
 }
 
 /// Of one shape: the values that would explain most, and what they would explain.
-Candidate Screen::score(const Estimate& base, const Left& left, const Directions& all) const {
+Candidate Screen::score(const Beginning& begin, const Directions& all) const {
+  const Estimate& base = begin.estimate;
   const MatrixXd wd = base.weight.asDiagonal() * all.d;
   const MatrixXd shared = base.covariance * (base.jacobian.transpose() * wd);
   MatrixXd own = all.d.transpose() * wd;
   const MatrixXd whole = own;
   own -= wd.transpose() * base.jacobian * shared;
-  constexpr double copy = 1e-6;  // of its square: below, a copy of what is estimated already
   Candidate candidate{all.shape, 0};
-  if (!(own(0, 0) > copy * whole(0, 0)) || !(whole(0, 0) > 0)) return candidate;
-  for (Index n = 1; n < own.rows(); ++n) own(n, n) += 1e-6 * whole(n, n) + 1e-12;
-  const VectorXd step =
-      -own.ldlt().solve(wd.transpose() * base.z - shared.transpose() * base.gradient);
   const auto values = effects::parameters(candidate.start.effect);
-  const effects::Parameter& size = values[all.sizes[0]];
-  const double sized = *size.value + step[0] * all.nudge[0];
-  if (sized < size.bounds.low || sized > size.bounds.high) return candidate;
-  const VectorXd moved = -(base.covariance * base.gradient);
-  candidate.score = cost_at(base, left, VectorXd::Zero(base.z.size()), moved) -
-                    cost_at(base, left, all.d * step, moved - shared * step);
+  std::vector<double> low, high;  // of each step
+  bool places = false;
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
-    const bool place = n > 0 && p.bounds.high != size.bounds.high;
+    const bool like = is_like(p, values[all.sizes[0]]);
+    places |= !like;
+    low.push_back(like ? (p.bounds.low - *p.value) / all.nudge[n] : -unlimited);
+    high.push_back(like ? (p.bounds.high - *p.value) / all.nudge[n] : unlimited);
+  }
+  const VectorXd step = step_within(
+      own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), low, high);
+  if (step.isZero(0) || (places && step[0] == 0)) return candidate;
+  candidate.score =
+      begin.cost - cost_at(base, begin.left, all.d * step, begin.moved - shared * step);
+  for (std::size_t n = 0; n < all.sizes.size(); ++n) {
+    const effects::Parameter& p = values[all.sizes[n]];
+    const bool place = !is_like(p, values[all.sizes[0]]);
     const double by = place ? step[Index(n)] / step[0] : step[Index(n)];
     *p.value = std::clamp(*p.value + by * all.nudge[n], p.bounds.low, p.bounds.high);
   }
   return candidate;
 }
 
-Candidate Screen::best_shape(const Estimate& base, const Left& left, const Placed& neutral) const {
+Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) const {
+  const Estimate& base = begin.estimate;
   const erp::Robot robot = robot_at(uncertain_, base.point);
   const residuals::Reach reach = residuals::Stages(robot).reach(neutral);
   const ChangedBy changed_by = [&](const Placed& placed) -> VectorXd {
@@ -190,9 +164,13 @@ Candidate Screen::best_shape(const Estimate& base, const Left& left, const Place
     return train_.residuals().z(train_.residuals().explain(with, base.explained, reach)) - base.z;
   };
   Candidate best{neutral, 0};
-  for (const Placed& shape : shaped(neutral))
-    if (Candidate one = score(base, left, directions(shape, changed_by)); one.score > best.score)
-      best = std::move(one);
+  const auto sizes = sizes_of(neutral);
+  std::vector<double> by = first_nudges(neutral, sizes);
+  for (const Placed& shape : shaped(neutral)) {
+    const Directions all = directions(shape, sizes, by, changed_by);
+    if (!changes(train_.residuals(), all.d, begin.open)) break;
+    if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
+  }
   return best;
 }
 
@@ -203,8 +181,11 @@ bool Screen::is_searched(const effects::About& about) const {
                               [&](const Constant& c) { return about.type == c.effect; });
 }
 
-std::vector<Candidate> Screen::candidates(const Estimate& base) const {
-  const Left left = left_by(train_.residuals(), base.explained, base.z);
+std::vector<Candidate> Screen::candidates(const Estimate& base,
+                                          const std::vector<bool>& open) const {
+  Beginning begin{base, open, left_by(train_.residuals(), base.explained, base.z),
+                  -(base.covariance * base.gradient)};
+  begin.cost = cost_at(base, begin.left, VectorXd::Zero(base.z.size()), begin.moved);
   std::vector<Placed> all;
   for (const effects::AnyEffect& effect : effects::library()) {
     const effects::About& about = effects::about(effect);
@@ -218,7 +199,7 @@ std::vector<Candidate> Screen::candidates(const Estimate& base) const {
   }
   std::vector<Candidate> screened(all.size());
   in_parallel(all.size(), train_.options().threads,
-              [&](std::size_t k) { screened[k] = best_shape(base, left, all[k]); });
+              [&](std::size_t k) { screened[k] = best_shape(begin, all[k]); });
   std::erase_if(screened, [](const Candidate& c) { return !(c.score > 0); });
   std::ranges::stable_sort(screened, std::greater(), &Candidate::score);
   return screened;

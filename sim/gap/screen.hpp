@@ -26,6 +26,7 @@ bool can_show(const effects::Placed& effect, const erp::Robot& robot,
               std::span<const residuals::Episode> recordings);
 
 struct Directions;
+struct Beginning;
 
 class Screen {
  public:
@@ -34,17 +35,17 @@ class Screen {
          const std::vector<std::string>& withhold)
       : train_(train), uncertain_(uncertain), withhold_(withhold) {}
 
-  /// Best first; at most one a type and place, none that `base` has.
-  std::vector<Candidate> candidates(const Estimate& base) const;
+  /// Best first; at most one a type and place, none that `base` has, none that changes no stage of `open`
+  /// (one flag a stage; where none is set, all are).
+  std::vector<Candidate> candidates(const Estimate& base, const std::vector<bool>& open) const;
 
  private:
   /// Not what a constant stands for already, and not what no residual shows.
   bool is_searched(const effects::About& about) const;
-  Candidate best_shape(const Estimate& base, const Left& left,
-                       const effects::Placed& neutral) const;
+  Candidate best_shape(const Beginning& base, const effects::Placed& neutral) const;
   double cost_at(const Estimate& base, const Left& left, const Eigen::VectorXd& changed,
                  const Eigen::VectorXd& moved) const;
-  Candidate score(const Estimate& base, const Left& left, const Directions& directions) const;
+  Candidate score(const Beginning& base, const Directions& directions) const;
 
   const Estimator& train_;
   const Uncertain& uncertain_;

@@ -48,11 +48,12 @@ Rivals rivals_of(const Found& found, std::size_t effect, const Found& other, dou
 
 }  // namespace
 
-std::size_t stages_kept(const Found& found) {
-  std::size_t kept = 0;
+std::vector<bool> open_stages(const Found& found) {
+  std::vector<bool> open;
   for (std::size_t s = 0; s < found.tolerated.size(); ++s)
-    kept += std::max(found.on_train.excess[s], found.held_out.excess[s]) > found.tolerated[s];
-  return kept;
+    open.push_back(std::max(found.on_train.excess[s], found.held_out.excess[s]) >
+                   found.tolerated[s]);
+  return open;
 }
 
 Search::Search(const Estimator& train, const ResidualVector& held_out, const Uncertain& uncertain,
@@ -88,7 +89,7 @@ Found Search::from(Point start) const {
 
 std::vector<Found> Search::each_beside(const Found& base) const {
   constexpr int iterations = 4;
-  auto candidates = screen_.candidates(base.train);
+  auto candidates = screen_.candidates(base.train, open_stages(base));
   const bool drive = !uncertain_.nominal.drives.empty();  // all its friction is at one place
   std::erase_if(candidates, [&](const auto& c) {
     return !drive && std::ranges::any_of(base.train.point.effects, [&](const auto& e) {
@@ -115,7 +116,7 @@ Found Search::with_best_of(const std::vector<Found>& joined, const Found& base) 
   const double near = joined[0].cost + unsettled * (base.cost - joined[0].cost);
   for (const Found& one : joined)
     if (ended.empty() || (ended.size() < most && one.cost < near))
-      ended.push_back(judge(train_.run(uncertain_, one.train.point)));
+      ended.push_back(judge(train_.continued(uncertain_, one.train)));
   std::ranges::stable_sort(ended, {}, &Found::cost);
   Rivals rivals{.gain = base.cost - ended[0].cost};
   for (std::size_t k = 1; k < ended.size(); ++k) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -82,8 +83,11 @@ bool are_indistinguishable(double cost, double other, double gain);
 /// What could stand for one of its effects as well: what costs little more, the cheapest first.
 std::vector<Sized> indistinguishable(const Found& found, std::size_t effect);
 
-/// Stages that keep more than is tolerated, of recordings taught with or held out.
-std::size_t stages_kept(const Found& found);
+/// Of each stage whether it keeps more than is tolerated, of recordings trained on or held out.
+std::vector<bool> open_stages(const Found& found);
+inline std::size_t stages_kept(const Found& found) {
+  return std::size_t(std::ranges::count(open_stages(found), true));
+}
 inline bool keeps(const Found& found) { return stages_kept(found) > 0; }
 
 }  // namespace sim::gap

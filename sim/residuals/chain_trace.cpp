@@ -80,11 +80,14 @@ class Tracer {
     return calm;
   }
 
-  /// What was not taken is as it was before: effects that remember know of no gap.
-  effects::ChainSample sample(std::size_t k) const {
+  effects::ChainSample first() const {
     effects::ChainSample s;
     s.path_m = m_.start_m;
-    if (!samples_.empty()) s = samples_.back();
+    return s;
+  }
+  /// What was not taken is as it was before: effects that remember know of no gap.
+  effects::ChainSample sample(std::size_t k) const {
+    effects::ChainSample s = samples_.empty() ? first() : samples_.back();
     const auto renew = [&](double& held, const Signal& signal, std::size_t row) {
       if (!signal.empty() && !std::isnan(signal[row])) held = signal[row];
     };

@@ -127,3 +127,48 @@ TEST_CASE("a constant of a withheld type is not estimated") {
                              [](const Constant& c) { return c.name == "resistance_ohm"; }));
   CHECK(found.estimate.point.effects.empty());
 }
+
+TEST_CASE(
+    "an estimate that goes on where another ended, with other steps, ends at the same numbers") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.06;
+  for (erp::Actuator& a : built.actuators) a.tendon.stiffness_N_per_m *= 0.95;
+  const auto recordings = recordings_of(built, 5);
+  const erp::Robot nominal = hinge_rig();
+  const Estimator estimator(nominal, recordings);
+  const Uncertain uncertain{nominal, constants_of(nominal)};
+  const Estimate whole = estimator.run(uncertain, {});
+  EstimateOptions few;
+  few.iterations = 1;
+  const Estimate begun = Estimator(nominal, recordings, few).run(uncertain, {});
+  const Estimate ended = estimator.continued(uncertain, begun);
+  CHECK((begun.z - whole.z).norm() > 10 * (ended.z - whole.z).norm());
+  CHECK(ended.cost == Approx(whole.cost).margin(0.3));
+  for (std::size_t k = 0; k < uncertain.constants.size(); ++k)
+    CHECK(ended.point.x[k] == Approx(whole.point.x[k]).margin(0.3));
+}
+
+TEST_CASE("effects that change none of the stages that keep more than noise are not tried") {
+  using sim::effects::Stage;
+  const auto recordings = recordings_of(hinge_rig(), 5);
+  const erp::Robot nominal = hinge_rig();
+  const Estimator estimator(nominal, recordings);
+  const Uncertain uncertain{nominal, constants_of(nominal)};
+  const std::vector<std::string> withhold;
+  const Screen screen(estimator, uncertain, withhold);
+  const Estimate at = estimator.run(uncertain, {});
+  std::vector<bool> open, none;
+  for (const auto& r : estimator.residuals().first().residuals) {
+    open.push_back(r.stage == Stage::motor && r.on == "flexor");
+    none.push_back(false);
+  }
+  const auto tried = screen.candidates(at, open), all = screen.candidates(at, none);
+  REQUIRE_FALSE(tried.empty());
+  CHECK(tried.size() < all.size());
+  for (const Candidate& c : tried) {
+    INFO(sim::effects::name_of(c.start));
+    CHECK(c.start.on == "flexor");
+    const Stage stage = sim::effects::about(c.start.effect).stage;
+    CHECK((stage == Stage::motor || stage == Stage::sensor));
+  }
+}

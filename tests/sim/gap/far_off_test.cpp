@@ -39,7 +39,9 @@ Estimate at_nominal(const std::vector<Row>& rows) {
 
 }  // namespace
 
-TEST_CASE("a ratio of two constants 6 tolerances off is reported as one of them, the other as alternative") {
+TEST_CASE(
+    "a ratio of two constants 6 tolerances off is reported as one of them, the other as "
+    "alternative") {
   const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}}));
   REQUIRE(found.all.size() == 1);  // not three tolerances of each
   CHECK(std::abs(found.all[0].x) == Approx(6).epsilon(0.1));

@@ -1,0 +1,39 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "sim/effects/library.hpp"
+
+/// The shapes of an effect that are looked at, and what its sizes change in z around a neutral one.
+namespace sim::gap {
+
+/// The effect with each value of the parameter that shapes it (speed, time constant, periods).
+std::vector<effects::Placed> shaped(const effects::Placed& neutral);
+
+/// Indices of the parameters that are sizes, not shapes.
+std::vector<std::size_t> sizes_of(const effects::Placed& neutral);
+
+/// The same kind of size as an effect's first, as a sine beside a cosine; else a place, which means nothing
+/// without a size.
+bool is_like(const effects::Parameter& p, const effects::Parameter& first);
+
+/// One shape, and what a nudge of each size changes in z.
+struct Directions {
+  effects::Placed shape;
+  std::vector<std::size_t> sizes;  ///< indices of parameters
+  std::vector<double> nudge;       ///< in the parameters' units
+  Eigen::MatrixXd d;               ///< one column a size
+};
+
+/// What an effect changes in z.
+using ChangedBy = std::function<Eigen::VectorXd(const effects::Placed&)>;
+
+/// How far to try to nudge each size.
+std::vector<double> first_nudges(const effects::Placed& neutral,
+                                 const std::vector<std::size_t>& sizes);
+/// Each size nudged until z changes by about its noise. `by`: how far to try, then how far it was.
+Directions directions(const effects::Placed& shape, const std::vector<std::size_t>& sizes,
+                      std::vector<double>& by, const ChangedBy& changed_by);
+
+}  // namespace sim::gap

@@ -1,0 +1,61 @@
+#include "sim/gap/directions.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace sim::gap;
+using sim::effects::Placed;
+
+namespace {
+
+Placed neutral(const char* type) { return {"flexor", *sim::effects::neutral(type)}; }
+
+/// z of so many rows that changes by `slopes`, one a size of the effect.
+ChangedBy linear(std::vector<double> slopes) {
+  return [slopes](const Placed& placed) {
+    sim::effects::AnyEffect effect = placed.effect;
+    const auto parameters = sim::effects::parameters(effect);
+    const auto sizes = sizes_of(placed);
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(4);
+    for (std::size_t n = 0; n < sizes.size(); ++n)
+      z[Eigen::Index(n)] = slopes[n] * *parameters[sizes[n]].value;
+    return z;
+  };
+}
+
+}  // namespace
+
+TEST_CASE("a cogging is looked at with each number of periods from 1 to 24") {
+  const auto shapes = shaped(neutral("motor_cogging"));
+  CHECK(shapes.size() == 25);  // and the neutral one's
+  CHECK(sizes_of(shapes[0]).size() == 2);
+}
+
+TEST_CASE("an effect without a shape is looked at as it is") {
+  CHECK(shaped(neutral("tendon_stiffness")).size() == 1);
+}
+
+TEST_CASE("a size is nudged until z changes by about its noise, however steep") {
+  for (const double slope : {0.3, 30.0, 3000.0}) {
+    const Placed shape = neutral("gearbox_coulomb");
+    const auto sizes = sizes_of(shape);
+    auto by = first_nudges(shape, sizes);
+    const Directions all = directions(shape, sizes, by, linear({slope}));
+    const double rms = all.d.col(0).norm() / 2;
+    CHECK(rms > 0.07);
+    CHECK(rms < 1.21);
+    CHECK(all.d(0, 0) == Approx(slope * all.nudge[0]));
+  }
+}
+
+TEST_CASE("a second size of the same kind is nudged by itself where the first shows nothing") {
+  const Placed shape = neutral("routing_capstan");  // around the path's bends, and around a post
+  const auto sizes = sizes_of(shape);
+  auto by = first_nudges(shape, sizes);
+  const auto tried = by[0];
+  const Directions all = directions(shape, sizes, by, linear({0, 50}));
+  CHECK(by[0] == tried);
+  CHECK(all.d.col(0).norm() == 0);
+  CHECK(all.d(1, 1) == Approx(50 * all.nudge[1]));
+  CHECK(all.d.col(1).norm() / 2 > 0.07);
+}
