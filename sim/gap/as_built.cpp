@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sim::gap {
 namespace {
+
+using effects::Placed;
 
 /// Of the exact hypothesis: least deviation that is reported, in tolerances, of a zero and of any other
 /// constant; of a zero also in its own standard deviations; chosen.
@@ -62,10 +65,10 @@ bool is_widespread(const Found& found) {
   return open > 3 && 5 * open > found.tolerated.size();
 }
 
-bool are_same(const std::vector<effects::Placed>& a, const std::vector<effects::Placed>& b) {
+bool are_same(const std::vector<Placed>& a, const std::vector<Placed>& b) {
   return std::ranges::is_permutation(
-      a, b, {}, [](const effects::Placed& p) { return std::pair(p.on, p.effect.index()); },
-      [](const effects::Placed& p) { return std::pair(p.on, p.effect.index()); });
+      a, b, {}, [](const Placed& p) { return std::pair(p.on, p.effect.index()); },
+      [](const Placed& p) { return std::pair(p.on, p.effect.index()); });
 }
 
 struct Evidence {
@@ -104,21 +107,72 @@ void add_alternatives(AsBuilt& is, const AsBuilt& other, double gain) {
     is.indistinguishable.back().push_back(far_of(other));
 }
 
-/// The answer itself, or one with an effect instead of constants that are far off if that costs less.
-AsBuilt or_effect(const Evidence& evidence, AsBuilt built) {
-  if (built.beyond.empty() ||
-      built.estimate.point.effects.size() >= evidence.options.search.most_effects)
-    return built;
+/// Whether a constant of the robot stands for that effect, or it is among `effects`.
+bool is_taken(const Placed& hint, const Uncertain& uncertain, const std::vector<Placed>& effects) {
+  return std::ranges::any_of(
+             uncertain.constants,
+             [&](const Constant& c) { return c.effect == effects::about(hint.effect).type; }) ||
+         std::ranges::any_of(effects, [&](const Placed& p) {
+           return p.on == hint.on && p.effect.index() == hint.effect.index();
+         });
+}
+
+/// Adds to the first of answers, the cheapest, the others if each is one effect.
+void add_rivals(std::vector<Found>& all, double cost_without) {
+  const auto is_one = [](const Found& f) { return f.train.point.effects.size() == 1; };
+  if (!is_one(all[0])) return;
+  Rivals& rivals = all[0].rivals.back();
+  rivals.gain = cost_without - all[0].cost;
+  for (const Found& other : all)
+    if (is_one(other) && !are_same(other.train.point.effects, all[0].train.point.effects))
+      rivals.all.push_back(sized(other.train).back()), rivals.cost.push_back(other.cost);
+}
+
+/// The cheapest with one more effect than `base`, or with a hint, alone or as one more; then with others while
+/// a stage keeps more than noise.
+std::optional<Found> with_effect(const Search& search, const Found& base,
+                                 const std::vector<Placed>& hints, std::size_t most) {
+  const std::vector<Placed>& others = base.train.point.effects;
+  std::vector<Found> all;
+  if (others.size() < most)
+    if (auto found = search.best_beside(base); found && (others.empty() || relieves(*found, base)))
+      all.push_back(std::move(*found));
+  for (const Placed& hint : hints) {
+    if (is_taken(hint, search.uncertain(), others)) continue;
+    all.push_back(search.with({hint}));
+    if (others.empty() || others.size() == most) continue;
+    std::vector<Placed> more = others;
+    more.push_back(hint);
+    all.push_back(search.with(more));
+  }
+  if (all.empty()) return std::nullopt;
+  std::ranges::stable_sort(all, {}, &Found::cost);
+  add_rivals(all, base.cost);
+  return search.run(std::move(all[0]), most);
+}
+
+/// The answer itself, or one with effects and no constant far off if that costs less and they are no
+/// more causes; of twins the one constant.
+/// `hints`: effects that would explain most were all constants as described. Beside constants that have
+/// gone along to imitate it, an effect is no longer found.
+AsBuilt or_effect(const Evidence& evidence, AsBuilt built, const std::vector<Placed>& hints) {
+  if (built.beyond.empty() && built.estimate.point.effects.empty()) return built;
   AsBuilt other{.uncertain = built.uncertain};
   other.uncertain.far.assign(other.uncertain.constants.size(), false);
   const Search search(evidence.train, evidence.held_out, other.uncertain, evidence.options.search);
   const Found base = search.from(built.estimate.point);
-  const auto found = search.best_beside(base);
+  const auto found = with_effect(search, base, hints, evidence.options.search.most_effects);
   if (!found) return built;
   settle(search, *found, evidence, other);
   const double gain = base.cost - std::min(built.cost, other.cost);
   add_alternatives(built, other, gain), add_alternatives(other, built, gain);
-  return other.cost < built.cost && !other.keeps ? other : built;
+  const auto causes = [](const AsBuilt& b) {
+    return b.beyond.size() + b.estimate.point.effects.size();
+  };
+  if (!built.keeps && causes(other) > causes(built)) return built;
+  const bool is_twin = built.beyond.size() == 1 && built.estimate.point.effects.empty() &&
+                       are_indistinguishable(built.cost, other.cost, gain);
+  return other.cost < built.cost && !other.keeps && !is_twin ? other : built;
 }
 
 /// −2 log of its evidence, by Laplace's approximation: constants that recordings determine had room before.
@@ -128,25 +182,42 @@ double evidence_cost(const AsBuilt& built) {
   return built.cost - of_constants.ldlt().vectorD().array().log().sum();
 }
 
-AsBuilt explained(const Evidence& evidence, bool exact) {
-  AsBuilt built{
-      .uncertain = uncertain_of(evidence.nominal, evidence.options.search.withhold, exact),
-      .exact = exact};
-  const Search search(evidence.train, evidence.held_out, built.uncertain, evidence.options.search);
-  std::size_t most = evidence.options.search.most_effects;
-  Found found = search.run(search.with({}), exact ? 1 : most);
-  if (!exact) {
-    settle(search, found, evidence, built);
-    return or_effect(evidence, std::move(built));
+/// The effect that was added last, and those that came near it.
+std::vector<Placed> hints_of(const Found& found) {
+  std::vector<Placed> hints{found.train.point.effects.back()};
+  for (const Sized& rival : found.rivals.back().all) hints.push_back(rival.effect);
+  return hints;
+}
+
+/// All as described but for effects, and for what is never certain. Sets `hints` for `or_effect`.
+AsBuilt explained_exactly(const Evidence& evidence, std::vector<Placed>& hints) {
+  const AsBuiltOptions& options = evidence.options;
+  AsBuilt built{.uncertain = uncertain_of(evidence.nominal, options.search.withhold, true),
+                .exact = true};
+  const Search search(evidence.train, evidence.held_out, built.uncertain, options.search);
+  Found found = search.with({});
+  if (auto first = keeps(found) ? search.best_beside(found) : std::nullopt) {
+    hints = hints_of(*first);
+    if (relieves(*first, found)) found = std::move(*first);
   }
-  if (!is_widespread(found)) found = search.run(std::move(found), most);
-  const auto& suggested = evidence.options.suggested;
+  if (!is_widespread(found)) found = search.run(std::move(found), options.search.most_effects);
+  const auto& suggested = options.suggested;
   if (!suggested.empty() && !are_same(found.train.point.effects, suggested))
     if (Found other = search.with(suggested); other.cost < found.cost) found = std::move(other);
   take(built, found);
   built.cost = found.cost;
   list_uncertain(built);
   return built;
+}
+
+/// With all constants uncertain.
+AsBuilt explained(const Evidence& evidence, const std::vector<Placed>& hints) {
+  AsBuilt built{.uncertain =
+                    uncertain_of(evidence.nominal, evidence.options.search.withhold, false)};
+  const Search search(evidence.train, evidence.held_out, built.uncertain, evidence.options.search);
+  settle(search, search.run(search.with({}), evidence.options.search.most_effects), evidence,
+         built);
+  return or_effect(evidence, std::move(built), hints);
 }
 
 }  // namespace
@@ -170,9 +241,10 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
   const Estimator estimator(nominal, train, options.estimate);
   const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
   const Evidence evidence{nominal, estimator, judged, options};
-  AsBuilt built = explained(evidence, true);
+  std::vector<Placed> hints;
+  AsBuilt built = explained_exactly(evidence, hints);
   if (built.keeps)
-    if (AsBuilt other = explained(evidence, false); evidence_cost(other) < evidence_cost(built))
+    if (AsBuilt other = explained(evidence, hints); evidence_cost(other) < evidence_cost(built))
       built = std::move(other);
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;

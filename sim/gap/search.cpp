@@ -24,15 +24,6 @@ bool are_at_one_place(const effects::Placed& a, const effects::Placed& b) {
   return a.on == b.on && effects::about(a.effect).stage == effects::about(b.effect).stage;
 }
 
-/// Whether it takes a good part of what a stage keeps.
-bool relieves(const Found& is, const Found& was) {
-  for (std::size_t s = 0; s < was.held_out.excess.size(); ++s) {
-    const double before = was.held_out.excess[s];
-    if (before > was.tolerated[s] && before - is.held_out.excess[s] > worth * before) return true;
-  }
-  return false;
-}
-
 /// What came near an effect when it was looked for again, and led to `other`.
 Rivals rivals_of(const Found& found, std::size_t effect, const Found& other, double cost_without) {
   Rivals rivals{.gain = cost_without - found.cost};
@@ -47,6 +38,14 @@ Rivals rivals_of(const Found& found, std::size_t effect, const Found& other, dou
 }
 
 }  // namespace
+
+bool relieves(const Found& is, const Found& was) {
+  for (std::size_t s = 0; s < was.held_out.excess.size(); ++s) {
+    const double before = was.held_out.excess[s];
+    if (before > was.tolerated[s] && before - is.held_out.excess[s] > worth * before) return true;
+  }
+  return false;
+}
 
 std::vector<bool> open_stages(const Found& found) {
   std::vector<bool> open;
@@ -143,24 +142,34 @@ Found Search::without(const Found& found, std::size_t effect) const {
   return left;
 }
 
-/// An earlier choice may have been a compromise between two.
+/// Without effects that cost more than they explain beside the others. The last one is not asked.
+Found Search::pruned(Found found) const {
+  for (std::size_t k = 0; k + 1 < found.train.point.effects.size(); ++k)
+    if (Found base = without(found, k); base.cost < found.cost) return pruned(std::move(base));
+  return found;
+}
+
+/// An earlier choice may have been a compromise between two, or worth nothing beside a later one.
 Found Search::exchanged(Found found) const {
   constexpr double better = 0.98;  // chosen
   for (std::size_t k = 0; k + 1 < found.train.point.effects.size(); ++k) {
     const Found base = without(found, k);
+    if (base.cost < found.cost) return exchanged(base);
     const auto joined = each_beside(base);
     if (joined.empty()) continue;
     Found other = with_best_of(joined, base);
     if (!is_same(other.train.point.effects.back(), found.train.point.effects[k]) &&
         other.cost < better * found.cost)
-      found = std::move(other);
+      found = pruned(std::move(other));
     else found.rivals[k] = rivals_of(found, k, other, base.cost);
   }
   return found;
 }
 
 Found Search::run(Found found, std::size_t most) const {
-  while (keeps(found) && found.train.point.effects.size() < most) {
+  const std::size_t rounds = 2 * most;  // one that is dropped may be found again
+  for (std::size_t round = 0;
+       round < rounds && keeps(found) && found.train.point.effects.size() < most; ++round) {
     if (options_.progress)
       options_.progress("effects", double(found.train.point.effects.size()) / double(most));
     auto more = best_beside(found);

@@ -53,6 +53,7 @@ class Search {
   Search(const Estimator& train, const ResidualVector& held_out, const Uncertain& uncertain,
          const SearchOptions& options);
 
+  const Uncertain& uncertain() const { return uncertain_; }
   Found judge(Estimate estimate) const;
   /// With some effects as given.
   Found with(const std::vector<effects::Placed>& effects) const { return from({{}, effects}); }
@@ -68,6 +69,7 @@ class Search {
   std::vector<Found> each_beside(const Found& base) const;
   Found with_best_of(const std::vector<Found>& joined, const Found& base) const;
   Found exchanged(Found found) const;
+  Found pruned(Found found) const;
   Found without(const Found& found, std::size_t effect) const;
 
   const Estimator& train_;
@@ -88,6 +90,8 @@ std::vector<bool> open_stages(const Found& found);
 inline std::size_t stages_kept(const Found& found) {
   return std::size_t(std::ranges::count(open_stages(found), true));
 }
+/// Whether an answer takes a good part of what a stage kept.
+bool relieves(const Found& is, const Found& was);
 inline bool keeps(const Found& found) { return stages_kept(found) > 0; }
 
 }  // namespace sim::gap

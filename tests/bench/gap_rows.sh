@@ -23,6 +23,10 @@ no_current       hinge_rig  single     60    272001      0          current
 tolerance        hinge_rig  null       40    410001      0.03
 tolerance_single hinge_rig  single     40    420001      0.02
 tolerance_arm    arm        null       40    430001      0.03
+tolerance_leg    leg        null       40    440001      0.03
+leg              leg        single     40    280001      0
+seven_dof        seven_dof  single     40    281001      0
+ecce4            ecce4      single     20    282001      0
 "
 
 run_row() {  # name robot kind cases seed tolerance without

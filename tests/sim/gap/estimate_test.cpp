@@ -99,6 +99,25 @@ TEST_CASE("an effect is found beside constants that are all a little off") {
   CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_creep on extensor");
 }
 
+TEST_CASE("a joint sensor's gain is found though both moment arms could nearly stand for it") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.02, built.motor_types[0].torque_Nm_per_A *= 0.99;
+  built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.joints[0].angle.gain = -0.095;
+  std::vector<sim::residuals::Episode> all;
+  std::vector<std::string> remarks;
+  for (int k = 0; k < 3; ++k)
+    all.push_back(sim::residuals::lay_out(
+        sim::blind::record(built, blind, sim::excitation(built, k, 10, 5), std::uint64_t(k)),
+        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
+  const std::span<const sim::residuals::Episode> each(all);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  REQUIRE(found.estimate.point.effects.size() == 1);
+  CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "sensor_joint_gain on elbow");
+  CHECK(found.beyond.empty());
+}
+
 TEST_CASE("a robot as described but for one effect is explained by that effect alone") {
   auto blind = blind_recording::nothing_hidden();
   blind.quirks.chains[0].spring = 0.2;  // flexor
