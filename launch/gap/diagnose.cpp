@@ -112,10 +112,10 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
   for (const auto& n : d.answer) {
     out << which << told(n) << "\n";
     constexpr std::size_t shown = 4;
-    for (std::size_t k = 0; k < std::min(shown, n.alike.size()); ++k)
-      out << "or as well  " << told(n.alike[k]) << "\n";
-    if (n.alike.size() > shown)
-      out << fmt::format("or as well  {} more, in diagnosis.json\n", n.alike.size() - shown);
+    for (std::size_t k = 0; k < std::min(shown, n.alternatives.size()); ++k)
+      out << "or as well  " << told(n.alternatives[k]) << "\n";
+    if (n.alternatives.size() > shown)
+      out << fmt::format("or as well  {} more, in diagnosis.json\n", n.alternatives.size() - shown);
   }
   for (const auto& u : d.unexplained) {
     out << fmt::format("left over   {} of {}, {:.3g} times its noise", sim::effects::word(u.stage),
@@ -146,7 +146,7 @@ bool plannable(const diagnosis::Named& n) {
 void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
                 const DiagnoseOptions& options, std::ostream& out) {
   const bool told_apart =
-      std::ranges::all_of(d.answer, [](const auto& n) { return n.alike.empty(); });
+      std::ranges::all_of(d.answer, [](const auto& n) { return n.alternatives.empty(); });
   const bool done = d.verdict == diagnosis::Verdict::no_gap ||
                     (d.verdict == diagnosis::Verdict::supported && told_apart);
   const bool something = std::ranges::any_of(d.ranked, plannable);

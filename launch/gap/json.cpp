@@ -111,13 +111,13 @@ Json confusable_of(const Diagnosis& d) {
   Json list = Json::array();
   int set = 0;
   for (const Named& answer : d.answer) {
-    if (answer.alike.empty()) continue;
+    if (answer.alternatives.empty()) continue;
     const auto add = [&](const Named& n) {
       list.push_back(
           {{"type", n.type}, {"on", n.on}, {"set", set}, {"parameters", json_of(n)["parameters"]}});
     };
     add(answer);
-    for (const Named& other : answer.alike) add(other);
+    for (const Named& other : answer.alternatives) add(other);
     ++set;
   }
   return list;

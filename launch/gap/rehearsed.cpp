@@ -27,11 +27,11 @@ std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
 
 /// In whose place another of those as good comes first.
 void put_first(Named& answer, std::size_t k) {
-  Named other = answer.alike[k];
-  other.supported = answer.supported, other.alike = answer.alike;
-  other.alike.erase(other.alike.begin() + std::ptrdiff_t(k));
-  answer.alike.clear();
-  other.alike.insert(other.alike.begin(), answer);
+  Named other = answer.alternatives[k];
+  other.supported = answer.supported, other.alternatives = answer.alternatives;
+  other.alternatives.erase(other.alternatives.begin() + std::ptrdiff_t(k));
+  answer.alternatives.clear();
+  other.alternatives.insert(other.alternatives.begin(), answer);
   answer = std::move(other);
 }
 
@@ -76,20 +76,20 @@ rehearsal::FreeRun run_freely(diagnosis::Diagnosis& d,
       !(best.all.after > plain * best.all.floor))
     return best;
   Named& answer = d.answer[0];
-  std::size_t nearest = answer.alike.size();
+  std::size_t nearest = answer.alternatives.size();
   const double first = best.all.after;
-  for (std::size_t k = 0; k < std::min(most, answer.alike.size()); ++k)
-    if (auto run = rehearsals.of({answer.alike[k]}); run.all.after < much * best.all.after)
+  for (std::size_t k = 0; k < std::min(most, answer.alternatives.size()); ++k)
+    if (auto run = rehearsals.of({answer.alternatives[k]}); run.all.after < much * best.all.after)
       best = std::move(run), nearest = k;
-  if (nearest == answer.alike.size()) return best;
+  if (nearest == answer.alternatives.size()) return best;
   d.warnings.push_back(
       fmt::format("{} on {} and {} on {} are alike by the residuals; let run freely, the simulator "
                   "stays {:.3g} "
                   "times what noise alone would do off with the former and {:.3g} with the latter, "
                   "which is put "
                   "first",
-                  answer.type, answer.on, answer.alike[nearest].type, answer.alike[nearest].on,
-                  first, best.all.after));
+                  answer.type, answer.on, answer.alternatives[nearest].type,
+                  answer.alternatives[nearest].on, first, best.all.after));
   put_first(answer, nearest);
   return best;
 }

@@ -78,11 +78,11 @@ std::string summary(const Diagnosis& d) {
                         escaped(page::name_of(n)), escaped(parameters_of(n)));
   if (!d.answer.empty()) html += "</ul>\n";
   for (const Named& n : d.answer) {
-    if (n.alike.empty()) continue;
+    if (n.alternatives.empty()) continue;
     html += fmt::format("<p>As good as {}, and not to be told apart by these recordings: ",
                         escaped(page::name_of(n)));
-    for (std::size_t k = 0; k < n.alike.size(); ++k)
-      html += fmt::format("{}{}", k ? ", " : "", escaped(page::name_of(n.alike[k])));
+    for (std::size_t k = 0; k < n.alternatives.size(); ++k)
+      html += fmt::format("{}{}", k ? ", " : "", escaped(page::name_of(n.alternatives[k])));
     html += ".</p>\n";
   }
   if (d.overall.before > 0)

@@ -20,8 +20,8 @@ struct Named {
   Interval gain_interval;
   bool supported = false;
   effects::Placed placed;
-  std::vector<double> signature = {};  ///< of what it changes, share at each `Diagnosis::stages`
-  std::vector<Named> alike = {};       ///< of one of the answer: what could stand for it as well
+  std::vector<double> signature = {};    ///< of what it changes, share at each `Diagnosis::stages`
+  std::vector<Named> alternatives = {};  ///< of one of the answer: what could stand for it as well
   double likeness = 0;  ///< cosine of what it changes to what the first of the answer changes
 
   bool is(const effects::Placed& other) const {

@@ -57,7 +57,7 @@ Named beyond(const gap::AsBuilt& built, std::size_t n) {
       built.uncertain.constants[k], {k, built.estimate.point.x[k], built.estimate.sigma(k)}));
   for (const gap::Sized& other : built.instead[n])
     if (effects::name_of(other.effect) != effects::name_of(named.placed))
-      named.alike.push_back(with_intervals(other));
+      named.alternatives.push_back(with_intervals(other));
   return named;
 }
 
@@ -67,7 +67,7 @@ std::vector<Named> effects_of(const gap::AsBuilt& built) {
   for (const gap::Sized& sized : gap::sized(built.estimate)) {
     Named n = with_intervals(sized);
     for (const gap::Sized& other : built.indistinguishable[all.size()])
-      n.alike.push_back(with_intervals(other));
+      n.alternatives.push_back(with_intervals(other));
     all.push_back(std::move(n));
   }
   return all;

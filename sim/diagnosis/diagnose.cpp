@@ -61,7 +61,7 @@ void add_bus(const Observed& observed, Diagnosis& d) {
   d.answer.push_back(observed.bus[0]);
   for (std::size_t k = 1; k < observed.bus.size(); ++k)
     if (observed.bus[0].gain - observed.bus[k].gain < indistinguishable)
-      d.answer.back().alike.push_back(observed.bus[k]);
+      d.answer.back().alternatives.push_back(observed.bus[k]);
 }
 
 void put_first(std::vector<Named>& into, const std::vector<Named>& what) {
@@ -119,9 +119,9 @@ std::ptrdiff_t open_in(const std::vector<StageGap>& gaps) {
 
 /// Effects that either way cannot distinguish from the answer.
 void add_indistinguishable(Named& answer, const Named& other) {
-  for (const Named& n : other.alike)
-    if (std::ranges::none_of(answer.alike, [&](const Named& a) { return a.is(n.placed); }))
-      answer.alike.push_back(n);
+  for (const Named& n : other.alternatives)
+    if (std::ranges::none_of(answer.alternatives, [&](const Named& a) { return a.is(n.placed); }))
+      answer.alternatives.push_back(n);
 }
 
 /// What a question is answered from.
@@ -216,8 +216,8 @@ void doubt_undetermined(Diagnosis& d) {
     const auto why = undetermined(n);
     if (why.empty()) continue;
     d.verdict = Verdict::not_identifiable;
-    d.warnings.push_back(fmt::format("{} on {}: {}; record motions that show more of it", n.type,
-                                     n.on, why));
+    d.warnings.push_back(
+        fmt::format("{} on {}: {}; record motions that show more of it", n.type, n.on, why));
   }
 }
 

@@ -20,7 +20,7 @@ std::vector<Region> when(const Evidence& evidence, const Trials& plain,
 /// The place of an effect, and those of what could stand for it.
 std::vector<Part> group_of(const Named& n) {
   std::vector<Part> group{{n.stage, n.on}};
-  for (const Named& other : n.alike)
+  for (const Named& other : n.alternatives)
     if (find_stage(group, other.stage, other.on) == group.end())
       group.push_back({other.stage, other.on});
   return group;

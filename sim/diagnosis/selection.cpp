@@ -37,7 +37,7 @@ void settle(const Evidence& evidence, const Trials& trials, const Together& toge
     Ranked r{together.fits()[k], {}, {}, part.share[k], part.interval[k], 0};
     selection.answer.push_back(named(r, 0));
     selection.answer.back().supported = part.lost[k].low > 0;
-    selection.answer.back().alike = alternatives(evidence, trials, together, k);
+    selection.answer.back().alternatives = alternatives(evidence, trials, together, k);
   }
   std::ranges::stable_sort(selection.answer, std::greater(), &Named::gain);
 }
@@ -81,7 +81,7 @@ Selection select(const Evidence& evidence, const Trials& trials,
     s.trial = trials.with(trials.bare(), first[0].fit.placed, evidence.sets.all());
     s.left = left_open(evidence, trials, s.trial, evidence.options.alone);
     for (const std::size_t k : confusable(first, evidence.which_options()))
-      s.answer[0].alike.push_back(s.ranked[k]);
+      s.answer[0].alternatives.push_back(s.ranked[k]);
     return s;
   }
   const DiagnoseOptions& options = evidence.options;
@@ -96,7 +96,7 @@ Selection select(const Evidence& evidence, const Trials& trials,
   if (!alone || !s.answer[0].is(together.chosen()[0])) settle(evidence, trials, together, s);
   else
     for (const std::size_t k : confusable(first, evidence.which_options()))
-      s.answer[0].alike.push_back(s.ranked[k]);
+      s.answer[0].alternatives.push_back(s.ranked[k]);
   s.left = together.left(alone ? options.alone : options.together);
   s.trial = together.trial();
   return s;

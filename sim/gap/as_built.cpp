@@ -101,9 +101,11 @@ void add_alternatives(AsBuilt& is, const AsBuilt& other, double gain) {
     const std::size_t k = b.beyond[0];
     return as_effect(b.uncertain.constants[k], {k, b.estimate.point.x[k], b.estimate.sigma(k)});
   };
-  if (is.beyond.size() == 1 && other.beyond.empty())
+  const std::size_t effects = is.estimate.point.effects.size(),
+                    of_other = other.estimate.point.effects.size();
+  if (is.beyond.size() == 1 && other.beyond.empty() && of_other == effects + 1)
     is.instead[0].push_back(sized(other.estimate).back());
-  if (is.beyond.empty() && other.beyond.size() == 1)
+  if (is.beyond.empty() && other.beyond.size() == 1 && effects == of_other + 1)
     is.indistinguishable.back().push_back(far_of(other));
 }
 

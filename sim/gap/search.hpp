@@ -10,7 +10,7 @@
 /// Which effects of the library a robot has beside its constants: candidates are screened, the best are
 /// estimated together with the constants, and the one joins that costs least,
 ///
-///   cost = misfit (left.hpp, recordings taught with and held out) + prior of the constants
+///   cost = misfit (left.hpp, recordings trained on and held out) + prior of the constants
 ///          + price of each effect
 ///
 /// while a stage keeps more than noise; one at each place. An earlier choice is looked for again beside

@@ -130,8 +130,8 @@ TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
   blind.quirks.chains[0].knot_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 1);
-  REQUIRE(d.answer[0].alike.size() == 1);
-  CHECK(d.answer[0].alike[0].type == "sensor_shaft_offset");
+  REQUIRE(d.answer[0].alternatives.size() == 1);
+  CHECK(d.answer[0].alternatives[0].type == "sensor_shaft_offset");
   CHECK(d.answer[0].type == "tendon_length_offset");
 }
 
@@ -145,9 +145,9 @@ TEST_CASE("of two effects, what stands for one is not given to the other") {
   const auto resistance = std::ranges::find(d.answer, "motor_resistance", &Named::type);
   REQUIRE(offset != d.answer.end());
   REQUIRE(resistance != d.answer.end());
-  REQUIRE(offset->alike.size() == 1);
-  CHECK(offset->alike[0].type == "sensor_shaft_offset");
-  CHECK(resistance->alike.empty());
+  REQUIRE(offset->alternatives.size() == 1);
+  CHECK(offset->alternatives[0].type == "sensor_shaft_offset");
+  CHECK(resistance->alternatives.empty());
   REQUIRE(d.where.size() == 3);
   double whole = 0;
   for (const Located& place : d.where) {

@@ -11,15 +11,16 @@ using blind_recording::hinge_rig;
 
 namespace {
 
-/// Recordings, laid out for the nominal rig, of a rig with other numbers; recorded by the blind cases'
-/// own physics.
-std::vector<sim::residuals::Episode> recordings_of(const erp::Robot& built, double seconds = 10) {
+/// Recordings, laid out for the nominal rig, of a rig with other numbers and what is hidden in it; recorded by
+/// the blind cases' own physics.
+std::vector<sim::residuals::Episode> recordings_of(
+    const erp::Robot& built, double seconds = 10,
+    const sim::blind::Case& hidden = blind_recording::nothing_hidden()) {
   std::vector<sim::residuals::Episode> all;
   std::vector<std::string> remarks;
   for (int k = 0; k < 3; ++k)
     all.push_back(sim::residuals::lay_out(
-        sim::blind::record(built, blind_recording::nothing_hidden(),
-                           sim::excitation(built, k, seconds, 5), std::uint64_t(k)),
+        sim::blind::record(built, hidden, sim::excitation(built, k, seconds, 5), std::uint64_t(k)),
         hinge_rig(), "recording " + std::to_string(k + 1), remarks));
   return all;
 }
@@ -87,13 +88,8 @@ TEST_CASE("an effect is found beside constants that are all a little off") {
   built.actuators[0].spindle.radius_m *= 1.02, built.actuators[1].tendon.stiffness_N_per_m *= 0.97;
   auto blind = blind_recording::nothing_hidden();
   blind.quirks.chains[1].creep_N_per_m = 1500, blind.quirks.chains[1].creep_s = 2;  // extensor
-  std::vector<sim::residuals::Episode> all;
-  std::vector<std::string> remarks;
-  for (int k = 0; k < 3; ++k)
-    all.push_back(sim::residuals::lay_out(
-        sim::blind::record(built, blind, sim::excitation(built, k, 10, 5), std::uint64_t(k)),
-        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
-  const std::span<const sim::residuals::Episode> each(all);
+  const auto recordings = recordings_of(built, 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
   REQUIRE(found.estimate.point.effects.size() == 1);
   CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_creep on extensor");
@@ -105,13 +101,8 @@ TEST_CASE("a joint sensor's gain is found though both moment arms could nearly s
   built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
   auto blind = blind_recording::nothing_hidden();
   blind.quirks.joints[0].angle.gain = -0.095;
-  std::vector<sim::residuals::Episode> all;
-  std::vector<std::string> remarks;
-  for (int k = 0; k < 3; ++k)
-    all.push_back(sim::residuals::lay_out(
-        sim::blind::record(built, blind, sim::excitation(built, k, 10, 5), std::uint64_t(k)),
-        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
-  const std::span<const sim::residuals::Episode> each(all);
+  const auto recordings = recordings_of(built, 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
   REQUIRE(found.estimate.point.effects.size() == 1);
   CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "sensor_joint_gain on elbow");
@@ -121,14 +112,8 @@ TEST_CASE("a joint sensor's gain is found though both moment arms could nearly s
 TEST_CASE("a robot as described but for one effect is explained by that effect alone") {
   auto blind = blind_recording::nothing_hidden();
   blind.quirks.chains[0].spring = 0.2;  // flexor
-  std::vector<sim::residuals::Episode> all;
-  std::vector<std::string> remarks;
-  for (int k = 0; k < 3; ++k)
-    all.push_back(sim::residuals::lay_out(
-        sim::blind::record(hinge_rig(), blind, sim::excitation(hinge_rig(), k, 10, 5),
-                           std::uint64_t(k)),
-        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
-  const std::span<const sim::residuals::Episode> each(all);
+  const auto recordings = recordings_of(hinge_rig(), 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
   CHECK(found.exact);
   CHECK_FALSE(found.keeps);
