@@ -1,6 +1,8 @@
 #include "sim/gap/residual_vector.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "sim/parallel/in_parallel.hpp"
 #include "sim/residuals/floor.hpp"
@@ -12,14 +14,39 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// rms of what other noise changes in a stage; 0: nothing, or nothing to be seen.
-double floor_of(const residuals::Residual& real, const residuals::Residual& disturbed) {
+/// What other noise changes in a stage, over as many windows as both have.
+struct Changes {
   double square = 0, count = 0;
-  for (std::size_t k = 0; k < real.value.size(); ++k)
-    if (const double change = disturbed.value[k] - real.value[k];
-        !std::isnan(change) && !residuals::banded(real, k) && !residuals::banded(disturbed, k))
-      square += change * change, ++count;
-  return count > 0 ? std::sqrt(square / count) : 0;
+
+  double rms() const { return count > 0 ? std::sqrt(square / count) : 0; }
+  void add(const residuals::Residual& real, const residuals::Residual& disturbed) {
+    for (std::size_t k = 0; k < disturbed.value.size(); ++k)
+      if (const double change = disturbed.value[k] - real.value[k];
+          !std::isnan(change) && !residuals::banded(real, k) && !residuals::banded(disturbed, k))
+        square += change * change, ++count;
+  }
+};
+
+std::vector<Changes> changes_by_stage(const Explained& explained) {
+  std::vector<Changes> all(explained.real.front().residuals.size());
+  for (std::size_t e = 0; e < explained.real.size(); ++e)
+    for (std::size_t s = 0; s < all.size(); ++s)
+      all[s].add(explained.real[e].residuals[s], explained.disturbed[e].residuals[s]);
+  return all;
+}
+
+/// The first rows of an episode.
+void cut(residuals::Episode& e, std::size_t rows) {
+  const auto cut = [&](residuals::Signal& s) { s.resize(std::min(s.size(), rows)); };
+  for (residuals::ActuatorSignals& s : e.actuators)
+    for (residuals::Signal* each : {&s.mode, &s.reference, &s.voltage_V, &s.current_A, &s.shaft_rad,
+                                    &s.tension_N, &s.sent, &s.followed})
+      cut(*each);
+  for (residuals::JointSignals& j : e.joints) {
+    cut(j.angle_rad);
+    for (residuals::Signal& part : j.quaternion) cut(part);
+  }
+  e.rows = std::min(e.rows, rows);
 }
 
 }  // namespace
@@ -41,6 +68,7 @@ ResidualVector::ResidualVector(const erp::Robot& nominal,
   }
   floors_ = floors(bare);
   count_independent(bare);
+  cut_disturbed(nominal, bare);
 }
 
 void ResidualVector::count_independent(const Explained& nominal) {
@@ -57,22 +85,43 @@ void ResidualVector::count_independent(const Explained& nominal) {
   }
 }
 
+/// Of a whole episode, what other noise changes in each stage.
 std::vector<double> ResidualVector::floors(const Explained& explained) const {
   std::vector<double> all;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const std::size_t e = b / stages_, r = b % stages_;
-    all.push_back(floor_of(explained.real[e].residuals[r], explained.disturbed[e].residuals[r]));
+    Changes changes;
+    changes.add(explained.real[b / stages_].residuals[b % stages_],
+                explained.disturbed[b / stages_].residuals[b % stages_]);
+    all.push_back(changes.rms());
   }
   return all;
 }
 
+/// Where every stage has enough windows in them, first parts stand for whole episodes.
+void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nominal) {
+  constexpr double part = 1 / 3.0, enough = part / 2;  // of rows, and of windows; chosen
+  const std::vector<Changes> whole = changes_by_stage(nominal);
+  std::vector<residuals::Episode> first = disturbed_;
+  Explained cut_nominal{nominal.real, {}};
+  for (std::size_t e = 0; e < first.size(); ++e) {
+    const std::size_t from = first[e].judged_from,
+                      until = std::min(first[e].judged_until, first[e].rows);
+    cut(first[e], from + std::size_t(part * double(until - std::min(from, until))));
+    cut_nominal.disturbed.push_back(residuals::Stages(robot).explain(first[e]));
+  }
+  std::vector<Changes> of_first = changes_by_stage(cut_nominal);
+  const auto is_seen = [&](std::size_t s) { return of_first[s].count >= enough * whole[s].count; };
+  if (std::ranges::all_of(std::views::iota(std::size_t(0), stages_), is_seen))
+    disturbed_ = std::move(first);
+  else of_first = whole;
+  for (const Changes& c : of_first) first_floors_.push_back(c.rms());
+}
+
 std::vector<double> ResidualVector::raised(const Explained& explained) const {
-  const auto is = floors(explained);
-  std::vector<double> now(stages_), nominal(stages_), all(stages_, 1.0);
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    now[blocks_[b].stage] += is[b] * is[b], nominal[blocks_[b].stage] += floors_[b] * floors_[b];
+  std::vector<double> all(stages_, 1.0);
+  const std::vector<Changes> changes = changes_by_stage(explained);
   for (std::size_t s = 0; s < stages_; ++s)
-    if (nominal[s] > 0) all[s] = std::sqrt(now[s] / nominal[s]);
+    if (first_floors_[s] > 0) all[s] = changes[s].rms() / first_floors_[s];
   return all;
 }
 
@@ -101,14 +150,15 @@ Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base
 
 VectorXd ResidualVector::z(const Explained& explained) const {
   VectorXd z = VectorXd::Zero(size_);
-  const auto floors = this->floors(explained);
+  const auto raised = this->raised(explained);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const std::size_t e = b / stages_, r = b % stages_;
     const auto &was = bare_[e].residuals[r], &is = explained.real[e].residuals[r];
-    for (std::size_t k = 0; k < was.value.size() && floors[b] > 0; ++k) {
+    const double floor = floors_[b] * raised[r];
+    for (std::size_t k = 0; k < was.value.size() && floor > 0; ++k) {
       if (std::isnan(was.value[k])) continue;
       const auto& taken = std::isnan(is.value[k]) ? was : is;
-      z[blocks_[b].first + Index(k)] = taken.value[k] / floors[b];
+      z[blocks_[b].first + Index(k)] = taken.value[k] / floor;
     }
   }
   return z;

@@ -8,7 +8,7 @@
 
 namespace sim::gap {
 
-/// What a robot makes of every episode, and of the same with other noise.
+/// What a robot makes of every episode, and of the first part of each with other noise.
 struct Explained {
   std::vector<residuals::Explanation> real, disturbed;
 };
@@ -24,7 +24,8 @@ struct Block {
 ///
 /// σ is the noise floor of the robot at hand, not of the nominal one: else a constant that multiplies a
 /// noisy signal comes out too small (errors in variables), and one that scales an equation down would
-/// scale its error down (σ² = ⟨(r(y + n) − r(y))²⟩, n: noise of the sensors' data sheets).
+/// scale its error down (σ² = ⟨(r(y + n) − r(y))²⟩, n: noise of the sensors' data sheets). How much it is
+/// above the nominal one is one number a stage, seen on the first part of all episodes.
 class ResidualVector {
  public:
   /// `nominal` and `episodes` stay with the caller.
@@ -50,12 +51,15 @@ class ResidualVector {
  private:
   std::vector<double> floors(const Explained& explained) const;
   void count_independent(const Explained& nominal);
+  void cut_disturbed(const erp::Robot& robot, const Explained& nominal);
 
   std::span<const residuals::Episode> episodes_;
   std::vector<residuals::Episode> disturbed_;
   std::vector<residuals::Explanation> bare_;
   std::vector<Block> blocks_;
-  std::vector<double> floors_, independent_;  ///< of the nominal robot: one a block, one a stage
+  /// Of the nominal robot: noise floors of whole episodes, one a block, and of the first parts, one a stage.
+  std::vector<double> floors_, first_floors_;
+  std::vector<double> independent_;  ///< one a stage
   std::size_t stages_ = 0;
   Eigen::Index size_ = 0;
 };
