@@ -87,11 +87,17 @@ void take(AsBuilt& built, const Found& found) {
   built.estimate = found.train;
 }
 
-/// Completes an answer with its constants that are far off. `search` must refer to `built.uncertain`.
-void settle(const Search& search, const Found& found, const Evidence& evidence, AsBuilt& built) {
-  take(built, found);
+/// Completes an answer with its constants that are far off, less the effects that those make needless. `search` must
+/// refer to `built.uncertain`.
+Found settle(const Search& search, Found found, const Evidence& evidence, AsBuilt& built) {
+  built.estimate = found.train;
   settle_far_off(evidence.train, built);
-  built.cost = search.judge(built.estimate).cost;
+  Found settled = search.judge(built.estimate);
+  settled.rivals = std::move(found.rivals);
+  if (!built.beyond.empty()) settled = search.pruned(std::move(settled));
+  take(built, settled);
+  built.cost = settled.cost;
+  return settled;
 }
 
 /// Adds the other answer as an alternative, where one constant far off costs nearly the same as one effect.
@@ -217,8 +223,10 @@ AsBuilt explained(const Evidence& evidence, const std::vector<Placed>& hints) {
   AsBuilt built{.uncertain =
                     uncertain_of(evidence.nominal, evidence.options.search.withhold, false)};
   const Search search(evidence.train, evidence.held_out, built.uncertain, evidence.options.search);
-  settle(search, search.run(search.with({}), evidence.options.search.most_effects), evidence,
-         built);
+  Found found = settle(search, search.with({}), evidence, built);
+  if (built.keeps)
+    settle(search, search.run(std::move(found), evidence.options.search.most_effects), evidence,
+           built);
   return or_effect(evidence, std::move(built), hints);
 }
 

@@ -23,24 +23,27 @@ struct MotorNumber {
   double erp::MotorType::*number;
   double relative;  ///< tolerance, as a share of the number
   const char* effect;
+  double far = 20;
 };
+/// Of a friction or damping that is far off: a nominal one of nearly nothing says nothing of it; chosen.
+constexpr double of_far_friction = 500;
 constexpr MotorNumber motor_numbers[] = {
     {"resistance_ohm", Stage::motor, &erp::MotorType::resistance_ohm, 0.05, "motor_resistance"},
-    {"back_emf_V_s_per_rad", Stage::motor, &erp::MotorType::back_emf_V_s_per_rad, 0.04,
+    {"torque_Nm_per_A", Stage::motor, &erp::MotorType::torque_Nm_per_A, 0.04,
      "motor_torque_constant"},
     {"inductance_H", Stage::motor, &erp::MotorType::inductance_H, 0.1, "motor_inductance"},
-    {"torque_Nm_per_A", Stage::gearbox, &erp::MotorType::torque_Nm_per_A, 0.04,
-     "motor_torque_constant"},
     {"gear_efficiency", Stage::gearbox, &erp::MotorType::gear_efficiency, 0.05,
      "gearbox_efficiency"},
     {"rotor_inertia_kg_m2", Stage::gearbox, &erp::MotorType::rotor_inertia_kg_m2, 0.05,
      "gearbox_inertia"},
-    {"gear_coulomb_Nm", Stage::gearbox, &erp::MotorType::gear_coulomb_Nm, 0.2, "gearbox_coulomb"},
+    {"gear_coulomb_Nm", Stage::gearbox, &erp::MotorType::gear_coulomb_Nm, 0.2, "gearbox_coulomb",
+     of_far_friction},
     {"gear_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::gear_viscous_Nm_s_per_rad, 0.2,
-     "gearbox_viscous"},
-    {"rotor_coulomb_Nm", Stage::gearbox, &erp::MotorType::rotor_coulomb_Nm, 0.2, "gearbox_coulomb"},
+     "gearbox_viscous", of_far_friction},
+    {"rotor_coulomb_Nm", Stage::gearbox, &erp::MotorType::rotor_coulomb_Nm, 0.2, "gearbox_coulomb",
+     of_far_friction},
     {"rotor_viscous_Nm_s_per_rad", Stage::gearbox, &erp::MotorType::rotor_viscous_Nm_s_per_rad, 0.2,
-     "gearbox_viscous"},
+     "gearbox_viscous", of_far_friction},
 };
 
 constexpr double of_radius = 0.03, of_stiffness = 0.05, of_damping = 0.2, of_moment_arm = 0.03;
@@ -48,8 +51,6 @@ constexpr double of_tension_gain = 0.02, of_current_gain = 0.02;
 constexpr double of_joint_friction = 0.2, of_mass = 0.04, of_com = 0.03, of_inertia = 0.06;
 constexpr double line_zero_m = 3e-4, tension_zero_N = 0.1, current_zero_A = 0.01,
                  angle_zero_rad = 0.005;
-
-constexpr double any = -std::numeric_limits<double>::infinity();
 
 erp::Actuator& actuator_of(erp::Robot& robot, const std::string& name) {
   return *std::ranges::find(robot.actuators, name, &erp::Actuator::name);
@@ -76,6 +77,11 @@ auto by_effect(const char* type, const std::string& on, double nominal) {
   };
 }
 
+effects::Bounds bounds_of(const char* type) {
+  effects::AnyEffect effect = *effects::neutral(type);
+  return effects::parameters(effect)[0].bounds;
+}
+
 /// Of an effect's first parameter to the number: relative, or in units at the gearbox shaft.
 double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) {
   if (number == &erp::MotorType::gear_coulomb_Nm ||
@@ -87,9 +93,16 @@ double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) 
   return 1 / (motor.*number);
 }
 
+/// Torque and back-EMF constant are one number of a motor, K_T i ω = K_E ω i: they move together.
+void set_number(erp::MotorType& motor, double erp::MotorType::*number, double value) {
+  if (number == &erp::MotorType::torque_Nm_per_A)
+    motor.back_emf_V_s_per_rad *= value / motor.torque_Nm_per_A;
+  motor.*number = value;
+}
+
 void add_motor(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a) {
   const erp::Actuator& actuator = robot.actuators[a];
-  for (const auto& [name, stage, number, relative, effect] : motor_numbers) {
+  for (const auto& [name, stage, number, relative, effect, far] : motor_numbers) {
     const double nominal = robot.motor_of(actuator).*number;
     if (!(nominal > 0)) continue;
     all.push_back({name,
@@ -98,12 +111,14 @@ void add_motor(std::vector<Constant>& all, const erp::Robot& robot, std::size_t 
                    nominal,
                    relative * nominal,
                    0.05 * nominal,
-                   {.line = stage != Stage::motor, .chain = a},
+                   {.line = true, .chain = a},
                    [on = actuator.name, number](erp::Robot& r, double value) {
-                     effects::own_motor(r, actuator_of(r, on)).*number = value;
+                     set_number(effects::own_motor(r, actuator_of(r, on)), number, value);
                    },
                    effect,
-                   motor_scale(robot.motor_of(actuator), number)});
+                   motor_scale(robot.motor_of(actuator), number),
+                   false,
+                   far});
   }
 }
 
@@ -112,12 +127,13 @@ void add_line(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a
   const residuals::Reach line{.line = true, .chain = a};
   const auto number = [&](const char* name, Stage stage, double nominal, double relative,
                           const char* effect, auto set) {
+    const bool damps = std::string_view(name) == "damping_N_s_per_m";
     if (nominal > 0)
       all.push_back({name, stage, actuator.name, nominal, relative * nominal, 0.05 * nominal, line,
                      [on = actuator.name, set](erp::Robot& r, double value) {
                        set(actuator_of(r, on), value);
                      },
-                     effect, std::string_view(name) == "damping_N_s_per_m" ? 1 : 1 / nominal});
+                     effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : 20});
   };
   number("radius_m", Stage::spindle, actuator.spindle.radius_m, of_radius, "spindle_radius",
          [](erp::Actuator& x, double v) { x.spindle.radius_m = v; });
@@ -127,8 +143,10 @@ void add_line(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a
          "tendon_damping", [](erp::Actuator& x, double v) { x.tendon.damping_N_s_per_m = v; });
   const auto effect = [&](const char* name, Stage stage, const char* type, double nominal,
                           double tolerance, residuals::Reach reach, bool zero) {
-    all.push_back({name, stage, actuator.name, nominal, tolerance, zero ? any : 0.5, reach,
+    const effects::Bounds bounds = bounds_of(type);
+    all.push_back({name, stage, actuator.name, nominal, tolerance, nominal + bounds.low, reach,
                    by_effect(type, actuator.name, nominal), type, 1, zero});
+    all.back().highest = nominal + bounds.high;
   };
   effect("moment_arm", Stage::routing, "routing_moment_arm", 1, of_moment_arm,
          {.line = true, .chain = a, .path = a}, false);
@@ -153,23 +171,28 @@ void add_joint(std::vector<Constant>& all, const erp::Joint& joint) {
                      [on = joint.name, field](erp::Robot& r, double value) {
                        joint_of(r, on).*field = value;
                      },
-                     effect});
+                     effect,
+                     1,
+                     false,
+                     of_far_friction});
   };
   number("viscous_Nm_s_per_rad", joint.viscous_Nm_s_per_rad, &erp::Joint::viscous_Nm_s_per_rad,
          "joint_viscous");
   number("coulomb_Nm", joint.coulomb_Nm, &erp::Joint::coulomb_Nm, "joint_coulomb");
-  if (joint.type == erp::JointType::revolute)
+  if (joint.type == erp::JointType::revolute) {
     all.push_back({"angle_zero_rad",
                    Stage::sensor,
                    joint.name,
                    0,
                    angle_zero_rad,
-                   any,
+                   bounds_of("sensor_joint_offset").low,
                    {.joints = true, .bones = true},
                    by_effect("sensor_joint_offset", joint.name, 0),
                    "sensor_joint_offset",
                    1,
                    true});
+    all.back().highest = bounds_of("sensor_joint_offset").high;
+  }
 }
 
 /// Factors of what robot.xml gives, however it gives it.

@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,8 +27,12 @@ struct Constant {
   std::string effect;       ///< the type of the library that is such a change
   double effect_scale = 1;  ///< of that effect's first parameter to value − nominal
   bool zero = false;        ///< where something is zero, not what it amounts to
+  double far = 20;          ///< standard deviation where it is far off, in tolerances
 
-  double value(double x) const { return std::max(lowest, nominal + tolerance * x); }
+  double highest =
+      std::numeric_limits<double>::infinity();  ///< as `lowest`: what its effect can hold
+
+  double value(double x) const { return std::clamp(nominal + tolerance * x, lowest, highest); }
 };
 
 /// Those of a robot that recordings may determine, in the order of the chain: motor, gearbox,

@@ -39,14 +39,14 @@ Nudged nudged(const Placed& shape, std::size_t size, double by, const ChangedBy&
   return {by, changed_by(placed)};
 }
 
-/// A nudge of a size that changes z by about its noise, whatever the parameter's bounds; `by`: a first try.
+/// A nudge of a size that changes z by a small part of its noise, whatever the parameter's bounds; `by`: a first try.
 /// One that changes nothing stays as it is.
 Nudged fitting_nudge(const Placed& shape, std::size_t size, double by,
                      const ChangedBy& changed_by) {
-  constexpr double least = 1e-4, most = 100, near = 4;  // chosen
+  constexpr double wanted = 0.003, least = 1e-6, most = 100, near = 4;  // chosen
   Nudged first = nudged(shape, size, by, changed_by);
   const double rms = first.change.norm() / std::sqrt(double(first.change.size()));
-  const double scale = std::clamp(0.3 / std::max(rms, 1e-12), least, most);
+  const double scale = std::clamp(wanted / std::max(rms, 1e-12), least, most);
   if (rms == 0 || (scale > 1 / near && scale < near)) return first;
   Placed placed = shape;
   const effects::Parameter p = effects::parameters(placed.effect)[size];

@@ -13,8 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Columns `from` … of ∂z/∂unknown, by differences to both sides. Where a line goes slack z jumps: steps are
-/// so wide (unknowns.cpp) that a jump counts as the slope it makes over what the estimate may be off.
+/// Columns `from` … of ∂z/∂unknown, by forward differences.
 std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector& residuals,
                                                            const Unknowns& at, const Estimate& here,
                                                            std::size_t from, int threads) {
@@ -22,18 +21,11 @@ std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector&
   std::vector<std::vector<std::pair<Index, double>>> all(at.count() - from);
   in_parallel(all.size(), threads, [&](std::size_t n) {
     const std::size_t k = from + n;
-    const auto slope = [&](double step) -> VectorXd {
-      const Unknowns other = at.with(k, at.value(k) + step);
-      if (other.value(k) == at.value(k)) return {};  // at a bound
-      return (residuals.z(residuals.explain(other.robot(), here.explained, at.reach(k, stages))) -
-              here.z) /
-             (other.value(k) - at.value(k));
-    };
-    const VectorXd forward = slope(at.step(k)), backward = slope(-at.step(k));
-    for (Index row = 0; row < forward.size(); ++row)
-      if (const double d = backward.size() ? (forward[row] + backward[row]) / 2 : forward[row];
-          d != 0)
-        all[n].emplace_back(row, d);
+    const Unknowns other = at.with(k, at.value(k) + at.step(k));
+    const VectorXd change =
+        residuals.z(residuals.explain(other.robot(), here.explained, at.reach(k, stages))) - here.z;
+    for (Index row = 0; row < change.size(); ++row)
+      if (change[row] != 0) all[n].emplace_back(row, change[row] / (other.value(k) - at.value(k)));
   });
   return all;
 }
@@ -169,9 +161,11 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
     }
     const Step taken = step(residuals, at, e, damping, d.threads);
     const bool done = !taken.better || taken.gained < enough * e.cost;
-    if (done && d.fresh && !far) break;
-    if (done && d.fresh) iteration = d.far - 1, d.stale = false;
-    else d.stale = done || taken.gained < kept * taken.promised, d.fresh = false;
+    const bool was_fresh = d.fresh;
+    if (taken.better) d.fresh = false;
+    if (done && was_fresh && !far) break;
+    if (done && was_fresh) iteration = d.far - 1, d.stale = false;
+    else d.stale = done || taken.gained < kept * taken.promised;
   }
   e.point = at.point();
   e.bound.clear();

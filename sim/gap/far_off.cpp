@@ -37,7 +37,8 @@ class LinearModel {
     for (Index k = 0; k < prior.size(); ++k)
       prior[k] = std::size_t(k) < constants() ? 1 : 1e-9 * hessian_(k, k) + 1e-12;
     Minimum m;
-    for (const std::size_t k : far) prior[Index(k)] = far_precision, m.cost += far_price(of(k));
+    for (const std::size_t k : far)
+      prior[Index(k)] = far_precision(of(k)), m.cost += far_price(of(k));
     MatrixXd whole = hessian_;
     whole.diagonal() += prior;
     const auto factors = whole.ldlt();
@@ -52,14 +53,14 @@ class LinearModel {
   /// Cost with a constant in the set as well. Of a quadratic form less δ x_k² the minimum is lower by
   /// δ x_k²/(1 − δ C_kk), the determinant (1 − δ C_kk) times as large: Sherman and Morrison.
   double with(const Minimum& m, std::size_t k) const {
-    const double less = 1 - far_precision, x = m.x[Index(k)];
+    const double less = 1 - far_precision(of(k)), x = m.x[Index(k)];
     const double left = 1 - less * m.covariance(Index(k), Index(k));
     return m.cost + far_price(of(k)) + std::log(left) - less * x * x / left;
   }
 
   /// Not beyond what makes sense of it.
   bool may_be_far(const Minimum& m, std::size_t k) const {
-    const double left = 1 - (1 - far_precision) * m.covariance(Index(k), Index(k));
+    const double left = 1 - (1 - far_precision(of(k))) * m.covariance(Index(k), Index(k));
     return of(k).nominal + of(k).tolerance * m.x[Index(k)] / left > of(k).lowest;
   }
 

@@ -91,7 +91,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// estimated already.
 VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd& slope,
                      std::span<const double> low, std::span<const double> high) {
-  constexpr double copy = 1e-6, ridge = 1e-6;  // of its square; chosen
+  constexpr double copy = 1e-8, ridge = 1e-6;  // of its square; chosen
   std::vector<Index> free;
   for (Index n = 0; n < own.rows(); ++n)
     if (own(n, n) > copy * whole(n, n)) free.push_back(n);

@@ -142,9 +142,8 @@ Found Search::without(const Found& found, std::size_t effect) const {
   return left;
 }
 
-/// Without effects that cost more than they explain beside the others. The last one is not asked.
 Found Search::pruned(Found found) const {
-  for (std::size_t k = 0; k + 1 < found.train.point.effects.size(); ++k)
+  for (std::size_t k = 0; k < found.train.point.effects.size(); ++k)
     if (Found base = without(found, k); base.cost < found.cost) return pruned(std::move(base));
   return found;
 }

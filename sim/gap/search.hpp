@@ -63,13 +63,14 @@ class Search {
   Found run(Found found, std::size_t most) const;
   /// With the effect that makes it cheapest; none: nothing does.
   std::optional<Found> best_beside(const Found& base) const;
+  /// Without effects that cost more than they explain beside the others.
+  Found pruned(Found found) const;
 
  private:
   /// `base` with each of the candidates, the cheapest first.
   std::vector<Found> each_beside(const Found& base) const;
   Found with_best_of(const std::vector<Found>& joined, const Found& base) const;
   Found exchanged(Found found) const;
-  Found pruned(Found found) const;
   Found without(const Found& found, std::size_t effect) const;
 
   const Estimator& train_;

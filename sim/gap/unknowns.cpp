@@ -22,14 +22,14 @@ double prior_cost(const Uncertain& uncertain, const Point& point) {
     const double square = point.x[k] * point.x[k];
     if (uncertain.far.empty()) sum += nu * std::log1p(square / nu);
     else if (!uncertain.far[k]) sum += square;
-    else sum += far_precision * square + far_price(uncertain.constants[k]);
+    else sum += far_precision(uncertain.constants[k]) * square + far_price(uncertain.constants[k]);
   }
   return sum;
 }
 
 double prior_precision(const Uncertain& uncertain, const Point& point, std::size_t k) {
   if (uncertain.far.empty()) return 1 / (1 + point.x[k] * point.x[k] / nu);
-  return uncertain.far[k] ? far_precision : 1;
+  return uncertain.far[k] ? far_precision(uncertain.constants[k]) : 1;
 }
 
 bool is_estimated(const effects::Parameter& p) {
@@ -59,8 +59,8 @@ double Unknowns::value(std::size_t k) const {
 }
 
 double Unknowns::step(std::size_t k) const {
-  constexpr double of_tolerance = 0.2, of_bounds = 1e-3, of_value = 0.02,
-                   of_logarithm = 0.03;  // chosen
+  constexpr double of_tolerance = 1e-4, of_bounds = 5e-7, of_value = 1e-5,
+                   of_logarithm = 1.5e-5;  // chosen
   if (k < constants()) return of_tolerance;
   if (!parameter(k).fitted) return of_logarithm;
   const effects::Bounds bounds = parameter(k).bounds;

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "sim/gap/constants.hpp"
@@ -26,15 +27,15 @@ erp::Robot robot_at(const Uncertain& uncertain, const Point& point);
 /// −2 log of the prior of x. Where it is not known which constants are far off, ν log(1 + x²/ν), ν = 6: a
 /// normal one of standard deviation 1 near 0, with the heavier tails of Student's t, so that a constant
 /// far off costs little more than one that is three tolerances off. Where it is known, x², and
-/// x²/20² + price of one that is far off.
+/// x²/far² + price of one that is far off.
 double prior_cost(const Uncertain& uncertain, const Point& point);
 /// Of the normal one that has the same slope there.
 double prior_precision(const Uncertain& uncertain, const Point& point, std::size_t k);
 
-inline constexpr double far_precision = 1 / 400.0;
-/// −2 log of the odds that a constant is far off, 15 %, and of the normalisation of the wider prior, log 20²; of a
+inline double far_precision(const Constant& c) { return 1 / (c.far * c.far); }
+/// −2 log of the odds that a constant is far off, 15 %, and of the normalisation of the wider prior; of a
 /// zero five tolerances; chosen.
-inline double far_price(const Constant& c) { return c.zero ? 25 : 9.5; }
+inline double far_price(const Constant& c) { return c.zero ? 25 : 3.5 + 2 * std::log(c.far); }
 
 /// Parameters that are fitted, and times and speeds that are given elsewhere; not counts (a cogging's
 /// periods).
@@ -54,7 +55,8 @@ class Unknowns {
   erp::Robot robot() const { return robot_at(*uncertain_, at_); }
 
   double value(std::size_t k) const;
-  /// For a forward difference, within the bounds.
+  /// For a forward difference, within the bounds: so small that all unknowns have the same windows beyond a band
+  /// of friction, and the same with a line taut.
   double step(std::size_t k) const;
   /// Another value of one, or all moved; parameters stay within their bounds.
   Unknowns with(std::size_t k, double value) const;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "interfaces/xml/errors.hpp"
+#include "sim/effects/library.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
 
 using namespace sim::gap;
@@ -67,4 +68,27 @@ TEST_CASE("a tolerance of a number that is not estimated is refused, with the nu
         std::string::npos);
   CHECK(message_of(relative("resistance_ohm", "elbow", 0.1)).find("of elbow") != std::string::npos);
   CHECK(message_of(relative("line_zero_m", "", 0.1)).find("give absolute") != std::string::npos);
+}
+
+TEST_CASE("a motor's torque and back-EMF constant move together") {
+  const erp::Robot robot = hinge_rig();
+  const auto all = constants_of(robot);
+  std::vector<double> x(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].name == "torque_Nm_per_A" && all[k].on == "flexor") x[k] = 1;
+  const erp::Robot built = with_constants(robot, all, x);
+  const erp::MotorType &was = robot.motor_of(robot.actuators[0]),
+                       &is = built.motor_of(built.actuators[0]);
+  CHECK(is.torque_Nm_per_A == Approx(1.04 * was.torque_Nm_per_A));
+  CHECK(is.back_emf_V_s_per_rad == Approx(1.04 * was.back_emf_V_s_per_rad));
+  CHECK(std::ranges::none_of(all,
+                             [](const Constant& c) { return c.name == "back_emf_V_s_per_rad"; }));
+}
+
+TEST_CASE("a constant stays within what the effect that stands for it can hold") {
+  const erp::Robot robot = hinge_rig();
+  const auto all = constants_of(robot);
+  for (const double x : {-1e4, 1e4})
+    CHECK_NOTHROW(
+        sim::effects::read_effects(with_constants(robot, all, std::vector<double>(all.size(), x))));
 }
