@@ -5,6 +5,7 @@
 
 #include "sim/diagnosis/selection.hpp"
 #include "sim/diagnosis/shape.hpp"
+#include "sim/diagnosis/shares.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -81,31 +82,33 @@ Trials trials_of(const Evidence& evidence, const erp::Robot& robot) {
   return {robot, evidence.episodes, evidence.options.seed};
 }
 
-/// Σ z² of the recordings held out, by a robot with that point.
-double square_at(const Evidence& evidence, const Trials& plain, const erp::Robot& robot) {
-  residuals::Stages stages(robot);
-  Trial trial{{}, std::vector<residuals::Explanation>(evidence.episodes.size())};
-  for (const std::size_t e : evidence.sets.held_out)
-    trial.of_episode[e] = stages.explain(evidence.episodes[e]);
-  return sum(plain.blocks(trial, evidence.sets.held_out)).square;
+/// A robot as built, but with some causes of its answer alone: its effects, then its constants that are far off.
+erp::Robot robot_with(const gap::AsBuilt& built, const std::vector<bool>& among) {
+  gap::Point some = built.estimate.point;
+  const std::size_t effects = some.effects.size();
+  for (std::size_t k = among.size(); k-- > 0;) {
+    if (among[k]) continue;
+    if (k < effects) some.effects.erase(some.effects.begin() + std::ptrdiff_t(k));
+    else some.x[built.beyond[k - effects]] = 0;
+  }
+  return gap::robot_at(built.uncertain, some);
 }
 
-/// What the recordings held out lose without each part of the answer, as a share of the gap.
-void set_gains(const Evidence& evidence, const Trials& plain, const gap::AsBuilt& built,
-               std::vector<Named>& answer) {
-  const ScoreBlock before = sum(plain.blocks(plain.bare(), evidence.sets.held_out));
-  const double gap = std::max(before.square - double(before.windows), 1e-9);
-  const double all = square_at(evidence, plain, built.robot);
-  const std::size_t effects = built.estimate.point.effects.size();
+/// What each cause has to do with the gap that they close together. Returns what they share.
+double set_gains(const Evidence& evidence, const Trials& plain, const gap::AsBuilt& built,
+                 std::vector<Named>& answer) {
+  const auto& held_out = evidence.sets.held_out;
+  const Shares each = shares(evidence, answer.size(), [&](const std::vector<bool>& among) {
+    residuals::Stages stages(robot_with(built, among));
+    Trial trial{{}, std::vector<residuals::Explanation>(evidence.episodes.size())};
+    for (const std::size_t e : held_out) trial.of_episode[e] = stages.explain(evidence.episodes[e]);
+    return plain.blocks(trial, held_out);
+  });
   for (std::size_t k = 0; k < answer.size(); ++k) {
-    gap::Point without = built.estimate.point;
-    if (k < effects) without.effects.erase(without.effects.begin() + std::ptrdiff_t(k));
-    else without.x[built.beyond[k - effects]] = 0;
-    const double left = square_at(evidence, plain, gap::robot_at(built.uncertain, without));
-    answer[k].gain = std::clamp((left - all) / gap, 0.0, 1.0);
-    answer[k].gain_interval = {answer[k].gain, answer[k].gain};
+    answer[k].gain = each.share[k], answer[k].gain_interval = each.interval[k];
     answer[k].supported = true;
   }
+  return each.interaction;
 }
 
 /// Excess of a stage without the hundredth of its seconds that keeps most: one event is no law.
@@ -156,14 +159,15 @@ Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<
   const gap::AsBuilt found = gap::as_built(evidence.robot, train, held_out, options);
   std::vector<Named> answer = effects_of(found);
   for (std::size_t n = 0; n < found.beyond.size(); ++n) answer.push_back(beyond(found, n));
-  set_gains(evidence, plain, found, answer);
+  const double interaction = set_gains(evidence, plain, found, answer);
   Built built{found.robot,
               constants_of(found),
               std::move(answer),
               trials_of(evidence, found.robot),
               {},
               found.exact,
-              ends_at_bound(found.estimate)};
+              ends_at_bound(found.estimate),
+              interaction};
   built.left = left_by(evidence, plain, built.trials);
   return built;
 }

@@ -28,8 +28,9 @@ struct Built {
   std::vector<Named> answer;                ///< effects, then constants beyond their tolerances
   Trials trials;                            ///< of `robot`
   std::vector<StageGap> left;               ///< on the recordings held out; open: not explained
-  bool exact = false;     ///< constants are as described, but for zeros and the like
-  bool at_bound = false;  ///< a parameter of an effect ends at a bound
+  bool exact = false;      ///< constants are as described, but for zeros and the like
+  bool at_bound = false;   ///< a parameter of an effect ends at a bound
+  double interaction = 0;  ///< of the causes of the answer (shares.hpp)
 
   bool explained() const;
 };

@@ -138,6 +138,7 @@ void take(const Question& q, const Built& built, Selection selection, Diagnosis&
               : built.explained() ? Verdict::supported
                                   : Verdict::none_of_the_known;
   d.answer = built.answer, d.constants = built.constants, d.as_built = built.robot;
+  d.interaction = built.interaction;
   add_bus(q.observed, d);
   if (built.explained() && !d.answer.empty())
     d.where = where_of_answer(q.evidence, q.plain, d.stages, d.answer);

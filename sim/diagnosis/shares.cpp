@@ -41,18 +41,14 @@ std::vector<Set> needed(std::size_t count) {
   return sets;
 }
 
-Subsets score(const Evidence& evidence, const Trials& trials,
-              const std::vector<effects::Placed>& together) {
-  Subsets subsets{together.size(), {}};
-  const auto& held_out = evidence.sets.held_out;
-  const auto sets = needed(together.size());
+Subsets score(const Evidence& evidence, std::size_t count, const BlocksOf& blocks_of) {
+  Subsets subsets{count, {}};
+  const auto sets = needed(count);
   for (const Set set : sets) subsets.blocks[set];
   in_parallel(sets.size(), evidence.options.threads, [&](std::size_t n) {
-    std::vector<effects::Placed> some;
-    for (std::size_t k = 0; k < together.size(); ++k)
-      if (sets[n] & only(k)) some.push_back(together[k]);
-    subsets.blocks.at(sets[n]) =
-        trials.blocks(some.empty() ? trials.bare() : trials.with(some, held_out), held_out);
+    std::vector<bool> among(count);
+    for (std::size_t k = 0; k < count; ++k) among[k] = sets[n] & only(k);
+    subsets.blocks.at(sets[n]) = blocks_of(among);
   });
   return subsets;
 }
@@ -90,10 +86,8 @@ double shapley(const Closes& v, std::size_t k, std::size_t count) {
 
 }  // namespace
 
-Shares shares(const Evidence& evidence, const Trials& trials,
-              const std::vector<effects::Placed>& together) {
-  const std::size_t count = together.size();
-  const Subsets subsets = score(evidence, trials, together);
+Shares shares(const Evidence& evidence, std::size_t count, const BlocksOf& blocks_of) {
+  const Subsets subsets = score(evidence, count, blocks_of);
   const Set whole = subsets.whole();
   const auto every = each(subsets.blocks.at(0).size());
   const Closes v = closed(subsets, every);
@@ -110,6 +104,17 @@ Shares shares(const Evidence& evidence, const Trials& trials,
         interval([&](const Closes& w) { return w.at(whole) - w.at(whole & ~only(k)); }));
   }
   return result;
+}
+
+Shares shares(const Evidence& evidence, const Trials& trials,
+              const std::vector<effects::Placed>& together) {
+  const auto& held_out = evidence.sets.held_out;
+  return shares(evidence, together.size(), [&](const std::vector<bool>& among) {
+    std::vector<effects::Placed> some;
+    for (std::size_t k = 0; k < together.size(); ++k)
+      if (among[k]) some.push_back(together[k]);
+    return trials.blocks(some.empty() ? trials.bare() : trials.with(some, held_out), held_out);
+  });
 }
 
 }  // namespace sim::diagnosis

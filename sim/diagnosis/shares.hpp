@@ -1,10 +1,11 @@
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "sim/diagnosis/answer.hpp"
 #include "sim/diagnosis/evidence.hpp"
 
-/// What each of several effects has to do with the gap that they close together.
+/// What each of several causes has to do with the gap that they close together.
 ///
 ///   v(S) = (S₀ − S_S)/(S₀ − N)                       closed by the subset S of the effects
 ///   φ_k  = mean over all orders of joining of v(S + k) − v(S)                (Shapley 1953)
@@ -19,6 +20,10 @@ struct Shares {
   double interaction = 0;
 };
 
+/// What the recordings held out score with some causes, a flag each.
+using BlocksOf = std::function<std::vector<ScoreBlock>(const std::vector<bool>& among)>;
+Shares shares(const Evidence& evidence, std::size_t count, const BlocksOf& blocks_of);
+/// Of effects on the robot of `trials`.
 Shares shares(const Evidence& evidence, const Trials& trials,
               const std::vector<effects::Placed>& together);
 
