@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace sim::gap {
 namespace {
@@ -137,16 +138,25 @@ void add_rivals(std::vector<Found>& all, double cost_without) {
 }
 
 /// The cheapest with one more effect than `base`, or with a hint, alone or as one more; then with others while
-/// a stage keeps more than noise.
-std::optional<Found> with_effect(const Search& search, const Found& base,
-                                 const std::vector<Placed>& hints, std::size_t most) {
+/// a stage keeps more than noise. Hints are as well those nearest to cost less than `base`: with constants that
+/// have gone along to imitate one, few steps do not lead back.
+std::optional<Found> with_effect(const Search& search, const Found& base, std::vector<Placed> hints,
+                                 std::size_t most) {
+  constexpr std::size_t near = 2;  // of those that were screened; chosen
   const std::vector<Placed>& others = base.train.point.effects;
+  const std::vector<Found> joined = search.each_beside(base);
   std::vector<Found> all;
   if (others.size() < most)
-    if (auto found = search.best_beside(base); found && (others.empty() || relieves(*found, base)))
+    if (auto found = search.best_of(joined, base);
+        found && (others.empty() || relieves(*found, base)))
       all.push_back(std::move(*found));
-  for (const Placed& hint : hints) {
-    if (is_taken(hint, search.uncertain(), others)) continue;
+  for (const Found& one : std::span(joined).first(std::min(near, joined.size())))
+    hints.push_back(one.train.point.effects.back());
+  for (std::size_t n = 0; n < hints.size(); ++n) {
+    const Placed& hint = hints[n];
+    if (is_taken(hint, search.uncertain(), others) ||
+        is_taken(hint, {}, std::vector(hints.begin(), hints.begin() + std::ptrdiff_t(n))))
+      continue;
     all.push_back(search.with({hint}));
     if (others.empty() || others.size() == most) continue;
     std::vector<Placed> more = others;

@@ -127,8 +127,7 @@ Found Search::with_best_of(const std::vector<Found>& joined, const Found& base) 
   return std::move(ended[0]);
 }
 
-std::optional<Found> Search::best_beside(const Found& base) const {
-  const auto joined = each_beside(base);
+std::optional<Found> Search::best_of(const std::vector<Found>& joined, const Found& base) const {
   if (joined.empty() || !(joined[0].cost < base.cost)) return std::nullopt;
   return with_best_of(joined, base);
 }

@@ -61,14 +61,17 @@ class Search {
   Found from(Point start) const;
   /// Adds effects, to `most` in all, while a stage keeps more than noise and one helps.
   Found run(Found found, std::size_t most) const;
-  /// With the effect that makes it cheapest; none: nothing does.
-  std::optional<Found> best_beside(const Found& base) const;
+  /// `base` with each of the candidates, by few steps, the cheapest first.
+  std::vector<Found> each_beside(const Found& base) const;
+  /// The cheapest of those, estimated to its end; none: none costs less than `base`.
+  std::optional<Found> best_of(const std::vector<Found>& joined, const Found& base) const;
+  std::optional<Found> best_beside(const Found& base) const {
+    return best_of(each_beside(base), base);
+  }
   /// Without effects that cost more than they explain beside the others.
   Found pruned(Found found) const;
 
  private:
-  /// `base` with each of the candidates, the cheapest first.
-  std::vector<Found> each_beside(const Found& base) const;
   Found with_best_of(const std::vector<Found>& joined, const Found& base) const;
   Found exchanged(Found found) const;
   Found without(const Found& found, std::size_t effect) const;
