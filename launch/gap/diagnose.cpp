@@ -65,7 +65,7 @@ Sorted sort(const DiagnoseOptions& options) {
   return sorted;
 }
 
-std::string told(const diagnosis::Named& n) {
+std::string described(const diagnosis::Named& n) {
   std::string text = fmt::format("{} on {}", n.type, n.on);
   for (std::size_t k = 0; k < n.names.size(); ++k)
     text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", n.names[k], n.values[k],
@@ -110,10 +110,10 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
                       : d.verdict == diagnosis::Verdict::not_identifiable ? "perhaps     "
                                                                           : "a part      ";
   for (const auto& n : d.answer) {
-    out << which << told(n) << "\n";
+    out << which << described(n) << "\n";
     constexpr std::size_t shown = 4;
     for (std::size_t k = 0; k < std::min(shown, n.alternatives.size()); ++k)
-      out << "or as well  " << told(n.alternatives[k]) << "\n";
+      out << "or as well  " << described(n.alternatives[k]) << "\n";
     if (n.alternatives.size() > shown)
       out << fmt::format("or as well  {} more, in diagnosis.json\n", n.alternatives.size() - shown);
   }

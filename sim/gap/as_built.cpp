@@ -116,14 +116,17 @@ void add_alternatives(AsBuilt& is, const AsBuilt& other, double gain) {
     is.indistinguishable.back().push_back(far_of(other));
 }
 
-/// Whether a constant of the robot stands for that effect, or it is among `effects`.
-bool is_taken(const Placed& hint, const Uncertain& uncertain, const std::vector<Placed>& effects) {
-  return std::ranges::any_of(
-             uncertain.constants,
-             [&](const Constant& c) { return c.effect == effects::about(hint.effect).type; }) ||
-         std::ranges::any_of(effects, [&](const Placed& p) {
-           return p.on == hint.on && p.effect.index() == hint.effect.index();
-         });
+bool is_among(const Placed& effect, std::span<const Placed> effects) {
+  return std::ranges::any_of(effects, [&](const Placed& p) {
+    return p.on == effect.on && p.effect.index() == effect.effect.index();
+  });
+}
+
+/// Whether a constant of the robot stands for that effect.
+bool is_constant(const Placed& effect, const Uncertain& uncertain) {
+  return std::ranges::any_of(uncertain.constants, [&](const Constant& c) {
+    return c.effect == effects::about(effect.effect).type;
+  });
 }
 
 /// Adds to the first of answers, the cheapest, the others if each is one effect.
@@ -154,8 +157,8 @@ std::optional<Found> with_effect(const Search& search, const Found& base, std::v
     hints.push_back(one.train.point.effects.back());
   for (std::size_t n = 0; n < hints.size(); ++n) {
     const Placed& hint = hints[n];
-    if (is_taken(hint, search.uncertain(), others) ||
-        is_taken(hint, {}, std::vector(hints.begin(), hints.begin() + std::ptrdiff_t(n))))
+    if (is_constant(hint, search.uncertain()) || is_among(hint, others) ||
+        is_among(hint, std::span(hints).first(n)))
       continue;
     all.push_back(search.with({hint}));
     if (others.empty() || others.size() == most) continue;

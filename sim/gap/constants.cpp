@@ -23,7 +23,7 @@ struct MotorNumber {
   double erp::MotorType::*number;
   double relative;  ///< tolerance, as a share of the number
   const char* effect;
-  double far = 20;
+  double far = usual_far;
 };
 /// Of a friction or damping that is far off: a nominal one of nearly nothing says nothing of it; chosen.
 constexpr double of_far_friction = 500;
@@ -133,7 +133,7 @@ void add_line(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a
                      [on = actuator.name, set](erp::Robot& r, double value) {
                        set(actuator_of(r, on), value);
                      },
-                     effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : 20});
+                     effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : usual_far});
   };
   number("radius_m", Stage::spindle, actuator.spindle.radius_m, of_radius, "spindle_radius",
          [](erp::Actuator& x, double v) { x.spindle.radius_m = v; });

@@ -15,6 +15,9 @@
 /// effects of the library.
 namespace sim::gap {
 
+/// Standard deviation of a constant that is far off, in tolerances; chosen.
+inline constexpr double usual_far = 20;
+
 struct Constant {
   std::string
       name;  ///< "resistance_ohm", as in robot.xml; of a factor or a zero "moment_arm", "tension_zero_N"
@@ -27,7 +30,7 @@ struct Constant {
   std::string effect;       ///< the type of the library that is such a change
   double effect_scale = 1;  ///< of that effect's first parameter to value − nominal
   bool zero = false;        ///< where something is zero, not what it amounts to
-  double far = 20;          ///< standard deviation where it is far off, in tolerances
+  double far = usual_far;   ///< standard deviation where it is far off, in tolerances
 
   double highest =
       std::numeric_limits<double>::infinity();  ///< as `lowest`: what its effect can hold

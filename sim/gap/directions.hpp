@@ -33,7 +33,7 @@ using ChangedBy = std::function<Eigen::VectorXd(const effects::Placed&)>;
 std::vector<double> first_nudges(const effects::Placed& neutral,
                                  const std::vector<std::size_t>& sizes);
 /// Each size nudged until z changes by about 0.3 % of its noise: as little as for the derivatives by constants
-/// (unknowns.hpp), for they are told from each other by small differences. `by`: how far to try, then how far it was.
+/// (unknowns.hpp), for small differences distinguish one from the other. `by`: how far to try, then how far it was.
 Directions directions(const effects::Placed& shape, const std::vector<std::size_t>& sizes,
                       std::vector<double>& by, const ChangedBy& changed_by);
 

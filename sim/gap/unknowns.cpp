@@ -62,7 +62,9 @@ double Unknowns::step(std::size_t k) const {
   constexpr double of_tolerance = 1e-4, of_bounds = 5e-7, of_value = 1e-5,
                    of_logarithm = 1.5e-5;  // chosen
   if (k < constants()) return of_tolerance;
-  if (!parameter(k).fitted) return of_logarithm;
+  if (!parameter(k).fitted)
+    return value(k) + of_logarithm > std::log(parameter(k).bounds.high) ? -of_logarithm
+                                                                        : of_logarithm;
   const effects::Bounds bounds = parameter(k).bounds;
   const double own = of_value * std::abs(value(k));
   const double step = own > 0 ? own : of_bounds * std::max(std::abs(bounds.low), bounds.high);

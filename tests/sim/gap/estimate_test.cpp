@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "sim/residuals/floor.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
 
 using namespace sim::gap;
@@ -45,6 +46,12 @@ void check_within(const AsBuilt& built, const std::string& on, const std::string
   const Constant& c = built.uncertain.constants[k];
   const double half = 2.6 * built.estimate.sigma(k) * c.tolerance + 0.01 * truth;
   CHECK(std::abs(value_of(built, on, name) - truth) < half);
+}
+
+/// Of all motors: torque and back-EMF constant.
+void change_magnet(erp::Robot& robot, double factor) {
+  erp::MotorType& motor = robot.motor_types[0];
+  motor.torque_Nm_per_A *= factor, motor.back_emf_V_s_per_rad *= factor;
 }
 
 }  // namespace
@@ -106,12 +113,6 @@ TEST_CASE("a gearbox's friction of many times its nominal one is that constant, 
   REQUIRE(found.beyond.size() == 1);
   CHECK(found.beyond[0] == index_of(found, "flexor", "gear_viscous_Nm_s_per_rad"));
   check_within(found, "flexor", "gear_viscous_Nm_s_per_rad", 0.0505);
-}
-
-/// Another magnet changes what a motor pulls and what it induces alike.
-static void change_magnet(erp::Robot& robot, double factor) {
-  erp::MotorType& motor = robot.motor_types[0];
-  motor.torque_Nm_per_A *= factor, motor.back_emf_V_s_per_rad *= factor;
 }
 
 TEST_CASE("an effect is found beside constants that are all a little off") {
@@ -207,4 +208,34 @@ TEST_CASE("effects that change none of the stages that keep more than noise are 
     const Stage stage = sim::effects::about(c.start.effect).stage;
     CHECK((stage == Stage::motor || stage == Stage::sensor));
   }
+}
+
+TEST_CASE("the first third of recordings shows how much a robot raises each noise floor") {
+  const erp::Robot nominal = hinge_rig();
+  erp::Robot other = nominal;
+  other.motor_types[0].resistance_ohm *= 3;
+  for (erp::Actuator& a : other.actuators) a.tendon.stiffness_N_per_m *= 3;
+  const auto recordings = recordings_of(nominal);
+  constexpr std::uint64_t seed = 1;
+  const ResidualVector vector(nominal, recordings, seed, 2);
+  for (const double r : vector.raised(vector.explain(nominal, 2))) CHECK(r == Approx(1));
+  const auto raised = vector.raised(vector.explain(other, 2));
+  for (std::size_t s = 0; s < vector.stages(); ++s) {
+    const auto square = [&](const erp::Robot& robot) {  // of whole recordings
+      double sum = 0;
+      for (const auto& recording : recordings) {
+        sim::residuals::Stages stages(robot);
+        const auto real = stages.residuals(recording)[s],
+                   disturbed =
+                       stages.residuals(sim::residuals::said_again(recording, nominal, seed))[s];
+        for (std::size_t k = 0; k < real.value.size(); ++k)
+          if (const double change = disturbed.value[k] - real.value[k];
+              !std::isnan(change) && !banded(real, k) && !banded(disturbed, k))
+            sum += change * change;
+      }
+      return sum;
+    };
+    CHECK(raised[s] == Approx(std::sqrt(square(other) / square(nominal))).epsilon(0.1));
+  }
+  CHECK(*std::ranges::max_element(raised) > 1.2);
 }
