@@ -119,7 +119,7 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->add_option("--out", o->out, "folder for the cases")->required();
   make->add_option("--truth", o->truth, "file for what is hidden")->required();
   make->add_option("--kind", o->kind, "what cases hide; default: single")
-      ->check(CLI::IsMember({"single", "null", "pair", "outside", "withheld"}));
+      ->check(CLI::IsMember({"single", "null", "pair", "outside", "withheld", "many"}));
   make->add_option("--only", o->only, "types to hide; default: any");
   make->add_option("--cases", o->cases, "how many; default: 10")->check(above_zero());
   make->add_option("--recordings", o->recordings, "a case; default: 4")->check(above_zero());
@@ -136,16 +136,17 @@ void add_blind(CLI::App& gap, Chosen& chosen) {
   make->callback(
       [=, &chosen] { chosen = [=] { return gap::blind_make(*o, std::cout, std::cerr); }; });
 
-  auto folder = std::make_shared<std::string>();
-  auto threads = std::make_shared<int>(all_cores());
+  auto r = std::make_shared<gap::BlindRunOptions>();
+  r->threads = all_cores();
   auto* run = blind->add_subcommand(
       "run", "Diagnose the cases of a folder; under mpirun, each process its part");
-  run->add_option("folder", *folder, "as blind make left it")->required();
-  run->add_option("--threads", *threads, "default: all cores")->check(above_zero());
-  run->callback([=, &chosen] {
-    chosen = [=] { return gap::blind_run(*folder, *threads, std::cout, std::cerr); };
-  });
+  run->add_option("folder", r->folder, "as blind make left it")->required();
+  run->add_flag("--free-run", r->free_run, "each answer is also let run freely in the simulator");
+  run->add_option("--threads", r->threads, "default: all cores")->check(above_zero());
+  run->callback(
+      [=, &chosen] { chosen = [=] { return gap::blind_run(*r, std::cout, std::cerr); }; });
 
+  auto folder = std::make_shared<std::string>();
   auto truth = std::make_shared<std::string>();
   auto* score = blind->add_subcommand("score", "Open the truth and print rates and failures");
   score->footer(

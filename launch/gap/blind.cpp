@@ -13,6 +13,7 @@
 #include "interfaces/recording/csv.hpp"
 #include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
+#include "launch/gap/rehearsed.hpp"
 #include "launch/gap/truth.hpp"
 #include "launch/text/progress.hpp"
 #include "launch/text/text_files.hpp"
@@ -175,7 +176,8 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   return 0;
 }
 
-int blind_run(const std::string& folder, int threads, std::ostream& out, std::ostream& remarks) {
+int blind_run(const BlindRunOptions& options, std::ostream& out, std::ostream& remarks) {
+  const std::string& folder = options.folder;
   const Json manifest = Json::parse(read_text(folder + "/cases.json"));
   const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
   const auto [part, parts] = part_of_work();
@@ -188,15 +190,18 @@ int blind_run(const std::string& folder, int threads, std::ostream& out, std::os
   std::atomic<std::size_t> done = 0;
   std::mutex telling;
   Progress progress(remarks);
-  sim::in_parallel(mine.size(), threads, [&](std::size_t k) {
+  sim::in_parallel(mine.size(), options.threads, [&](std::size_t k) {
     std::vector<std::string> files;
     for (const Json& file : mine[k]["recordings"])
       files.push_back(folder + "/" + file.get<std::string>());
     sim::diagnosis::DiagnoseOptions how{.threads = 1};
     how.withhold = mine[k]["withhold"].get<std::vector<std::string>>();
-    const auto d = sim::diagnosis::diagnose(robot, read_episodes(robot, files).episodes, how);
+    const auto episodes = read_episodes(robot, files).episodes;
+    auto d = sim::diagnosis::diagnose(robot, episodes, how);
+    const DiagnoseOptions freely{.threads = 1, .free_run = options.free_run};
+    const auto free_run = run_freely(d, episodes, robot, freely, [](double) {});
     const std::string place = folder + "/" + mine[k]["case"].get<std::string>();
-    write_file(place + "/diagnosis.part", diagnosis_json(d, {}, robot));
+    write_file(place + "/diagnosis.part", diagnosis_json(d, free_run, robot));
     fs::rename(place + "/diagnosis.part", place + "/diagnosis.json");
     const std::lock_guard lock(telling);
     progress.tell("diagnoses", double(++done) / double(mine.size()));

@@ -23,8 +23,14 @@ struct BlindMakeOptions {
 };
 int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream& remarks);
 
+struct BlindRunOptions {
+  std::string folder;
+  int threads = 2;
+  bool free_run = false;  ///< each answer is also let run freely in the simulator
+};
+
 /// Diagnoses the cases that have no diagnosis yet; under mpirun each process its part of them.
-int blind_run(const std::string& folder, int threads, std::ostream& out, std::ostream& remarks);
+int blind_run(const BlindRunOptions& options, std::ostream& out, std::ostream& remarks);
 
 /// Opens the truth, checks its hash, prints rates and every failure. Returns 1 when the hash is
 /// another.

@@ -84,6 +84,7 @@ Json json_of(const ConstantEstimate& c) {
           {"value", rounded(c.value)},
           {"interval", pair_of(c.interval)},
           {"determined", rounded(std::clamp(c.determined, 0.0, 1.0))},
+          {"differs", c.differs()},
           {"beyond", c.beyond}};
 }
 

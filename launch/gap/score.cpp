@@ -177,16 +177,35 @@ bool is_constant(const Json& effect, const std::vector<std::string>& of_constant
   return std::ranges::count(of_constants, type_of(effect)) > 0;
 }
 
+/// The constant of a diagnosis that is that number; null: none is.
+Json constant_of(const Json& number, const Json& d) {
+  for (const Json& c : d["constants"])
+    if (c["on"] == number["on"] && c["name"] == number["name"]) return c;
+  return {};
+}
+
 /// Of constants that the recordings determined, whose intervals hold the number drawn.
 void count_numbers(const Json& truth, const Json& d, Rate& rate) {
   for (const Json& number : truth["numbers"])
-    for (const Json& c : d["constants"])
-      if (c["on"] == number["on"] && c["name"] == number["name"] &&
-          c["determined"] > sim::gap::well_determined)
-        rate.count(c["interval"][0] <= number["value"] && number["value"] <= c["interval"][1]);
+    if (const Json c = constant_of(number, d);
+        !c.is_null() && c["determined"] > sim::gap::well_determined)
+      rate.count(c["interval"][0] <= number["value"] && number["value"] <= c["interval"][1]);
 }
 
-/// Nothing hidden, but every number a little off.
+/// Counts which errors of numbers, far enough beyond the interval to be seen, are said to differ from nominal, and
+/// which of those that are said to do so have no error.
+void count_named(const Json& truth, const Json& d, Rate& named, Rate& falsely) {
+  for (const Json& number : truth["numbers"]) {
+    const Json c = constant_of(number, d);
+    if (c.is_null()) continue;
+    const double nominal = c["nominal"], error = number["value"].get<double>() - nominal;
+    const double half = (c["interval"][1].get<double>() - c["interval"][0].get<double>()) / 2;
+    if (std::abs(error) > 2 * half) named.count(c["differs"]);
+    if (c["differs"]) falsely.count(std::abs(error) < 1e-9 * std::abs(nominal));
+  }
+}
+
+/// Nothing hidden, but every number a little off, or some of them.
 void score_tolerance(const Json& truth, const Json& d, const std::vector<std::string>& of_constants,
                      Score& score) {
   const auto answer = answer_of(d);
@@ -196,7 +215,12 @@ void score_tolerance(const Json& truth, const Json& d, const std::vector<std::st
   const double closed = d["verdict"] == "no_gap" ? 1 : d["gap"]["closed"].get<double>();
   score.rates["1 explained by constants alone"].count(explained && !structural);
   score.rates["2 98 % closed"].count(closed >= 0.98);
-  count_numbers(truth, d, score.rates["3 interval holds the number"]);
+  count_numbers(truth, d, score.rates["4 interval holds the number"]);
+  if (const Json free = d["gap"].value("free_running", Json::object());
+      !free.empty() && free["before"] > 1.5 * free["floor"].get<double>())
+    score.rates["3 90 % of the free run"].count(explained && free["closed"] >= 0.9);
+  if (truth["kind"] == "many")
+    count_named(truth, d, score.rates["5 named, of errors seen"], score.rates["6 falsely, of those named"]);
   if (!explained || structural) score.failures.push_back(failure(truth, d));
 }
 
@@ -246,13 +270,14 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
     }
     const Json d = Json::parse(read_text(file));
     const bool built = !truth.value("numbers", Json::array()).empty();
-    const std::string hides = truth["kind"], kind = hides + (built ? ", as built" : "");
+    const std::string hides = truth["kind"],
+                      kind = hides + (built && hides != "many" ? ", as built" : "");
     Score& score = scores[kind];
     if (hides == "single") {
       score_single(truth, d, built ? std::nullopt : closed_by_truth(folder, truth), score);
       if (built) count_numbers(truth, d, score.rates["7 interval holds the number"]);
     }
-    if (hides == "null" && built) {
+    if (hides == "many" || (hides == "null" && built)) {
       if (of_constants.empty())
         of_constants = effects_of_constants(erp::read_robot(folder + "/robot.xml"));
       score_tolerance(truth, d, of_constants, score);

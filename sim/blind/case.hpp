@@ -11,7 +11,7 @@
 /// A blind case: what is hidden in it, drawn from a seed.
 namespace sim::blind {
 
-enum class Kind { single, null, pair, outside, withheld };
+enum class Kind { single, null, pair, outside, withheld, many };
 
 /// Something hidden. `type` as the library of effects calls it; of what the library has not,
 /// a name that begins with "outside_".

@@ -12,7 +12,8 @@ constexpr std::pair<Kind, const char*> words[] = {{Kind::single, "single"},
                                                   {Kind::null, "null"},
                                                   {Kind::pair, "pair"},
                                                   {Kind::outside, "outside"},
-                                                  {Kind::withheld, "withheld"}};
+                                                  {Kind::withheld, "withheld"},
+                                                  {Kind::many, "many"}};
 
 std::size_t any(std::size_t count, Random& random) {
   return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
@@ -63,7 +64,7 @@ Kind kind_of(const std::string& said) {
   for (const auto& [kind, name] : words)
     if (said == name) return kind;
   throw std::invalid_argument("kind \"" + said +
-                              "\" is none of single, null, pair, outside, withheld");
+                              "\" is none of single, null, pair, outside, withheld, many");
 }
 
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
@@ -102,6 +103,7 @@ Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
           blind.hidden[0].on == blind.hidden[1].on)
         blind.hidden.pop_back();
     }
+  if (kind == Kind::many) blind.built = many_off(robot, seed, blind.quirks);
   if (kind == Kind::withheld) {
     const HiddenKind& chosen = hide_one(in_library());
     blind.withhold.emplace_back(chosen.type);

@@ -1,31 +1,35 @@
 #include "sim/blind/tolerance.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <random>
+#include <ranges>
 
 #include "interfaces/robot/mass.hpp"
 
 namespace sim::blind {
 namespace {
 
+/// What the next number is multiplied by.
+using Factor = std::function<double()>;
+
 class Draw {
  public:
-  Draw(double relative, std::uint64_t seed, std::vector<Drawn>& drawn)
-      : random_(seed), by_(0, relative), drawn_(drawn) {}
+  Draw(Factor factor, std::vector<Drawn>& drawn) : factor_(std::move(factor)), drawn_(drawn) {}
 
-  double factor() { return 1 + by_(random_); }
+  double factor() { return factor_(); }
   void number(const std::string& on, const char* name, double& value) {
     if (value == 0) return;
     value *= factor();
-    tell(on, name, value);
+    add(on, name, value);
   }
-  void tell(const std::string& on, const char* name, double value) {
+  void add(const std::string& on, const char* name, double value) {
     drawn_.push_back({on, name, value});
   }
 
  private:
-  std::mt19937_64 random_;
-  std::normal_distribution<double> by_;
+  Factor factor_;
   std::vector<Drawn>& drawn_;
 };
 
@@ -34,8 +38,8 @@ void off(erp::MotorType& m, const std::string& on, Draw& draw) {
   draw.number(on, "inductance_H", m.inductance_H);
   const double magnet = draw.factor();
   m.back_emf_V_s_per_rad *= magnet, m.torque_Nm_per_A *= magnet;
-  draw.tell(on, "back_emf_V_s_per_rad", m.back_emf_V_s_per_rad);
-  draw.tell(on, "torque_Nm_per_A", m.torque_Nm_per_A);
+  draw.add(on, "back_emf_V_s_per_rad", m.back_emf_V_s_per_rad);
+  draw.add(on, "torque_Nm_per_A", m.torque_Nm_per_A);
   draw.number(on, "gear_efficiency", m.gear_efficiency);
   m.gear_efficiency = std::min(m.gear_efficiency, 1.0);
   draw.number(on, "rotor_inertia_kg_m2", m.rotor_inertia_kg_m2);
@@ -57,15 +61,13 @@ void off(erp::Body& body, Draw& draw) {
   body.density_kg_per_m3.reset();
   std::erase_if(body.parts,
                 [](const erp::Part& part) { return std::holds_alternative<erp::Weight>(part); });
-  draw.tell(body.name, "mass", mass), draw.tell(body.name, "com", com);
-  draw.tell(body.name, "inertia", inertia);
+  draw.add(body.name, "mass", mass), draw.add(body.name, "com", com);
+  draw.add(body.name, "inertia", inertia);
 }
 
-}  // namespace
-
-AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed, Quirks& quirks) {
+AsBuilt multiplied(const erp::Robot& nominal, Factor factor, Quirks& quirks) {
   AsBuilt built{nominal, {}};
-  Draw draw(relative, seed, built.drawn);
+  Draw draw(std::move(factor), built.drawn);
   for (std::size_t a = 0; a < built.robot.actuators.size(); ++a) {
     erp::Actuator& actuator = built.robot.actuators[a];
     erp::MotorType motor = built.robot.motor_of(actuator);
@@ -78,7 +80,7 @@ AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed,
     draw.number(actuator.name, "damping_N_s_per_m", actuator.tendon.damping_N_s_per_m);
     const double arm = draw.factor();
     quirks.chains[a].arm += arm - 1;
-    draw.tell(actuator.name, "moment_arm", arm);
+    draw.add(actuator.name, "moment_arm", arm);
   }
   for (erp::Skeleton& part : built.robot.skeletons) {
     for (erp::Joint& joint : part.joints) {
@@ -88,6 +90,30 @@ AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed,
     for (erp::Body& body : part.bodies) off(body, draw);
   }
   return built;
+}
+
+}  // namespace
+
+AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed, Quirks& quirks) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> by(0, relative);
+  return multiplied(nominal, [&] { return 1 + by(random); }, quirks);
+}
+
+AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, Quirks& quirks) {
+  std::vector<double> factors;
+  Quirks unused = quirks;
+  multiplied(nominal, [&] { return factors.emplace_back(1); }, unused);
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<std::size_t> count(8, 12);
+  std::uniform_real_distribution<double> size(0.02, 0.10);
+  std::bernoulli_distribution less;
+  std::vector<std::size_t> chosen(factors.size());
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  std::ranges::shuffle(chosen, random);
+  for (const std::size_t k : chosen | std::views::take(count(random)))
+    factors[k] += (less(random) ? -1 : 1) * size(random);
+  return multiplied(nominal, [next = factors.begin()]() mutable { return *next++; }, quirks);
 }
 
 }  // namespace sim::blind

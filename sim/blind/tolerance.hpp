@@ -25,4 +25,7 @@ struct AsBuilt {
 /// `quirks`. Sensors are what they are said to be.
 AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed, Quirks& quirks);
 
+/// 8 to 12 of the same numbers 2 to 10 % too large or too small, all others as described; all are in `drawn`.
+AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, Quirks& quirks);
+
 }  // namespace sim::blind

@@ -142,6 +142,10 @@ std::vector<StageGap> left_by(const Evidence& evidence, const Trials& plain, con
 
 }  // namespace
 
+bool ConstantEstimate::differs() const {
+  return std::abs(value - nominal) > 3 / (2 * 1.96) * (interval.high - interval.low);
+}
+
 bool Built::explained() const { return !at_bound && std::ranges::none_of(left, &StageGap::open); }
 
 Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<Named>& suggested) {

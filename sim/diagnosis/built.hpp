@@ -20,6 +20,9 @@ struct ConstantEstimate {
   Interval interval;      ///< 95 %
   double determined = 0;  ///< 1: by the recordings alone, 0: by its tolerance alone
   bool beyond = false;    ///< far off, or a zero that is off beside exact constants (sim/gap)
+
+  /// Whether it certainly differs from its nominal value: by more than three standard deviations.
+  bool differs() const;
 };
 
 struct Built {

@@ -24,6 +24,9 @@ tolerance        hinge_rig  null       40    410001      0.03
 tolerance_single hinge_rig  single     40    420001      0.02
 tolerance_arm    arm        null       40    430001      0.03
 tolerance_leg    leg        null       40    440001      0.03
+many             hinge_rig  many       40    450001      0
+many_arm         arm        many       40    460001      0
+many_leg         leg        many       40    470001      0
 leg              leg        single     40    280001      0
 seven_dof        seven_dof  single     40    281001      0
 ecce4            ecce4      single     20    282001      0
@@ -35,7 +38,9 @@ run_row() {  # name robot kind cases seed tolerance without
     $erp gap blind make --robot "configs/$2/robot.xml" --kind "$3" --cases "$4" --seed "$5" \
       --recordings 4 --seconds 25 --tolerance "$6" --out "$cases" --truth "$truth" ${7:+--without "$7"}
   fi
-  $erp gap blind run "$cases"
+  local freely=
+  [[ $1 == tolerance* || $1 == many* ]] && freely=--free-run
+  $erp gap blind run "$cases" ${freely:+$freely}
   $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
   $erp --version >"$out/$1.version"
 }

@@ -33,7 +33,7 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   make.cases = 2, make.recordings = 3, make.seconds = 5, make.seed = 14;
   REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
   const std::string before = out.str();
-  REQUIRE(launch::gap::blind_run(cases, 2, out, remarks) == 0);
+  REQUIRE(launch::gap::blind_run({cases, 2}, out, remarks) == 0);
   out.str("");
   REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("stage and place") && Catch::Contains("(2 of 2)"));
@@ -161,7 +161,7 @@ TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored
     }
   CHECK(seen == 2);  // of two motors
   CHECK(most < 0.15);
-  REQUIRE(launch::gap::blind_run(cases, 2, out, remarks) == 0);
+  REQUIRE(launch::gap::blind_run({cases, 2}, out, remarks) == 0);
   out.str("");
   REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("null, as built") &&

@@ -70,6 +70,29 @@ TEST_CASE("a seed draws the same case again, another seed another") {
   CHECK_THROWS_AS(kind_of("singles"), std::invalid_argument);
 }
 
+TEST_CASE("many: eight to twelve numbers of a robot are 2 to 10 % off, all others as described") {
+  const erp::Robot robot = hinge_rig();
+  Quirks unchanged = no_quirks(robot);
+  const AsBuilt exact = as_built(robot, 0, 1, unchanged);
+  std::vector<int> counts;
+  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+    const AsBuilt built = draw_case(robot, Kind::many, seed).built;
+    REQUIRE(built.drawn.size() == exact.drawn.size());
+    int off = 0;
+    for (std::size_t k = 0; k < exact.drawn.size(); ++k) {
+      const double error = std::abs(built.drawn[k].value / exact.drawn[k].value - 1);
+      if (error < 1e-12 || exact.drawn[k].name == "torque_Nm_per_A") continue;  // K_T goes with K_E
+      ++off;
+      CHECK(error >= 0.02 * (1 - 1e-9));
+      CHECK(error <= 0.10 * (1 + 1e-9));
+    }
+    counts.push_back(off);
+  }
+  CHECK(std::ranges::min(counts) >= 8);
+  CHECK(std::ranges::max(counts) <= 12);
+  CHECK(std::ranges::min(counts) < std::ranges::max(counts));
+}
+
 TEST_CASE("what no reading shows is drawn anew: friction of a guide on a line that runs straight") {
   const erp::Robot robot = hinge_rig();
   const Shows shows(robot);
