@@ -177,7 +177,7 @@ std::optional<Found> with_effect(const Search& search, const Found& base, std::v
 /// `hints`: effects that would explain most were all constants as described. Beside constants that have
 /// gone along to imitate it, an effect is no longer found.
 AsBuilt or_effect(const Evidence& evidence, AsBuilt built, const std::vector<Placed>& hints) {
-  if (built.beyond.empty() && built.estimate.point.effects.empty()) return built;
+  if (!built.keeps && built.beyond.empty() && built.estimate.point.effects.empty()) return built;
   AsBuilt other{.uncertain = built.uncertain};
   other.uncertain.far.assign(other.uncertain.constants.size(), false);
   const Search search(evidence.train, evidence.held_out, other.uncertain, evidence.options.search);
