@@ -148,7 +148,8 @@ bool ConstantEstimate::differs() const {
 
 bool Built::explained() const { return !at_bound && std::ranges::none_of(left, &StageGap::open); }
 
-Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<Named>& suggested) {
+Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& plain,
+               const std::vector<Named>& suggested) {
   const auto train = some(evidence, evidence.sets.train),
              held_out = some(evidence, evidence.sets.held_out);
   gap::AsBuiltOptions options;
@@ -160,7 +161,7 @@ Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<
   options.search.progress = [&](const std::string& what, double share) {
     evidence.tell(what, 0.6 + 0.3 * share);
   };
-  const gap::AsBuilt found = gap::as_built(evidence.robot, train, held_out, options);
+  const gap::AsBuilt found = gap::as_built(robot, train, held_out, options);
   std::vector<Named> answer = effects_of(found);
   for (std::size_t n = 0; n < found.beyond.size(); ++n) answer.push_back(beyond(found, n));
   const double interaction = set_gains(evidence, plain, found, answer);

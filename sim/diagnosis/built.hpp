@@ -38,7 +38,9 @@ struct Built {
   bool explained() const;
 };
 
-/// `suggested`: effects that a search with constants as they are described has found.
-Built as_built(const Evidence& evidence, const Trials& plain, const std::vector<Named>& suggested);
+/// `robot`: with what was seen without a fit. `suggested`: effects that a search with constants as they are
+/// described has found.
+Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& plain,
+               const std::vector<Named>& suggested);
 
 }  // namespace sim::diagnosis

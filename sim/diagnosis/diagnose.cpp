@@ -127,8 +127,9 @@ void add_indistinguishable(Named& answer, const Named& other) {
 /// What a question is answered from.
 struct Question {
   const Evidence& evidence;
+  const erp::Robot& robot;  ///< with what was seen without a fit
   const Trials& plain;  ///< of the robot as it is given
-  const Trials& known;  ///< of that with what was seen without a fit
+  const Trials& known;  ///< of `robot`
   const Observed& observed;
 };
 
@@ -139,6 +140,7 @@ void take(const Question& q, const Built& built, Selection selection, Diagnosis&
                                   : Verdict::none_of_the_known;
   d.answer = built.answer, d.constants = built.constants, d.as_built = built.robot;
   d.interaction = built.interaction;
+  put_first(d.answer, q.observed.sensors);
   add_bus(q.observed, d);
   if (built.explained() && !d.answer.empty())
     d.where = where_of_answer(q.evidence, q.plain, d.stages, d.answer);
@@ -189,13 +191,13 @@ bool stands(const Evidence& evidence, const Built& built) {
 /// The robot as built first, unless the effects alone explain as well or better.
 void answer(const Question& q, Diagnosis& d) {
   const Evidence& evidence = q.evidence;
-  const bool may_differ = q.observed.sensors.empty();
+  const bool coarse = !q.observed.sensors.empty();
   Selection selection =
-      select(evidence, q.known, d.stages, may_differ ? Depth::best_alone : Depth::full);
+      select(evidence, q.known, d.stages, coarse ? Depth::full : Depth::best_alone);
   std::optional<Built> built;
-  if (may_differ && selection.gap && selection.told &&
+  if (selection.gap && selection.told && !(coarse && selection.explained()) &&
       !leaves_noise_on_large_robot(evidence, selection))
-    built.emplace(as_built(evidence, q.plain, selection.answer));
+    built.emplace(as_built(evidence, q.robot, q.plain, selection.answer));
   if (built && agree(*built, selection)) {
     add_indistinguishable(selection.answer[0], built->answer[0]);
     built.reset();
@@ -267,10 +269,10 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   d.stages = where(plain, plain.bare(), evidence.sets.all(), evidence.where_options());
 
   const Observed observed = observe(evidence, plain);
+  const erp::Robot known = as_observed(robot, observed);
   std::optional<Trials> coarse;
-  if (!observed.sensors.empty())
-    coarse.emplace(as_observed(robot, observed), evidence.episodes, options.seed);
-  const Question question{evidence, plain, coarse ? *coarse : plain, observed};
+  if (!observed.sensors.empty()) coarse.emplace(known, evidence.episodes, options.seed);
+  const Question question{evidence, known, plain, coarse ? *coarse : plain, observed};
   warn_unjudged(question, d);
   answer(question, d);
   doubt_undetermined(d);
