@@ -220,7 +220,8 @@ void score_tolerance(const Json& truth, const Json& d, const std::vector<std::st
       !free.empty() && free["before"] > 1.5 * free["floor"].get<double>())
     score.rates["3 90 % of the free run"].count(explained && free["closed"] >= 0.9);
   if (truth["kind"] == "many")
-    count_named(truth, d, score.rates["5 named, of errors seen"], score.rates["6 falsely, of those named"]);
+    count_named(truth, d, score.rates["5 named, of errors seen"],
+                score.rates["6 falsely, of those named"]);
   if (!explained || structural) score.failures.push_back(failure(truth, d));
 }
 

@@ -8,12 +8,9 @@
 namespace sim::blind {
 namespace {
 
-constexpr std::pair<Kind, const char*> words[] = {{Kind::single, "single"},
-                                                  {Kind::null, "null"},
-                                                  {Kind::pair, "pair"},
-                                                  {Kind::outside, "outside"},
-                                                  {Kind::withheld, "withheld"},
-                                                  {Kind::many, "many"}};
+constexpr std::pair<Kind, const char*> words[] = {
+    {Kind::single, "single"},   {Kind::null, "null"},         {Kind::pair, "pair"},
+    {Kind::outside, "outside"}, {Kind::withheld, "withheld"}, {Kind::many, "many"}};
 
 std::size_t any(std::size_t count, Random& random) {
   return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);

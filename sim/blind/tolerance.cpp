@@ -97,13 +97,15 @@ AsBuilt multiplied(const erp::Robot& nominal, Factor factor, Quirks& quirks) {
 AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed, Quirks& quirks) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> by(0, relative);
-  return multiplied(nominal, [&] { return 1 + by(random); }, quirks);
+  return multiplied(
+      nominal, [&] { return 1 + by(random); }, quirks);
 }
 
 AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, Quirks& quirks) {
   std::vector<double> factors;
   Quirks unused = quirks;
-  multiplied(nominal, [&] { return factors.emplace_back(1); }, unused);
+  multiplied(
+      nominal, [&] { return factors.emplace_back(1); }, unused);
   std::mt19937_64 random(seed);
   std::uniform_int_distribution<std::size_t> count(8, 12);
   std::uniform_real_distribution<double> size(0.02, 0.10);
@@ -113,7 +115,8 @@ AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, Quirks& quirks) 
   std::ranges::shuffle(chosen, random);
   for (const std::size_t k : chosen | std::views::take(count(random)))
     factors[k] += (less(random) ? -1 : 1) * size(random);
-  return multiplied(nominal, [next = factors.begin()]() mutable { return *next++; }, quirks);
+  return multiplied(
+      nominal, [next = factors.begin()]() mutable { return *next++; }, quirks);
 }
 
 }  // namespace sim::blind

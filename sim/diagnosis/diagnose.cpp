@@ -128,8 +128,8 @@ void add_indistinguishable(Named& answer, const Named& other) {
 struct Question {
   const Evidence& evidence;
   const erp::Robot& robot;  ///< with what was seen without a fit
-  const Trials& plain;  ///< of the robot as it is given
-  const Trials& known;  ///< of `robot`
+  const Trials& plain;      ///< of the robot as it is given
+  const Trials& known;      ///< of `robot`
   const Observed& observed;
 };
 

@@ -22,8 +22,8 @@ std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector&
   in_parallel(all.size(), threads, [&](std::size_t n) {
     const std::size_t k = from + n;
     const Unknowns other = at.with(k, at.value(k) + at.step(k));
-    const VectorXd change =
-        residuals.z(residuals.explain(other.robot(), here.explained, at.reach(k, stages))) - here.z;
+    const VectorXd change = tiny_change(
+        residuals.z(residuals.explain(other.robot(), here.explained, at.reach(k, stages))), here.z);
     for (Index row = 0; row < change.size(); ++row)
       if (change[row] != 0) all[n].emplace_back(row, change[row] / (other.value(k) - at.value(k)));
   });

@@ -179,4 +179,17 @@ double correlated(std::span<const double> series) {
   return sum;
 }
 
+VectorXd tiny_change(const VectorXd& after, const VectorXd& before) {
+  constexpr double most = 20, usual = 0.99;  // times the size that so many stay below; chosen
+  VectorXd change = after - before;
+  std::vector<double> sizes;
+  for (const double c : change)
+    if (c != 0) sizes.push_back(std::abs(c));
+  if (sizes.empty()) return change;
+  const auto at = sizes.begin() + std::ptrdiff_t(usual * double(sizes.size() - 1));
+  std::ranges::nth_element(sizes, at);
+  const double jump = most * *at;
+  return change.unaryExpr([&](double c) { return std::abs(c) > jump ? 0.0 : c; });
+}
+
 }  // namespace sim::gap

@@ -68,4 +68,8 @@ class ResidualVector {
 /// Source: effective sample size, Geyer 1992.
 double correlated(std::span<const double> series);
 
+/// What a tiny step of an unknown changes in z, without windows that jump: one that comes to be judged, or no longer
+/// is, changes by more than its noise however small the step, and would outweigh all others in a derivative.
+Eigen::VectorXd tiny_change(const Eigen::VectorXd& after, const Eigen::VectorXd& before);
+
 }  // namespace sim::gap

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <span>
+#include <tuple>
 
 #include "sim/gap/directions.hpp"
 #include "sim/parallel/in_parallel.hpp"
@@ -121,6 +123,28 @@ double Screen::cost_at(const Estimate& base, const Left& left, const VectorXd& c
   return misfit(left_by(residuals, left, z), residuals) + prior_cost(uncertain_, after);
 }
 
+/// Along a step: what the best multiple of it within the bounds gains, and that multiple. The quadratic model weighs
+/// windows that the cost cuts off.
+std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const Directions& all,
+                                                  const MatrixXd& shared, const VectorXd& step,
+                                                  std::span<const double> low,
+                                                  std::span<const double> high) const {
+  constexpr int doublings = 3;  // chosen
+  std::pair best{0.0, step};
+  for (int n = 0; n <= doublings; ++n) {
+    const VectorXd by = std::exp2(n) * step;
+    const auto leaves = [&](std::size_t k) {
+      return by[Index(k)] < low[k] || by[Index(k)] > high[k];
+    };
+    if (n > 0 && std::ranges::any_of(std::views::iota(std::size_t(0), low.size()), leaves)) break;
+    const double gain =
+        begin.cost - cost_at(begin.estimate, begin.left, all.d * by, begin.moved - shared * by);
+    if (n > 0 && !(gain > best.first)) break;
+    best = {gain, by};
+  }
+  return best;
+}
+
 /// Of one shape: the values that would explain most, and what they would explain.
 Candidate Screen::score(const Beginning& begin, const Directions& all) const {
   const Estimate& base = begin.estimate;
@@ -140,11 +164,10 @@ Candidate Screen::score(const Beginning& begin, const Directions& all) const {
     low.push_back(like ? (p.bounds.low - *p.value) / all.nudge[n] : -unlimited);
     high.push_back(like ? (p.bounds.high - *p.value) / all.nudge[n] : unlimited);
   }
-  const VectorXd step = step_within(
+  VectorXd step = step_within(
       own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), low, high);
   if (step.isZero(0) || (places && step[0] == 0)) return candidate;
-  candidate.score =
-      begin.cost - cost_at(base, begin.left, all.d * step, begin.moved - shared * step);
+  std::tie(candidate.score, step) = best_multiple(begin, all, shared, step, low, high);
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool place = !is_like(p, values[all.sizes[0]]);
@@ -161,7 +184,8 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
   const ChangedBy changed_by = [&](const Placed& placed) -> VectorXd {
     erp::Robot with = robot;
     with.effects.push_back(effects::written(placed));
-    return train_.residuals().z(train_.residuals().explain(with, base.explained, reach)) - base.z;
+    return tiny_change(
+        train_.residuals().z(train_.residuals().explain(with, base.explained, reach)), base.z);
   };
   Candidate best{neutral, 0};
   const auto sizes = sizes_of(neutral);

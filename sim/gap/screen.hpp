@@ -45,6 +45,12 @@ class Screen {
   Candidate best_shape(const Beginning& base, const effects::Placed& neutral) const;
   double cost_at(const Estimate& base, const Left& left, const Eigen::VectorXd& changed,
                  const Eigen::VectorXd& moved) const;
+  std::pair<double, Eigen::VectorXd> best_multiple(const Beginning& begin,
+                                                   const Directions& directions,
+                                                   const Eigen::MatrixXd& shared,
+                                                   const Eigen::VectorXd& step,
+                                                   std::span<const double> low,
+                                                   std::span<const double> high) const;
   Candidate score(const Beginning& base, const Directions& directions) const;
 
   const Estimator& train_;
