@@ -182,7 +182,10 @@ AsBuilt or_effect(const Evidence& evidence, AsBuilt built, const std::vector<Pla
   other.uncertain.far.assign(other.uncertain.constants.size(), false);
   const Search search(evidence.train, evidence.held_out, other.uncertain, evidence.options.search);
   const Found base = search.from(built.estimate.point);
-  const auto found = with_effect(search, base, hints, evidence.options.search.most_effects);
+  const bool explains = !keeps(base) && !base.train.point.effects.empty() && base.cost < built.cost;
+  const auto found = explains
+                         ? std::optional(base)
+                         : with_effect(search, base, hints, evidence.options.search.most_effects);
   if (!found) return built;
   settle(search, *found, evidence, other);
   const double gain = base.cost - std::min(built.cost, other.cost);

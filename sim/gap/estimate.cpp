@@ -13,15 +13,22 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
+/// How derivatives are taken.
+struct Differences {
+  int threads;
+  const Sparse* known = nullptr;  ///< derivatives by the constants that are not taken anew
+  double stretch = 1;             ///< of the steps
+};
+
 /// Columns `from` … of ∂z/∂unknown, by forward differences.
 std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector& residuals,
                                                            const Unknowns& at, const Estimate& here,
-                                                           std::size_t from, int threads) {
+                                                           std::size_t from, const Differences& d) {
   const residuals::Stages stages(at.robot());
   std::vector<std::vector<std::pair<Index, double>>> all(at.count() - from);
-  in_parallel(all.size(), threads, [&](std::size_t n) {
+  in_parallel(all.size(), d.threads, [&](std::size_t n) {
     const std::size_t k = from + n;
-    const Unknowns other = at.with(k, at.value(k) + at.step(k));
+    const Unknowns other = at.with(k, at.value(k) + at.step(k, d.stretch));
     const VectorXd change = tiny_change(
         residuals.z(residuals.explain(other.robot(), here.explained, at.reach(k, stages))), here.z);
     for (Index row = 0; row < change.size(); ++row)
@@ -30,17 +37,16 @@ std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector&
   return all;
 }
 
-/// Those of the constants from `known` if it is given.
 Sparse jacobian(const ResidualVector& residuals, const Unknowns& at, const Estimate& here,
-                const Sparse* known, int threads) {
-  const std::size_t from = known ? at.constants() : 0;
+                const Differences& d) {
+  const std::size_t from = d.known ? at.constants() : 0;
   std::vector<Eigen::Triplet<double>> entries;
   for (Index k = 0; k < Index(from); ++k)
-    for (Sparse::InnerIterator i(*known, k); i; ++i)
+    for (Sparse::InnerIterator i(*d.known, k); i; ++i)
       entries.emplace_back(int(i.row()), int(k), i.value());
-  const auto all = columns(residuals, at, here, from, threads);
+  const auto all = columns(residuals, at, here, from, d);
   for (std::size_t n = 0; n < all.size(); ++n)
-    for (const auto& [row, d] : all[n]) entries.emplace_back(int(row), int(from + n), d);
+    for (const auto& [row, slope] : all[n]) entries.emplace_back(int(row), int(from + n), slope);
   Sparse j(here.z.size(), Index(at.count()));
   j.setFromTriplets(entries.begin(), entries.end());
   return j;
@@ -146,26 +152,44 @@ struct Descent {
   bool stale = true;   ///< whether they are to be taken anew
 };
 
-/// Steps until one no longer helps. Derivatives are taken anew where a step gained much less than they
+/// Whether a stage keeps much more than noise.
+bool is_far_from_noise(const Estimate& e) {
+  constexpr double far = 3;  // chosen
+  return std::ranges::any_of(e.mean_square, [](double square) { return square > far; });
+}
+
+/// Steps until one no longer helps. Where that leaves much more than noise, derivatives are taken once more over wide
+/// steps, which look past the kinks of play and friction. Derivatives are taken anew where a step gained much less than they
 /// promised (chord method: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, ch. 5).
 void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent& d) {
   constexpr double enough = 1e-4;  // of the cost, that a step is worth; chosen
   constexpr double kept = 0.6;     // of what was promised: derivatives still hold; chosen
-  double damping = 0;
+  constexpr double wide = 1000;    // times the usual steps of derivatives; chosen
+  int wides = 4;                   // times that those are taken; chosen
+  double damping = 0, stretch = 1;
   for (int iteration = 0; iteration < d.iterations; ++iteration) {
-    const bool far = iteration < d.far;
+    const bool far = iteration<d.far, was_wide = stretch> 1;
     if (!d.base) weigh(residuals, e, far ? 0.5 : 1);
     if (d.stale) {
-      e.jacobian = jacobian(residuals, at, e, d.base ? &d.base->jacobian : nullptr, d.threads);
+      const Sparse* known = d.base ? &d.base->jacobian : nullptr;
+      e.jacobian = jacobian(residuals, at, e, {d.threads, known, stretch});
       d.fresh = true;
     }
     const Step taken = step(residuals, at, e, damping, d.threads);
     const bool done = !taken.better || taken.gained < enough * e.cost;
     const bool was_fresh = d.fresh;
-    if (taken.better) d.fresh = false;
-    if (done && was_fresh && !far) break;
-    if (done && was_fresh) iteration = d.far - 1, d.stale = false;
-    else d.stale = done || taken.gained < kept * taken.promised;
+    if (taken.better || was_wide) d.fresh = false;
+    d.stale = done || was_wide || taken.gained < kept * taken.promised;
+    stretch = 1;
+    if (!was_fresh) continue;
+    if (done && far) {
+      iteration = d.far - 1, d.stale = false;
+    } else if (!far && !d.base && !was_wide && wides > 0 && (done || damping > 1) &&
+               is_far_from_noise(e)) {
+      --wides, stretch = wide, damping = 0, d.stale = true;
+    } else if (done) {
+      break;
+    }
   }
   e.point = at.point();
   e.bound.clear();
@@ -176,7 +200,7 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
 Estimate settled(const ResidualVector& residuals, Unknowns at, Estimate e, Descent d) {
   descend(residuals, at, e, d);
   weigh(residuals, e);
-  if (!d.fresh) e.jacobian = jacobian(residuals, at, e, nullptr, d.threads);
+  if (!d.fresh) e.jacobian = jacobian(residuals, at, e, {d.threads});
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
   e.cost = cost_of(at, e.z, e.weight);

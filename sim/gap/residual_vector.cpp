@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <ranges>
 
 #include "sim/parallel/in_parallel.hpp"
@@ -16,14 +17,27 @@ namespace {
 
 /// What other noise changes in a stage, over as many windows as both have.
 struct Changes {
-  double square = 0, count = 0;
+  std::vector<double> squares = {};
 
-  double rms() const { return count > 0 ? std::sqrt(square / count) : 0; }
+  double rms() const { return root_of_mean(squares.end()); }
+  /// Without the hundredth that changes most: one window that comes to be judged is no noise.
+  double usual() {
+    constexpr double part = 0.99;  // chosen
+    const auto end = squares.begin() + std::ptrdiff_t(part * double(squares.size()));
+    if (end != squares.end()) std::ranges::nth_element(squares, end);
+    return root_of_mean(end);
+  }
   void add(const residuals::Residual& real, const residuals::Residual& disturbed) {
     for (std::size_t k = 0; k < disturbed.value.size(); ++k)
       if (const double change = disturbed.value[k] - real.value[k];
           !std::isnan(change) && !residuals::banded(real, k) && !residuals::banded(disturbed, k))
-        square += change * change, ++count;
+        squares.push_back(change * change);
+  }
+
+ private:
+  double root_of_mean(std::vector<double>::const_iterator end) const {
+    const auto count = double(end - squares.begin());
+    return count > 0 ? std::sqrt(std::accumulate(squares.begin(), end, 0.0) / count) : 0;
   }
 };
 
@@ -110,18 +124,20 @@ void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nom
     cut_nominal.disturbed.push_back(residuals::Stages(robot).explain(first[e]));
   }
   std::vector<Changes> of_first = changes_by_stage(cut_nominal);
-  const auto is_seen = [&](std::size_t s) { return of_first[s].count >= enough * whole[s].count; };
+  const auto is_seen = [&](std::size_t s) {
+    return double(of_first[s].squares.size()) >= enough * double(whole[s].squares.size());
+  };
   if (std::ranges::all_of(std::views::iota(std::size_t(0), stages_), is_seen))
     disturbed_ = std::move(first);
   else of_first = whole;
-  for (const Changes& c : of_first) first_floors_.push_back(c.rms());
+  for (Changes& c : of_first) first_floors_.push_back(c.usual());
 }
 
 std::vector<double> ResidualVector::raised(const Explained& explained) const {
   std::vector<double> all(stages_, 1.0);
-  const std::vector<Changes> changes = changes_by_stage(explained);
+  std::vector<Changes> changes = changes_by_stage(explained);
   for (std::size_t s = 0; s < stages_; ++s)
-    if (first_floors_[s] > 0) all[s] = changes[s].rms() / first_floors_[s];
+    if (first_floors_[s] > 0) all[s] = changes[s].usual() / first_floors_[s];
   return all;
 }
 

@@ -156,8 +156,7 @@ Found Search::exchanged(Found found) const {
     const auto joined = each_beside(base);
     if (joined.empty()) continue;
     Found other = with_best_of(joined, base);
-    if (!is_same(other.train.point.effects.back(), found.train.point.effects[k]) &&
-        other.cost < better * found.cost)
+    if (other.cost < better * found.cost)  // another, or the same that ended elsewhere
       found = pruned(std::move(other));
     else found.rivals[k] = rivals_of(found, k, other, base.cost);
   }

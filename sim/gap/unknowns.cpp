@@ -58,16 +58,18 @@ double Unknowns::value(std::size_t k) const {
   return p.fitted ? *p.value : std::log(*p.value);
 }
 
-double Unknowns::step(std::size_t k) const {
+double Unknowns::step(std::size_t k, double stretch) const {
   constexpr double of_tolerance = 1e-4, of_bounds = 5e-7, of_value = 1e-5,
                    of_logarithm = 1.5e-5;  // chosen
-  if (k < constants()) return of_tolerance;
-  if (!parameter(k).fitted)
-    return value(k) + of_logarithm > std::log(parameter(k).bounds.high) ? -of_logarithm
-                                                                        : of_logarithm;
+  if (k < constants()) return stretch * of_tolerance;
   const effects::Bounds bounds = parameter(k).bounds;
+  if (!parameter(k).fitted) {
+    const double step = stretch * of_logarithm;
+    return value(k) + step > std::log(bounds.high) ? -step : step;
+  }
   const double own = of_value * std::abs(value(k));
-  const double step = own > 0 ? own : of_bounds * std::max(std::abs(bounds.low), bounds.high);
+  const double step =
+      stretch * (own > 0 ? own : of_bounds * std::max(std::abs(bounds.low), bounds.high));
   return value(k) + step > bounds.high ? -step : step;
 }
 

@@ -57,7 +57,7 @@ class Unknowns {
   double value(std::size_t k) const;
   /// For a forward difference, within the bounds: so small that all unknowns have the same windows beyond a band
   /// of friction, and the same with a line taut.
-  double step(std::size_t k) const;
+  double step(std::size_t k, double stretch = 1) const;
   /// Another value of one, or all moved; parameters stay within their bounds.
   Unknowns with(std::size_t k, double value) const;
   Unknowns moved(const Eigen::VectorXd& by) const;

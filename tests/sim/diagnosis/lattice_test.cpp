@@ -26,6 +26,17 @@ TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
   CHECK(d.answer.size() == 1);
 }
 
+TEST_CASE("coarse steps are told beside constants that are all a little off") {
+  auto blind = nothing_hidden();
+  blind.quirks.chains[1].tension.step = 0.83;
+  blind.built = sim::blind::as_built(hinge_rig(), 0.02, 43, blind.quirks);
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 10));
+  CHECK(d.verdict == Verdict::supported);
+  REQUIRE(d.answer.size() == 1);
+  CHECK(d.answer[0].type == "sensor_tension_quantisation");
+  CHECK_FALSE(d.constants.empty());
+}
+
 TEST_CASE("a few readings anywhere are on no lattice, as many on one are") {
   std::mt19937_64 random(1);
   for (const unsigned count : {14, 20, 40, 200})

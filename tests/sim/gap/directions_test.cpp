@@ -1,5 +1,7 @@
 #include "sim/gap/directions.hpp"
 
+#include "sim/gap/residual_vector.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -58,4 +60,15 @@ TEST_CASE("a second size of the same kind is nudged by itself where the first sh
   CHECK(all.d.col(0).norm() == 0);
   CHECK(all.d(1, 1) == Approx(50 * all.nudge[1]));
   CHECK(all.d.col(1).norm() / 2 > 0.0007);
+}
+
+TEST_CASE("a window that jumps is left out of what a tiny step changes") {
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(1000), after = before;
+  for (Eigen::Index k = 0; k < 1000; ++k)
+    before[k] = std::sin(0.1 * double(k)), after[k] = before[k] + 1e-3 * std::cos(double(k));
+  after[500] = before[500] + 47;
+  const Eigen::VectorXd change = tiny_change(after, before);
+  CHECK(change[500] == 0);
+  CHECK(change[499] == Approx(1e-3 * std::cos(499.0)).margin(1e-12));
+  CHECK(change.norm() / std::sqrt(1000) == Approx(1e-3 / std::sqrt(2)).epsilon(0.02));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 
 #include "sim/residuals/floor.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
@@ -140,6 +141,28 @@ TEST_CASE("a joint sensor's gain is found though both moment arms could nearly s
   REQUIRE(found.estimate.point.effects.size() == 1);
   CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "sensor_joint_gain on elbow");
   CHECK(found.beyond.empty());
+}
+
+TEST_CASE("a joint's play and a current sensor's lag are found beside constants 2 % off") {
+  struct Hidden {
+    const char* name;
+    std::function<void(sim::blind::Quirks&)> hide;
+  };
+  const Hidden each[] = {
+      {"joint_play on elbow", [](auto& q) { q.joints[0].loose_rad = 0.054; }},
+      {"sensor_current_low_pass on flexor", [](auto& q) { q.chains[0].current.lag_s = 0.0092; }}};
+  for (const Hidden& hidden : each) {
+    INFO(hidden.name);
+    auto blind = blind_recording::nothing_hidden();
+    hidden.hide(blind.quirks);
+    blind.built = sim::blind::as_built(hinge_rig(), 0.02, 41, blind.quirks);
+    const auto recordings = blind_recording::episodes(blind, 10);
+    const std::span<const sim::residuals::Episode> all(recordings);
+    const AsBuilt found = as_built(hinge_rig(), all.first(2), all.last(1));
+    CHECK_FALSE(found.keeps);
+    REQUIRE(found.estimate.point.effects.size() == 1);
+    CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == hidden.name);
+  }
 }
 
 TEST_CASE("a robot as described but for one effect is explained by that effect alone") {
