@@ -140,6 +140,49 @@ TEST_CASE("pairs: both found, and F1 of all that was named") {
   CHECK_THAT(out.str(), Catch::Contains("one_of_three: a on flexor + b on flexor | supported"));
 }
 
+TEST_CASE("many numbers off: those that can be seen are named, and few others") {
+  const Folder folder;
+  const auto number = [](const char* name, double value) {
+    return nlohmann::json{{"on", "flexor"}, {"name", name}, {"value", value}};
+  };
+  const auto constant = [](const char* name, double value, double half, bool differs) {
+    return nlohmann::json{{"on", "flexor"},
+                          {"name", name},
+                          {"nominal", 1},
+                          {"value", value},
+                          {"interval", {value - half, value + half}},
+                          {"determined", 0.9},
+                          {"differs", differs}};
+  };
+  const nlohmann::json truths{{{"case", "one"},
+                               {"kind", "many"},
+                               {"hidden", nlohmann::json::array()},
+                               {"numbers",
+                                {number("named", 1.05), number("missed", 1.06),
+                                 number("too_little_to_see", 1.02), number("exact", 1)}}}};
+  fs::create_directories(folder.path / "one");
+  std::ofstream(folder.path / "one/diagnosis.json") << nlohmann::json{
+      {"verdict", "supported"},
+      {"where", nlohmann::json::array()},
+      {"effects", nlohmann::json::array()},
+      {"gap", {{"closed", 0.99}, {"free_running", {{"before", 9}, {"floor", 1}, {"closed", 0.8}}}}},
+      {"constants",
+       {constant("named", 1.05, 0.01, true), constant("missed", 1.01, 0.01, false),
+        constant("too_little_to_see", 1.01, 0.02, false), constant("exact", 1.04, 0.01, true)}}};
+  fs::copy(robot_file, folder.path / "robot.xml");
+  const std::string truth = folder.path / "truth.json";
+  std::ofstream(truth) << truths.dump();
+  std::ofstream(folder.path / "cases.json")
+      << nlohmann::json{{"truth_sha256", launch::gap::sha256(truths.dump())}};
+  std::ostringstream out;
+  REQUIRE(launch::gap::blind_score(folder.path, truth, out) == 0);
+  INFO(out.str());
+  CHECK_THAT(out.str(), Catch::Contains("named, of errors seen          50.0 %  (1 of 2)") &&
+                            Catch::Contains("falsely, of those named        50.0 %  (1 of 2)") &&
+                            Catch::Contains("90 % of the free run            0.0 %  (0 of 1)") &&
+                            Catch::Contains("interval holds the number      50.0 %  (2 of 4)"));
+}
+
 TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored by its own rows") {
   const Folder folder;
   const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
@@ -161,11 +204,12 @@ TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored
     }
   CHECK(seen == 2);  // of two motors
   CHECK(most < 0.15);
-  REQUIRE(launch::gap::blind_run({cases, 2}, out, remarks) == 0);
+  REQUIRE(launch::gap::blind_run({cases, 2, true}, out, remarks) == 0);
   out.str("");
   REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("null, as built") &&
-                            Catch::Contains("explained by constants alone  100.0 %"));
+                            Catch::Contains("explained by constants alone  100.0 %") &&
+                            Catch::Contains("90 % of the free run          100.0 %"));
   const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
   CHECK_FALSE(d["constants"].empty());
 }
