@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <tuple>
 
@@ -64,6 +63,20 @@ bool can_show(const Placed& placed, const erp::Robot& robot,
          rarer_way(recordings, a) > enough;
 }
 
+/// How far each size may be moved.
+struct StepBounds {
+  std::vector<double> low = {}, high = {};
+
+  bool leaves(const VectorXd& step, Index n) const {
+    return step[n] < low[std::size_t(n)] || step[n] > high[std::size_t(n)];
+  }
+  bool leaves(const VectorXd& step) const {
+    for (Index n = 0; n < step.size(); ++n)
+      if (leaves(step, n)) return true;
+    return false;
+  }
+};
+
 /// What an effect is added to.
 struct Beginning {
   const Estimate& estimate;
@@ -92,7 +105,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// estimated already, or that would leave its bounds, stays where it is. `whole`: as `own`, without what is
 /// estimated already.
 VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd& slope,
-                     std::span<const double> low, std::span<const double> high) {
+                     const StepBounds& bounds) {
   constexpr double copy = 1e-8, ridge = 1e-6;  // of its square; chosen
   std::vector<Index> free;
   for (Index n = 0; n < own.rows(); ++n)
@@ -103,10 +116,7 @@ VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd&
     const VectorXd solved = of_free.ldlt().solve(slope(free));
     VectorXd step = VectorXd::Zero(own.rows());
     step(free) = solved;
-    const auto leaves = [&](Index n) {
-      return step[n] < low[std::size_t(n)] || step[n] > high[std::size_t(n)];
-    };
-    if (std::erase_if(free, leaves) == 0) return step;
+    if (std::erase_if(free, [&](Index n) { return bounds.leaves(step, n); }) == 0) return step;
   }
   return VectorXd::Zero(own.rows());
 }
@@ -123,20 +133,15 @@ double Screen::cost_at(const Estimate& base, const Left& left, const VectorXd& c
   return misfit(left_by(residuals, left, z), residuals) + prior_cost(uncertain_, after);
 }
 
-/// Along a step: what the best multiple of it within the bounds gains, and that multiple. The quadratic model weighs
-/// windows that the cost cuts off.
+/// The best of 1, 2, 4 and 8 times a step, and what it gains: the quadratic model weighs windows that the cost cuts off.
 std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const Directions& all,
                                                   const MatrixXd& shared, const VectorXd& step,
-                                                  std::span<const double> low,
-                                                  std::span<const double> high) const {
+                                                  const StepBounds& bounds) const {
   constexpr int doublings = 3;  // chosen
   std::pair best{0.0, step};
   for (int n = 0; n <= doublings; ++n) {
     const VectorXd by = std::exp2(n) * step;
-    const auto leaves = [&](std::size_t k) {
-      return by[Index(k)] < low[k] || by[Index(k)] > high[k];
-    };
-    if (n > 0 && std::ranges::any_of(std::views::iota(std::size_t(0), low.size()), leaves)) break;
+    if (n > 0 && bounds.leaves(by)) break;
     const double gain =
         begin.cost - cost_at(begin.estimate, begin.left, all.d * by, begin.moved - shared * by);
     if (n > 0 && !(gain > best.first)) break;
@@ -155,19 +160,19 @@ Candidate Screen::score(const Beginning& begin, const Directions& all) const {
   own -= wd.transpose() * base.jacobian * shared;
   Candidate candidate{all.shape, 0};
   const auto values = effects::parameters(candidate.start.effect);
-  std::vector<double> low, high;  // of each step
+  StepBounds bounds;
   bool places = false;
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool like = is_like(p, values[all.sizes[0]]);
     places |= !like;
-    low.push_back(like ? (p.bounds.low - *p.value) / all.nudge[n] : -unlimited);
-    high.push_back(like ? (p.bounds.high - *p.value) / all.nudge[n] : unlimited);
+    bounds.low.push_back(like ? (p.bounds.low - *p.value) / all.nudge[n] : -unlimited);
+    bounds.high.push_back(like ? (p.bounds.high - *p.value) / all.nudge[n] : unlimited);
   }
   VectorXd step = step_within(
-      own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), low, high);
+      own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), bounds);
   if (step.isZero(0) || (places && step[0] == 0)) return candidate;
-  std::tie(candidate.score, step) = best_multiple(begin, all, shared, step, low, high);
+  std::tie(candidate.score, step) = best_multiple(begin, all, shared, step, bounds);
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool place = !is_like(p, values[all.sizes[0]]);

@@ -27,6 +27,7 @@ bool can_show(const effects::Placed& effect, const erp::Robot& robot,
 
 struct Directions;
 struct Beginning;
+struct StepBounds;
 
 class Screen {
  public:
@@ -49,8 +50,7 @@ class Screen {
                                                    const Directions& directions,
                                                    const Eigen::MatrixXd& shared,
                                                    const Eigen::VectorXd& step,
-                                                   std::span<const double> low,
-                                                   std::span<const double> high) const;
+                                                   const StepBounds& bounds) const;
   Candidate score(const Beginning& base, const Directions& directions) const;
 
   const Estimator& train_;
