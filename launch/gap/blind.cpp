@@ -116,6 +116,9 @@ void check(const BlindMakeOptions& options, const erp::Robot& robot) {
   if (!robot.effects.empty())
     throw std::invalid_argument(options.robot +
                                 ": has effects, which the cases would lack; give it without them");
+  if (options.kind == "many" && options.tolerance > 0)
+    throw std::invalid_argument(fmt::format(
+        "--tolerance {}: cases of many draw their own numbers; leave it out", options.tolerance));
   if (fs::exists(options.out + "/cases.json"))
     throw std::invalid_argument(options.out +
                                 ": holds cases already; move it away or name another");

@@ -192,8 +192,7 @@ void count_numbers(const Json& truth, const Json& d, Rate& rate) {
       rate.count(c["interval"][0] <= number["value"] && number["value"] <= c["interval"][1]);
 }
 
-/// Counts which errors of numbers, far enough beyond the interval to be seen, are said to differ from nominal, and
-/// which of those that are said to do so have no error.
+/// Of estimated numbers: which errors of twice their interval are said to differ, and which of those are none.
 void count_named(const Json& truth, const Json& d, Rate& named, Rate& falsely) {
   for (const Json& number : truth["numbers"]) {
     const Json c = constant_of(number, d);

@@ -46,7 +46,7 @@ Verdict judge(const Selection& selection, const Observed& observed,
   const bool coarse_alone = !observed.sensors.empty() && !left;  // and that is all held out shows
   if (selection.gap && !coarse_alone)
     return selection.explained() ? Verdict::supported
-           : selection.told      ? Verdict::none_of_the_known
+           : selection.shown     ? Verdict::none_of_the_known
                                  : Verdict::not_identifiable;
   if (observed.bus_differs()) return Verdict::supported;
   if (observed.bus_unexplained()) return Verdict::none_of_the_known;
@@ -195,7 +195,7 @@ void answer(const Question& q, Diagnosis& d) {
   Selection selection =
       select(evidence, q.known, d.stages, coarse ? Depth::full : Depth::best_alone);
   std::optional<Built> built;
-  if (selection.gap && selection.told && !(coarse && selection.explained()) &&
+  if (selection.gap && selection.shown && !(coarse && selection.explained()) &&
       !leaves_noise_on_large_robot(evidence, selection))
     built.emplace(as_built(evidence, q.robot, q.plain, selection.answer));
   if (built && agree(*built, selection)) {

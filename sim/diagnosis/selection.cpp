@@ -69,11 +69,11 @@ Selection select(const Evidence& evidence, const Trials& trials,
   for (const Ranked& r : first) s.ranked.push_back(named(r, evidence.options.least_gain));
   sign(evidence, trials, stages, first, s.ranked);
   control_discoveries(first, s.ranked);
-  s.told = any_open(s.left);
-  if (first.empty() || !s.told) return s;
+  s.shown = any_open(s.left);
+  if (first.empty() || !s.shown) return s;
   if (!s.ranked[0].supported) {
     const Trial alone = trials.with(trials.bare(), first[0].fit.placed, evidence.sets.held_out);
-    s.told = any_open(left_open(evidence, trials, alone, evidence.options.alone));
+    s.shown = any_open(left_open(evidence, trials, alone, evidence.options.alone));
     return s;
   }
   s.answer = {s.ranked[0]};

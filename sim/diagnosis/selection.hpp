@@ -12,7 +12,7 @@ namespace sim::diagnosis {
 
 struct Selection {
   bool gap = false;  ///< some stage leaves its floor
-  bool told = true;  ///< false: the recordings held out show too little of it to judge an effect
+  bool shown = true;  ///< false: the recordings held out show too little of it to judge an effect
   std::vector<Named> ranked = {};   ///< one by one, best first
   std::vector<Named> answer = {};   ///< effects that together close the gap, the most telling first
   std::vector<StageGap> left = {};  ///< after the answer, held-out recordings

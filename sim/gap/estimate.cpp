@@ -158,8 +158,8 @@ bool is_far_from_noise(const Estimate& e) {
   return std::ranges::any_of(e.mean_square, [](double square) { return square > far; });
 }
 
-/// Steps until one no longer helps. Where that leaves much more than noise, derivatives are taken once more over wide
-/// steps, which look past the kinks of play and friction. Derivatives are taken anew where a step gained much less than they
+/// Steps until one no longer helps. Where that leaves much more than noise, derivatives are taken over wide steps,
+/// which look past the kinks of play and friction. Derivatives are taken anew where a step gained much less than they
 /// promised (chord method: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, ch. 5).
 void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent& d) {
   constexpr double enough = 1e-4;  // of the cost, that a step is worth; chosen
@@ -168,7 +168,8 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
   int wides = 4;                   // times that those are taken; chosen
   double damping = 0, stretch = 1;
   for (int iteration = 0; iteration < d.iterations; ++iteration) {
-    const bool far = iteration<d.far, was_wide = stretch> 1;
+    const bool far = iteration < d.far;
+    const bool was_wide = stretch != 1;
     if (!d.base) weigh(residuals, e, far ? 0.5 : 1);
     if (d.stale) {
       const Sparse* known = d.base ? &d.base->jacobian : nullptr;

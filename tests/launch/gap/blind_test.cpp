@@ -100,6 +100,17 @@ TEST_CASE("a robot that begins beyond its stops flies apart: drawn anew, and sai
   CHECK(fs::exists(folder.path / "cases/case_0001/1.csv"));
 }
 
+/// Seals those truths beside the diagnoses of a folder, and scores them.
+std::string score_of(const Folder& folder, const nlohmann::json& truths) {
+  const std::string truth = folder.path / "truth.json";
+  std::ofstream(truth) << truths.dump();
+  std::ofstream(folder.path / "cases.json")
+      << nlohmann::json{{"truth_sha256", launch::gap::sha256(truths.dump())}};
+  std::ostringstream out;
+  REQUIRE(launch::gap::blind_score(folder.path, truth, out) == 0);
+  return out.str();
+}
+
 TEST_CASE("pairs: both found, and F1 of all that was named") {
   const Folder folder;
   const auto effect = [](const char* type) {
@@ -128,16 +139,11 @@ TEST_CASE("pairs: both found, and F1 of all that was named") {
   auto one = effect("a"), other = effect("twin_of_b"), same = effect("b");
   other["set"] = same["set"] = 1;
   diagnosed("by_its_twin", {one, other}, {other, same});
-  const std::string truth = folder.path / "truth.json";
-  std::ofstream(truth) << truths.dump();
-  std::ofstream(folder.path / "cases.json")
-      << nlohmann::json{{"truth_sha256", launch::gap::sha256(truths.dump())}};
-  std::ostringstream out;
-  REQUIRE(launch::gap::blind_score(folder.path, truth, out) == 0);
-  INFO(out.str());
-  CHECK_THAT(out.str(), Catch::Contains("(2 of 3)"));
-  CHECK_THAT(out.str(), Catch::Contains("0.805"));  // of means 7/9 and 5/6
-  CHECK_THAT(out.str(), Catch::Contains("one_of_three: a on flexor + b on flexor | supported"));
+  const std::string score = score_of(folder, truths);
+  INFO(score);
+  CHECK_THAT(score, Catch::Contains("(2 of 3)"));
+  CHECK_THAT(score, Catch::Contains("0.805"));  // of means 7/9 and 5/6
+  CHECK_THAT(score, Catch::Contains("one_of_three: a on flexor + b on flexor | supported"));
 }
 
 TEST_CASE("many numbers off: those that can be seen are named, and few others") {
@@ -170,17 +176,12 @@ TEST_CASE("many numbers off: those that can be seen are named, and few others") 
        {constant("named", 1.05, 0.01, true), constant("missed", 1.01, 0.01, false),
         constant("too_little_to_see", 1.01, 0.02, false), constant("exact", 1.04, 0.01, true)}}};
   fs::copy(robot_file, folder.path / "robot.xml");
-  const std::string truth = folder.path / "truth.json";
-  std::ofstream(truth) << truths.dump();
-  std::ofstream(folder.path / "cases.json")
-      << nlohmann::json{{"truth_sha256", launch::gap::sha256(truths.dump())}};
-  std::ostringstream out;
-  REQUIRE(launch::gap::blind_score(folder.path, truth, out) == 0);
-  INFO(out.str());
-  CHECK_THAT(out.str(), Catch::Contains("named, of errors seen          50.0 %  (1 of 2)") &&
-                            Catch::Contains("falsely, of those named        50.0 %  (1 of 2)") &&
-                            Catch::Contains("90 % of the free run            0.0 %  (0 of 1)") &&
-                            Catch::Contains("interval holds the number      50.0 %  (2 of 4)"));
+  const std::string score = score_of(folder, truths);
+  INFO(score);
+  CHECK_THAT(score, Catch::Contains("named, of errors seen          50.0 %  (1 of 2)") &&
+                        Catch::Contains("falsely, of those named        50.0 %  (1 of 2)") &&
+                        Catch::Contains("90 % of the free run            0.0 %  (0 of 1)") &&
+                        Catch::Contains("interval holds the number      50.0 %  (2 of 4)"));
 }
 
 TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored by its own rows") {
@@ -190,6 +191,10 @@ TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored
   launch::gap::BlindMakeOptions make{
       .robot = robot_file, .out = cases, .truth = truth, .kind = "null"};
   make.cases = 1, make.recordings = 3, make.seconds = 8, make.seed = 3, make.tolerance = 0.03;
+  make.kind = "many";
+  CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks),
+                    Catch::Contains("--tolerance 0.03"));
+  make.kind = "null";
   REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
   const auto hidden = nlohmann::json::parse(std::ifstream(truth));
   CHECK(hidden[0]["hidden"].empty());

@@ -26,7 +26,7 @@ TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
   CHECK(d.answer.size() == 1);
 }
 
-TEST_CASE("coarse steps are told beside constants that are all a little off") {
+TEST_CASE("a sensor with coarse steps is named beside constants that are all a little off") {
   auto blind = nothing_hidden();
   blind.quirks.chains[1].tension.step = 0.83;
   blind.built = sim::blind::as_built(hinge_rig(), 0.02, 43, blind.quirks);
