@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 
 #include "sim/actuator/pose_plan.hpp"
 
@@ -38,12 +39,12 @@ Pose posture(const erp::Robot& robot, double share, Random& random) {
   return pose;
 }
 
-/// All hinges to one end of their range, then to the other.
-void go_to_end(const erp::Robot& robot, std::size_t turn, Pose& pose) {
+/// All hinges to one end of their range, then to the other; `scale`: of the range, about its middle.
+void go_to_end(const erp::Robot& robot, std::size_t turn, double scale, Pose& pose) {
   const auto joints = robot.joints();
   for (std::size_t k = 0; k < joints.size(); ++k) {
     if (joints[k].type != erp::JointType::revolute) continue;
-    const double margin = 0.03 * (joints[k].max_rad - joints[k].min_rad);
+    const double margin = (0.03 + (1 - scale) / 2) * (joints[k].max_rad - joints[k].min_rad);
     pose[k][0] = turn % 2 ? joints[k].max_rad - margin : joints[k].min_rad + margin;
   }
 }
@@ -58,16 +59,18 @@ double relative_strength(const erp::Robot& robot) {
 struct Walk {
   double share, pace_s, dwell_s, rest_N, least_N;
   bool to_the_ends = false;
+  double scale = 1;  ///< of postures
 };
 
+/// Throws std::invalid_argument where a tendon has no path in a posture on the way.
 Excitation through_postures(const erp::Robot& robot, const Walk& walk, double duration_s,
                             Random& random) {
   std::vector<TimedPose> poses{{0, starting_pose(robot)}};
   for (double t = 0.4; t < duration_s + walk.pace_s;) {
     poses.push_back({t, poses.back().pose});
     t += walk.pace_s * between(random, 0.7, 1.3);
-    poses.push_back({t, posture(robot, walk.share, random)});
-    if (walk.to_the_ends) go_to_end(robot, poses.size() / 2, poses.back().pose);
+    poses.push_back({t, posture(robot, walk.scale * walk.share, random)});
+    if (walk.to_the_ends) go_to_end(robot, poses.size() / 2, walk.scale, poses.back().pose);
     t += walk.dwell_s * between(random, 0.5, 1.5);
   }
   const double strong = relative_strength(robot);
@@ -88,6 +91,18 @@ Excitation through_postures(const erp::Robot& robot, const Walk& walk, double du
           row.push_back(in * ((1 - s) * column.values[at] + s * column.values[at + 1]));
   }
   return all;
+}
+
+/// With postures so wide that each tendon has a path.
+Excitation within_reach(const erp::Robot& robot, Walk walk, double duration_s,
+                        const Random& random) {
+  constexpr double narrower = 0.7, least = 0.2;  // chosen
+  for (;; walk.scale *= narrower) try {
+      Random drawn = random;
+      return through_postures(robot, walk, duration_s, drawn);
+    } catch (const std::invalid_argument&) {
+      if (walk.scale < least) throw;
+    }
 }
 
 /// On top of it each muscle pulls alone, slowly and then faster, against those that hold the
@@ -152,7 +167,7 @@ Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
     return tensions(robot, swing, duration_s, random);
   }
   const Walk walks[] = {slow, low, fast, high};
-  Excitation all = through_postures(robot, walks[recording % 4], duration_s, random);
+  Excitation all = within_reach(robot, walks[recording % 4], duration_s, random);
   if (recording % 2 == 1) pull_in_turn(robot, all);
   return all;
 }

@@ -21,7 +21,7 @@ double rub(const erp::Joint& joint, const JointQuirks& q, double speed, double v
            double& ds) {
   const double dry = std::max(0.0, joint.coulomb_Nm + q.dry_Nm) +
                      q.stribeck_Nm * std::exp(-speed / q.stribeck_rad_per_s);
-  ds = (v - speed * bristle) / reach_rad;
+  ds = (v - speed * bristle) / bristle_reach(reach_rad, speed);
   const double bent = std::clamp(bristle + settles_s * ds, -1.2, 1.2);
   return -std::max(0.0, joint.viscous_Nm_s_per_rad + q.viscous) * v - dry * bent -
          q.drag * v * std::abs(v);

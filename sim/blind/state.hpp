@@ -20,6 +20,7 @@ enum : std::size_t {
   slide3,
   line_bristle,
   heat,
+  aged,  // of stiction
   said_shaft,
   said_current,
   said_tension,
@@ -37,9 +38,15 @@ enum : std::size_t {
 };
 }
 
-/// ṡ of a bristle that is fully bent after `reach` of motion; `most`: what it may bend to.
+/// Motion after which a bristle is fully bent; at speed longer, that it takes a step of the integrator at least.
+inline double bristle_reach(double reach, double speed) {
+  constexpr double least_s = 1e-4;
+  return std::fmax(reach, least_s * std::abs(speed));
+}
+
+/// ṡ of a bristle; `most`: what it may bend to.
 inline double bristle_rate(double s, double speed, double reach, double most = 1) {
-  return (speed - std::abs(speed) * s / most) / reach;
+  return (speed - std::abs(speed) * s / most) / bristle_reach(reach, speed);
 }
 
 }  // namespace sim::blind
