@@ -124,6 +124,11 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
                (rub > 0 ? q.one_way_Nm : -q.one_way_Nm);
   dry += q.load_share * std::abs(load);
   dry += q.stribeck_Nm * std::exp(-std::abs(omega / q.stribeck_rad_per_s));
+  dx[c::aged] =
+      (1 - x[c::aged]) / q.stuck_after_s - std::abs(omega) * x[c::aged] / q.freed_after_rad;
+  dry += q.stuck_Nm * x[c::aged];
+  const double turned = q.turn_periods * x[c::shaft];
+  dry += q.turn_sine_Nm * std::sin(turned) + q.turn_cosine_Nm * std::cos(turned);
   const double tooth = q.tooth_Nm * std::pow(0.5 + 0.5 * std::cos(x[c::shaft]), 8);
   dry = std::max(0.0, dry + tooth);
   const double out =

@@ -53,6 +53,7 @@ const std::vector<HiddenKind> library{
      const double size = between(r, 6e-4, 3e-3), phase = between(r, 0, 6.28);
      chain(p).cog_sine_Nm = size * std::cos(phase), chain(p).cog_cosine_Nm = size * std::sin(phase);
      return Drawn{{"sine_Nm", chain(p).cog_sine_Nm}, {"cosine_Nm", chain(p).cog_cosine_Nm}}; }},
+  {"motor_driver_delay", "motor", on_chain, [](P& p, R& r) { return set(chain(p).driver_late_s, "delay_s", between(r, 6e-4, 1.8e-3)); }},
   {"motor_dead_band", "motor", on_chain, [](P& p, R& r) { return set(chain(p).dead_V, "volts", between(r, 0.1, 0.6)); }},
   {"motor_supply_sag", "motor", on_chain, [](P& p, R& r) { return set(chain(p).source_ohm, "source_ohm", between(r, 0.2, 1.2)); }},
   {"gearbox_coulomb", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).dry_Nm, "extra_Nm", between(r, 0.02, 0.12)); }, {"gearbox_stribeck"}},
@@ -63,6 +64,14 @@ const std::vector<HiddenKind> library{
   {"gearbox_stribeck", "gearbox", on_chain, [](P& p, R& r) {
      chain(p).stribeck_Nm = between(r, 0.04, 0.2), chain(p).stribeck_rad_per_s = between(r, 0.2, 1.0);
      return Drawn{{"tustin_Nm", chain(p).stribeck_Nm}, {"tustin_rad_per_s", chain(p).stribeck_rad_per_s}}; }},
+  {"gearbox_ageing_stiction", "gearbox", on_chain, [](P& p, R& r) {
+     chain(p).stuck_Nm = between(r, 0.1, 0.4), chain(p).stuck_after_s = scale(r, 0.1, 1), chain(p).freed_after_rad = scale(r, 0.1, 0.5);
+     return Drawn{{"extra_Nm", chain(p).stuck_Nm}, {"rest_s", chain(p).stuck_after_s}, {"way_rad", chain(p).freed_after_rad}}; }, {"gearbox_stribeck", "gearbox_coulomb"}},
+  {"gearbox_position_dependent", "gearbox", on_chain, [](P& p, R& r) {
+     const double size = between(r, 0.02, 0.08), phase = between(r, 0, 6.28);
+     chain(p).turn_sine_Nm = size * std::cos(phase), chain(p).turn_cosine_Nm = size * std::sin(phase);
+     chain(p).turn_periods = std::uniform_int_distribution(1, 12)(r);
+     return Drawn{{"sine_Nm", chain(p).turn_sine_Nm}, {"cosine_Nm", chain(p).turn_cosine_Nm}}; }},
   {"gearbox_load_dependent", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).load_share, "share", between(r, 0.15, 0.7)); }, {"routing_capstan"}},
   {"gearbox_backlash", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).play_rad, "width_rad", between(r, 0.05, 0.3)); }},
   {"gearbox_inertia", "gearbox", on_chain, [](P& p, R& r) { return set(chain(p).rotor, "relative", between(r, 0.1, 1.0)); }},

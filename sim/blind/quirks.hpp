@@ -20,9 +20,12 @@ struct ChainQuirks {
   double kelvin_per_W = 0, heat_s = 20;
   double cog_sine_Nm = 0, cog_cosine_Nm = 0;
   double dead_V = 0, source_ohm = 0;
+  double driver_late_s = 0;      ///< less than a period
   double saturation_per_A2 = 0;  ///< outside: K_T / (1 + c i²)
   double dry_Nm = 0, one_way_Nm = 0, viscous = 0, load_share = 0;
   double stribeck_Nm = 0, stribeck_rad_per_s = 0.3;
+  double stuck_Nm = 0, stuck_after_s = 1, freed_after_rad = 0.1;
+  double turn_sine_Nm = 0, turn_cosine_Nm = 0, turn_periods = 1;
   double play_rad = 0, rotor = 0, twist_rad_per_Nm = 0;
   double tooth_Nm = 0;  ///< outside: drags once a turn of the gearbox
   double radius = 0, growth_m_per_rad = 0, slip_per_N = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -156,8 +157,9 @@ class Run {
     }
   }
   void step() {
-    std::vector<double> volts;
+    std::vector<double> before, volts;
     for (Unit& u : units_) {
+      before.push_back(u.voltage_V);
       const ecu_inputs inputs{
           static_cast<std::int32_t>(std::lround(u.shaft_rad / u.units.shaft_rad_per_count)),
           static_cast<std::int16_t>(std::lround(u.current_A / u.units.current_A_per_count)),
@@ -167,9 +169,23 @@ class Run {
       volts.push_back(u.voltage_V);
     }
     gust_ += period_s / 0.15 * -gust_ + std::sqrt(2 * period_s / 0.15) * normal_(random_);
-    if (!plant_.run(volts, period_s, gust_))
-      throw NotFinite("the motion of a blind case is not finite: take other seeds");
+    drive(before, volts);
     measure();
+  }
+  /// Over a period, in which late drivers still apply the voltage before.
+  void drive(std::vector<double> volts, const std::vector<double>& now) {
+    double done_s = 0;
+    const auto until = [&](double end_s) {
+      if (end_s > done_s && !plant_.run(volts, end_s - done_s, gust_))
+        throw NotFinite("the motion of a blind case is not finite: take other seeds");
+      done_s = std::max(done_s, end_s);
+    };
+    std::vector<std::size_t> order(now.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto late_s = [&](std::size_t a) { return quirks_.chains[a].driver_late_s; };
+    std::ranges::sort(order, {}, late_s);
+    for (const std::size_t a : order) until(late_s(a)), volts[a] = now[a];
+    until(period_s);
   }
   std::vector<double> said() {
     std::vector<double> all;

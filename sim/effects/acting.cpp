@@ -72,6 +72,23 @@ double Acting::voltage_V(double volts, const ChainSample& s) {
   return volts;
 }
 
+double Acting::driver_delay_s() {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory&) requires requires { e.driver_delay_s(); } {
+        sum += e.driver_delay_s();
+      });
+  return sum;
+}
+
+double Acting::late_voltage_V(double volts, const ChainSample& s) {
+  each(
+      [&](auto& e, Memory& m) requires requires { e.late_voltage_V(volts, s, m); } {
+        volts = e.late_voltage_V(volts, s, m);
+      });
+  return volts;
+}
+
 double Acting::resistance_ohm(double ohm, const ChainSample& s) {
   each(
       [&](auto& e, Memory& m) requires requires { e.resistance_ohm(ohm, s, m); } {
@@ -93,6 +110,13 @@ double Acting::friction_Nm(int direction, const ChainSample& s) {
       [&](auto& e, Memory&) requires requires { e.friction_Nm(direction, s); } {
         sum += e.friction_Nm(direction, s);
       });
+  return sum;
+}
+
+double Acting::aged_Nm(const ChainSample& s) {
+  double sum = 0;
+  each(
+      [&](auto& e, Memory& m) requires requires { e.aged_Nm(s, m); } { sum += e.aged_Nm(s, m); });
   return sum;
 }
 

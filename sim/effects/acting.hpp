@@ -31,9 +31,12 @@ class Acting {
   void restore(std::span<const Memory>& memories);
 
   double voltage_V(double volts, const ChainSample& s);
+  double driver_delay_s();
+  double late_voltage_V(double volts, const ChainSample& s);
   double resistance_ohm(double ohm, const ChainSample& s);
   double rotor_Nm(const ChainSample& s);
   double friction_Nm(int direction, const ChainSample& s);
+  double aged_Nm(const ChainSample& s);
   Sloped wound(const ChainSample& s, Sloped line);
   Sloped path(const ChainSample& s, Sloped path);
   Sloped pull(const ChainSample& s);

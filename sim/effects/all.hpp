@@ -6,12 +6,14 @@
 #include "sim/effects/bus/frame_loss.hpp"
 #include "sim/effects/bus/jitter.hpp"
 #include "sim/effects/bus/sensor_delay.hpp"
+#include "sim/effects/gearbox/ageing_stiction.hpp"
 #include "sim/effects/gearbox/asymmetric.hpp"
 #include "sim/effects/gearbox/backlash.hpp"
 #include "sim/effects/gearbox/coulomb.hpp"
 #include "sim/effects/gearbox/efficiency.hpp"
 #include "sim/effects/gearbox/inertia.hpp"
 #include "sim/effects/gearbox/load_dependent.hpp"
+#include "sim/effects/gearbox/position_dependent.hpp"
 #include "sim/effects/gearbox/shaft_compliance.hpp"
 #include "sim/effects/gearbox/stribeck.hpp"
 #include "sim/effects/gearbox/viscous.hpp"
@@ -23,6 +25,7 @@
 #include "sim/effects/joint/viscous.hpp"
 #include "sim/effects/motor/cogging.hpp"
 #include "sim/effects/motor/dead_band.hpp"
+#include "sim/effects/motor/driver_delay.hpp"
 #include "sim/effects/motor/inductance.hpp"
 #include "sim/effects/motor/resistance.hpp"
 #include "sim/effects/motor/supply_sag.hpp"
@@ -62,8 +65,9 @@ namespace sim::effects {
 using AnyEffect = std::variant<
     CommandDelay, SensorDelay, Jitter, FrameLoss,
     MotorResistance, MotorTorqueConstant, MotorInductance, MotorThermalResistance, MotorCogging,
-    MotorDeadBand, SupplySag,
-    GearboxCoulomb, GearboxAsymmetric, GearboxViscous, GearboxStribeck, GearboxLoadDependent, GearboxEfficiency,
+    MotorDriverDelay, MotorDeadBand, SupplySag,
+    GearboxCoulomb, GearboxAsymmetric, GearboxViscous, GearboxStribeck, GearboxAgeingStiction,
+    GearboxLoadDependent, GearboxPositionDependent, GearboxEfficiency,
     GearboxBacklash, GearboxInertia, GearboxShaftCompliance,
     SpindleRadius, SpindleLayers, SpindleSlip,
     TendonStiffness, TendonStiffening, TendonDamping, TendonCreep, TendonHysteresis,

@@ -17,9 +17,12 @@
 ///   change_robot(robot, on)                  acts_besides: those below act as well
 /// Seams in the chain of an actuator, each step:
 ///   voltage_V(V, s)                   at the motor's terminals, from what the ECU applies
+///   driver_delay_s()                  after which that acts
+///   late_voltage_V(V, s, memory)      which acts then, as a mean over a step
 ///   resistance_ohm(R, s, memory)      of the winding
 ///   rotor_Nm(s)                       against winding up, on the motor's own shaft
 ///   friction_Nm(direction, s)         added to the gearbox's Coulomb friction
+///   aged_Nm(s, memory)                the same of what remembers, once a step
 ///   wound(s, wound, memory)           the line on the spindle
 ///   path(path, s)                     the length of the tendon's path
 ///   pull(s, memory)                   added to the tendon's pull
@@ -57,7 +60,7 @@ struct Bounds {
 };
 
 /// What an effect remembers from step to step; zero at the start.
-using Memory = std::array<double, 4>;
+using Memory = std::array<double, 8>;
 
 /// One actuator, now: what its seams may look at.
 struct ChainSample {

@@ -22,16 +22,22 @@ struct Chain {
 Signal around_V(const Chain& c) {
   const ChainTrace& t = c.trace;
   const double a = t.current_averaged;
-  TwoPeriodsAt around(c.motor, c.period_s);
+  TwoPeriodsAt around(c.motor, c.period_s, t.driver_late_s);
+  const double late = t.driver_late_s / c.period_s;
   Signal left(t.terminal_V.size(), nan);
   for (std::size_t k = 1; k + 1 < left.size(); ++k) {
+    const double first_V = t.terminal_V[k - 1], middle_V = t.terminal_V[k],
+                 last_V = t.terminal_V[k + 1];
     const double ohm = t.resistance_ohm[k], before = t.current_A[k - 1], now = t.current_A[k],
                  next = t.current_A[k + 1];
-    const auto& [volts, amperes, drives, inertia] = around.ohm(ohm);
-    const double held = volts[0] * t.terminal_V[k] + volts[1] * t.terminal_V[k + 1] -
+    const auto& [volts, amperes, drives, per_V, per_speed, inertia] = around.ohm(ohm);
+    const double held = (late > 0 ? volts[0] * first_V : 0) + volts[1] * middle_V +
+                        volts[2] * last_V -
                         ohm * (amperes[0] * before + amperes[1] * now + amperes[2] * next);
-    const double averaged = (t.terminal_V[k] + t.terminal_V[k + 1]) / 2 - ohm * now -
-                            c.motor.inductance_H * (next - before) / (2 * c.period_s);
+    const double mean_V =
+        (late > 0 ? late * first_V : 0) / 2 + (middle_V + (1 - late) * last_V) / 2;
+    const double averaged =
+        mean_V - ohm * now - c.motor.inductance_H * (next - before) / (2 * c.period_s);
     left[k] = (1 - a) * held + a * averaged;
   }
   return left;
@@ -51,7 +57,7 @@ void add_gearbox(const Chain& c, std::span<const std::size_t> rows, Residual& re
   const double viscous =
       c.motor.rotor_viscous_Nm_s_per_rad * c.motor.gear_ratio * c.motor.gear_ratio;
   const double a = c.trace.current_averaged, turned = turned_inertia_kg_m2(c.motor);
-  TwoPeriodsAt around(c.motor, c.period_s);
+  TwoPeriodsAt around(c.motor, c.period_s, c.trace.driver_late_s);
   for (const std::size_t k : rows) {
     const double ohm = c.trace.resistance_ohm.empty() ? c.motor.resistance_ohm
                                                       : c.bump.mean(c.trace.resistance_ohm, k);
@@ -60,9 +66,8 @@ void add_gearbox(const Chain& c, std::span<const std::size_t> rows, Residual& re
                         viscous * c.bump.rate(c.trace.shaft_rad, k) -
                         c.bump.mean(c.trace.drive_Nm, k);
     const double unsure = c.bump.mean(c.trace.unsure_Nm, k);
-    residual.value.push_back(std::isnan(left)
-                                 ? nan
-                                 : std::copysign(std::max(0.0, std::abs(left) - unsure), left));
+    residual.value.push_back(
+        std::isnan(left) ? nan : std::copysign(std::max(0.0, std::abs(left) - unsure), left));
     residual.band.push_back(unsure);
   }
 }
@@ -92,8 +97,8 @@ std::vector<Residual> chain_residuals(const ChainTrace& trace, const erp::Actuat
     all.push_back({effects::Stage::motor, actuator.name, "V", motor_V(chain, rows),
                    driven_by(chain, trace.terminal_V, rows)});
   if (!trace.drive_Nm.empty()) {
-    all.push_back({effects::Stage::gearbox, actuator.name, "Nm", {},
-                   driven_by(chain, trace.motor_Nm, rows)});
+    all.push_back(
+        {effects::Stage::gearbox, actuator.name, "Nm", {}, driven_by(chain, trace.motor_Nm, rows)});
     add_gearbox(chain, rows, all.back());
   }
   if (trace.tension_measured && !trace.spring_N.empty())

@@ -43,7 +43,8 @@ class Tracer {
       out_.spring_N.assign(rows_, nan), out_.path_slope.assign(rows_, 1);
     if (turning && !in_.voltage_V.empty())
       out_.terminal_V.assign(rows_, nan), out_.resistance_ohm.assign(rows_, nan);
-    samples_.reserve(rows_), wound_slope_.reserve(rows_);
+    find_driver_delay();
+    samples_.reserve(rows_), wound_slope_.reserve(rows_), aged_Nm_.reserve(rows_);
     for (std::size_t k = 0; k < rows_; ++k) take(k);
     if (!out_.tension_measured) out_.tension_N = out_.spring_N;
     find_drive();
@@ -68,6 +69,14 @@ class Tracer {
     out_.shaft_rad = undone(effects::Sense::shaft, in_.shaft_rad);
     out_.current_A = undone(effects::Sense::current, in_.current_A);
     out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
+  }
+
+  /// Whole periods of a late driver, and the rest.
+  void find_driver_delay() {
+    const double late_s = m_.effects.driver_delay_s();
+    late_rows_ = static_cast<std::size_t>(late_s / period_s_);
+    out_.driver_late_s = late_s - static_cast<double>(late_rows_) * period_s_;
+    around_ = two_periods(m_.motor, period_s_, out_.driver_late_s);
   }
 
   /// For what remembers: noise would wear a hysteresis down.
@@ -135,11 +144,13 @@ class Tracer {
     s.line_speed_m_per_s = wound.slope * s.speed_rad_per_s;
     if (!out_.spring_N.empty()) stretch(k, s, path, wound, pull);
     if (!out_.terminal_V.empty()) {
-      out_.terminal_V[k] = m_.effects.voltage_V(in_.voltage_V[k], s);
+      const double applied_V = k >= late_rows_ ? in_.voltage_V[k - late_rows_] : nan;
+      out_.terminal_V[k] = m_.effects.voltage_V(applied_V, s);
       out_.resistance_ohm[k] = m_.effects.resistance_ohm(m_.motor.resistance_ohm, s);
     }
     samples_.push_back(s);
     wound_slope_.push_back(wound.slope);
+    aged_Nm_.push_back(m_.effects.aged_Nm(s));
   }
 
   void stretch(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
@@ -160,7 +171,7 @@ class Tracer {
   double current_A(std::size_t k) const {
     if (out_.current_measured) return out_.current_A[k];
     if (k + 1 >= rows_) return nan;
-    const double late_s = m_.motor.inductance_H / out_.resistance_ohm[k];
+    const double late_s = m_.motor.inductance_H / out_.resistance_ohm[k] + out_.driver_late_s;
     const double next_V = out_.terminal_V[k + 1], now_V = out_.terminal_V[k];
     const double mean_V = (now_V + next_V) / 2 - late_s * (next_V - now_V) / period_s_;
     const double answered =
@@ -175,6 +186,10 @@ class Tracer {
     const auto& share = around_.drives;
     double weighed = 0;
     for (std::size_t j = 0; j < share.size(); ++j) weighed += share[j] * current_A(k - 1 + j);
+    const double late = around_.drives_per_V;  // 0: no driver is late
+    if (late != 0 && !out_.terminal_V.empty())
+      weighed += late * out_.terminal_V[k - 1] +
+                 around_.drives_per_speed * rate_of(out_.shaft_rad, k, period_s_);
     return (1 - a) * weighed + a * current_A(k);
   }
 
@@ -243,7 +258,8 @@ class Tracer {
     const double near_N =
         m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
     s.load_Nm = wound_slope_[k] * near_N;
-    const double dry = std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(way, s));
+    const double dry =
+        std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(way, s) + aged_Nm_[k]);
     const double load = m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm;
     const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
     return out_.motor_Nm[k] - n * (way * m.rotor_coulomb_Nm + m_.effects.rotor_Nm(s)) - load / e;
@@ -253,12 +269,12 @@ class Tracer {
   const ActuatorSignals& in_;
   const PathTrace& path_;
   double period_s_;
-  TwoPeriods around_ = two_periods(m_.motor, period_s_);
+  TwoPeriods around_{};
   Bump bump_;
   TendonLaw law_;
   bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission
-  std::size_t rows_ = 0;
-  Signal path_rate_, calm_path_m_, wound_slope_;
+  std::size_t rows_ = 0, late_rows_ = 0;
+  Signal path_rate_, calm_path_m_, wound_slope_, aged_Nm_;
   std::vector<effects::ChainSample> samples_;
   std::vector<double> direction_;  ///< of each period
   ChainTrace out_;

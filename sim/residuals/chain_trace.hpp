@@ -29,6 +29,7 @@ struct ChainTrace {
   Signal drive_Nm;         ///< N (K_T ī − s τ_CM) − X/e; NaN where the shaft rests
   Signal unsure_Nm;        ///< by how much that may err where the shaft turns back or stops
   bool tension_measured = false, current_measured = false;
+  double driver_late_s = 0;     ///< less than a period: whole ones are undone in `terminal_V`
   double current_averaged = 0;  ///< share in which the current is a mean around the row
 };
 

@@ -51,10 +51,11 @@ void World::turn_motor(std::size_t k, double voltage_V, double tension_N, double
   if (std::abs(ohm / chain.motor.type().resistance_ohm - 1) > noticeable) heat(chain, ohm);
   const double r = chain.motor.spindle_radius_m();
   s.load_Nm = chain.wound.slope * chain.effects.motor_side_N(tension_N, s);
-  const MotorLoad load{s.load_Nm / r, chain.effects.friction_Nm(1, s),
-                       chain.effects.friction_Nm(-1, s), chain.effects.rotor_Nm(s)};
-  chain.state =
-      sim::step(chain.motor, chain.state, chain.effects.voltage_V(voltage_V, s), load, dt_s);
+  const double aged_Nm = chain.effects.aged_Nm(s);
+  const MotorLoad load{s.load_Nm / r, chain.effects.friction_Nm(1, s) + aged_Nm,
+                       chain.effects.friction_Nm(-1, s) + aged_Nm, chain.effects.rotor_Nm(s)};
+  const double late_V = chain.effects.late_voltage_V(voltage_V, s);
+  chain.state = sim::step(chain.motor, chain.state, chain.effects.voltage_V(late_V, s), load, dt_s);
 }
 
 /// Prepares the motor anew, with its winding's resistance another one.

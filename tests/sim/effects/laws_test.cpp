@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "sim/effects/acting.hpp"
 #include "sim/effects/all.hpp"
@@ -146,13 +147,59 @@ TEST_CASE("the winding's warmth: steady rise of resistance, and its time") {
 TEST_CASE("a dead band takes its volts, a supply gives way") {
   const MotorDeadBand band{0.5};
   ChainSample s = at(0);
+  Memory memory{};
   CHECK(band.voltage_V(3, s) == Approx(2.5));
   CHECK(band.voltage_V(-3, s) == Approx(-2.5));
   CHECK(band.voltage_V(0.3, s) == 0);
   const SupplySag sag{0.5};
-  Memory memory{};
   s.supply_V = 12, s.voltage_V = 6;
   CHECK(sag.resistance_ohm(0.4, s, memory) == Approx(0.4 + 0.25 * 0.5));
+}
+
+/// Voltages that a delayed driver applies, one a step of 1 ms.
+std::vector<double> applied_V(double delay_s, const std::vector<double>& commanded_V) {
+  const MotorDriverDelay driver{delay_s};
+  Memory memory{};
+  std::vector<double> all;
+  for (const double v : commanded_V) all.push_back(driver.late_voltage_V(v, at(0), memory));
+  return all;
+}
+
+TEST_CASE("a driver delay shifts the voltage by whole steps and averages the rest of a step") {
+  const std::vector<double> commanded_V{1, 1, 5, 5, 2, 2, 2, 7};
+  CHECK(applied_V(0, commanded_V) == commanded_V);
+  CHECK(applied_V(0.001, commanded_V) == std::vector<double>{1, 1, 1, 5, 5, 2, 2, 2});
+  const auto late = applied_V(0.00125, commanded_V);
+  CHECK(late[3] == Approx(0.25 * 1 + 0.75 * 5));
+  CHECK(late[5] == Approx(0.25 * 5 + 0.75 * 2));
+  CHECK(late[7] == Approx(2));
+}
+
+TEST_CASE("a delay longer than three changes of the voltage acts as the fourth comes") {
+  const auto late = applied_V(1, {1, 2, 3, 4, 5});
+  CHECK(late == std::vector<double>{1, 1, 1, 1, 2});
+}
+
+TEST_CASE("stiction ages towards its extra friction in rest and is lost over a way") {
+  const GearboxAgeingStiction stiction{0.2, 2, 0.1};
+  Memory memory{};
+  ChainSample s = at(0);
+  s.dt_s = 2;
+  CHECK(stiction.aged_Nm(s, memory) == Approx(0.2 * (1 - std::exp(-1))));
+  s.dt_s = 100;
+  CHECK(stiction.aged_Nm(s, memory) == Approx(0.2));
+  s.dt_s = 0.01, s.speed_rad_per_s = -10;  // 0.1 rad
+  CHECK(stiction.aged_Nm(s, memory) == Approx(0.2 * std::exp(-1)).epsilon(0.02));
+}
+
+TEST_CASE("position-dependent friction repeats as often a turn as its periods") {
+  const GearboxPositionDependent friction{0.03, 0.04, 3};
+  ChainSample s = at(0);
+  CHECK(friction.friction_Nm(1, s) == Approx(0.04));
+  s.shaft_rad = std::numbers::pi / 6;
+  CHECK(friction.friction_Nm(-1, s) == Approx(0.03));
+  s.shaft_rad += 2 * std::numbers::pi / 3;
+  CHECK(friction.friction_Nm(1, s) == Approx(0.03));
 }
 
 TEST_CASE("play in a bearing: the sensor's shaft is taken along at its edge") {

@@ -57,6 +57,12 @@ TEST_CASE("a voltage that acts 8 ms late is a delay of 8 ms") {
   CHECK(all[0].voltage_late_s == Approx(0.008));
 }
 
+TEST_CASE("a driver of one motor that is late is no lag of rows") {
+  sim::blind::Case late = blind_recording::nothing_hidden();
+  late.quirks.chains[0].driver_late_s = 0.0013;
+  CHECK(row_timing(blind_recording::episodes(late, 5, 2)).rows == 0);
+}
+
 TEST_CASE("one actuator that lags alone is no lag of rows") {
   auto all = recordings();
   for (Episode& e : all) make_early(e.actuators[0].voltage_V, 3);
