@@ -8,6 +8,7 @@
 #include "launch/gap/gap.hpp"
 #include "launch/text/text_files.hpp"
 #include "sim/gap/as_built.hpp"
+#include "sim/parallel/pool.hpp"
 
 namespace launch::gap {
 namespace {
@@ -47,10 +48,12 @@ int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& 
     throw std::invalid_argument("--out " + options.out +
                                 ": is the model itself; name another file");
   const Reading read = read_episodes(robot, options.recordings);
-  tell(read.mended, remarks), tell_odd(read, remarks);
+  const auto pool = sim::make_pool(options.threads);
+  if (pool->first()) tell(read.mended, remarks), tell_odd(read, remarks);
   gap::EstimateOptions how;
-  how.threads = options.threads, how.seed = options.seed;
+  how.threads = options.threads, how.seed = options.seed, how.pool = pool.get();
   const gap::AsBuilt built = gap::calibrated(robot, read.episodes, how);
+  if (!pool->first()) return 0;
   out << fmt::format("{:<16} {:<28} {:>11} {:>11} {:>25}\n", "on", "constant", "robot.xml", "found",
                      "95 % interval");
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) print_row(built, k, out);

@@ -228,22 +228,28 @@ int exit_code(diagnosis::Verdict verdict) {
   return 5;
 }
 
+/// Under mpirun each process diagnoses, and shares out derivatives and the screening of effects; the first reports.
 int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks) {
+  const auto pool = sim::make_pool(options.threads);
   const erp::Robot robot = read_chains(options.robot);
   check_withheld(options.withhold);
   check_out(options);
   const Sorted sorted = sort(options);
   const Reading read = read_episodes(robot, sorted.files);
-  tell(read.mended, remarks);
+  if (pool->first()) tell(read.mended, remarks);
   if (!options.out.empty()) check_folder(options.out);
   std::optional<Progress> progress(std::in_place, remarks);
   diagnosis::DiagnoseOptions how{.train = sorted.train,
                                  .held_out = sorted.held_out,
                                  .withhold = options.withhold,
                                  .threads = options.threads,
+                                 .pool = pool.get(),
                                  .seed = options.seed};
-  how.progress = [&](const std::string& what, double share) { progress->tell(what, share); };
+  how.progress = [&](const std::string& what, double share) {
+    if (pool->first()) progress->tell(what, share);
+  };
   diagnosis::Diagnosis d = diagnosis::diagnose(robot, read.episodes, how);
+  if (!pool->first()) return 0;
   const auto free_run = run_freely(d, read.episodes, robot, options,
                                    [&](double share) { progress->tell("free run", share); });
   erp::Robot found = d.as_built ? *d.as_built : erp::read_robot(options.robot);

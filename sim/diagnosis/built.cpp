@@ -154,7 +154,7 @@ Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& 
              held_out = some(evidence, evidence.sets.held_out);
   gap::AsBuiltOptions options;
   options.estimate.threads = evidence.options.threads,
-  options.estimate.seed = evidence.options.seed;
+  options.estimate.pool = evidence.options.pool, options.estimate.seed = evidence.options.seed;
   for (const Named& n : suggested) options.suggested.push_back(n.placed);
   options.search.withhold = evidence.options.withhold;
   options.search.most_effects = evidence.options.most_effects;

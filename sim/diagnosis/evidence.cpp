@@ -7,6 +7,7 @@ WhichOptions Evidence::which_options(double from, double to) const {
                      .held_out = sets.held_out,
                      .withhold = options.withhold,
                      .threads = options.threads,
+                     .pool = options.pool,
                      .seed = options.seed};
   if (to > from)
     which.progress = [this, from, to](std::size_t done, std::size_t of) {

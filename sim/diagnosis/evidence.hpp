@@ -19,6 +19,7 @@ struct DiagnoseOptions {
   std::vector<std::size_t> train, held_out;  ///< recordings; both empty: split by the diagnosis
   std::vector<std::string> withhold;
   int threads = 2;
+  const Pool* pool = nullptr;  ///< the processes of `mpirun`; none: `threads` alone
   std::uint64_t seed = 1;
   std::size_t most_effects = 3;
   /// What a stage may keep and count as explained, all chosen on development cases: by one effect,

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "sim/diagnosis/tries.hpp"
-#include "sim/parallel/in_parallel.hpp"
 #include "sim/gap/screen.hpp"
 #include "sim/residuals/indices.hpp"
 
@@ -77,11 +76,13 @@ class Look {
 std::vector<double> promises(const Trials& trials, const Trial& base, const WhichOptions& options,
                              const std::vector<Placed>& all) {
   std::vector<double> promised(all.size());
-  const bool drive = !trials.nominal().drives.empty();  // each of its recordings may be of one speed
+  const bool drive =
+      !trials.nominal().drives.empty();  // each of its recordings may be of one speed
   const Look look(trials, base,
                   drive ? options.train : std::vector{loudest(trials, base, options.train)});
-  in_parallel(all.size(), options.threads,
-              [&](std::size_t k) { promised[k] = look.promise(all[k]); });
+  const auto found = map(options.pool, options.threads, all.size(),
+                         [&](std::size_t k) { return Pool::Numbers{look.promise(all[k])}; });
+  for (std::size_t k = 0; k < all.size(); ++k) promised[k] = found[k][0];
   return promised;
 }
 

@@ -6,6 +6,7 @@
 
 #include "sim/diagnosis/fit.hpp"
 #include "sim/diagnosis/where.hpp"
+#include "sim/parallel/pool.hpp"
 
 /// Which effects explain a gap: every effect of the library at every place, fitted to the training
 /// recordings one by one, judged on whole recordings held out.
@@ -19,7 +20,8 @@ struct WhichOptions {
   std::vector<std::size_t> train, held_out;  ///< recordings
   std::vector<std::string> withhold;         ///< types of effects that are not tried
   int threads = 2;
-  int draws = 400;  ///< of the bootstrap
+  const Pool* pool = nullptr;  ///< where they are screened; none: on `threads`
+  int draws = 400;             ///< of the bootstrap
   std::uint64_t seed = 1;
   std::size_t fitted_at_least = 16;   ///< candidates that the linear look lets through
   double look_share = 0.3;            ///< and all that promise this share of what the best promises

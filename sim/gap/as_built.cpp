@@ -140,14 +140,14 @@ void add_rivals(std::vector<Found>& all, double cost_without) {
       rivals.all.push_back(sized(other.train).back()), rivals.cost.push_back(other.cost);
 }
 
-/// The cheapest with one more effect than `base`, or with a hint, alone or as one more; then with others while
-/// a stage keeps more than noise. Hints are as well those nearest to cost less than `base`: with constants that
-/// have gone along to imitate one, few steps do not lead back.
+/// The cheapest with one more effect than `base`, if that keeps more than noise, or with a hint, alone or as one
+/// more; then with others while a stage keeps more than noise. Hints are as well those nearest to cost less than
+/// `base`: with constants that have gone along to imitate one, few steps do not lead back.
 std::optional<Found> with_effect(const Search& search, const Found& base, std::vector<Placed> hints,
                                  std::size_t most) {
   constexpr std::size_t near = 2;  // of those that were screened; chosen
   const std::vector<Placed>& others = base.train.point.effects;
-  const std::vector<Found> joined = search.each_beside(base);
+  const std::vector<Found> joined = keeps(base) ? search.each_beside(base) : std::vector<Found>{};
   std::vector<Found> all;
   if (others.size() < most)
     if (auto found = search.best_of(joined, base);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+
+#include "sim/gap/periods.hpp"
 
 namespace sim::gap {
 
@@ -18,10 +19,6 @@ bool shapes(const effects::Parameter& p) { return p.bounds.low > 0; }
 /// Values to scan of a parameter that shapes a law.
 std::vector<double> grid(const effects::Parameter& p) {
   std::vector<double> values;
-  if (std::string_view(p.name) == "periods_per_turn") {
-    for (int n = 1; n <= 24; ++n) values.push_back(n);
-    return values;
-  }
   constexpr int points = 7;
   for (int n = 0; n < points; ++n)
     values.push_back(p.bounds.low * std::pow(p.bounds.high / p.bounds.low, (n + 0.5) / points));
@@ -55,18 +52,19 @@ Nudged fitting_nudge(const Placed& shape, std::size_t size, double by,
 
 }  // namespace
 
-std::vector<Placed> shaped(const Placed& neutral) {
-  std::vector<Placed> all{neutral};
+std::vector<Placed> shaped(const Placed& neutral, const std::vector<double>& periods) {
+  std::vector<Placed> all;
   effects::AnyEffect probe = neutral.effect;
   const auto parameters = effects::parameters(probe);
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (!shapes(parameters[p])) continue;
-    for (const double value : grid(parameters[p])) {
+    for (const double value : counts_periods(parameters[p]) ? periods : grid(parameters[p])) {
       all.push_back(neutral);
       *effects::parameters(all.back().effect)[p].value = value;
     }
     break;
   }
+  if (all.empty()) all.push_back(neutral);
   return all;
 }
 

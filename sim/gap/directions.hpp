@@ -8,8 +8,10 @@
 /// The shapes of an effect that are looked at, and what its sizes change in z around a neutral one.
 namespace sim::gap {
 
-/// The effect with each value of the parameter that shapes it (speed, time constant, periods).
-std::vector<effects::Placed> shaped(const effects::Placed& neutral);
+/// The effect with each value of the parameter that shapes it (speed, time constant); of one that counts
+/// periods a turn, with `periods`.
+std::vector<effects::Placed> shaped(const effects::Placed& neutral,
+                                    const std::vector<double>& periods);
 
 /// Indices of the parameters that are sizes, not shapes.
 std::vector<std::size_t> sizes_of(const effects::Placed& neutral);

@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "sim/parallel/in_parallel.hpp"
-
 namespace sim::gap {
 namespace {
 
@@ -16,25 +14,26 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// How derivatives are taken.
 struct Differences {
   int threads;
+  const Pool* pool = nullptr;
   const Sparse* known = nullptr;  ///< derivatives by the constants that are not taken anew
   double stretch = 1;             ///< of the steps
 };
 
-/// Columns `from` … of ∂z/∂unknown, by forward differences.
-std::vector<std::vector<std::pair<Index, double>>> columns(const ResidualVector& residuals,
-                                                           const Unknowns& at, const Estimate& here,
-                                                           std::size_t from, const Differences& d) {
+/// Columns `from` … of ∂z/∂unknown, by forward differences: row and slope of each entry in turn.
+std::vector<Pool::Numbers> columns(const ResidualVector& residuals, const Unknowns& at,
+                                   const Estimate& here, std::size_t from, const Differences& d) {
   const residuals::Stages stages(at.robot());
-  std::vector<std::vector<std::pair<Index, double>>> all(at.count() - from);
-  in_parallel(all.size(), d.threads, [&](std::size_t n) {
+  return map(d.pool, d.threads, at.count() - from, [&](std::size_t n) {
     const std::size_t k = from + n;
     const Unknowns other = at.with(k, at.value(k) + at.step(k, d.stretch));
     const VectorXd change = tiny_change(
         residuals.z(residuals.explain(other.robot(), here.explained, at.reach(k, stages))), here.z);
+    Pool::Numbers entries;
     for (Index row = 0; row < change.size(); ++row)
-      if (change[row] != 0) all[n].emplace_back(row, change[row] / (other.value(k) - at.value(k)));
+      if (change[row] != 0)
+        entries.insert(entries.end(), {double(row), change[row] / (other.value(k) - at.value(k))});
+    return entries;
   });
-  return all;
 }
 
 Sparse jacobian(const ResidualVector& residuals, const Unknowns& at, const Estimate& here,
@@ -46,7 +45,8 @@ Sparse jacobian(const ResidualVector& residuals, const Unknowns& at, const Estim
       entries.emplace_back(int(i.row()), int(k), i.value());
   const auto all = columns(residuals, at, here, from, d);
   for (std::size_t n = 0; n < all.size(); ++n)
-    for (const auto& [row, slope] : all[n]) entries.emplace_back(int(row), int(from + n), slope);
+    for (std::size_t i = 0; i < all[n].size(); i += 2)
+      entries.emplace_back(int(all[n][i]), int(from + n), all[n][i + 1]);
   Sparse j(here.z.size(), Index(at.count()));
   j.setFromTriplets(entries.begin(), entries.end());
   return j;
@@ -145,6 +145,7 @@ Step step(const ResidualVector& residuals, Unknowns& at, Estimate& e, double& da
 /// How an estimate descends.
 struct Descent {
   int iterations, threads;
+  const Pool* pool = nullptr;
   int far = 0;  ///< so many steps at first with weights of trust 0.5
   const Estimate* base =
       nullptr;         ///< whose weights and derivatives by the constants hold throughout
@@ -173,7 +174,7 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
     if (!d.base) weigh(residuals, e, far ? 0.5 : 1);
     if (d.stale) {
       const Sparse* known = d.base ? &d.base->jacobian : nullptr;
-      e.jacobian = jacobian(residuals, at, e, {d.threads, known, stretch});
+      e.jacobian = jacobian(residuals, at, e, {d.threads, d.pool, known, stretch});
       d.fresh = true;
     }
     const Step taken = step(residuals, at, e, damping, d.threads);
@@ -201,7 +202,7 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
 Estimate settled(const ResidualVector& residuals, Unknowns at, Estimate e, Descent d) {
   descend(residuals, at, e, d);
   weigh(residuals, e);
-  if (!d.fresh) e.jacobian = jacobian(residuals, at, e, {d.threads});
+  if (!d.fresh) e.jacobian = jacobian(residuals, at, e, {d.threads, d.pool});
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
   e.cost = cost_of(at, e.z, e.weight);
@@ -216,12 +217,13 @@ Estimate Estimator::run(const Uncertain& uncertain, Point start) const {
   Estimate e;
   e.explained = residuals_.explain(at.robot(), options_.threads);
   e.z = residuals_.z(e.explained);
-  return settled(residuals_, at, std::move(e), {options_.iterations, options_.threads, far});
+  return settled(residuals_, at, std::move(e),
+                 {options_.iterations, options_.threads, options_.pool, far});
 }
 
 Estimate Estimator::continued(const Uncertain& uncertain, Estimate from) const {
   const Unknowns at(uncertain, from.point);
-  Descent descent{options_.iterations, options_.threads};
+  Descent descent{options_.iterations, options_.threads, options_.pool};
   descent.stale = false;
   return settled(residuals_, at, std::move(from), descent);
 }
@@ -232,7 +234,7 @@ Estimate Estimator::beside(const Uncertain& uncertain, const Estimate& base, Poi
   Estimate e;
   e.explained = residuals_.explain(at.robot(), 1);
   e.z = residuals_.z(e.explained), e.weight = base.weight;
-  Descent descent{iterations, 1, 0, &base};
+  Descent descent{iterations, 1, nullptr, 0, &base};
   descend(residuals_, at, e, descent);
   const VectorXd weight = e.weight;
   weigh(residuals_, e);

@@ -5,6 +5,7 @@
 
 #include "sim/gap/residual_vector.hpp"
 #include "sim/gap/unknowns.hpp"
+#include "sim/parallel/pool.hpp"
 
 /// All constants of a robot, and the parameters of effects beside them, estimated together from the
 /// stage residuals of recordings: maximum a posteriori by Gauss-Newton.
@@ -23,6 +24,8 @@ struct EstimateOptions {
   int iterations = 30;
   int threads = 2;
   std::uint64_t seed = 1;
+  const Pool* pool =
+      nullptr;  ///< where derivatives are taken and effects screened; none: on `threads`
 };
 
 /// A point with what is known about it.

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "sim/gap/directions.hpp"
-#include "sim/parallel/in_parallel.hpp"
+#include "sim/gap/periods.hpp"
 #include "sim/residuals/drives.hpp"
 
 namespace sim::gap {
@@ -195,7 +195,8 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
   Candidate best{neutral, 0};
   const auto sizes = sizes_of(neutral);
   std::vector<double> by = first_nudges(neutral, sizes);
-  for (const Placed& shape : shaped(neutral)) {
+  for (const Placed& shape :
+       shaped(neutral, periods_of(neutral, robot, train_.residuals(), base))) {
     const Directions all = directions(shape, sizes, by, changed_by);
     if (!changes(train_.residuals(), all.d, begin.open)) break;
     if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
@@ -209,6 +210,24 @@ bool Screen::is_searched(const effects::About& about) const {
   return std::ranges::none_of(uncertain_.constants,
                               [&](const Constant& c) { return about.type == c.effect; });
 }
+
+namespace {
+
+/// Its score, then the value of each parameter.
+Pool::Numbers numbers_of(Candidate candidate) {
+  Pool::Numbers numbers{candidate.score};
+  for (const effects::Parameter& p : effects::parameters(candidate.start.effect))
+    numbers.push_back(*p.value);
+  return numbers;
+}
+
+Candidate candidate_of(Placed effect, const Pool::Numbers& numbers) {
+  const auto parameters = effects::parameters(effect.effect);
+  for (std::size_t n = 0; n < parameters.size(); ++n) *parameters[n].value = numbers[n + 1];
+  return {std::move(effect), numbers[0]};
+}
+
+}  // namespace
 
 std::vector<Candidate> Screen::candidates(const Estimate& base,
                                           const std::vector<bool>& open) const {
@@ -226,9 +245,11 @@ std::vector<Candidate> Screen::candidates(const Estimate& base,
           }))
         all.push_back({on, effect});
   }
-  std::vector<Candidate> screened(all.size());
-  in_parallel(all.size(), train_.options().threads,
-              [&](std::size_t k) { screened[k] = best_shape(begin, all[k]); });
+  const EstimateOptions& options = train_.options();
+  const auto found = map(options.pool, options.threads, all.size(),
+                         [&](std::size_t k) { return numbers_of(best_shape(begin, all[k])); });
+  std::vector<Candidate> screened;
+  for (std::size_t k = 0; k < all.size(); ++k) screened.push_back(candidate_of(all[k], found[k]));
   std::erase_if(screened, [](const Candidate& c) { return !(c.score > 0); });
   std::ranges::stable_sort(screened, std::greater(), &Candidate::score);
   return screened;

@@ -12,7 +12,7 @@
 ///
 /// D: what the effect's parameters change in z; J, H and ∇: derivatives, Hessian and gradient of what is
 /// estimated already (orthogonal least squares: Chen, Billings, Luo 1989). All stages and recordings
-/// take part. Parameters that shape a law (speeds, time constants, periods) are scanned.
+/// take part. Parameters that shape a law (speeds, time constants) are scanned; periods: periods.hpp.
 namespace sim::gap {
 
 struct Candidate {

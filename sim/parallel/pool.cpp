@@ -17,6 +17,11 @@ std::vector<Pool::Numbers> Threads::map(std::size_t count,
   return all;
 }
 
+std::vector<Pool::Numbers> map(const Pool* pool, int threads, std::size_t count,
+                               const std::function<Pool::Numbers(std::size_t)>& work) {
+  return pool ? pool->map(count, work) : Threads(threads).map(count, work);
+}
+
 std::unique_ptr<Pool> make_pool(int threads) {
   const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
   if (!size || std::atoi(size) < 2) return std::make_unique<Threads>(threads);

@@ -34,6 +34,10 @@ class Threads final : public Pool {
   int count_;
 };
 
+/// By a pool, or by so many threads where there is none.
+std::vector<Pool::Numbers> map(const Pool* pool, int threads, std::size_t count,
+                               const std::function<Pool::Numbers(std::size_t)>& work);
+
 /// Of all that `mpirun` has started, if it has, with so many threads each; else these threads. One
 /// a process. Throws std::invalid_argument under mpirun where this was built without MPI.
 std::unique_ptr<Pool> make_pool(int threads);

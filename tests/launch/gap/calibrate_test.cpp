@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -35,6 +36,26 @@ struct Folder {
   }
 };
 
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// What `erp gap …` prints, run by so many processes of mpirun with one thread each.
+std::string printed(int processes, const std::string& verb, const fs::path& folder) {
+  const std::string file = folder / ("printed_" + std::to_string(processes));
+  const std::string run =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 300 mpirun "
+      "--oversubscribe -n " +
+      std::to_string(processes) + " " ERP_BIN_DIR "/erp gap " + verb + " --threads 1 > " + file +
+      " 2> " + file + ".remarks";
+  const int code = std::system(run.c_str());
+  INFO(text_of(file + ".remarks"));
+  CHECK(WIFEXITED(code));
+  return text_of(file);
+}
+
 erp::Tolerance tolerance(const char* of, double relative) {
   erp::Tolerance t;
   t.of = of, t.on = "forearm", t.relative = relative;
@@ -67,4 +88,26 @@ TEST_CASE("a tolerance of no number is refused before the recordings are read") 
   CHECK_THROWS_WITH(
       calibrated(folder.model_with(tolerance("weight", 0.1)), folder.path / "no_such.csv"),
       Catch::Contains("weight") && Catch::Contains("names no number of forearm"));
+}
+
+TEST_CASE(
+    "under mpirun, two processes calibrate and diagnose as one does, and the first alone prints") {
+  const Folder folder;
+  erp::Robot built = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+  built.effects = {sim::effects::written({"flexor", sim::effects::GearboxViscous{0.02}})};
+  std::string files;
+  for (int k = 0; k < 2; ++k) {
+    const fs::path file = folder.path / (std::to_string(k) + ".csv");
+    std::ofstream out(file);
+    recording::write_csv(
+        rig_recording::table_of_run(built, {.seconds = 4, .seed = std::uint64_t(k + 1)}), out);
+    files += " " + file.string();
+  }
+  const std::string of = " --robot " + rigs::config("hinge_rig/robot.xml") + " --real" + files;
+  for (const char* verb : {"calibrate", "diagnose"}) {
+    INFO(verb);
+    const std::string one = printed(1, verb + of, folder.path);
+    CHECK(one.find("flexor") != std::string::npos);
+    CHECK(printed(2, verb + of, folder.path) == one);
+  }
 }

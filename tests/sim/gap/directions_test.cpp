@@ -27,14 +27,20 @@ ChangedBy linear(std::vector<double> slopes) {
 
 }  // namespace
 
-TEST_CASE("a cogging is looked at with each number of periods from 1 to 24") {
-  const auto shapes = shaped(neutral("motor_cogging"));
-  CHECK(shapes.size() == 25);  // and the neutral one's
+TEST_CASE("a cogging is looked at with the periods that its residual has, else with its own") {
+  const auto shapes = shaped(neutral("motor_cogging"), {7, 31});
+  REQUIRE(shapes.size() == 2);
+  CHECK(std::get<sim::effects::MotorCogging>(shapes[1].effect).periods_per_turn == 31);
   CHECK(sizes_of(shapes[0]).size() == 2);
+  CHECK(shaped(neutral("motor_cogging"), {}).size() == 1);
+}
+
+TEST_CASE("a law with a speed is looked at with each of a grid") {
+  CHECK(shaped(neutral("gearbox_stribeck"), {}).size() == 7);
 }
 
 TEST_CASE("an effect without a shape is looked at as it is") {
-  CHECK(shaped(neutral("tendon_stiffness")).size() == 1);
+  CHECK(shaped(neutral("tendon_stiffness"), {}).size() == 1);
 }
 
 TEST_CASE("a size is nudged until z changes by a small part of its noise, however steep") {
