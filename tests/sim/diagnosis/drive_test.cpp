@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sim/diagnosis/diagnose.hpp"
+#include "tests/sim/diagnosis/light_drive.hpp"
 #include "tests/sim/rigs.hpp"
 
 using namespace sim::diagnosis;
@@ -100,65 +101,6 @@ recording::Table recorded(const Bench& b, double seconds, double pace) {
     }
   }
   return table;
-}
-
-/// A light motor under current: rows of 2 ms, friction that sticks, a torque that always pulls.
-struct Light {
-  double coulomb_Nm = 3e-3, viscous_Nm_s = 3e-5, load_Nm = 0;
-};
-
-constexpr double light_torque_Nm_per_A = 0.05, light_inertia_kg_m2 = 2.2e-6;
-
-erp::Robot light_drive() {
-  erp::Robot robot = two_ends();
-  erp::MotorType& motor = robot.motor_types[0];
-  motor.torque_Nm_per_A = motor.back_emf_V_s_per_rad = light_torque_Nm_per_A;
-  motor.gear_ratio = 1, motor.rotor_inertia_kg_m2 = 2e-6;
-  erp::Drive drive;
-  drive.name = "m", drive.control = erp::DriveControl::current, drive.gain = 1, drive.motor = "m";
-  drive.load = {erp::Shaft{{}, 0.2e-6, 0}};
-  robot.drives = {drive};
-  return robot;
-}
-
-/// `current(t, ω)`, worked out at a row and held until the next. Position noise in rad.
-recording::Table turned(const Light& light, double seconds, double noise_rad, auto current) {
-  constexpr double row_s = 2e-3;
-  constexpr int steps = 100;
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> noise;
-  recording::Table table;
-  for (const char* name : {"time_s", "m.control_V", "m.position_rad"})
-    table.columns.push_back({name, {}});
-  double angle = 0, speed = 0;
-  for (int k = 0; k < static_cast<int>(seconds / row_s); ++k) {
-    const double t = k * row_s, amperes = current(t, speed);
-    const double row[] = {t, amperes, angle + noise_rad * noise(random)};
-    for (std::size_t c = 0; c < 3; ++c) table.columns[c].values.push_back(row[c]);
-    for (int s = 0; s < steps; ++s) {
-      const double pushed =
-          light_torque_Nm_per_A * amperes - light.load_Nm - light.viscous_Nm_s * speed;
-      if (speed == 0 && std::abs(pushed) <= light.coulomb_Nm) continue;
-      const int way = speed > 0 || (speed == 0 && pushed > 0) ? 1 : -1;
-      double next =
-          speed + (pushed - way * light.coulomb_Nm) / light_inertia_kg_m2 * row_s / steps;
-      if (speed * next < 0) next = 0;
-      angle += (speed + next) / 2 * row_s / steps, speed = next;
-    }
-  }
-  return table;
-}
-
-/// Four recordings of sums of sines, without noise.
-std::vector<recording::Table> swung(const Light& light) {
-  std::vector<recording::Table> tables;
-  for (int n = 0; n < 4; ++n)
-    tables.push_back(turned(light, 8, 0, [&](double t, double) {
-      double sum = 0;
-      for (int h = 1; h < 9; ++h) sum += std::sin(6.283 * (0.2 + 0.19 * h * h) * t + n * h + h * h);
-      return 0.06 * sum;
-    }));
-  return tables;
 }
 
 double value_of(const Diagnosis& d, const char* type) {
@@ -268,7 +210,8 @@ TEST_CASE("EMPS, real: viscous and dry friction, then that they are not the same
 TEST_CASE("a clean drive's friction is found as it is, with a constant load beside it") {
   for (const double load_Nm : {0.0, 3e-4}) {
     INFO("load " << load_Nm << " Nm");
-    const Diagnosis d = diagnosed(light_drive(), swung({.load_Nm = load_Nm}));
+    const Diagnosis d =
+        diagnosed(light_drive::description(), light_drive::swung({.load_Nm = load_Nm}));
     CHECK(d.verdict == Verdict::supported);
     CHECK(value_of(d, "gearbox_coulomb") == Approx(3e-3).epsilon(0.02));
     CHECK(value_of(d, "gearbox_viscous") == Approx(3e-5).epsilon(0.02));
@@ -278,15 +221,9 @@ TEST_CASE("a clean drive's friction is found as it is, with a constant load besi
 }
 
 TEST_CASE("friction is found from one steady speed in each recording") {
-  std::vector<recording::Table> tables;
-  for (const double wanted : {5.0, -10.0, 20.0, -40.0, 80.0, -160.0}) {
-    double sum = 0;
-    tables.push_back(turned({}, 4, 1e-5, [&](double, double speed) {
-      sum += (wanted - speed) * 2e-3;
-      return 2e-4 * (wanted - speed) + 4e-3 * sum + std::copysign(0.06, wanted);
-    }));
-  }
-  const Diagnosis d = diagnosed(light_drive(), tables);
+  const Diagnosis d =
+      diagnosed(light_drive::description(),
+                light_drive::at_steady_speeds({}, {.seconds = 4, .noise_rad = 1e-5}));
   CHECK(d.verdict == Verdict::supported);
   CHECK(types_of(d) == std::set<std::string>{"gearbox_coulomb", "gearbox_viscous"});
   CHECK(value_of(d, "gearbox_coulomb") == Approx(3e-3).epsilon(0.02));

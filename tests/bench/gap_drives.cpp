@@ -1,0 +1,94 @@
+// What a diagnosis reports of a light drive with known friction: against the rows' period, a constant load,
+// a disturbance that no law explains, sums of sines and steady speeds. A table; ends with 1 if an answer
+// that is supported is wrong.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/diagnosis/diagnose.hpp"
+#include "sim/residuals/drives.hpp"
+#include "tests/sim/diagnosis/light_drive.hpp"
+
+namespace {
+
+using sim::diagnosis::Diagnosis;
+using sim::diagnosis::Named;
+
+struct Case {
+  const char* motion;
+  bool steady;
+  light_drive::Light light;
+  light_drive::Rows rows;
+};
+
+Diagnosis diagnosed(const Case& c) {
+  const auto tables = c.steady ? light_drive::at_steady_speeds(c.light, c.rows)
+                               : light_drive::swung(c.light, c.rows);
+  const erp::Robot robot = sim::residuals::as_chains(light_drive::description());
+  std::vector<sim::residuals::Episode> episodes;
+  std::vector<std::string> remarks;
+  for (const auto& table : tables)
+    episodes.push_back(
+        sim::residuals::lay_out(table, robot, std::to_string(episodes.size()), remarks));
+  return sim::diagnosis::diagnose(robot, episodes);
+}
+
+/// What is true of each effect of the answer.
+double truth(const std::string& type, const light_drive::Light& light) {
+  return type == "gearbox_coulomb"      ? light.coulomb_Nm
+         : type == "gearbox_viscous"    ? light.viscous_Nm_s
+         : type == "gearbox_asymmetric" ? light.load_Nm
+                                        : 0;
+}
+
+/// Every effect has its true value within its interval, and both frictions are named.
+bool is_true(const Diagnosis& d, const light_drive::Light& light) {
+  const auto has = [&](const char* type) {
+    return std::ranges::any_of(d.answer, [&](const Named& n) { return n.type == type; });
+  };
+  const auto holds = [&](const Named& n) {
+    const double is = truth(n.type, light);
+    return is != 0 && n.intervals[0].low <= is && is <= n.intervals[0].high;
+  };
+  return has("gearbox_coulomb") && has("gearbox_viscous") && std::ranges::all_of(d.answer, holds);
+}
+
+std::string values_of(const Diagnosis& d) {
+  std::string all;
+  for (const Named& n : d.answer)
+    all += fmt::format("{}{} {:.4g} ({:.4g} … {:.4g})", all.empty() ? "" : "; ", n.type,
+                       n.values[0], n.intervals[0].low, n.intervals[0].high);
+  return all;
+}
+
+}  // namespace
+
+int main() {
+  std::vector<Case> cases;
+  for (const double period_s : {0.002, 0.005, 0.01, 0.02, 0.04})
+    for (const double load_Nm : {0.0, 3e-4})
+      for (const double disturbance_Nm : {0.0, 3e-4}) {  // 10 % of the friction
+        const light_drive::Light light{.load_Nm = load_Nm, .disturbance_Nm = disturbance_Nm};
+        cases.push_back({"sines", false, light, {.period_s = period_s}});
+        cases.push_back(
+            {"six speeds", true, light, {.period_s = period_s, .seconds = 4, .noise_rad = 1e-5}});
+      }
+  bool sound = true;
+  fmt::print("| motion | period, ms | load, Nm | disturbance, Nm | verdict | true | answer |\n");
+  fmt::print("|---|---|---|---|---|---|---|\n");
+  for (const Case& c : cases) {
+    const Diagnosis d = diagnosed(c);
+    const bool right = is_true(d, c.light);
+    const bool supported = d.verdict == sim::diagnosis::Verdict::supported;
+    sound &= !supported || right;
+    fmt::print("| {} | {:g} | {:g} | {:g} | {} | {} | {} |\n", c.motion, 1e3 * c.rows.period_s,
+               c.light.load_Nm, c.light.disturbance_Nm, sim::diagnosis::word(d.verdict),
+               right       ? "yes"
+               : supported ? "NO"
+                           : "-",
+               values_of(d));
+    std::fflush(stdout);
+  }
+  return sound ? 0 : 1;
+}
