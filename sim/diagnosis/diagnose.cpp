@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/diagnosis/sampling.hpp"
+
 namespace sim::diagnosis {
 namespace {
 
@@ -224,6 +226,15 @@ void doubt_undetermined(Diagnosis& d) {
   }
 }
 
+/// Nor the friction of a drive whose rows are too far apart.
+void doubt_sampling(const Question& q, Diagnosis& d) {
+  if (d.verdict != Verdict::supported && d.verdict != Verdict::none_of_the_known) return;
+  const auto why = rows_too_far_apart(q.plain);
+  if (!why) return;
+  d.verdict = Verdict::not_identifiable;
+  d.warnings.push_back(*why);
+}
+
 /// Names the stages that the recordings show too little of.
 void warn_unjudged(const Question& q, Diagnosis& d) {
   d.not_judged = not_judged(q.evidence.robot, d.stages);
@@ -276,6 +287,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   warn_unjudged(question, d);
   answer(question, d);
   doubt_undetermined(d);
+  doubt_sampling(question, d);
   evidence.tell("done", 1);
   return d;
 }

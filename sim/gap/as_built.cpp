@@ -140,14 +140,19 @@ void add_rivals(std::vector<Found>& all, double cost_without) {
       rivals.all.push_back(sized(other.train).back()), rivals.cost.push_back(other.cost);
 }
 
-/// The cheapest with one more effect than `base`, if that keeps more than noise, or with a hint, alone or as one
+/// It explains, and no parameter of its effects ends at a bound.
+bool stands(const AsBuilt& built) {
+  return !built.keeps && std::ranges::count(built.estimate.bound, true) == 0;
+}
+
+/// The cheapest with one more effect than `base`, if `screened`, or with a hint, alone or as one
 /// more; then with others while a stage keeps more than noise. Hints are as well those nearest to cost less than
 /// `base`: with constants that have gone along to imitate one, few steps do not lead back.
 std::optional<Found> with_effect(const Search& search, const Found& base, std::vector<Placed> hints,
-                                 std::size_t most) {
+                                 std::size_t most, bool screened) {
   constexpr std::size_t near = 2;  // of those that were screened; chosen
   const std::vector<Placed>& others = base.train.point.effects;
-  const std::vector<Found> joined = keeps(base) ? search.each_beside(base) : std::vector<Found>{};
+  const std::vector<Found> joined = screened ? search.each_beside(base) : std::vector<Found>{};
   std::vector<Found> all;
   if (others.size() < most)
     if (auto found = search.best_of(joined, base);
@@ -185,7 +190,8 @@ AsBuilt or_effect(const Evidence& evidence, AsBuilt built, const std::vector<Pla
   const bool explains = !keeps(base) && !base.train.point.effects.empty() && base.cost < built.cost;
   const auto found = explains
                          ? std::optional(base)
-                         : with_effect(search, base, hints, evidence.options.search.most_effects);
+                         : with_effect(search, base, hints, evidence.options.search.most_effects,
+                                       keeps(base) || !stands(built));
   if (!found) return built;
   settle(search, *found, evidence, other);
   const double gain = base.cost - std::min(built.cost, other.cost);

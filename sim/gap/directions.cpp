@@ -58,7 +58,9 @@ std::vector<Placed> shaped(const Placed& neutral, const std::vector<double>& per
   const auto parameters = effects::parameters(probe);
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (!shapes(parameters[p])) continue;
-    for (const double value : counts_periods(parameters[p]) ? periods : grid(parameters[p])) {
+    const bool counts = counts_periods(parameters[p]);
+    if (!counts) all.push_back(neutral);
+    for (const double value : counts ? periods : grid(parameters[p])) {
       all.push_back(neutral);
       *effects::parameters(all.back().effect)[p].value = value;
     }

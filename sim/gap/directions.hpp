@@ -8,8 +8,8 @@
 /// The shapes of an effect that are looked at, and what its sizes change in z around a neutral one.
 namespace sim::gap {
 
-/// The effect with each value of the parameter that shapes it (speed, time constant); of one that counts
-/// periods a turn, with `periods`.
+/// The effect as it is and with each value of the parameter that shapes it (speed, time constant); of one that
+/// counts periods a turn, with `periods` alone.
 std::vector<effects::Placed> shaped(const effects::Placed& neutral,
                                     const std::vector<double>& periods);
 

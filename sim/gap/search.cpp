@@ -147,6 +147,31 @@ Found Search::pruned(Found found) const {
   return found;
 }
 
+namespace {
+
+/// Of each effect whether a parameter of it ends at a bound.
+std::vector<bool> at_bound(const Estimate& estimate) {
+  std::vector<bool> all;
+  std::size_t k = estimate.point.x.size();
+  for (effects::Placed effect : estimate.point.effects) {
+    bool any = false;
+    for (const effects::Parameter& p : effects::parameters(effect.effect))
+      if (is_estimated(p)) any |= estimate.bound[k++];
+    all.push_back(any);
+  }
+  return all;
+}
+
+}  // namespace
+
+Found Search::within_bounds(Found found) const {
+  const std::vector<bool> bound = at_bound(found.train);
+  for (std::size_t k = 0; k < bound.size(); ++k)
+    if (bound[k])
+      if (Found base = without(found, k); !keeps(base)) return within_bounds(std::move(base));
+  return found;
+}
+
 /// An earlier choice may have been a compromise between two, or worth nothing beside a later one.
 Found Search::exchanged(Found found) const {
   constexpr double better = 0.98;  // chosen
@@ -173,7 +198,7 @@ Found Search::run(Found found, std::size_t most) const {
     if (!more || !relieves(*more, found)) break;
     found = exchanged(std::move(*more));
   }
-  return found;
+  return within_bounds(std::move(found));
 }
 
 std::vector<Sized> sized(const Estimate& estimate) {

@@ -74,6 +74,8 @@ class Search {
  private:
   Found with_best_of(const std::vector<Found>& joined, const Found& base) const;
   Found exchanged(Found found) const;
+  /// Without effects that end at a bound, where those that stay leave no more than noise.
+  Found within_bounds(Found found) const;
   Found without(const Found& found, std::size_t effect) const;
 
   const Estimator& train_;

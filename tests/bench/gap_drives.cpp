@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/diagnosis/diagnose.hpp"
+#include "sim/diagnosis/sampling.hpp"
 #include "sim/residuals/drives.hpp"
 #include "tests/sim/diagnosis/light_drive.hpp"
 
@@ -22,7 +23,12 @@ struct Case {
   light_drive::Rows rows;
 };
 
-Diagnosis diagnosed(const Case& c) {
+struct Result {
+  Diagnosis diagnosis;
+  double turned_back;
+};
+
+Result diagnosed(const Case& c) {
   const auto tables = c.steady ? light_drive::at_steady_speeds(c.light, c.rows)
                                : light_drive::swung(c.light, c.rows);
   const erp::Robot robot = sim::residuals::as_chains(light_drive::description());
@@ -31,7 +37,8 @@ Diagnosis diagnosed(const Case& c) {
   for (const auto& table : tables)
     episodes.push_back(
         sim::residuals::lay_out(table, robot, std::to_string(episodes.size()), remarks));
-  return sim::diagnosis::diagnose(robot, episodes);
+  const sim::diagnosis::Trials trials(robot, episodes);
+  return {sim::diagnosis::diagnose(robot, episodes), sim::diagnosis::turned_back(trials)};
 }
 
 /// What is true of each effect of the answer.
@@ -75,15 +82,18 @@ int main() {
             {"six speeds", true, light, {.period_s = period_s, .seconds = 4, .noise_rad = 1e-5}});
       }
   bool sound = true;
-  fmt::print("| motion | period, ms | load, Nm | disturbance, Nm | verdict | true | answer |\n");
-  fmt::print("|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| motion | period, ms | load, Nm | disturbance, Nm | turned back, % | verdict | true | "
+      "answer |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
   for (const Case& c : cases) {
-    const Diagnosis d = diagnosed(c);
+    const auto [d, turned_back] = diagnosed(c);
     const bool right = is_true(d, c.light);
     const bool supported = d.verdict == sim::diagnosis::Verdict::supported;
     sound &= !supported || right;
-    fmt::print("| {} | {:g} | {:g} | {:g} | {} | {} | {} |\n", c.motion, 1e3 * c.rows.period_s,
-               c.light.load_Nm, c.light.disturbance_Nm, sim::diagnosis::word(d.verdict),
+    fmt::print("| {} | {:g} | {:g} | {:g} | {:.1f} | {} | {} | {} |\n", c.motion,
+               1e3 * c.rows.period_s, c.light.load_Nm, c.light.disturbance_Nm, 100 * turned_back,
+               sim::diagnosis::word(d.verdict),
                right       ? "yes"
                : supported ? "NO"
                            : "-",

@@ -8,6 +8,7 @@
 
 #include "interfaces/recording/csv.hpp"
 #include "launch/gap/gap.hpp"
+#include "sim/effects/library.hpp"
 #include "tests/sim/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
