@@ -27,9 +27,8 @@ std::optional<std::string> rows_too_far_apart(const Trials& trials) {
   const double share = turned_back(trials);
   if (share <= most) return std::nullopt;
   return fmt::format(
-      "the shaft turned back within {:.0f} % of the periods of {:.3g} ms in which it moved, where "
-      "friction "
-      "acts both ways: record more rows a second, or slower motions",
+      "the shaft turned back at {:.0f} % of the rows, {:.3g} ms apart, at which it moved; friction "
+      "acts both ways there: record more rows a second, or slower motions",
       100 * share, 1e3 * trials.episodes()[0].period_s);
 }
 

@@ -89,6 +89,7 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
   const Told withheld =
       diagnosed(folder, {.recordings = {rubs, again},
                          .withhold = {"gearbox_coulomb", "gearbox_asymmetric", "gearbox_stribeck",
+                                      "gearbox_ageing_stiction", "gearbox_position_dependent",
                                       "gearbox_load_dependent", "motor_cogging", "motor_dead_band"},
                          .free_run = false});
   INFO(withheld.text);
