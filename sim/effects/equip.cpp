@@ -1,4 +1,5 @@
 // Effects that change a robot's constants, once.
+#include <algorithm>
 #include <stdexcept>
 
 #include "interfaces/robot/mass.hpp"
@@ -8,10 +9,15 @@
 namespace sim::effects {
 
 erp::MotorType& own_motor(erp::Robot& robot, erp::Actuator& actuator) {
-  const std::string name = actuator.motor + " of " + actuator.name;
-  if (!actuator.motor.ends_with(" of " + actuator.name)) {
+  const std::string of = "_of_" + actuator.name;
+  const bool shared =
+      std::ranges::count(robot.actuators, actuator.motor, &erp::Actuator::motor) > 1;
+  if (shared || !actuator.motor.ends_with(of)) {
     erp::MotorType type = robot.motor_of(actuator);
-    type.name = actuator.motor = name;
+    type.name = actuator.motor + of;
+    while (std::ranges::count(robot.motor_types, type.name, &erp::MotorType::name) > 0)
+      type.name += '_';
+    actuator.motor = type.name;
     robot.motor_types.push_back(type);
   }
   for (erp::MotorType& type : robot.motor_types)

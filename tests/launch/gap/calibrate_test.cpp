@@ -84,6 +84,21 @@ TEST_CASE("a number with a tolerance of 0 is not estimated; written robots keep 
   CHECK(again.tolerances[0].relative == 0.1);
 }
 
+TEST_CASE(
+    "a calibrated robot is read and held against recordings again, each motor with its own type") {
+  const Folder folder;
+  const auto recording = folder.recorded();
+  const std::string built = folder.path / "built.xml";
+  std::ostringstream out, remarks;
+  launch::gap::calibrate(
+      {.robot = folder.model_with(tolerance("mass", 0.1)), .out = built, .recordings = {recording}},
+      out, remarks);
+  const erp::Robot robot = erp::read_robot(built);
+  CHECK(robot.actuators[0].motor == "caliper_12V_of_flexor");
+  CHECK(robot.actuators[1].motor == "caliper_12V_of_extensor");
+  CHECK(calibrated(built, recording).find("0 beyond their tolerances") != std::string::npos);
+}
+
 TEST_CASE("a tolerance of no number is refused before the recordings are read") {
   const Folder folder;
   CHECK_THROWS_WITH(
