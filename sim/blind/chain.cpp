@@ -67,16 +67,18 @@ Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx)
     force = std::max(0.0, stretch - x[c::inner]) / (q.line_m_per_N * free_length);
     dx[c::inner] = (force - spring_N(k, x[c::inner])) / std::max(k.damping, line_damps_N_s_per_m);
   }
-  force += q.creep_N_per_m * (stretch - x[c::flowed]);
+  const double drawn = std::max(0.0, stretch);  // the line hangs slack beyond
+  force += q.creep_N_per_m * (drawn - x[c::flowed]);
   if (q.fibres_N > 0) force += x[c::slide1] + x[c::slide2] + x[c::slide3];
   if (q.slack_N > 0) force -= q.slack_N * (1 - std::exp(-stretch / q.slack_m));
   force = stretch > 0 ? std::max(0.0, force) : 0.0;
 
-  dx[c::flowed] = (stretch - x[c::flowed]) / q.creep_s;
+  dx[c::flowed] = (drawn - x[c::flowed]) / q.creep_s;
   if (q.fibres_N > 0)
     for (std::size_t n = 0; n < 3; ++n) {
       const double yield = q.fibres_N / 3, reach = q.fibres_m * (n == 0 ? 0.4 : n == 1 ? 1 : 2);
-      dx[c::slide1 + n] = slide_rate(x[c::slide1 + n], rate, yield / reach, yield);
+      dx[c::slide1 + n] =
+          slide_rate(x[c::slide1 + n], stretch > 0 ? rate : 0, yield / reach, yield);
     }
   dx[c::lost] = q.slip_per_N * force * std::abs(wound_slope * speed);
 

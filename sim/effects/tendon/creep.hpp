@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "sim/effects/effect.hpp"
+#include "sim/effects/drawn.hpp"
 
 namespace sim::effects {
 
@@ -9,7 +9,7 @@ namespace sim::effects {
 ///
 ///   F = f(x) + κ₁ (x − y),   dy/dt = (x − y) / T
 ///
-/// y starts at the first stretch: the tendon has rested.
+/// x: as far as it is drawn out. y starts at the first x: the tendon has rested.
 /// Source: Zener 1948; of Dyneema lines, Vlasblom et al. 2006.
 struct TendonCreep {
   static constexpr About about{"tendon_creep", Stage::tendon, Seat::actuator,
@@ -24,9 +24,10 @@ struct TendonCreep {
   }
   Sloped pull(const ChainSample& s, Memory& memory) const {
     double &flowed_m = memory[0], &began = memory[1];
-    if (began == 0) flowed_m = s.stretch_m, began = 1;
-    flowed_m += (s.stretch_m - flowed_m) * -std::expm1(-s.dt_s / time_constant_s);
-    return {stiffness_N_per_m * (s.stretch_m - flowed_m), stiffness_N_per_m};
+    const double x_m = drawn_m(s);
+    if (began == 0) flowed_m = x_m, began = 1;
+    flowed_m += (x_m - flowed_m) * -std::expm1(-s.dt_s / time_constant_s);
+    return {stiffness_N_per_m * (x_m - flowed_m), stiffness_N_per_m};
   }
 };
 

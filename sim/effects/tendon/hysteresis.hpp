@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "sim/effects/effect.hpp"
+#include "sim/effects/drawn.hpp"
 
 namespace sim::effects {
 
@@ -9,7 +9,7 @@ namespace sim::effects {
 ///
 ///   F = f(x) + F_h z,   dz = (dx/x_h) (1 − [z dx > 0] |z|)
 ///
-/// Bouc–Wen with n = 1, β = γ; exact for a step dx.
+/// x: as far as it is drawn out. Bouc–Wen with n = 1, β = γ; exact for a step dx.
 /// Source: Bouc 1967; Wen, J. Eng. Mech. 102, 1976.
 struct TendonHysteresis {
   static constexpr About about{"tendon_hysteresis", Stage::tendon, Seat::actuator,
@@ -24,9 +24,10 @@ struct TendonHysteresis {
   }
   Sloped pull(const ChainSample& s, Memory& memory) const {
     double &z = memory[0], &last_m = memory[1], &began = memory[2];
-    if (began == 0) last_m = s.stretch_m, began = 1;
-    double left = (s.stretch_m - last_m) / width_m;
-    last_m = s.stretch_m;
+    const double x_m = drawn_m(s);
+    if (began == 0) last_m = x_m, began = 1;
+    double left = (x_m - last_m) / width_m;
+    last_m = x_m;
     if (z * left < 0) {  // relaxing, as far as z = 0
       const double relaxed = std::copysign(std::fmin(std::abs(left), std::abs(z)), left);
       z += relaxed, left -= relaxed;

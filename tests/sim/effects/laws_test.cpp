@@ -83,6 +83,26 @@ TEST_CASE("creep decays by 1/e in its time constant") {
   CHECK(pull.value == Approx(10 / std::exp(1.0)).epsilon(1e-6));
 }
 
+TEST_CASE(
+    "creep and hysteresis go on from no stretch, however far the line hung slack; a shaft's do "
+    "not") {
+  const auto pull_N = [](auto law, double together_m, bool pushes) {
+    Memory memory{};
+    ChainSample s = at(0);
+    s.pushes = pushes, s.stretch_m = 0.002;
+    law.pull(s, memory);
+    for (int k = 0; k < 500; ++k) s.stretch_m = -together_m, law.pull(s, memory);
+    s.stretch_m = 0.0003;
+    return law.pull(s, memory).value;
+  };
+  const auto check = [&](auto law) {
+    CHECK(pull_N(law, 0.02, false) == pull_N(law, 0, false));
+    CHECK(pull_N(law, 0.02, true) > pull_N(law, 0, true) + 0.1);
+  };
+  check(TendonCreep{1000, 2});
+  check(TendonHysteresis{3, 5e-4});
+}
+
 TEST_CASE("hysteresis: a closed loop of stretch costs energy, whatever the steps") {
   const auto loop_J = [](int steps) {
     TendonHysteresis braid{3, 5e-4};
