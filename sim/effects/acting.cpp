@@ -23,16 +23,23 @@ Acting::~Acting() = default;
 
 Acting::Acting(std::span<const Placed> all, const std::string& on, Seat seat) {
   for (const Placed& placed : all)
-    if (placed.on == on && about(placed.effect).seat == seat) items_.push_back({placed.effect, {}});
+    if (placed.on == on && about(placed.effect).seat == seat) {
+      items_.push_back({placed.effect, {}});
+      types_ |= Types(1) << placed.effect.index();
+    }
   empty_ = items_.empty();
 }
 
 namespace {
 
-/// Of each effect of the library whether `Use` takes it.
+/// The effects of the library that `Use` takes, a bit each.
 template <class Use, class... Effects>
-constexpr std::array<bool, sizeof...(Effects)> takes(std::type_identity<std::variant<Effects...>>) {
-  return {std::is_invocable_v<Use&, Effects&, Memory&>...};
+Types taken_by(std::type_identity<std::variant<Effects...>>) {
+  constexpr std::array taken{std::is_invocable_v<Use&, Effects&, Memory&>...};
+  static_assert(taken.size() <= Types().size());
+  Types bits;
+  for (std::size_t k = 0; k < taken.size(); ++k) bits[k] = taken[k];
+  return bits;
 }
 
 }  // namespace
@@ -40,7 +47,8 @@ constexpr std::array<bool, sizeof...(Effects)> takes(std::type_identity<std::var
 /// Calls `use(effect, memory)` for those of `items` that it takes.
 template <class Use>
 void Acting::each(auto&& items, Use use) {
-  static constexpr auto taken = takes<Use>(std::type_identity<AnyEffect>{});
+  static const Types taken = taken_by<Use>(std::type_identity<AnyEffect>{});
+  if ((taken & types_).none()) return;
   for (Item& item : items) {
     if (!taken[item.effect.index()]) continue;
     std::visit(
@@ -201,6 +209,10 @@ double Acting::undo(Sense sense, double said, const SensorSample& s) {
         if (e.sense == sense) said = e.undo(said, s, m);
       });
   return said;
+}
+
+bool Acting::reaches(Sense sense) const {
+  return std::ranges::any_of(items_, [&](const Item& i) { return sense_of(i.effect) == sense; });
 }
 
 double Acting::averaged(Sense sense, const SensorSample& s) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <bitset>
 #include <functional>
 #include <span>
 #include <string>
@@ -11,6 +12,9 @@
 namespace sim::effects {
 
 struct Placed;
+
+/// A set of types of effects, by their index in the library.
+using Types = std::bitset<128>;
 
 class Acting {
  public:
@@ -49,6 +53,8 @@ class Acting {
   /// away from the first on.
   double read(Sense sense, double value, const SensorSample& s);
   double undo(Sense sense, double said, const SensorSample& s);
+  /// Whether any acts on that sensor.
+  bool reaches(Sense sense) const;
   double averaged(Sense sense, const SensorSample& s);
   double command_delay_s(const Draw& draw);
   double frame_delay_s(const Draw& draw);
@@ -61,6 +67,7 @@ class Acting {
   template <class Use>
   void each(Use use);
   std::vector<Item> items_;
+  Types types_;  ///< that are among them
   bool empty_ = true;
 };
 

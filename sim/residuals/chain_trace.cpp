@@ -19,10 +19,11 @@ using effects::Sloped;
 class Tracer {
  public:
   Tracer(ChainModel model, const ActuatorSignals& measured, const PathTrace& path, double period_s,
-         double speed_half_width_s)
+         double speed_half_width_s, const ChainTrace* near)
       : m_(std::move(model)),
         in_(measured),
         path_(path),
+        near_(near),
         period_s_(period_s),
         bump_(speed_half_width_s, period_s),
         law_{Spring::of(m_.actuator.tendon), m_.actuator.tendon.damping_N_s_per_m,
@@ -35,9 +36,7 @@ class Tracer {
     out_.tension_measured = !in_.tension_N.empty(), out_.current_measured = !in_.current_A.empty();
     if (!out_.current_measured) out_.current_averaged = 1;
     rows_ = std::max({out_.shaft_rad.size(), in_.voltage_V.size(), in_.tension_N.size()});
-    out_.speed_rad_per_s = bump_.rates(out_.shaft_rad);
-    if (!path_.length_m.empty()) path_rate_ = bump_.rates(path_.length_m);
-    if (!path_.length_m.empty() && !m_.effects.empty()) calm_path_m_ = calm(path_.length_m);
+    out_.speed_rad_per_s = speeds();
     const bool turning = !out_.shaft_rad.empty();
     if (turning && !path_.length_m.empty())
       out_.spring_N.assign(rows_, nan), out_.path_slope.assign(rows_, 1);
@@ -55,7 +54,7 @@ class Tracer {
   void undo_sensors() {
     const auto undone = [&](effects::Sense sense, const Signal& said) {
       Signal value = said;
-      if (!m_.effects.empty())
+      if (m_.effects.reaches(sense))
         for (std::size_t k = 0; k < said.size(); ++k)
           value[k] = m_.effects.undo(
               sense, said[k],
@@ -79,14 +78,9 @@ class Tracer {
     around_ = two_periods(m_.motor, period_s_, out_.driver_late_s);
   }
 
-  /// For what remembers: noise would wear a hysteresis down.
-  Signal calm(const Signal& noisy) const {
-    constexpr double half_width_s = 0.03;
-    const Bump bump(half_width_s, period_s_);
-    Signal calm = noisy;
-    for (std::size_t k = bump.reach(); k + bump.reach() < noisy.size(); ++k)
-      calm[k] = bump.mean(noisy, k);
-    return calm;
+  Signal speeds() const {
+    const bool same = near_ && std::ranges::equal(near_->shaft_rad, out_.shaft_rad);
+    return same ? near_->speed_rad_per_s : bump_.rates(out_.shaft_rad);
   }
 
   effects::ChainSample first() const {
@@ -95,8 +89,9 @@ class Tracer {
     return s;
   }
   /// What was not taken is as it was before: effects that remember know of no gap.
-  effects::ChainSample sample(std::size_t k) const {
-    effects::ChainSample s = samples_.empty() ? first() : samples_.back();
+  effects::ChainSample& sample(std::size_t k) {
+    samples_.push_back(samples_.empty() ? first() : samples_.back());
+    effects::ChainSample& s = samples_.back();
     const auto renew = [&](double& held, const Signal& signal, std::size_t row) {
       if (!signal.empty() && !std::isnan(signal[row])) held = signal[row];
     };
@@ -127,12 +122,12 @@ class Tracer {
   }
 
   void take(std::size_t k) {
-    effects::ChainSample s = sample(k);
+    effects::ChainSample& s = sample(k);
     Sloped wound{s.radius_m * s.shaft_rad, s.radius_m}, path{s.path_m, 1}, pull;
     if (!m_.effects.empty()) {
       path = m_.effects.path(s, path);
-      const bool calmed = k < calm_path_m_.size() && !std::isnan(calm_path_m_[k]);
-      const double calm_m = calmed ? path.slope * (calm_path_m_[k] - s.path_m) : 0.0;
+      const bool calmed = k < path_.calm_m.size() && !std::isnan(path_.calm_m[k]);
+      const double calm_m = calmed ? path.slope * (path_.calm_m[k] - s.path_m) : 0.0;
       s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
       s.stiffness_N_per_m =
           law_.spring.slope_N_per_m(pushes_ ? std::abs(s.stretch_m) : s.stretch_m);
@@ -148,7 +143,6 @@ class Tracer {
       out_.terminal_V[k] = m_.effects.voltage_V(applied_V, s);
       out_.resistance_ohm[k] = m_.effects.resistance_ohm(m_.motor.resistance_ohm, s);
     }
-    samples_.push_back(s);
     wound_slope_.push_back(wound.slope);
     aged_Nm_.push_back(m_.effects.aged_Nm(s));
   }
@@ -157,7 +151,7 @@ class Tracer {
                Sloped pull) {
     const bool in_play = pushes_ && wound.slope == 0;  // neither end draws the other
     const double rate =
-        in_play ? 0 : path.slope * path_rate_[k] + wound.slope * out_.speed_rad_per_s[k];
+        in_play ? 0 : path.slope * path_.rate_m_per_s[k] + wound.slope * out_.speed_rad_per_s[k];
     const double spring = std::copysign(law_.spring.force_N(std::abs(s.stretch_m)), s.stretch_m);
     const double force = spring + law_.damping_N_s_per_m * rate + pull.value;
     out_.spring_N[k] = std::isnan(rate)  ? nan
@@ -231,10 +225,11 @@ class Tracer {
       return fine ? (theta[k] - theta[k - 1]) / period_s_
                   : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;
     };
+    const double square_unsure = fine ? unsure * unsure : 0;
     std::vector<double> all(rows_, nan);
     for (std::size_t k = 2; k + 1 < rows_; ++k) {
-      const double v = speed(k),
-                   change = std::hypot((speed(k + 1) - speed(k - 1)) / 2, fine ? unsure : 0);
+      const double v = speed(k), turned = (speed(k + 1) - speed(k - 1)) / 2,
+                   change = std::sqrt(turned * turned + square_unsure);
       all[k] = change > 0 ? std::clamp(2 * v / change, -1.0, 1.0) : v > 0 ? 1 : -1;
     }
     return all;
@@ -253,7 +248,7 @@ class Tracer {
   double drive_Nm(std::size_t k, int way) {
     const erp::MotorType& m = m_.motor;
     const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
-    effects::ChainSample s = samples_[k];
+    effects::ChainSample& s = samples_[k];
     s.tension_N = out_.tension_N[k];
     const double near_N =
         m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
@@ -268,13 +263,14 @@ class Tracer {
   ChainModel m_;
   const ActuatorSignals& in_;
   const PathTrace& path_;
+  const ChainTrace* near_;
   double period_s_;
   TwoPeriods around_{};
   Bump bump_;
   TendonLaw law_;
   bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission
   std::size_t rows_ = 0, late_rows_ = 0;
-  Signal path_rate_, calm_path_m_, wound_slope_, aged_Nm_;
+  Signal wound_slope_, aged_Nm_;
   std::vector<effects::ChainSample> samples_;
   std::vector<double> direction_;  ///< of each period
   ChainTrace out_;
@@ -283,8 +279,8 @@ class Tracer {
 }  // namespace
 
 ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
-                 double period_s, double speed_half_width_s) {
-  return Tracer(std::move(model), measured, path, period_s, speed_half_width_s).run();
+                 double period_s, double speed_half_width_s, const ChainTrace* near) {
+  return Tracer(std::move(model), measured, path, period_s, speed_half_width_s, near).run();
 }
 
 }  // namespace sim::residuals

@@ -33,7 +33,9 @@ struct ChainTrace {
   double current_averaged = 0;  ///< share in which the current is a mean around the row
 };
 
+/// `path`: smoothed. `near`: a trace of the same rows by another model, whose speeds are taken where the angles are
+/// the same.
 ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
-                 double period_s, double speed_half_width_s);
+                 double period_s, double speed_half_width_s, const ChainTrace* near = nullptr);
 
 }  // namespace sim::residuals

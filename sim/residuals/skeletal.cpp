@@ -24,6 +24,15 @@ Vec3 gravity_of(const erp::Robot& robot) {
 
 }  // namespace
 
+void PathTrace::smooth(double period_s, double speed_half_width_s) {
+  constexpr double calm_half_width_s = 0.03;
+  rate_m_per_s = Bump(speed_half_width_s, period_s).rates(length_m);
+  const Bump calm(calm_half_width_s, period_s);
+  calm_m = length_m;
+  for (std::size_t k = calm.reach(); k + calm.reach() < length_m.size(); ++k)
+    calm_m[k] = calm.mean(length_m, k);
+}
+
 bool was_measured(const JointSignals& joint, erp::JointType type) {
   if (type == erp::JointType::revolute) return !joint.angle_rad.empty();
   if (type == erp::JointType::spherical) return !joint.quaternion[3].empty();

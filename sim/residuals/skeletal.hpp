@@ -17,6 +17,11 @@ namespace sim::residuals {
 /// that it crosses was not measured.
 struct PathTrace {
   Signal length_m, wrap_rad;
+  /// Of `length_m` under windows: by `smooth`. Effects that remember take the calm one, for noise would wear a
+  /// hysteresis down.
+  Signal rate_m_per_s = {}, calm_m = {};
+
+  void smooth(double period_s, double speed_half_width_s);
 };
 
 /// Angles, speeds and accelerations under a window; of spherical joints ω and its rate in the

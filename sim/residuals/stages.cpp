@@ -88,17 +88,26 @@ Explanation Stages::explain(const Episode& episode, const Explanation& base, con
   return renew(episode, base, touched);
 }
 
-ChainTrace Stages::chain(const Episode& episode, std::size_t a, const PathTrace& path) const {
+ChainTrace Stages::chain(const Episode& episode, std::size_t a, const PathTrace& path,
+                         const ChainTrace* near) const {
   const erp::Actuator& actuator = equipped_.robot.actuators[a];
   return trace({equipped_.robot.motor_of(actuator), actuator,
                 effects::Acting(equipped_.acting, actuator.name, effects::Seat::actuator),
                 bones_.start_m(a), shaft_step_rad(equipped_.robot, actuator)},
-               episode.actuators[a], path, episode.period_s, windows_.speed_half_width_s);
+               episode.actuators[a], path, episode.period_s, windows_.speed_half_width_s, near);
 }
 
 std::vector<PathTrace> Stages::paths(const Episode& episode, const JointTrace& joints,
                                      std::span<const std::size_t> actuators) {
-  if (!joints.nearby) return bones_.paths(joints.signals, episode.rows, actuators);
+  std::vector<PathTrace> all = joints.nearby
+                                   ? paths_nearby(joints, actuators)
+                                   : bones_.paths(joints.signals, episode.rows, actuators);
+  for (PathTrace& path : all) path.smooth(episode.period_s, windows_.speed_half_width_s);
+  return all;
+}
+
+std::vector<PathTrace> Stages::paths_nearby(const JointTrace& joints,
+                                            std::span<const std::size_t> actuators) const {
   const PathsNearby& near = *joints.nearby;
   std::vector<PathTrace> paths;
   for (const std::size_t a : actuators) {
@@ -124,7 +133,7 @@ Explanation Stages::renew(const Episode& episode, Explanation e, const Touched& 
   const erp::Robot& robot = equipped_.robot;
   for (const std::size_t a : touched.chains) {
     const erp::Actuator& actuator = robot.actuators[a];
-    e.chains[a] = keep(chain(episode, a, *e.paths[a]));
+    e.chains[a] = keep(chain(episode, a, *e.paths[a], e.chains[a].get()));
     const Bump bump(windows_.half_width_s, episode.period_s);
     e.of_chain[a] = keep(
         chain_residuals(*e.chains[a], actuator, robot.motor_of(actuator), episode, bump, e.rows));

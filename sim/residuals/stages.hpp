@@ -58,6 +58,8 @@ class Stages {
   };
   std::vector<PathTrace> paths(const Episode& episode, const JointTrace& joints,
                                std::span<const std::size_t> actuators);
+  std::vector<PathTrace> paths_nearby(const JointTrace& joints,
+                                      std::span<const std::size_t> actuators) const;
   Explanation renew(const Episode& episode, Explanation explanation, const Touched& touched);
   std::vector<std::size_t> rows(const Episode& episode) const;
   JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows,
@@ -77,7 +79,9 @@ class Stages {
                                     const JointTrace& joints);
   std::shared_ptr<const PathsNearby> nearby(const Episode& episode, const JointTrace& trace,
                                             std::span<const std::size_t> missing);
-  ChainTrace chain(const Episode& episode, std::size_t actuator, const PathTrace& path) const;
+  /// `near`: as `trace` has it.
+  ChainTrace chain(const Episode& episode, std::size_t actuator, const PathTrace& path,
+                   const ChainTrace* near = nullptr) const;
   void bend(const Episode& episode, JointTrace& trace);
   Eigen::MatrixXd bones(const Episode& episode, const JointTrace& joints,
                         std::span<const std::size_t> rows);
