@@ -5,14 +5,12 @@
 #include <optional>
 #include <span>
 
+#include "sim/gap/beyond.hpp"
+
 namespace sim::gap {
 namespace {
 
 using effects::Placed;
-
-/// Of the exact hypothesis: least deviation that is reported, in tolerances, of a zero and of any other
-/// constant; of a zero also in its own standard deviations; chosen.
-constexpr double least_zero = 1, least = 2.5, clear = 5;
 
 /// What nobody measures when a robot is drawn: where things are zero, and how a body's mass is spread.
 bool is_never_certain(const Constant& c) { return c.zero || c.name == "inertia"; }
@@ -25,39 +23,6 @@ Uncertain uncertain_of(const erp::Robot& nominal, const std::vector<std::string>
     return (exact && !is_never_certain(c)) || std::ranges::count(withhold, c.effect) > 0;
   });
   return u;
-}
-
-/// Lists the constants beyond their tolerances under the exact hypothesis.
-void list_uncertain(AsBuilt& built) {
-  const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
-  const auto from = [&](std::size_t k) {
-    return built.uncertain.constants[k].zero ? std::max(least_zero, clear * built.estimate.sigma(k))
-                                             : least;
-  };
-  for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k)
-    if (far(k) > from(k) && determined(built, k) > well_determined) built.beyond.push_back(k);
-  std::ranges::sort(built.beyond, std::greater(), far);
-  built.instead.resize(built.beyond.size());
-}
-
-/// Identifies the constants that are far off, and estimates all again with that known.
-void settle_far_off(const Estimator& estimator, AsBuilt& built) {
-  constexpr int rounds = 4;  // the set follows the estimate, and the estimate the set; chosen
-  for (int round = 0; round < rounds; ++round) {
-    FarOff found = far_off(built.uncertain, built.estimate);
-    std::vector<bool> far(built.uncertain.constants.size());
-    built.beyond.clear();
-    for (const Deviation& d : found.all) far[d.constant] = true, built.beyond.push_back(d.constant);
-    built.instead.clear();
-    for (const auto& instead : found.instead) {
-      auto& each = built.instead.emplace_back();
-      for (const Deviation& d : instead)
-        each.push_back(as_effect(built.uncertain.constants[d.constant], d));
-    }
-    if (far == built.uncertain.far) return;
-    built.uncertain.far = std::move(far);
-    built.estimate = estimator.continued(built.uncertain, std::move(built.estimate));
-  }
 }
 
 /// More than three stages and a fifth of them keep more than noise: no few effects do that; chosen.

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "interfaces/robot/mass.hpp"
-#include "interfaces/xml/errors.hpp"
-#include "interfaces/xml/words.hpp"
 #include "sim/effects/own.hpp"
+#include "sim/gap/tolerances.hpp"
 
 namespace sim::gap {
 namespace {
@@ -128,12 +126,12 @@ void add_line(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a
   const auto number = [&](const char* name, Stage stage, double nominal, double relative,
                           const char* effect, auto set) {
     const bool damps = std::string_view(name) == "damping_N_s_per_m";
-    if (nominal > 0)
-      all.push_back({name, stage, actuator.name, nominal, relative * nominal, 0.05 * nominal, line,
-                     [on = actuator.name, set](erp::Robot& r, double value) {
-                       set(actuator_of(r, on), value);
-                     },
-                     effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : usual_far});
+    if (!(nominal > 0)) return;
+    all.push_back(
+        {name, stage, actuator.name, nominal, relative * nominal, 0.05 * nominal, line,
+         [on = actuator.name, set](erp::Robot& r, double value) { set(actuator_of(r, on), value); },
+         effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : usual_far});
+    all.back().in_series = std::string_view(name) == "stiffness_N_per_m";
   };
   number("radius_m", Stage::spindle, actuator.spindle.radius_m, of_radius, "spindle_radius",
          [](erp::Actuator& x, double v) { x.spindle.radius_m = v; });
@@ -228,43 +226,15 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
   });
 }
 
-bool is_about(const erp::Tolerance& given, const Constant& c) {
-  return c.name == given.of && (given.on.empty() || c.on == given.on);
-}
-
-/// What of a <tolerance> cannot be: the message and the remedy; empty if nothing.
-std::pair<std::string, std::string> refused(const erp::Tolerance& given,
-                                            const std::vector<Constant>& all) {
-  std::set<std::string> names;
-  bool named = false, zero = false;
-  for (const Constant& c : all) {
-    names.insert(c.name);
-    if (is_about(given, c)) named = true, zero |= c.nominal == 0;
-  }
-  const std::string of = "of=" + xml::quote(given.of);
-  if (!named)
-    return {of + " names no number" + (given.on.empty() ? "" : " of " + given.on) +
-                " that is estimated",
-            xml::did_you_mean(given.of, {names.begin(), names.end()})};
-  if (zero && given.relative) return {of + " is 0 in robot.xml", "give absolute, in its unit"};
-  return {};
-}
-
-/// Sets tolerances as robot.xml gives them. A number that is known exactly is no constant.
-void apply_tolerances(std::vector<Constant>& all, const erp::Robot& robot) {
-  std::vector<xml::Error> errors;
-  for (const erp::Tolerance& given : robot.tolerances) {
-    if (const auto [what, remedy] = refused(given, all); !what.empty())
-      errors.push_back(xml::error_in(given.element, given.place, what, remedy));
-    for (Constant& c : all)
-      if (is_about(given, c))
-        c.tolerance = given.absolute ? *given.absolute : *given.relative * c.nominal;
-  }
-  xml::throw_if_any(std::move(errors));
-  std::erase_if(all, [](const Constant& c) { return c.tolerance == 0; });
-}
-
 }  // namespace
+
+/// Of v by dv in series v/(1 − dv/v), that is, 1/v by −dv/v²; evenly on from twice v.
+double Constant::moved(double x, double by) const {
+  const double from = value(x), relative = tolerance * by / from;
+  if (!in_series || !(from > 0)) return x + by;
+  const double to = relative < 0.5 ? 1 / (1 - relative) : 4 * relative;
+  return x + from * (to - 1) / tolerance;
+}
 
 std::vector<Constant> constants_of(const erp::Robot& robot) {
   std::vector<Constant> all;

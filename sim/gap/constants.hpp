@@ -35,7 +35,12 @@ struct Constant {
   double highest =
       std::numeric_limits<double>::infinity();  ///< as `lowest`: what its effect can hold
 
+  /// Its reciprocals add where several are in series, as springs: steps are even in 1/value.
+  bool in_series = false;
+
   double value(double x) const { return std::clamp(nominal + tolerance * x, lowest, highest); }
+  /// Where a step `by` leads to.
+  double moved(double x, double by) const;
 };
 
 /// Those of a robot that recordings may determine, in the order of the chain: motor, gearbox,

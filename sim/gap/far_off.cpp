@@ -87,6 +87,18 @@ Set without(Set far, std::size_t k) {
   return far;
 }
 
+/// One that costs more than it saves, beside those that came after it, goes.
+bool drop(const LinearModel& model, Set& far, Minimum& m) {
+  for (const std::size_t k : far) {
+    const Set others = without(far, k);
+    Minimum less = model.minimum(others);
+    if (!(less.cost < m.cost - 1e-9)) continue;
+    far = others, m = std::move(less);
+    return true;
+  }
+  return false;
+}
+
 /// Each gives way to another that costs less in its place.
 bool exchange(const LinearModel& model, Set& far, Minimum& m) {
   for (std::size_t& k : far) {
@@ -135,6 +147,10 @@ Sized as_effect(const Constant& c, const Deviation& d) {
   return sized;
 }
 
+bool is_worth_far(const Constant& c, double x) {
+  return x * x * (1 - far_precision(c)) > far_price(c) - 2 * std::log(c.far);
+}
+
 FarOff far_off(const Uncertain& uncertain, const Estimate& estimate) {
   const LinearModel model(uncertain, estimate);
   Set far;
@@ -143,7 +159,7 @@ FarOff far_off(const Uncertain& uncertain, const Estimate& estimate) {
     const auto [k, cost] = cheapest(model, m, far);
     if (!(cost < m.cost)) break;
     far.push_back(k), m = model.minimum(far);
-    while (exchange(model, far, m)) {
+    while (drop(model, far, m) || exchange(model, far, m)) {
     }
   }
   std::ranges::sort(far, std::greater(), [&](std::size_t k) { return std::abs(m.x[Index(k)]); });

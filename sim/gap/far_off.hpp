@@ -10,7 +10,8 @@
 ///
 /// What two constants make together is often all that recordings determine, and a prior alone then shares
 /// the deviation between them: neither is right. data: the linear model of an estimate. Constants join F
-/// one at a time while the cost falls, then each gives way to a better one.
+/// one at a time while the cost falls; then each gives way to a better one, or goes where it has come to cost more
+/// than it saves.
 /// Source: spike and slab, George and McCulloch 1993; here the most probable set by greedy search.
 namespace sim::gap {
 
@@ -27,6 +28,10 @@ struct FarOff {
 
 /// As the effect of the library that is such a change.
 Sized as_effect(const Constant& constant, const Deviation& deviation);
+
+/// Whether a constant can be worth its place in F where it was estimated with that room: F costs less without one
+/// at x if x² (1 − 1/far²) < price − log far², for log det A falls by at most log far².
+bool is_worth_far(const Constant& constant, double x);
 
 FarOff far_off(const Uncertain& uncertain, const Estimate& estimate);
 

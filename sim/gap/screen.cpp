@@ -173,6 +173,7 @@ Candidate Screen::score(const Beginning& begin, const Directions& all) const {
       own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), bounds);
   if (step.isZero(0) || (places && step[0] == 0)) return candidate;
   std::tie(candidate.score, step) = best_multiple(begin, all, shared, step, bounds);
+  candidate.others = begin.moved - shared * step;
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool place = !is_like(p, values[all.sizes[0]]);
@@ -197,9 +198,14 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
   std::vector<double> by = first_nudges(neutral, sizes);
   for (const Placed& shape :
        shaped(neutral, periods_of(neutral, robot, train_.residuals(), base))) {
-    const Directions all = directions(shape, sizes, by, changed_by);
-    if (!changes(train_.residuals(), all.d, begin.open)) break;
-    if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
+    std::vector<Directions> tried = secants(shape, sizes, changed_by);
+    tried.push_back(directions(shape, sizes, by, changed_by));
+    std::erase_if(tried, [&](const Directions& all) {
+      return !changes(train_.residuals(), all.d, begin.open);
+    });
+    if (tried.empty()) break;
+    for (const Directions& all : tried)
+      if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
   }
   return best;
 }
@@ -213,18 +219,21 @@ bool Screen::is_searched(const effects::About& about) const {
 
 namespace {
 
-/// Its score, then the value of each parameter.
+/// Its score, the value of each parameter, then the others.
 Pool::Numbers numbers_of(Candidate candidate) {
   Pool::Numbers numbers{candidate.score};
   for (const effects::Parameter& p : effects::parameters(candidate.start.effect))
     numbers.push_back(*p.value);
+  numbers.insert(numbers.end(), candidate.others.begin(), candidate.others.end());
   return numbers;
 }
 
 Candidate candidate_of(Placed effect, const Pool::Numbers& numbers) {
   const auto parameters = effects::parameters(effect.effect);
   for (std::size_t n = 0; n < parameters.size(); ++n) *parameters[n].value = numbers[n + 1];
-  return {std::move(effect), numbers[0]};
+  const std::size_t before = parameters.size() + 1;
+  return {std::move(effect), numbers[0],
+          VectorXd::Map(numbers.data() + before, Index(numbers.size() - before))};
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace sim::gap {
 struct Candidate {
   effects::Placed start;  ///< with the values that would explain most
   double score = 0;
+  Eigen::VectorXd others = {};  ///< how far the unknowns of the estimate go along then
 };
 
 /// False: of a sensor that a drive has not; or a law that differs from a plainer one only in what no

@@ -96,9 +96,10 @@ std::vector<Found> Search::each_beside(const Found& base) const {
     });
   });
   if (candidates.size() > options_.estimated) candidates.resize(options_.estimated);
+  const Unknowns at(uncertain_, base.train.point);
   std::vector<Found> joined(candidates.size());
   in_parallel(candidates.size(), train_.options().threads, [&](std::size_t k) {
-    Point start = base.train.point;
+    Point start = at.moved(candidates[k].others).point();
     start.effects.push_back(candidates[k].start);
     joined[k] = judge(train_.beside(uncertain_, base.train, std::move(start), iterations));
   });

@@ -85,7 +85,11 @@ Unknowns Unknowns::with(std::size_t k, double value) const {
 
 Unknowns Unknowns::moved(const Eigen::VectorXd& by) const {
   Unknowns other = *this;
-  for (std::size_t k = 0; k < count(); ++k) other = other.with(k, value(k) + by[Eigen::Index(k)]);
+  for (std::size_t k = 0; k < count(); ++k) {
+    const double step = by[Eigen::Index(k)];
+    other = other.with(
+        k, k < constants() ? uncertain_->constants[k].moved(value(k), step) : value(k) + step);
+  }
   return other;
 }
 

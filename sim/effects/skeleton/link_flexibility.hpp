@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "interfaces/xml/values.hpp"
 #include "sim/effects/effect.hpp"
 #include "sim/effects/joint/passive_stiffness.hpp"
 
@@ -71,7 +72,7 @@ struct LinkFlexibility {
     auto& spring = robot.effects.emplace_back();
     spring.type = JointPassiveStiffness::about.type, spring.on = hinge;
     spring.parameters.push_back(
-        {{}, "stiffness_Nm_per_rad", std::to_string(1 / compliance_rad_per_Nm)});
+        {{}, "stiffness_Nm_per_rad", xml::write_number(1 / compliance_rad_per_Nm)});
   }
 };
 

@@ -92,3 +92,18 @@ TEST_CASE("a constant stays within what the effect that stands for it can hold")
     CHECK_NOTHROW(
         sim::effects::read_effects(with_constants(robot, all, std::vector<double>(all.size(), x))));
 }
+
+TEST_CASE(
+    "steps in a stiffness add to what it gives, and stay positive; steps in other numbers add") {
+  for (const Constant& c : constants_of(hinge_rig())) {
+    if (c.on != "flexor") continue;
+    if (c.name == "stiffness_N_per_m") {
+      const double from = c.value(2), by = 0.1 * from;  // in N/m
+      CHECK(1 / c.value(c.moved(2, by / c.tolerance)) == Approx(1 / from - by / (from * from)));
+      CHECK(c.value(c.moved(2, -10 * from / c.tolerance)) == Approx(from / 11));
+      CHECK(c.value(c.moved(2, 2 * from / c.tolerance)) == Approx(8 * from));
+    } else {
+      CHECK(c.moved(2, 0.5) == 2.5);
+    }
+  }
+}

@@ -143,14 +143,16 @@ TEST_CASE("a joint sensor's gain is found though both moment arms could nearly s
   CHECK(found.beyond.empty());
 }
 
-TEST_CASE("a joint's play and a current sensor's lag are found beside constants 2 % off") {
+TEST_CASE(
+    "a joint's play, a sensor's lag and a line that gives are found beside constants 2 % off") {
   struct Hidden {
     const char* name;
     std::function<void(sim::blind::Quirks&)> hide;
   };
   const Hidden each[] = {
       {"joint_play on elbow", [](auto& q) { q.joints[0].loose_rad = 0.054; }},
-      {"sensor_current_low_pass on flexor", [](auto& q) { q.chains[0].current.lag_s = 0.0092; }}};
+      {"sensor_current_low_pass on flexor", [](auto& q) { q.chains[0].current.lag_s = 0.0092; }},
+      {"tendon_kite_line on extensor", [](auto& q) { q.chains[1].line_m_per_N = 7e-5; }}};
   for (const Hidden& hidden : each) {
     INFO(hidden.name);
     auto blind = blind_recording::nothing_hidden();

@@ -19,6 +19,13 @@ Uncertain two_factors() {
   return u;
 }
 
+/// The same, four.
+Uncertain four_factors() {
+  Uncertain u = two_factors();
+  u.constants.insert(u.constants.end(), u.constants.begin(), u.constants.begin() + 2);
+  return u;
+}
+
 /// A row: what is measured of x, with a deviation of 1.
 struct Row {
   double of_first, of_second, measured;
@@ -63,4 +70,28 @@ TEST_CASE(
   CHECK(far_off(two_factors(), at_nominal({{0.3, 0, 0.3 * 6}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -60}})).all.empty());
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -40}})).all.size() == 1);
+}
+
+TEST_CASE("a constant that stood for two others goes once both are there") {
+  Estimate e;
+  e.point.x = {0, 0, 0, 0};
+  e.z = Eigen::Vector3d(-120, -100, 0), e.weight = Eigen::Vector3d::Ones();
+  e.jacobian.resize(3, 4);
+  for (int row = 0; row < 3; ++row)
+    e.jacobian.insert(row, 0) = 20, e.jacobian.insert(row, row + 1) = 20;
+  const FarOff found = far_off(four_factors(), e);
+  REQUIRE(found.all.size() == 2);
+  CHECK(found.all[0].constant == 1);
+  CHECK(found.all[0].x == Approx(6).epsilon(0.02));
+  CHECK(found.all[1].constant == 2);
+}
+
+TEST_CASE(
+    "a constant is worth its place among those far off from 1.9 tolerances on, a zero from 4.4") {
+  Constant c{};
+  CHECK_FALSE(is_worth_far(c, -1.8));
+  CHECK(is_worth_far(c, -1.95));
+  c.zero = true;
+  CHECK_FALSE(is_worth_far(c, 4.3));
+  CHECK(is_worth_far(c, 4.45));
 }
