@@ -36,8 +36,8 @@ Nudged nudged(const Placed& shape, std::size_t size, double by, const ChangedBy&
   return {by, changed_by(placed)};
 }
 
-/// A nudge of a size that changes z by a small part of its noise, whatever the parameter's bounds; `by`: a first try,
-/// which stays where it changes nothing, or where a smaller one would (bones stiffer than some bound are rigid).
+/// A nudge of a size that changes z by a small part of its noise, whatever the parameter's bounds; `by`: a first try.
+/// One that changes nothing stays as it is.
 Nudged fitting_nudge(const Placed& shape, std::size_t size, double by,
                      const ChangedBy& changed_by) {
   constexpr double wanted = 0.003, least = 1e-6, most = 100, near = 4;  // chosen
@@ -47,8 +47,7 @@ Nudged fitting_nudge(const Placed& shape, std::size_t size, double by,
   if (rms == 0 || (scale > 1 / near && scale < near)) return first;
   Placed placed = shape;
   const effects::Parameter p = effects::parameters(placed.effect)[size];
-  Nudged second = nudged(shape, size, std::min(by * scale, p.bounds.high - *p.value), changed_by);
-  return second.change.isZero(0) ? first : second;
+  return nudged(shape, size, std::min(by * scale, p.bounds.high - *p.value), changed_by);
 }
 
 }  // namespace
@@ -92,22 +91,6 @@ Directions directions(const Placed& shape, const std::vector<std::size_t>& sizes
     if (!like) all.d.col(Index(n)) -= all.d.col(0);
   }
   all.nudge = by;
-  return all;
-}
-
-std::vector<Directions> secants(const Placed& shape, const std::vector<std::size_t>& sizes,
-                                const ChangedBy& changed_by) {
-  constexpr double of_bounds[] = {0.03, 0.2};  // chosen
-  effects::AnyEffect probe = shape.effect;
-  const auto parameters = effects::parameters(probe);
-  std::vector<Directions> all;
-  if (sizes.size() != 1 || parameters[sizes[0]].bounds.low != 0 ||
-      std::ranges::any_of(parameters, shapes))
-    return all;
-  for (const double share : of_bounds) {
-    const double by = share * parameters[sizes[0]].bounds.high;
-    all.push_back({shape, sizes, {by}, nudged(shape, sizes[0], by, changed_by).change});
-  }
   return all;
 }
 

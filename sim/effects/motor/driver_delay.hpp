@@ -11,7 +11,8 @@ namespace sim::effects {
 ///
 ///   V'(t) = V(t − T)            its mean over a step
 ///
-/// Ignores: changes beyond three that wait, so a delay longer than three periods of the controller.
+/// Three changes can wait: the bound is three periods of a controller of 500 Hz. Of a faster one, where a fourth comes
+/// the first acts sooner.
 /// Source: dead time and PWM update delay, Holtz, Proc. IEEE 82, 1994.
 struct MotorDriverDelay {
   static constexpr About about{"motor_driver_delay", Stage::motor, Seat::actuator,
@@ -19,7 +20,7 @@ struct MotorDriverDelay {
 
   double delay_s = 0;  // T
 
-  void visit(auto& v) { v("delay_s", delay_s, Bounds{0, 0.02}); }
+  void visit(auto& v) { v("delay_s", delay_s, Bounds{0, 0.006}); }
 
   double driver_delay_s() const { return delay_s; }
   double late_voltage_V(double applied_V, const ChainSample& s, Memory& memory) const {

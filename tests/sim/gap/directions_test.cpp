@@ -68,31 +68,6 @@ TEST_CASE("a second size of the same kind is nudged by itself where the first sh
   CHECK(all.d.col(1).norm() / 2 > 0.0007);
 }
 
-TEST_CASE("where a smaller nudge changes nothing, the first try stays") {
-  const Placed shape{"forearm",
-                     *sim::effects::neutral("skeleton_link_flexibility")};  // rigid below 0.001
-  const auto sizes = sizes_of(shape);
-  auto by = first_nudges(shape, sizes);
-  const double tried = by[0];
-  const Directions all = directions(shape, sizes, by, [](const Placed& placed) -> Eigen::VectorXd {
-    sim::effects::AnyEffect effect = placed.effect;
-    const double size = *sim::effects::parameters(effect)[0].value;
-    return Eigen::VectorXd::Constant(4, size < 1e-3 ? 0 : 1e4 * size);
-  });
-  CHECK(all.nudge[0] == tried);
-  CHECK(all.d.col(0).norm() > 0);
-}
-
-TEST_CASE("what larger sizes change is tried of laws with one size from 0 on") {
-  const auto count = [](const char* type) {
-    const Placed shape = neutral(type);
-    return secants(shape, sizes_of(shape), linear({1, 1})).size();
-  };
-  CHECK(count("tendon_kite_line") == 2);
-  CHECK(count("tendon_stiffness") == 0);  // either way
-  CHECK(count("tendon_creep") == 0);      // shaped by its time constant, linear in its stiffness
-}
-
 TEST_CASE("a window that jumps is left out of what a tiny step changes") {
   Eigen::VectorXd before = Eigen::VectorXd::Zero(1000), after = before;
   for (Eigen::Index k = 0; k < 1000; ++k)
