@@ -36,8 +36,8 @@ Nudged nudged(const Placed& shape, std::size_t size, double by, const ChangedBy&
   return {by, changed_by(placed)};
 }
 
-/// A nudge of a size that changes z by a small part of its noise, whatever the parameter's bounds; `by`: a first try.
-/// One that changes nothing stays as it is.
+/// A nudge of a size that changes z by a small part of its noise, whatever the parameter's bounds; `by`: a first try,
+/// which stays where it changes nothing.
 Nudged fitting_nudge(const Placed& shape, std::size_t size, double by,
                      const ChangedBy& changed_by) {
   constexpr double wanted = 0.003, least = 1e-6, most = 100, near = 4;  // chosen
@@ -91,6 +91,23 @@ Directions directions(const Placed& shape, const std::vector<std::size_t>& sizes
     if (!like) all.d.col(Index(n)) -= all.d.col(0);
   }
   all.nudge = by;
+  return all;
+}
+
+std::vector<Directions> secants(const Placed& shape, const std::vector<std::size_t>& sizes,
+                                const ChangedBy& changed_by) {
+  constexpr double of_bounds[] = {0.03, 0.2};  // chosen
+  effects::AnyEffect probe = shape.effect;
+  const auto parameters = effects::parameters(probe);
+  std::vector<Directions> all;
+  if (sizes.size() != 1 || parameters[sizes[0]].bounds.low != 0 ||
+      std::ranges::any_of(parameters, shapes) ||
+      effects::about(shape.effect).stage == effects::Stage::skeleton)
+    return all;
+  for (const double share : of_bounds) {
+    const double by = share * parameters[sizes[0]].bounds.high;
+    all.push_back({shape, sizes, {by}, nudged(shape, sizes[0], by, changed_by).change});
+  }
   return all;
 }
 

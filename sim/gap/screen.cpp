@@ -198,9 +198,14 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
   std::vector<double> by = first_nudges(neutral, sizes);
   for (const Placed& shape :
        shaped(neutral, periods_of(neutral, robot, train_.residuals(), base))) {
-    const Directions all = directions(shape, sizes, by, changed_by);
-    if (!changes(train_.residuals(), all.d, begin.open)) break;
-    if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
+    std::vector<Directions> tried = secants(shape, sizes, changed_by);
+    tried.push_back(directions(shape, sizes, by, changed_by));
+    std::erase_if(tried, [&](const Directions& all) {
+      return !changes(train_.residuals(), all.d, begin.open);
+    });
+    if (tried.empty()) break;
+    for (const Directions& all : tried)
+      if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
   }
   return best;
 }

@@ -68,6 +68,17 @@ TEST_CASE("a second size of the same kind is nudged by itself where the first sh
   CHECK(all.d.col(1).norm() / 2 > 0.0007);
 }
 
+TEST_CASE("what larger sizes change is tried of laws with one size from 0 on") {
+  const auto count = [](const char* type) {
+    const Placed shape = neutral(type);
+    return secants(shape, sizes_of(shape), linear({1, 1})).size();
+  };
+  CHECK(count("tendon_kite_line") == 2);
+  CHECK(count("tendon_stiffness") == 0);  // either way
+  CHECK(count("skeleton_link_flexibility") == 0);
+  CHECK(count("tendon_creep") == 0);  // shaped by its time constant, linear in its stiffness
+}
+
 TEST_CASE("a window that jumps is left out of what a tiny step changes") {
   Eigen::VectorXd before = Eigen::VectorXd::Zero(1000), after = before;
   for (Eigen::Index k = 0; k < 1000; ++k)
