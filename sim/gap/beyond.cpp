@@ -21,7 +21,8 @@ void list_uncertain(AsBuilt& built) {
 
 namespace {
 
-/// Takes from the set what an estimate with more room left near: nothing that is worth its price.
+/// Drops the constants that ended near nominal although they had room to be far off. True: some were dropped, and the
+/// rest is to be estimated again.
 bool drop_near(AsBuilt& built) {
   bool dropped = false;
   for (std::size_t n = built.beyond.size(); n-- > 0;) {

@@ -8,7 +8,7 @@ namespace sim::gap {
 void list_uncertain(AsBuilt& built);
 
 /// Where all constants are uncertain: identifies those that are far off (far_off.hpp), and estimates all again with
-/// that known, until both agree.
+/// that known, until both agree or after four rounds. Those that end near nominal are dropped then.
 void settle_far_off(const Estimator& estimator, AsBuilt& built);
 
 }  // namespace sim::gap

@@ -38,8 +38,9 @@ std::vector<double> first_nudges(const effects::Placed& neutral,
 /// (unknowns.hpp), for small differences distinguish one from the other. `by`: how far to try, then how far it was.
 Directions directions(const effects::Placed& shape, const std::vector<std::size_t>& sizes,
                       std::vector<double>& by, const ChangedBy& changed_by);
-/// Of a law with one size, from 0 on, in which it need not be linear (what gives way, what has play): the same for
-/// larger sizes; of others none, nor of a bone that bends, which beside a far-off friction imitates a drag.
+/// Of a law with one size, from 0 on, in which it need not be linear (what gives way, what has play): the change by
+/// two larger sizes. Of other laws none, nor of bodies: found so, a bone's flexibility beside a far-off viscous
+/// friction imitated a drag that grows with the square of the speed.
 std::vector<Directions> secants(const effects::Placed& shape, const std::vector<std::size_t>& sizes,
                                 const ChangedBy& changed_by);
 

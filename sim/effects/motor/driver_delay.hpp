@@ -11,8 +11,8 @@ namespace sim::effects {
 ///
 ///   V'(t) = V(t − T)            its mean over a step
 ///
-/// Three changes can wait: the bound is three periods of a controller of 500 Hz. Of a faster one, where a fourth comes
-/// the first acts sooner.
+/// Up to three changes of the voltage wait, so the bound is three periods of a controller at 500 Hz. Ignores: with a
+/// faster controller a fourth change may come earlier; the oldest acts then.
 /// Source: dead time and PWM update delay, Holtz, Proc. IEEE 82, 1994.
 struct MotorDriverDelay {
   static constexpr About about{"motor_driver_delay", Stage::motor, Seat::actuator,

@@ -72,18 +72,17 @@ TEST_CASE(
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -40}})).all.size() == 1);
 }
 
-TEST_CASE("a constant that stood for two others goes once both are there") {
+TEST_CASE("a constant goes again where those that joined after it explain the same") {
+  Eigen::Matrix4d rows;
+  rows << -2, 1, 1, 2, -2, 2, 2, 0, 1, 0, 2, 1, 0, -1, -1, 2;
+  rows *= 20;
   Estimate e;
   e.point.x = {0, 0, 0, 0};
-  e.z = Eigen::Vector3d(-120, -100, 0), e.weight = Eigen::Vector3d::Ones();
-  e.jacobian.resize(3, 4);
-  for (int row = 0; row < 3; ++row)
-    e.jacobian.insert(row, 0) = 20, e.jacobian.insert(row, row + 1) = 20;
+  e.z = -rows * Eigen::Vector4d(0, -6, 6, -7), e.weight = Eigen::Vector4d::Ones();
+  e.jacobian = rows.sparseView();
   const FarOff found = far_off(four_factors(), e);
   REQUIRE(found.all.size() == 2);
-  CHECK(found.all[0].constant == 1);
-  CHECK(found.all[0].x == Approx(6).epsilon(0.02));
-  CHECK(found.all[1].constant == 2);
+  for (const Deviation& d : found.all) CHECK(d.constant < 2);
 }
 
 TEST_CASE(
