@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
+
+#include "sim/residuals/band.hpp"
 
 namespace sim::diagnosis {
 
@@ -81,36 +82,6 @@ Trial Trials::with(std::span<const effects::Placed> all,
   return trial;
 }
 
-namespace {
-
-/// The mean square of what noise N(0, 1) leaves beyond a band [−b, b] around a value that lies anywhere
-/// in it:
-///
-///   h(b) = E[(|u + n| − b)₊²] = (P(0) − P(−2b))/b,   P(x) = ((x³ + 3x) Φ(x) + (x² + 2) φ(x))/3
-///
-/// 1 for none, 0 for a wide one.
-double left_of_noise(double b) {
-  constexpr double little = 1e-3, wide = 1e3;
-  if (b < little) return 1;
-  if (b > wide) return 0;
-  const auto third = [](double x) {
-    const double phi = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi);
-    return ((x * x * x + 3 * x) * std::erfc(-x / std::numbers::sqrt2) / 2 + (x * x + 2) * phi) / 3;
-  };
-  return (third(0) - third(-2 * b)) / b;
-}
-
-/// Noise that a band hides is counted all the same, as it would be in the mean: to let something hide
-/// it gains nothing.
-double z_of(const residuals::Residual& residual, std::size_t window, double floor) {
-  const double z = residual.value[window] / floor;
-  if (!residuals::banded(residual, window)) return z;
-  const double hidden = 1 - left_of_noise(residual.band[window] / floor);
-  return std::copysign(std::sqrt(hidden + z * z), z);
-}
-
-}  // namespace
-
 std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) const {
   const auto& bare = bare_.of_episode[episode].residuals;
   const auto& tried = trial.of_episode[episode].residuals;
@@ -120,7 +91,7 @@ std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) co
     for (std::size_t k = 0; k < bare[r].value.size(); ++k) {
       const bool judged = floor.rms > 0 && !std::isnan(bare[r].value[k]);
       const bool tells = r < tried.size() && !std::isnan(tried[r].value[k]);
-      all.push_back(judged ? z_of(tells ? tried[r] : bare[r], k, floor.at[k])
+      all.push_back(judged ? residuals::in_noise(tells ? tried[r] : bare[r], k, floor.at[k])
                            : std::numeric_limits<double>::quiet_NaN());
     }
   }

@@ -6,6 +6,7 @@
 #include <ranges>
 
 #include "sim/parallel/in_parallel.hpp"
+#include "sim/residuals/band.hpp"
 #include "sim/residuals/floor.hpp"
 
 namespace sim::gap {
@@ -164,6 +165,19 @@ Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base
   return all;
 }
 
+namespace {
+
+/// In units of its noise. Beside a band it has one sign, whoever explains it: within the band there is none, and one
+/// that changed would jump.
+double in_noise(const residuals::Residual& nominal, const residuals::Residual& r,
+                std::size_t window, double floor) {
+  const double z = residuals::in_noise(r, window, floor), was = nominal.value[window];
+  if (!residuals::banded(nominal, window) && !residuals::banded(r, window)) return z;
+  return std::copysign(z, was != 0 ? was : window % 2 ? -1 : 1);
+}
+
+}  // namespace
+
 VectorXd ResidualVector::z(const Explained& explained) const {
   VectorXd z = VectorXd::Zero(size_);
   const auto raised = this->raised(explained);
@@ -174,7 +188,7 @@ VectorXd ResidualVector::z(const Explained& explained) const {
     for (std::size_t k = 0; k < was.value.size() && floor > 0; ++k) {
       if (std::isnan(was.value[k])) continue;
       const auto& taken = std::isnan(is.value[k]) ? was : is;
-      z[blocks_[b].first + Index(k)] = taken.value[k] / floor;
+      z[blocks_[b].first + Index(k)] = in_noise(was, taken, k, floor);
     }
   }
   return z;

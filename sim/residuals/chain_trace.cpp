@@ -152,13 +152,18 @@ class Tracer {
     const bool in_play = pushes_ && wound.slope == 0;  // neither end draws the other
     const double rate =
         in_play ? 0 : path.slope * path_.rate_m_per_s[k] + wound.slope * out_.speed_rad_per_s[k];
-    const double spring = std::copysign(law_.spring.force_N(std::abs(s.stretch_m)), s.stretch_m);
-    const double force = spring + law_.damping_N_s_per_m * rate + pull.value;
-    out_.spring_N[k] = std::isnan(rate)  ? nan
-                       : pushes_         ? force
-                       : s.stretch_m > 0 ? std::max(0.0, force)
-                                         : 0.0;
+    const double drawn_m = pushes_ ? std::abs(s.stretch_m) : std::max(0.0, s.stretch_m);
+    const double force = std::copysign(law_.spring.force_N(drawn_m), s.stretch_m) +
+                         law_.damping_N_s_per_m * rate + pull.value;
+    out_.spring_N[k] = pushes_ ? force : taut(s.stretch_m, rate) * std::max(0.0, force);
     out_.path_slope[k] = path.slope;
+  }
+  /// The share of the period around a sample over which a line is taut. Where it comes taut its damping sets in at
+  /// once; at whole samples a derivative would see one that leaps.
+  double taut(double stretch_m, double rate_m_per_s) const {
+    const double changes_m = std::abs(rate_m_per_s) * period_s_;
+    if (std::isnan(rate_m_per_s)) return nan;
+    return changes_m > 0 ? std::clamp(0.5 + stretch_m / changes_m, 0.0, 1.0) : stretch_m > 0;
   }
 
   /// i as measured; or, as the motor's law has it, its mean around the row, late by L/R.

@@ -142,6 +142,40 @@ TEST_CASE("an effect shows at its own stages alone, and is gone where the robot 
   }
 }
 
+namespace {
+
+/// What is left of the flexor's tendon with a spindle so many times as large.
+std::vector<double> left_of_flexor(const Episode& episode, double larger) {
+  erp::Robot robot = hinge_rig();
+  robot.actuators[0].spindle.radius_m *= larger;
+  Stages stages(robot);
+  for (const Residual& r : stages.residuals(episode))
+    if (r.stage == effects::Stage::tendon && r.on == "flexor") return r.value;
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("where a line comes taut its law changes evenly with the spindle's radius") {
+  const erp::Robot robot = hinge_rig();
+  Episode episode = rig_recording::record(robot, robot, {.seconds = 6});
+  const erp::Actuator& flexor = robot.actuators[0];
+  const double drawn_N = 20, slack_rad = drawn_N / flexor.tendon.stiffness_N_per_m / flexor.spindle.radius_m;
+  for (double& theta : episode.actuators[0].shaft_rad) theta -= slack_rad;
+  std::vector<double> before = left_of_flexor(episode, 1);
+  double usual = 0, most = 0;
+  for (int k = 1; k <= 200; ++k) {
+    const std::vector<double> after = left_of_flexor(episode, 1 + 2e-6 * k);
+    double step = 0;
+    for (std::size_t n = 0; n < after.size(); ++n)
+      if (!std::isnan(after[n] - before[n])) step = std::max(step, std::abs(after[n] - before[n]));
+    usual = k == 1 ? step : std::min(usual, step), most = std::max(most, step);
+    before = after;
+  }
+  CHECK(usual > 0);
+  CHECK(most < 3 * usual);
+}
+
 TEST_CASE("without tension the spring stands in, without current the motor's law") {
   Episode episode = rig_recording::record(hinge_rig(), hinge_rig(), {});
   const auto all = rms(Stages(hinge_rig()), episode);
