@@ -149,7 +149,7 @@ struct Descent {
   int far = 0;  ///< so many steps at first with weights of trust 0.5
   const Estimate* base =
       nullptr;         ///< whose weights and derivatives by the constants hold throughout
-  bool fresh = false;  ///< whether the derivatives are those of where the estimate is
+  bool fresh = false;  ///< whether the derivatives are those of where the estimate is, or of a last small step before
   bool stale = true;   ///< whether they are to be taken anew
 };
 
@@ -180,7 +180,7 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
     const Step taken = step(residuals, at, e, damping, d.threads);
     const bool done = !taken.better || taken.gained < enough * e.cost;
     const bool was_fresh = d.fresh;
-    if (taken.better || was_wide) d.fresh = false;
+    if ((taken.better && !done) || was_wide) d.fresh = false;
     d.stale = done || was_wide || taken.gained < kept * taken.promised;
     stretch = 1;
     if (!was_fresh) continue;
