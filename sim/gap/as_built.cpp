@@ -34,15 +34,15 @@ std::vector<Placed> hints_of(const Found& found) {
 }
 
 /// A robot all as described but for effects, and for what is never certain.
-class Exactly {
+class AsDescribed {
  public:
-  explicit Exactly(const Evidence& evidence)
+  explicit AsDescribed(const Evidence& evidence)
       : evidence_(evidence),
         built_{.uncertain = uncertain_of(evidence.nominal, options().search.withhold, true),
                .exact = true},
         search_(evidence.train, evidence.held_out, built_.uncertain, options().search),
         found_(search_.with({})) {}
-  Exactly(const Exactly&) = delete;
+  AsDescribed(const AsDescribed&) = delete;
 
   /// With one effect if any relieves it, and those that would explain most as `hints`.
   void find_first() {
@@ -84,18 +84,18 @@ class Exactly {
 };
 
 /// All constants uncertain.
-class Built {
+class WithTolerances {
  public:
-  explicit Built(const Evidence& evidence)
+  explicit WithTolerances(const Evidence& evidence)
       : evidence_(evidence),
         built_{.uncertain = uncertain_of(evidence.nominal, evidence.options.search.withhold, false)},
         search_(evidence.train, evidence.held_out, built_.uncertain, evidence.options.search),
         found_(settle(search_, search_.with({}), evidence_, built_)) {}
-  Built(const Built&) = delete;
+  WithTolerances(const WithTolerances&) = delete;
 
   /// The constants alone explain, and so many parts of the robot are clearly off that no few effects
   /// could be instead.
-  bool is_plainly() const {
+  bool explain_plainly() const {
     constexpr double clear = 3;  // standard deviations; chosen
     std::set<std::pair<std::string, effects::Stage>> places;
     for (std::size_t k = 0; k < built_.uncertain.constants.size(); ++k) {
@@ -106,7 +106,8 @@ class Built {
     }
     return !built_.keeps && places.size() > evidence_.options.search.most_effects;
   }
-  /// With effects where constants alone leave more than noise, or where one could stand for constants that are far off.
+  /// With effects where constants alone leave more than noise, or where one could stand for constants
+  /// that are far off.
   AsBuilt answer(const std::vector<Placed>& hints) {
     if (built_.keeps)
       settle(search_, search_.run(std::move(found_), evidence_.options.search.most_effects),
@@ -124,15 +125,15 @@ class Built {
 /// The one with more evidence. All constants are tried only where one effect on the robot as described leaves more
 /// than noise; more effects on that only where the constants do not plainly explain.
 AsBuilt likelier(const Evidence& evidence) {
-  Exactly exactly(evidence);
-  exactly.find_first();
-  if (exactly.explains()) return exactly.answer();
-  Built built(evidence);
-  if (built.is_plainly()) return built.answer(exactly.hints);
-  exactly.find_others();
-  AsBuilt one = exactly.answer();
+  AsDescribed described(evidence);
+  described.find_first();
+  if (described.explains()) return described.answer();
+  WithTolerances with(evidence);
+  if (with.explain_plainly()) return with.answer(described.hints);
+  described.find_others();
+  AsBuilt one = described.answer();
   if (!one.keeps) return one;
-  AsBuilt other = built.answer(exactly.hints);
+  AsBuilt other = with.answer(described.hints);
   return evidence_cost(other) < evidence_cost(one) ? other : one;
 }
 

@@ -12,9 +12,9 @@ namespace sim::residuals {
 /// 1 for none, 0 for a wide one. `band`: b in standard deviations of the noise.
 double left_of_noise(double band);
 
-/// The residual at a window in units of its noise, z² = (r/σ)² + 1 − h(b/σ): noise that a band hides is counted all
-/// the same, as it would be in the mean. A robot that lets something hide, one with more friction, gains
-/// nothing. Signed as the residual.
+/// The residual at a window in units of its noise, z² = (r/σ)² + 1 − h(b/σ), signed as the residual. Noise
+/// that a band hides is counted all the same, as it would be in the mean: a robot with more friction, which
+/// hides more, gains nothing.
 double in_noise(const Residual& residual, std::size_t window, double floor);
 
 }  // namespace sim::residuals
