@@ -90,8 +90,8 @@ std::vector<double> Trials::whitened(const Trial& trial, std::size_t episode) co
     const residuals::Floor& floor = floors_[episode][r];
     for (std::size_t k = 0; k < bare[r].value.size(); ++k) {
       const bool judged = floor.rms > 0 && !std::isnan(bare[r].value[k]);
-      const bool tells = r < tried.size() && !std::isnan(tried[r].value[k]);
-      all.push_back(judged ? residuals::in_noise(tells ? tried[r] : bare[r], k, floor.at[k])
+      const bool available = r < tried.size() && !std::isnan(tried[r].value[k]);
+      all.push_back(judged ? residuals::in_noise(available ? tried[r] : bare[r], k, floor.at[k])
                            : std::numeric_limits<double>::quiet_NaN());
     }
   }

@@ -167,9 +167,9 @@ Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base
 
 namespace {
 
-/// In units of its noise. Beside a band it has one sign, whoever explains it: within the band there is none, and one
-/// that changed would jump.
-double in_noise(const residuals::Residual& nominal, const residuals::Residual& r,
+/// A residual in units of its noise. Where friction has a band the sign is that of the nominal robot's residual: within
+/// a band a residual has none, and a sign that changed between robots would be a jump.
+double with_fixed_sign(const residuals::Residual& nominal, const residuals::Residual& r,
                 std::size_t window, double floor) {
   const double z = residuals::in_noise(r, window, floor), was = nominal.value[window];
   if (!residuals::banded(nominal, window) && !residuals::banded(r, window)) return z;
@@ -188,7 +188,7 @@ VectorXd ResidualVector::z(const Explained& explained) const {
     for (std::size_t k = 0; k < was.value.size() && floor > 0; ++k) {
       if (std::isnan(was.value[k])) continue;
       const auto& taken = std::isnan(is.value[k]) ? was : is;
-      z[blocks_[b].first + Index(k)] = in_noise(was, taken, k, floor);
+      z[blocks_[b].first + Index(k)] = with_fixed_sign(was, taken, k, floor);
     }
   }
   return z;

@@ -158,8 +158,8 @@ class Tracer {
     out_.spring_N[k] = pushes_ ? force : taut(s.stretch_m, rate) * std::max(0.0, force);
     out_.path_slope[k] = path.slope;
   }
-  /// The share of the period around a sample over which a line is taut. Where it comes taut its damping sets in at
-  /// once; at whole samples a derivative would see one that leaps.
+  /// The share of the period around a sample over which a line is taut. Without it the damping force of a line that
+  /// comes taut would jump from one sample to the next, and with it the derivative by a constant.
   double taut(double stretch_m, double rate_m_per_s) const {
     const double changes_m = std::abs(rate_m_per_s) * period_s_;
     if (std::isnan(rate_m_per_s)) return nan;

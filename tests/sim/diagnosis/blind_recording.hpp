@@ -3,7 +3,7 @@
 #include "sim/residuals/episode.hpp"
 #include "tests/sim/rigs.hpp"
 
-/// Recordings of hinge_rig of the blind cases' own physics, with given quirks.
+/// Recordings of hinge_rig, or another robot, of the blind cases' own physics, with given quirks.
 namespace blind_recording {
 
 inline erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
@@ -13,10 +13,10 @@ inline sim::blind::Case nothing_hidden() {
 }
 
 inline std::vector<sim::residuals::Episode> episodes(const sim::blind::Case& blind,
-                                                     double seconds = 6, int count = 3) {
+                                                     double seconds = 6, int count = 3,
+                                                     const erp::Robot& robot = hinge_rig()) {
   std::vector<sim::residuals::Episode> all;
   std::vector<std::string> remarks;
-  const erp::Robot robot = hinge_rig();
   for (int k = 0; k < count; ++k)
     all.push_back(sim::residuals::lay_out(
         sim::blind::record(robot, blind, sim::excitation(robot, k, seconds, 5),
