@@ -48,11 +48,11 @@ std::string undetermined(const Named& effect) {
   for (const effects::Parameter& p : effects::parameters(neutral)) {
     if (!p.fitted) continue;
     const Interval& interval = effect.intervals[k];
-    const double value = effect.values[k], rounding = 1e-6 * (p.bounds.high - p.bounds.low);
-    const bool low = value <= p.bounds.low + rounding, high = value >= p.bounds.high - rounding;
-    if ((low && p.bounds.low != *p.value) || (high && p.bounds.high != *p.value))
-      return fmt::format("{} is at its bound, {:.3g}", p.name, value);
-    const double beyond = low || high ? rounding : 0;  // a bound that is neutral
+    const double value = effect.values[k];
+    if (is_at_bound(p, value)) return fmt::format("{} is at its bound, {:.3g}", p.name, value);
+    const double rounding = 1e-6 * (p.bounds.high - p.bounds.low);
+    const bool at_end = value <= p.bounds.low + rounding || value >= p.bounds.high - rounding;
+    const double beyond = at_end ? rounding : 0;  // a bound that is neutral
     holds_neutral &= interval.low <= *p.value + beyond && *p.value - beyond <= interval.high;
     ++k;
   }

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 
+#include "sim/diagnosis/deviations.hpp"
 #include "sim/diagnosis/tries.hpp"
 
 namespace sim::diagnosis {
@@ -95,27 +96,7 @@ Eigen::MatrixXd dense(const ceres::CRSMatrix& j) {
                                   j.rows.data(), j.cols.data(), j.values.data());
 }
 
-/// σ of each parameter, √(JᵀJ)⁻¹ₖₖ; infinite where nothing changes with it, or nothing that another
-/// would not change alike.
-std::vector<double> deviations(const Eigen::MatrixXd& j) {
-  constexpr double infinite = std::numeric_limits<double>::infinity(), nothing = 1e-9;
-  const Eigen::VectorXd length = j.colwise().norm().transpose();
-  const Eigen::VectorXd scale = (length.array() > 0).select(length.cwiseInverse(), 0.0);
-  const Eigen::MatrixXd cosines = scale.asDiagonal() * (j.transpose() * j) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(cosines);
-  std::vector<double> sigma;
-  for (Eigen::Index k = 0; k < j.cols(); ++k) {
-    double variance = 0;
-    for (Eigen::Index n = 0; n < j.cols(); ++n) {
-      const double part = std::pow(axes.eigenvectors()(k, n), 2), along = axes.eigenvalues()[n];
-      if (part > nothing) variance += along > nothing ? part / along : infinite;
-    }
-    sigma.push_back(length[k] > 0 ? std::sqrt(variance) / length[k] : infinite);
-  }
-  return sigma;
-}
-
-/// From u; sigma in the parameters' units, wider by what noise does not explain.
+/// From u; sigma in the parameters' units.
 Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   constexpr double step = 2e-4;  // chosen: of the scale
   ceres::NumericDiffOptions differences;
@@ -144,10 +125,9 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   ceres::CRSMatrix sparse;
   std::vector<double> z;
   problem.Evaluate({}, nullptr, &z, nullptr, &sparse);
-  const auto judged = static_cast<double>(z.size()) - double(std::ranges::count(z, 0.0));
-  const double left = std::sqrt(std::max(1.0, 2 * summary.final_cost / std::max(1.0, judged)));
-  Least least{2 * summary.final_cost, u, deviations(dense(sparse))};
-  for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= left * given.knobs[k].scale;
+  Least least{2 * summary.final_cost, u,
+              deviations(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
+  for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= given.knobs[k].scale;
   return least;
 }
 
@@ -211,6 +191,19 @@ Fit result_of(const effects::Placed& placed, double square, std::span<const doub
 }
 
 }  // namespace
+
+bool is_at_bound(const effects::Parameter& neutral, double value) {
+  const auto [low, high] = neutral.bounds;
+  const double rounding = 1e-6 * (high - low);
+  return (value <= low + rounding && low != *neutral.value) ||
+         (value >= high - rounding && high != *neutral.value);
+}
+
+bool has_size_at_bound(const effects::Placed& placed) {
+  effects::AnyEffect effect = placed.effect;
+  effects::AnyEffect neutral = *effects::neutral(effects::about(effect).type);
+  return is_at_bound(effects::parameters(neutral)[0], *effects::parameters(effect)[0].value);
+}
 
 Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
         std::span<const std::size_t> episodes, const FitOptions& options) {

@@ -20,6 +20,11 @@ struct Fit {
   std::vector<double> values, sigmas;  ///< of its fitted parameters
 };
 
+/// A value ends at a bound of its parameter, as the neutral effect has it, and that bound is not neutral.
+bool is_at_bound(const effects::Parameter& neutral, double value);
+/// Whether an effect's size, its first parameter, ends at a bound.
+bool has_size_at_bound(const effects::Placed& placed);
+
 /// Fits the effect `more` to the recordings `episodes`, on top of `base`; starts at its parameters
 /// when they are not neutral.
 Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,

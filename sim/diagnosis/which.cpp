@@ -79,6 +79,8 @@ Interval worse_by(const Ranked& other, const Ranked& best, const WhichOptions& o
   }));
 }
 
+bool is_within_bounds(const Ranked& r) { return !has_size_at_bound(r.fit.placed); }
+
 /// Of those as good as the first, the ones with fewer parameters come first, then those that
 /// correct a number of the model, then in the order of the chain.
 void prefer_plain(std::vector<Ranked>& ranked, const WhichOptions& options) {
@@ -86,7 +88,7 @@ void prefer_plain(std::vector<Ranked>& ranked, const WhichOptions& options) {
   if (ranked.empty()) return;
   const Ranked best = ranked[0];
   const auto end = std::stable_partition(ranked.begin(), ranked.end(), [&](const Ranked& r) {
-    return r.relieves() && r.gain >= best.gain - as_good &&
+    return r.relieves() && is_within_bounds(r) && r.gain >= best.gain - as_good &&
            (r.gain >= best.gain - same || worse_by(r, best, options).low <= 0);
   });
   std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
@@ -111,6 +113,8 @@ std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOpt
     if (options.progress) options.progress(++done, chosen.size());
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
+  // A size at its bound would have to be larger still, or it only scales an equation down.
+  std::ranges::stable_partition(ranked, is_within_bounds);
   std::ranges::stable_partition(ranked, &Ranked::relieves);
   prefer_plain(ranked, options);
   return ranked;

@@ -44,8 +44,8 @@ struct Ranked {
   bool relieves() const { return relief > 0.3; }  // chosen
 };
 
-/// Every effect that can change a residual, best first: what relieves before what does not, by
-/// gain, ties to the plainer one.
+/// Every effect that can change a residual, best first: what relieves before what does not, of these a
+/// size within its bounds before one at a bound, by gain, ties to the plainer one.
 std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOptions& options);
 
 /// Of `ranked`, which cannot be told from the first: their paired difference to it includes zero,

@@ -1,9 +1,11 @@
 #include "sim/residuals/drives.hpp"
 
 #include <catch2/catch.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <random>
 #include <set>
 
@@ -228,4 +230,30 @@ TEST_CASE("friction is found from one steady speed in each recording") {
   CHECK(types_of(d) == std::set<std::string>{"gearbox_coulomb", "gearbox_viscous"});
   CHECK(value_of(d, "gearbox_coulomb") == Approx(3e-3).epsilon(0.02));
   CHECK(value_of(d, "gearbox_viscous") == Approx(3e-5).epsilon(0.02));
+}
+
+TEST_CASE("a disturbance is not explained by a motor with less torque") {
+  const light_drive::Light light{.load_Nm = 3e-4, .disturbance_Nm = 3e-4};
+  const Diagnosis d = diagnosed(
+      light_drive::description(),
+      light_drive::at_steady_speeds(light, {.period_s = 5e-3, .seconds = 4, .noise_rad = 1e-5}));
+  CHECK(d.verdict == Verdict::supported);
+  CHECK(types_of(d) ==
+        std::set<std::string>{"gearbox_asymmetric", "gearbox_coulomb", "gearbox_viscous"});
+  const std::map<std::string, double> is{{"gearbox_asymmetric", light.load_Nm},
+                                         {"gearbox_coulomb", light.coulomb_Nm},
+                                         {"gearbox_viscous", light.viscous_Nm_s}};
+  for (const auto& n : d.answer) {
+    INFO(n.type << " " << n.values[0]);
+    CHECK(n.intervals[0].low < is.at(n.type));
+    CHECK(n.intervals[0].high > is.at(n.type));
+  }
+}
+
+TEST_CASE("friction of a drive whose shaft turns back within few rows is left undetermined") {
+  const Diagnosis d =
+      diagnosed(light_drive::description(), light_drive::swung({}, {.period_s = 0.02}));
+  CHECK(d.verdict == Verdict::not_identifiable);
+  CHECK(std::ranges::any_of(
+      d.warnings, [](const std::string& w) { return w.find("turned back") != std::string::npos; }));
 }
