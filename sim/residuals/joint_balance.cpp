@@ -41,8 +41,11 @@ bool near_stop(const JointReading& reading, const erp::Joint& joint, double spee
 /// Bones that bend have joints that nobody measured. Each moves as its spring and damper have it,
 /// its bone carried by the measured joints:
 ///
-///   I δ̈ = −(τ(q, q̇, q̈, δ, δ̇, 0) + k δ + D δ̇)          τ: inverse dynamics, by symplectic Euler
-void Stages::bend(const Episode& episode, JointTrace& trace) {
+///   I δ̈ = −(τ(q, q̇, q̈, δ, δ̇, 0) + k δ + D δ̇)          τ: inverse dynamics, by the trapezoidal rule
+///
+/// Carried by means over the windows, it moves as its own means do: they are not taken again.
+std::vector<Stages::Bend> Stages::bend(const Episode& episode, JointTrace& trace) {
+  std::vector<Bend> bends;
   const Bump bump(windows_.half_width_s, episode.period_s);
   const std::size_t reach = 2 * bump.reach() + 1;
   for (std::size_t j = 0; j < trace.signals.size(); ++j) {
@@ -55,6 +58,7 @@ void Stages::bend(const Episode& episode, JointTrace& trace) {
     bent.assign(episode.rows, 0.0);
     trace.by_bones = true;
     if (!(stiffness > 0) || !bones_.measured(trace.signals)) continue;
+    auto& states = bends.emplace_back(j, std::vector<std::array<double, 3>>(episode.rows)).states;
     double angle = 0, speed = 0;
     bool started = false;
     for (std::size_t k = reach; k + reach < episode.rows; ++k) {
@@ -68,13 +72,17 @@ void Stages::bend(const Episode& episode, JointTrace& trace) {
       } else {
         motion.acceleration[coordinate] = 1;
         const double inertia = bones_.inverse(motion)[coordinate] - needed;
-        const double pushed =
-            -(needed + stiffness * angle + joint.viscous_Nm_s_per_rad * speed) / inertia;
-        speed += episode.period_s * pushed, angle += episode.period_s * speed;
+        const double half_s = episode.period_s / 2, damping = joint.viscous_Nm_s_per_rad;
+        const double pushed = needed + stiffness * angle + damping * speed;
+        states[k] = {angle, speed, -pushed / inertia};
+        const double faster = -2 * half_s * (pushed + half_s * stiffness * speed) /
+                              (inertia + half_s * damping + half_s * half_s * stiffness);
+        angle += half_s * (2 * speed + faster), speed += faster;
       }
       bent[k] = std::clamp(angle, -3.0, 3.0);
     }
   }
+  return bends;
 }
 
 JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size_t> rows,
@@ -107,10 +115,17 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   find_crossings(episode, trace, loose);
   for (const JointSignals& joint : trace.signals)
     trace.speed_rad_per_s.push_back(bump.rates(joint.angle_rad));
-  bend(episode, trace);
+  const auto bends = bend(episode, trace);
   if (bones_.measured(trace.signals))
-    for (const std::size_t row : rows)
-      trace.motions.push_back(bones_.motion(trace.signals, bump, row));
+    for (const std::size_t row : rows) {
+      Motion& motion = trace.motions.emplace_back(bones_.motion(trace.signals, bump, row));
+      for (const Bend& b : bends) {
+        const auto [angle, speed, acceleration] = b.states[row];
+        motion.joints[b.joint].position[0] = angle;
+        motion.joints[b.joint].velocity_rad_per_s[0] = speed;
+        motion.acceleration[bones_.first_of(static_cast<int>(b.joint))] = acceleration;
+      }
+    }
   return trace;
 }
 
@@ -162,7 +177,7 @@ Stages::Gait Stages::gait(const JointTrace& joints, std::size_t j, const Bump& b
 /// What is left of a revolute joint's balance once a resting joint's friction and the push of a
 /// stop have taken their share, and how much they may take.
 std::pair<double, double> Stages::leave(const JointTrace& joints, std::size_t j, const Bump& bump,
-                                      std::size_t row, double torque_Nm) const {
+                                        std::size_t row, double torque_Nm) const {
   const erp::Joint& joint = bones_.joint_list()[j];
   if (joints.signals[j].angle_rad.empty()) return {torque_Nm, 0};
   const Gait gait = this->gait(joints, j, bump, row);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -82,7 +83,12 @@ class Stages {
   /// `near`: as `trace` has it.
   ChainTrace chain(const Episode& episode, std::size_t actuator, const PathTrace& path,
                    const ChainTrace* near = nullptr) const;
-  void bend(const Episode& episode, JointTrace& trace);
+  /// A joint that nobody measured, where a bone bends: at every row its angle, speed and acceleration.
+  struct Bend {
+    std::size_t joint;
+    std::vector<std::array<double, 3>> states;
+  };
+  std::vector<Bend> bend(const Episode& episode, JointTrace& trace);
   Eigen::MatrixXd bones(const Episode& episode, const JointTrace& joints,
                         std::span<const std::size_t> rows);
   void add_joints(const Episode& episode, Explanation& explanation) const;
@@ -92,7 +98,7 @@ class Stages {
   enum class Gait { glides, rests, mixed };
   Gait gait(const JointTrace& joints, std::size_t joint, const Bump& bump, std::size_t row) const;
   std::pair<double, double> leave(const JointTrace& joints, std::size_t joint, const Bump& bump,
-                                std::size_t row, double torque_Nm) const;
+                                  std::size_t row, double torque_Nm) const;
 
   effects::Equipped equipped_;
   Windows windows_;
