@@ -7,39 +7,18 @@
 #include <stdexcept>
 
 #include "sim/diagnosis/sampling.hpp"
+#include "sim/diagnosis/sorting.hpp"
 
 namespace sim::diagnosis {
 namespace {
 
-Sets sets_of(const DiagnoseOptions& options, const std::vector<residuals::Episode>& episodes) {
-  const bool given = !options.train.empty() || !options.held_out.empty();
-  return given ? Sets{options.train, options.held_out} : split(episodes);
-}
-
+/// Each once: a recording that is cut is two episodes.
 std::vector<std::string> names_of(const Evidence& evidence, const std::vector<std::size_t>& set) {
   std::vector<std::string> names;
-  for (const std::size_t k : set) names.push_back(evidence.episodes[k].name);
+  for (const std::size_t k : set)
+    if (std::ranges::count(names, evidence.episodes[k].name) == 0)
+      names.push_back(evidence.episodes[k].name);
   return names;
-}
-
-/// The recordings tried on the robot as it is, sorted so that both sides show what there is.
-Trials sorted(Evidence& evidence, Diagnosis& d) {
-  const DiagnoseOptions& options = evidence.options;
-  Trials trials(evidence.robot, evidence.episodes, options.seed);
-  if (!options.train.empty() || !options.held_out.empty()) return trials;
-  evidence.sets = hold_out_what_shows(evidence.sets, trials, evidence.where_options());
-  const auto all = cuts(evidence.sets, trials, evidence.where_options());
-  if (all.empty()) return trials;
-  for (const Cut& cut : all) {
-    const residuals::Episode& episode = evidence.episodes[cut.episode];
-    d.shared.push_back({episode.name, double(cut.row) * episode.period_s});
-    d.warnings.push_back(fmt::format(
-        "too few recordings show the gap in the {} of {}: effects are chosen on the first {:.1f} s "
-        "of {} and judged on the rest; record another that shows it",
-        effects::word(cut.stage), cut.on, d.shared.back().judged_from_s, episode.name));
-    cut_in_two(cut, evidence.episodes, evidence.sets);
-  }
-  return {evidence.robot, evidence.episodes, options.seed};
 }
 
 Verdict judge(const Selection& selection, const Observed& observed,
@@ -253,22 +232,12 @@ erp::Robot as_observed(const erp::Robot& robot, const Observed& observed) {
   return known;
 }
 
-}  // namespace
-
-const char* word(Verdict verdict) {
-  constexpr const char* words[] = {"no_gap", "supported", "none_of_the_known", "not_identifiable"};
-  return words[static_cast<std::size_t>(verdict)];
-}
-
-Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> episodes,
-                   const DiagnoseOptions& options) {
-  if (episodes.empty()) throw std::invalid_argument("no recording");
-  Evidence evidence{robot, std::move(episodes), options, {}};
-  evidence.sets = sets_of(options, evidence.episodes);
+/// Of recordings that are sorted, and of what was cut in two for that. `plain`: of the robot as given.
+Diagnosis diagnosed(Evidence& evidence, const Trials& plain, const CutRecordings& cut) {
+  const erp::Robot& robot = evidence.robot;
   Diagnosis d;
-  evidence.tell("residuals", 0.05);
   d.recordings = names_of(evidence, evidence.sets.all());
-  const Trials plain = sorted(evidence, d);
+  d.shared = cut.shared, d.warnings = cut.warnings;
   if (evidence.sets.held_out.empty()) {
     evidence.sets.held_out = evidence.sets.train;
     d.warnings.emplace_back(
@@ -282,12 +251,40 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   const Observed observed = observe(evidence, plain);
   const erp::Robot known = as_observed(robot, observed);
   std::optional<Trials> coarse;
-  if (!observed.sensors.empty()) coarse.emplace(known, evidence.episodes, options.seed);
+  if (!observed.sensors.empty()) coarse.emplace(known, evidence.episodes, evidence.options.seed);
   const Question question{evidence, known, plain, coarse ? *coarse : plain, observed};
   warn_unjudged(question, d);
   answer(question, d);
   doubt_undetermined(d);
   doubt_sampling(question, d);
+  return d;
+}
+
+}  // namespace
+
+const char* word(Verdict verdict) {
+  constexpr const char* words[] = {"no_gap", "supported", "none_of_the_known", "not_identifiable"};
+  return words[static_cast<std::size_t>(verdict)];
+}
+
+Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> episodes,
+                   const DiagnoseOptions& options) {
+  if (episodes.empty()) throw std::invalid_argument("no recording");
+  Evidence evidence{robot, std::move(episodes), options, {}};
+  evidence.sets = first_sets(evidence);
+  evidence.tell("residuals", 0.05);
+  const auto trials = [&](const erp::Robot& of) {
+    return Trials(of, evidence.episodes, options.seed);
+  };
+  CutRecordings cut;
+  std::optional<Trials> plain(trials(robot));
+  if (sort_recordings(evidence, *plain, cut)) plain.emplace(trials(robot));
+  Diagnosis d = diagnosed(evidence, *plain, cut);
+  if (d.verdict == Verdict::none_of_the_known && d.as_built &&
+      sort_recordings(evidence, trials(*d.as_built), cut)) {
+    plain.emplace(trials(robot));
+    d = diagnosed(evidence, *plain, cut);
+  }
   evidence.tell("done", 1);
   return d;
 }

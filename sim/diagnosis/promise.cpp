@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/diagnosis/tries.hpp"
-#include "sim/gap/screen.hpp"
+#include "sim/gap/can_show.hpp"
 #include "sim/residuals/indices.hpp"
 
 namespace sim::diagnosis {

@@ -3,38 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/gap/starts.hpp"
+
 namespace sim::diagnosis {
 namespace {
-
-/// A joint's stops, at or a little before where it turned back.
-std::vector<effects::Placed> stops(const Trials& trials, const effects::Placed& neutral,
-                                   std::span<const std::size_t> episodes) {
-  const auto joints = trials.nominal().joints();
-  const auto j = static_cast<std::size_t>(std::ranges::find(joints, neutral.on, &erp::Joint::name) -
-                                          joints.begin());
-  if (joints[j].type != erp::JointType::revolute) return {};
-  double low = joints[j].max_rad, high = joints[j].min_rad;
-  for (const std::size_t e : episodes) {
-    const residuals::Episode& episode = trials.episodes()[e];
-    const residuals::Signal& angle = episode.joints[j].angle_rad;
-    for (std::size_t k = 0; k < angle.size(); ++k)
-      if (episode.judged(k) && !std::isnan(angle[k]))
-        low = std::min(low, angle[k]), high = std::max(high, angle[k]);
-  }
-  std::vector<effects::Placed> all;
-  for (const double before_rad : {0.0, 0.01, 0.02, 0.035, 0.05})
-    for (const int side : {1, 2, 3}) {
-      all.push_back(neutral);
-      const auto parameters = effects::parameters(all.back().effect);
-      if (side & 1)
-        *parameters[0].value =
-            std::clamp(low - joints[j].min_rad + before_rad, 0.0, parameters[0].bounds.high);
-      if (side & 2)
-        *parameters[1].value =
-            std::clamp(joints[j].max_rad - high + before_rad, 0.0, parameters[1].bounds.high);
-    }
-  return all;
-}
 
 /// How many parameters are not neutral.
 std::size_t told(const effects::Placed& placed) {
@@ -48,8 +20,9 @@ bool is_neutral(const effects::Placed& placed) { return told(placed) == 0; }
 std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& neutral,
                                    std::span<const std::size_t> episodes) {
   const auto type = effects::about(neutral.effect).type;
-  if (type == "joint_early_stop") return stops(trials, neutral, episodes);
-  std::vector<effects::Placed> all;
+  std::vector<const residuals::Episode*> recordings;
+  for (const std::size_t e : episodes) recordings.push_back(&trials.episodes()[e]);
+  auto all = gap::starts(neutral, trials.nominal(), recordings);
   constexpr double soft = 0.7, stiff = 0.01, ratio = 0.8;  // rad/Nm
   if (type == "skeleton_link_flexibility")
     for (double c = soft; c > stiff; c *= ratio) {

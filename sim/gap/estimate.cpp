@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "sim/gap/flat.hpp"
+
 namespace sim::gap {
 namespace {
 
@@ -148,9 +150,10 @@ struct Descent {
   const Pool* pool = nullptr;
   int far = 0;  ///< so many steps at first with weights of trust 0.5
   const Estimate* base =
-      nullptr;         ///< whose weights and derivatives by the constants hold throughout
-  bool fresh = false;  ///< whether the derivatives are those of where the estimate is, or of a last small step before
-  bool stale = true;   ///< whether they are to be taken anew
+      nullptr;  ///< whose weights and derivatives by the constants hold throughout
+  bool fresh =
+      false;  ///< whether the derivatives are those of where the estimate is, or of a last small step before
+  bool stale = true;  ///< whether they are to be taken anew
 };
 
 /// Whether a stage keeps much more than noise.
@@ -206,6 +209,7 @@ Estimate settled(const ResidualVector& residuals, Unknowns at, Estimate e, Desce
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
   e.cost = cost_of(at, e.z, e.weight);
+  set_flat_variances(residuals, at, e);
   return e;
 }
 

@@ -7,9 +7,10 @@
 #include <span>
 #include <tuple>
 
+#include "sim/gap/can_show.hpp"
 #include "sim/gap/directions.hpp"
 #include "sim/gap/periods.hpp"
-#include "sim/residuals/drives.hpp"
+#include "sim/gap/starts.hpp"
 
 namespace sim::gap {
 
@@ -17,51 +18,6 @@ using effects::Placed;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
-
-/// Of all turns of a shaft, the share that goes the rarer way.
-double rarer_way(std::span<const residuals::Episode> recordings, std::size_t actuator) {
-  double forwards = 0, backwards = 0;
-  for (const residuals::Episode& e : recordings) {
-    const residuals::Signal& theta = e.actuators[actuator].shaft_rad;
-    const auto taken = [&](std::size_t row) { return e.judged(row) && !std::isnan(theta[row]); };
-    constexpr std::size_t rows = 10;  // apart: noise turns to and fro
-    for (std::size_t k = rows; k < theta.size(); k += rows)
-      if (taken(k) && taken(k - rows)) {
-        const double turned = theta[k] - theta[k - rows];
-        (turned > 0 ? forwards : backwards) += std::abs(turned);
-      }
-  }
-  return std::min(forwards, backwards) / std::max(forwards + backwards, 1e-12);
-}
-
-/// An effect of a sensor that a drive has not: of a current that its control sets, of a pull without
-/// a torque sensor.
-bool is_of_no_sensor(const Placed& placed, const erp::Robot& robot, std::size_t actuator,
-                     std::span<const residuals::Episode> recordings) {
-  const auto sense = effects::sense_of(placed.effect);
-  const erp::Drive* drive = sense ? residuals::drive_of(robot, placed.on) : nullptr;
-  if (!drive) return false;
-  if (sense == effects::Sense::tension) return !drive->find<erp::TorqueSensor>();
-  return sense == effects::Sense::current &&
-         std::ranges::any_of(recordings, [&](const residuals::Episode& e) {
-           return e.actuators[actuator].current_around;
-         });
-}
-
-}  // namespace
-
-bool can_show(const Placed& placed, const erp::Robot& robot,
-              std::span<const residuals::Episode> recordings) {
-  constexpr double enough = 0.02;  // of all turns; chosen
-  const std::size_t a =
-      std::size_t(std::ranges::find(robot.actuators, placed.on, &erp::Actuator::name) -
-                  robot.actuators.begin());
-  if (is_of_no_sensor(placed, robot, a, recordings)) return false;
-  return !std::holds_alternative<effects::GearboxAsymmetric>(placed.effect) ||
-         rarer_way(recordings, a) > enough;
-}
 
 /// How far each size may be moved.
 struct StepBounds {
@@ -183,17 +139,36 @@ Candidate Screen::score(const Beginning& begin, const Directions& all) const {
   return candidate;
 }
 
+/// Of one start: what its values explain.
+Candidate Screen::as_it_is(const Beginning& begin, const Placed& start,
+                           const VectorXd& changed) const {
+  const Estimate& base = begin.estimate;
+  const VectorXd others = begin.moved - base.covariance * (base.jacobian.transpose() *
+                                                           base.weight.cwiseProduct(changed));
+  return {start, begin.cost - cost_at(base, begin.left, changed, others), others};
+}
+
 Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) const {
   const Estimate& base = begin.estimate;
   const erp::Robot robot = robot_at(uncertain_, base.point);
   const residuals::Reach reach = residuals::Stages(robot).reach(neutral);
-  const ChangedBy changed_by = [&](const Placed& placed) -> VectorXd {
+  const ChangedBy z_with = [&](const Placed& placed) -> VectorXd {
     erp::Robot with = robot;
     with.effects.push_back(effects::written(placed));
-    return tiny_change(
-        train_.residuals().z(train_.residuals().explain(with, base.explained, reach)), base.z);
+    return train_.residuals().z(train_.residuals().explain(with, base.explained, reach));
+  };
+  const ChangedBy changed_by = [&](const Placed& placed) {
+    return tiny_change(z_with(placed), base.z);
   };
   Candidate best{neutral, 0};
+  std::vector<const residuals::Episode*> recordings;
+  for (const residuals::Episode& e : train_.residuals().episodes()) recordings.push_back(&e);
+  for (const Placed& start : starts(neutral, uncertain_.nominal, recordings)) {
+    const VectorXd change = z_with(start) - base.z;
+    if (!changes(train_.residuals(), change, begin.open)) continue;
+    if (Candidate one = as_it_is(begin, start, change); one.score > best.score)
+      best = std::move(one);
+  }
   const auto sizes = sizes_of(neutral);
   std::vector<double> by = first_nudges(neutral, sizes);
   for (const Placed& shape :

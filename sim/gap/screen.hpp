@@ -21,11 +21,6 @@ struct Candidate {
   Eigen::VectorXd others = {};  ///< how far the unknowns of the estimate go along then
 };
 
-/// False: of a sensor that a drive has not; or a law that differs from a plainer one only in what no
-/// recording has, as friction that is not the same both ways of a shaft that turns one way.
-bool can_show(const effects::Placed& effect, const erp::Robot& robot,
-              std::span<const residuals::Episode> recordings);
-
 struct Directions;
 struct Beginning;
 struct StepBounds;
@@ -53,6 +48,8 @@ class Screen {
                                                    const Eigen::VectorXd& step,
                                                    const StepBounds& bounds) const;
   Candidate score(const Beginning& base, const Directions& directions) const;
+  Candidate as_it_is(const Beginning& base, const effects::Placed& start,
+                     const Eigen::VectorXd& changed) const;
 
   const Estimator& train_;
   const Uncertain& uncertain_;

@@ -87,6 +87,34 @@ TEST_CASE(
   CHECK_THAT(d.warnings[0], Catch::Contains("recording 1") && Catch::Contains("record another"));
 }
 
+TEST_CASE(
+    "a stop that the recording held out alone meets is found beside constants that are a little "
+    "off") {
+  auto blind = nothing_hidden();
+  auto all = episodes(blind, 20);
+  const std::size_t met = split(all).held_out[0];
+  blind.quirks.joints[0].min_in_rad = 0.6;
+  all[met] = episodes(blind, 20)[met];
+  erp::Robot described = hinge_rig();  // of which the recordings' robot differs
+  described.motor_types[0].resistance_ohm *= 1.03;
+  for (erp::Body& body : described.skeletons[0].bodies) body.mass_kg *= 1.04;
+  for (const std::size_t a : {0, 1}) {
+    described.actuators[a].spindle.radius_m *= a ? 0.98 : 1.02;
+    described.actuators[a].tendon.stiffness_N_per_m *= a ? 1.02 : 0.97;
+  }
+  const Diagnosis d = diagnose(described, all);
+  CHECK(d.verdict == Verdict::supported);
+  REQUIRE(d.answer.size() == 1);
+  CHECK(d.answer[0].type == "joint_early_stop");
+  CHECK(d.answer[0].intervals[0].low > 0.4);
+  CHECK(d.answer[0].intervals[0].low < 0.6);
+  CHECK(d.answer[0].intervals[0].high > 0.6);
+  CHECK(d.answer[0].intervals[0].high < 0.8);
+  const std::string name = all[met].name;
+  CHECK(std::ranges::count(d.train, name) == 1);
+  CHECK(std::ranges::count(d.held_out, name) == 1);
+}
+
 TEST_CASE("what a sensor smoothed comes back with its noise, which is no gap") {
   auto blind = nothing_hidden();
   blind.quirks.joints[0].angle.lag_s = 0.025;
