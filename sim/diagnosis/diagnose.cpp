@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "sim/diagnosis/sampling.hpp"
+#include "sim/diagnosis/doubts.hpp"
 #include "sim/diagnosis/sorting.hpp"
 
 namespace sim::diagnosis {
@@ -193,38 +193,6 @@ void answer(const Question& q, Diagnosis& d) {
   take(q, *built, std::move(selection), d);
 }
 
-/// Nothing is supported whose value the recordings do not determine.
-void doubt_undetermined(Diagnosis& d) {
-  if (d.verdict != Verdict::supported) return;
-  for (const Named& n : d.answer) {
-    const auto why = undetermined(n);
-    if (why.empty()) continue;
-    d.verdict = Verdict::not_identifiable;
-    d.warnings.push_back(
-        fmt::format("{} on {}: {}; record motions that show more of it", n.type, n.on, why));
-  }
-}
-
-/// Nor the friction of a drive whose rows are too far apart.
-void doubt_sampling(const Question& q, Diagnosis& d) {
-  if (d.verdict != Verdict::supported && d.verdict != Verdict::none_of_the_known) return;
-  const auto why = rows_too_far_apart(q.plain);
-  if (!why) return;
-  d.verdict = Verdict::not_identifiable;
-  d.warnings.push_back(*why);
-}
-
-/// Names the stages that the recordings show too little of.
-void warn_unjudged(const Question& q, Diagnosis& d) {
-  d.not_judged = not_judged(q.evidence.robot, d.stages);
-  const bool bus_untold = q.evidence.robot.drives.empty() && !q.observed.bus_told;
-  if (bus_untold) d.not_judged.emplace_back("the bus");
-  if (d.not_judged.empty()) return;
-  d.warnings.push_back(fmt::format(
-      "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
-      bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
-}
-
 /// The robot with what was seen without a fit.
 erp::Robot as_observed(const erp::Robot& robot, const Observed& observed) {
   erp::Robot known = robot;
@@ -253,10 +221,10 @@ Diagnosis diagnosed(Evidence& evidence, const Trials& plain, const CutRecordings
   std::optional<Trials> coarse;
   if (!observed.sensors.empty()) coarse.emplace(known, evidence.episodes, evidence.options.seed);
   const Question question{evidence, known, plain, coarse ? *coarse : plain, observed};
-  warn_unjudged(question, d);
+  warn_unjudged(evidence, observed, d);
   answer(question, d);
   doubt_undetermined(d);
-  doubt_sampling(question, d);
+  doubt_sampling(plain, d);
   return d;
 }
 

@@ -1,0 +1,38 @@
+#include "sim/diagnosis/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include "sim/diagnosis/sampling.hpp"
+
+namespace sim::diagnosis {
+
+void doubt_undetermined(Diagnosis& d) {
+  if (d.verdict != Verdict::supported) return;
+  for (const Named& n : d.answer) {
+    const auto why = undetermined(n);
+    if (why.empty()) continue;
+    d.verdict = Verdict::not_identifiable;
+    d.warnings.push_back(
+        fmt::format("{} on {}: {}; record motions that show more of it", n.type, n.on, why));
+  }
+}
+
+void doubt_sampling(const Trials& plain, Diagnosis& d) {
+  if (d.verdict != Verdict::supported && d.verdict != Verdict::none_of_the_known) return;
+  const auto why = rows_too_far_apart(plain);
+  if (!why) return;
+  d.verdict = Verdict::not_identifiable;
+  d.warnings.push_back(*why);
+}
+
+void warn_unjudged(const Evidence& evidence, const Observed& observed, Diagnosis& d) {
+  d.not_judged = not_judged(evidence.robot, d.stages);
+  const bool bus_untold = evidence.robot.drives.empty() && !observed.bus_told;
+  if (bus_untold) d.not_judged.emplace_back("the bus");
+  if (d.not_judged.empty()) return;
+  d.warnings.push_back(fmt::format(
+      "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
+      bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
+}
+
+}  // namespace sim::diagnosis
