@@ -2,6 +2,7 @@
 # Graphs of launch/ whose robot is as robot.xml says: a recording of each must show no gap.
 #   tests/bench/gap_graphs.sh                every graph whose components move the robot, its whole motion
 #   tests/bench/gap_graphs.sh arm 10s        one graph, this long
+# puller_follower_twin is not among them: its limb grasps 0.2 kg that robot.xml does not have.
 # A line per graph: what `erp gap where` says of its recording. Ends with 1 if a gap is named.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
@@ -30,7 +31,6 @@ motion_capture             45s
 pendulum                   30s
 puller_follower            30s
 puller_follower_seven      30s
-puller_follower_twin       30s
 sensorimotor               60s
 seven_dof                  40s
 synergy                    30s
