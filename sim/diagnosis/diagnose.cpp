@@ -6,8 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "sim/diagnosis/doubts.hpp"
-#include "sim/diagnosis/sorting.hpp"
+#include "sim/diagnosis/identifiability.hpp"
+#include "sim/diagnosis/residual_split.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -223,8 +223,8 @@ Diagnosis diagnosed(Evidence& evidence, const Trials& plain, const CutRecordings
   const Question question{evidence, known, plain, coarse ? *coarse : plain, observed};
   warn_unjudged(evidence, observed, d);
   answer(question, d);
-  doubt_undetermined(d);
-  doubt_sampling(plain, d);
+  require_determined(d);
+  require_sampling(plain, d);
   return d;
 }
 
@@ -246,10 +246,10 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   };
   CutRecordings cut;
   std::optional<Trials> plain(trials(robot));
-  if (sort_recordings(evidence, *plain, cut)) plain.emplace(trials(robot));
+  if (split_by_residual(evidence, *plain, cut)) plain.emplace(trials(robot));
   Diagnosis d = diagnosed(evidence, *plain, cut);
   if (d.verdict == Verdict::none_of_the_known && d.as_built &&
-      sort_recordings(evidence, trials(*d.as_built), cut)) {
+      split_by_residual(evidence, trials(*d.as_built), cut)) {
     plain.emplace(trials(robot));
     d = diagnosed(evidence, *plain, cut);
   }

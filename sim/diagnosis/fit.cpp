@@ -10,7 +10,7 @@
 #include <functional>
 #include <limits>
 
-#include "sim/diagnosis/deviations.hpp"
+#include "sim/diagnosis/standard_errors.hpp"
 #include "sim/diagnosis/tries.hpp"
 
 namespace sim::diagnosis {
@@ -126,7 +126,7 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   std::vector<double> z;
   problem.Evaluate({}, nullptr, &z, nullptr, &sparse);
   Least least{2 * summary.final_cost, u,
-              deviations(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
+              standard_errors(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
   for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= given.knobs[k].scale;
   return least;
 }

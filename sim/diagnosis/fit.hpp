@@ -20,9 +20,9 @@ struct Fit {
   std::vector<double> values, sigmas;  ///< of its fitted parameters
 };
 
-/// A value ends at a bound of its parameter, as the neutral effect has it, and that bound is not neutral.
+/// Whether `value` is at a bound of the parameter, other than a bound that is the neutral value itself.
 bool is_at_bound(const effects::Parameter& neutral, double value);
-/// Whether an effect's size, its first parameter, ends at a bound.
+/// Whether the first parameter of an effect, its size, is at a bound.
 bool has_size_at_bound(const effects::Placed& placed);
 
 /// Fits the effect `more` to the recordings `episodes`, on top of `base`; starts at its parameters

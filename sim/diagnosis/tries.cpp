@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/gap/starts.hpp"
+#include "sim/gap/initial_guesses.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -22,7 +22,7 @@ std::vector<effects::Placed> tries(const Trials& trials, const effects::Placed& 
   const auto type = effects::about(neutral.effect).type;
   std::vector<const residuals::Episode*> recordings;
   for (const std::size_t e : episodes) recordings.push_back(&trials.episodes()[e]);
-  auto all = gap::starts(neutral, trials.nominal(), recordings);
+  auto all = gap::initial_guesses(neutral, trials.nominal(), recordings);
   constexpr double soft = 0.7, stiff = 0.01, ratio = 0.8;  // rad/Nm
   if (type == "skeleton_link_flexibility")
     for (double c = soft; c > stiff; c *= ratio) {

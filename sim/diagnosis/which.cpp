@@ -113,7 +113,7 @@ std::vector<Ranked> rank(const Trials& trials, const Trial& base, const WhichOpt
     if (options.progress) options.progress(++done, chosen.size());
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
-  // A size at its bound would have to be larger still, or it only scales an equation down.
+  // A size at its bound is no estimate: it fits by scaling the whole equation down.
   std::ranges::stable_partition(ranked, is_within_bounds);
   std::ranges::stable_partition(ranked, &Ranked::relieves);
   prefer_plain(ranked, options);

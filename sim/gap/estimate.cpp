@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "sim/gap/flat.hpp"
+#include "sim/gap/profile_likelihood.hpp"
 
 namespace sim::gap {
 namespace {
@@ -209,7 +209,7 @@ Estimate settled(const ResidualVector& residuals, Unknowns at, Estimate e, Desce
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
   e.cost = cost_of(at, e.z, e.weight);
-  set_flat_variances(residuals, at, e);
+  set_profile_variances(residuals, at, e);
   return e;
 }
 

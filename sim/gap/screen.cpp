@@ -9,8 +9,8 @@
 
 #include "sim/gap/can_show.hpp"
 #include "sim/gap/directions.hpp"
+#include "sim/gap/initial_guesses.hpp"
 #include "sim/gap/periods.hpp"
-#include "sim/gap/starts.hpp"
 
 namespace sim::gap {
 
@@ -139,13 +139,13 @@ Candidate Screen::score(const Beginning& begin, const Directions& all) const {
   return candidate;
 }
 
-/// Of one start: what its values explain.
-Candidate Screen::as_it_is(const Beginning& begin, const Placed& start,
-                           const VectorXd& changed) const {
+/// Score of an initial guess at its values, without a step; the unknowns respond linearly.
+Candidate Screen::score_guess(const Beginning& begin, const Placed& guess,
+                              const VectorXd& changed) const {
   const Estimate& base = begin.estimate;
   const VectorXd others = begin.moved - base.covariance * (base.jacobian.transpose() *
                                                            base.weight.cwiseProduct(changed));
-  return {start, begin.cost - cost_at(base, begin.left, changed, others), others};
+  return {guess, begin.cost - cost_at(base, begin.left, changed, others), others};
 }
 
 Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) const {
@@ -163,10 +163,10 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
   Candidate best{neutral, 0};
   std::vector<const residuals::Episode*> recordings;
   for (const residuals::Episode& e : train_.residuals().episodes()) recordings.push_back(&e);
-  for (const Placed& start : starts(neutral, uncertain_.nominal, recordings)) {
-    const VectorXd change = z_with(start) - base.z;
+  for (const Placed& guess : initial_guesses(neutral, uncertain_.nominal, recordings)) {
+    const VectorXd change = z_with(guess) - base.z;
     if (!changes(train_.residuals(), change, begin.open)) continue;
-    if (Candidate one = as_it_is(begin, start, change); one.score > best.score)
+    if (Candidate one = score_guess(begin, guess, change); one.score > best.score)
       best = std::move(one);
   }
   const auto sizes = sizes_of(neutral);

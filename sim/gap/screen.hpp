@@ -48,8 +48,8 @@ class Screen {
                                                    const Eigen::VectorXd& step,
                                                    const StepBounds& bounds) const;
   Candidate score(const Beginning& base, const Directions& directions) const;
-  Candidate as_it_is(const Beginning& base, const effects::Placed& start,
-                     const Eigen::VectorXd& changed) const;
+  Candidate score_guess(const Beginning& base, const effects::Placed& guess,
+                        const Eigen::VectorXd& changed) const;
 
   const Estimator& train_;
   const Uncertain& uncertain_;

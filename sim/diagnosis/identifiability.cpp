@@ -1,4 +1,4 @@
-#include "sim/diagnosis/doubts.hpp"
+#include "sim/diagnosis/identifiability.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace sim::diagnosis {
 
-void doubt_undetermined(Diagnosis& d) {
+void require_determined(Diagnosis& d) {
   if (d.verdict != Verdict::supported) return;
   for (const Named& n : d.answer) {
     const auto why = undetermined(n);
@@ -17,7 +17,7 @@ void doubt_undetermined(Diagnosis& d) {
   }
 }
 
-void doubt_sampling(const Trials& plain, Diagnosis& d) {
+void require_sampling(const Trials& plain, Diagnosis& d) {
   if (d.verdict != Verdict::supported && d.verdict != Verdict::none_of_the_known) return;
   const auto why = rows_too_far_apart(plain);
   if (!why) return;
@@ -27,12 +27,12 @@ void doubt_sampling(const Trials& plain, Diagnosis& d) {
 
 void warn_unjudged(const Evidence& evidence, const Observed& observed, Diagnosis& d) {
   d.not_judged = not_judged(evidence.robot, d.stages);
-  const bool bus_untold = evidence.robot.drives.empty() && !observed.bus_told;
-  if (bus_untold) d.not_judged.emplace_back("the bus");
+  const bool without_bus = evidence.robot.drives.empty() && !observed.bus_told;
+  if (without_bus) d.not_judged.emplace_back("the bus");
   if (d.not_judged.empty()) return;
   d.warnings.push_back(fmt::format(
       "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
-      bus_untold ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
+      without_bus ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
 }
 
 }  // namespace sim::diagnosis

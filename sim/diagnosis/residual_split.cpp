@@ -1,4 +1,4 @@
-#include "sim/diagnosis/sorting.hpp"
+#include "sim/diagnosis/residual_split.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ Sets first_sets(const Evidence& evidence) {
   return are_given(options) ? Sets{options.train, options.held_out} : split(evidence.episodes);
 }
 
-bool sort_recordings(Evidence& evidence, const Trials& by, CutRecordings& cut) {
+bool split_by_residual(Evidence& evidence, const Trials& by, CutRecordings& cut) {
   if (are_given(evidence.options)) return false;
   const auto before = evidence.sets.held_out;
   evidence.sets = hold_out_what_shows(evidence.sets, by, evidence.where_options());

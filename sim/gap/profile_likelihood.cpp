@@ -1,4 +1,4 @@
-#include "sim/gap/flat.hpp"
+#include "sim/gap/profile_likelihood.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,10 @@
 namespace sim::gap {
 namespace {
 
-/// How far an unknown goes towards a bound until the cost has risen by as much as a 95 % interval allows.
-double reach(const ResidualVector& residuals, const Unknowns& at, const Estimate& e, std::size_t k,
-             double bound) {
+/// How far an unknown may move towards `bound` before the cost, −2 log likelihood, rises by the 95 % quantile of χ² with
+/// one degree of freedom. All other unknowns keep their values.
+double half_interval(const ResidualVector& residuals, const Unknowns& at, const Estimate& e,
+                     std::size_t k, double bound) {
   constexpr double rise = 3.84;
   constexpr int halvings = 12;
   const residuals::Stages stages(at.robot());
@@ -31,14 +32,14 @@ double reach(const ResidualVector& residuals, const Unknowns& at, const Estimate
 
 }  // namespace
 
-void set_flat_variances(const ResidualVector& residuals, const Unknowns& at, Estimate& e) {
+void set_profile_variances(const ResidualVector& residuals, const Unknowns& at, Estimate& e) {
   constexpr double far = std::numeric_limits<double>::max();
   for (std::size_t k = at.constants(); k < at.count(); ++k) {
     if (at.is_logarithm(k)) continue;
     const double low = at.with(k, -far).value(k), high = at.with(k, far).value(k);
     if (e.sigma(k) < high - low) continue;
     const double farther =
-        std::max(reach(residuals, at, e, k, low), reach(residuals, at, e, k, high));
+        std::max(half_interval(residuals, at, e, k, low), half_interval(residuals, at, e, k, high));
     const auto n = Eigen::Index(k);
     e.covariance.row(n).setZero(), e.covariance.col(n).setZero();
     e.covariance(n, n) = std::pow(farther / 1.96, 2);

@@ -1,4 +1,4 @@
-#include "sim/diagnosis/deviations.hpp"
+#include "sim/diagnosis/standard_errors.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace sim::diagnosis {
 namespace {
 
-/// (JᵀJ)⁻¹ by its axes; infinite in the diagonal where nothing changes with a parameter, or nothing that another
-/// would not change alike.
+/// (JᵀJ)⁻¹ by its eigenvectors; a diagonal entry is infinite where the residuals do not depend on a parameter, or where
+/// other parameters have the same effect on them.
 Eigen::MatrixXd covariance(const Eigen::MatrixXd& j) {
   constexpr double infinite = std::numeric_limits<double>::infinity(), nothing = 1e-9;
   const Eigen::VectorXd length = j.colwise().norm().transpose();
@@ -32,7 +32,7 @@ Eigen::MatrixXd covariance(const Eigen::MatrixXd& j) {
 
 }  // namespace
 
-std::vector<double> deviations(const Eigen::MatrixXd& j, const Eigen::VectorXd& z) {
+std::vector<double> standard_errors(const Eigen::MatrixXd& j, const Eigen::VectorXd& z) {
   const auto windows = Eigen::Index(std::lround(1.0 / residuals::Windows{}.stride_s));
   const Eigen::MatrixXd c = covariance(j);
   Eigen::MatrixXd finite = c;
@@ -49,10 +49,10 @@ std::vector<double> deviations(const Eigen::MatrixXd& j, const Eigen::VectorXd& 
   }
   sandwich *= blocks / std::max(1.0, blocks - double(j.cols()));
   const auto judged = double((z.array() != 0).count());
-  const double left = std::max(1.0, z.squaredNorm() / std::max(1.0, judged));
+  const double mean_square = std::max(1.0, z.squaredNorm() / std::max(1.0, judged));
   std::vector<double> sigma;
   for (Eigen::Index k = 0; k < c.rows(); ++k)
-    sigma.push_back(std::sqrt(std::max(left * c(k, k), sandwich[k])));
+    sigma.push_back(std::sqrt(std::max(mean_square * c(k, k), sandwich[k])));
   return sigma;
 }
 

@@ -1,12 +1,13 @@
-#include "sim/gap/starts.hpp"
+#include "sim/gap/initial_guesses.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sim::gap {
 
-std::vector<effects::Placed> starts(const effects::Placed& neutral, const erp::Robot& nominal,
-                                    const std::vector<const residuals::Episode*>& recordings) {
+std::vector<effects::Placed> initial_guesses(
+    const effects::Placed& neutral, const erp::Robot& nominal,
+    const std::vector<const residuals::Episode*>& recordings) {
   if (!std::holds_alternative<effects::JointEarlyStop>(neutral.effect)) return {};
   const auto joints = nominal.joints();
   const auto j = static_cast<std::size_t>(std::ranges::find(joints, neutral.on, &erp::Joint::name) -
@@ -20,13 +21,14 @@ std::vector<effects::Placed> starts(const effects::Placed& neutral, const erp::R
         low = std::min(low, angle[k]), high = std::max(high, angle[k]);
   }
   std::vector<effects::Placed> all;
-  for (const double before_rad : {0.0, 0.01, 0.02, 0.035, 0.05})
+  for (const double earlier_rad : {0.0, 0.01, 0.02, 0.035, 0.05})
     for (const int side : {1, 2, 3}) {
       effects::JointEarlyStop stop = std::get<effects::JointEarlyStop>(neutral.effect);
       const double most = effects::parameters(all.emplace_back(neutral).effect)[0].bounds.high;
-      if (side & 1) stop.from_min_rad = std::clamp(low - joints[j].min_rad + before_rad, 0.0, most);
+      if (side & 1)
+        stop.from_min_rad = std::clamp(low - joints[j].min_rad + earlier_rad, 0.0, most);
       if (side & 2)
-        stop.from_max_rad = std::clamp(joints[j].max_rad - high + before_rad, 0.0, most);
+        stop.from_max_rad = std::clamp(joints[j].max_rad - high + earlier_rad, 0.0, most);
       all.back().effect = stop;
     }
   return all;

@@ -1,4 +1,4 @@
-#include "sim/gap/starts.hpp"
+#include "sim/gap/initial_guesses.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ using sim::effects::JointEarlyStop;
 
 namespace {
 
-std::vector<sim::residuals::Episode> meeting_a_stop(double min_in_rad) {
+std::vector<sim::residuals::Episode> with_early_stop(double min_in_rad) {
   auto blind = blind_recording::nothing_hidden();
   blind.quirks.joints[0].min_in_rad = min_in_rad;
   return blind_recording::episodes(blind, 20);
@@ -20,15 +20,15 @@ std::vector<sim::residuals::Episode> meeting_a_stop(double min_in_rad) {
 
 }  // namespace
 
-TEST_CASE("a search for stops begins where recordings turned back, at one side or both") {
+TEST_CASE("initial guesses of a stop are the extreme angles of the recordings, one side or both") {
   const erp::Robot robot = blind_recording::hinge_rig();
   const auto recordings = blind_recording::episodes(blind_recording::nothing_hidden());
   double low = 10, high = -10;
   for (const auto& r : recordings)
     for (const double angle : r.joints[0].angle_rad)
       if (!std::isnan(angle)) low = std::min(low, angle), high = std::max(high, angle);
-  const auto all =
-      starts({"elbow", JointEarlyStop{}}, robot, {&recordings[0], &recordings[1], &recordings[2]});
+  const auto all = initial_guesses({"elbow", JointEarlyStop{}}, robot,
+                                   {&recordings[0], &recordings[1], &recordings[2]});
   REQUIRE(all.size() == 15);
   const erp::Joint joint = robot.joints()[0];
   const auto at = [&](std::size_t k) { return std::get<JointEarlyStop>(all[k].effect); };
@@ -39,14 +39,15 @@ TEST_CASE("a search for stops begins where recordings turned back, at one side o
   CHECK(at(2).from_min_rad == at(0).from_min_rad);
   CHECK(at(2).from_max_rad == at(1).from_max_rad);
   CHECK(at(5).from_min_rad > at(2).from_min_rad);
-  CHECK(
-      starts({"elbow", *sim::effects::neutral("joint_coulomb")}, robot, {&recordings[0]}).empty());
+  CHECK(initial_guesses({"elbow", *sim::effects::neutral("joint_coulomb")}, robot, {&recordings[0]})
+            .empty());
 }
 
-TEST_CASE("a stop's place is determined as far as it may move before it contradicts") {
+TEST_CASE(
+    "an early stop of 0.6 rad is identified within an interval narrower than 0.15 rad each way") {
   const double truth = 0.6;
   const erp::Robot robot = blind_recording::hinge_rig();
-  const auto recordings = meeting_a_stop(truth);
+  const auto recordings = with_early_stop(truth);
   const Estimator estimator(robot, recordings);
   const Uncertain uncertain{robot, constants_of(robot)};
   Point start;

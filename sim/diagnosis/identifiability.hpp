@@ -1,0 +1,16 @@
+#pragma once
+#include "sim/diagnosis/diagnose.hpp"
+#include "sim/diagnosis/evidence.hpp"
+#include "sim/diagnosis/observed.hpp"
+
+/// Whether the recordings identify what an answer reports.
+namespace sim::diagnosis {
+
+/// Verdict: not identifiable, if a value of a supported answer is not determined by the recordings.
+void require_determined(Diagnosis& d);
+/// Verdict: not identifiable, if the rows of a drive are too far apart to identify its friction (sampling.hpp).
+void require_sampling(const Trials& plain, Diagnosis& d);
+/// Warns of stages, and of the bus, for which the recordings hold too little data.
+void warn_unjudged(const Evidence& evidence, const Observed& observed, Diagnosis& d);
+
+}  // namespace sim::diagnosis
