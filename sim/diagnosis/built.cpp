@@ -146,7 +146,9 @@ bool ConstantEstimate::differs() const {
   return std::abs(value - nominal) > 3 / (2 * 1.96) * (interval.high - interval.low);
 }
 
-bool Built::explained() const { return !at_bound && std::ranges::none_of(left, &StageGap::open); }
+bool Built::explained() const {
+  return !at_bound && !unknown_law && std::ranges::none_of(left, &StageGap::open);
+}
 
 Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& plain,
                const std::vector<Named>& suggested) {
@@ -165,15 +167,11 @@ Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& 
   std::vector<Named> answer = effects_of(found);
   for (std::size_t n = 0; n < found.beyond.size(); ++n) answer.push_back(beyond(found, n));
   const double interaction = set_gains(evidence, plain, found, answer);
-  Built built{found.robot,
-              constants_of(found),
-              std::move(answer),
-              trials_of(evidence, found.robot),
-              {},
-              found.exact,
-              ends_at_bound(found.estimate),
+  Built built{found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot),
+              {},          found.exact,         found.unknown_law, ends_at_bound(found.estimate),
               interaction};
   built.left = left_by(evidence, plain, built.trials);
+  if (built.unknown_law) std::ranges::max_element(built.left, {}, &StageGap::excess)->open = true;
   return built;
 }
 

@@ -32,6 +32,7 @@ struct Built {
   Trials trials;                            ///< of `robot`
   std::vector<StageGap> left;               ///< on the recordings held out; open: not explained
   bool exact = false;      ///< constants are as described, but for zeros and the like
+  bool unknown_law = false;  ///< one that the library lacks explains with more evidence
   bool at_bound = false;   ///< a parameter of an effect ends at a bound
   double interaction = 0;  ///< of the causes of the answer (shares.hpp)
 

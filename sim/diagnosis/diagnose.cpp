@@ -114,6 +114,16 @@ struct Question {
   const Observed& observed;
 };
 
+void warn_of_unknown_law(const std::vector<StageGap>& left, Diagnosis& d) {
+  const auto stage = std::ranges::find_if(left, &StageGap::open);
+  if (stage == left.end()) return;
+  d.warnings.push_back(
+      fmt::format("only the {} of {} shows a gap: one law there that the library lacks is likelier "
+                  "than several "
+                  "constants that are far off and cancel at every other stage",
+                  effects::word(stage->stage), stage->on));
+}
+
 /// Takes the answer of sim/gap: effects and constants estimated together.
 void take(const Question& q, const Built& built, Selection selection, Diagnosis& d) {
   d.verdict = !d.judged_apart()   ? Verdict::not_identifiable
@@ -121,6 +131,7 @@ void take(const Question& q, const Built& built, Selection selection, Diagnosis&
                                   : Verdict::none_of_the_known;
   d.answer = built.answer, d.constants = built.constants, d.as_built = built.robot;
   d.interaction = built.interaction;
+  if (built.unknown_law) warn_of_unknown_law(built.left, d);
   put_first(d.answer, q.observed.sensors);
   add_bus(q.observed, d);
   if (built.explained() && !d.answer.empty())
@@ -182,6 +193,8 @@ void answer(const Question& q, Diagnosis& d) {
   if (built && agree(*built, selection)) {
     add_indistinguishable(selection.answer[0], built->answer[0]);
     built.reset();
+  } else if (built && built->unknown_law) {
+    if (selection.explained()) built.reset();  // by one effect
   } else if (built && !stands(evidence, *built)) {
     selection = select(evidence, q.known, d.stages);
     const bool leaves_less = open_in(built->left) < open_in(selection.left);

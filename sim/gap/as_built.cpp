@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -26,6 +27,13 @@ double evidence_cost(const AsBuilt& built) {
   return built.cost - of_constants.ldlt().vectorD().array().log().sum();
 }
 
+/// The one stage that keeps more than noise; of a drive, whose laws all act at one, none.
+std::optional<std::size_t> only_open_stage(const Evidence& evidence, const Found& found) {
+  const auto open = open_stages(found);
+  if (!evidence.nominal.drives.empty() || stages_kept(found) != 1) return std::nullopt;
+  return std::size_t(std::ranges::find(open, true) - open.begin());
+}
+
 /// The effect that was added last, and those that came near it.
 std::vector<Placed> hints_of(const Found& found) {
   std::vector<Placed> hints{found.train.point.effects.back()};
@@ -41,7 +49,9 @@ class AsDescribed {
         built_{.uncertain = uncertain_of(evidence.nominal, options().search.withhold, true),
                .exact = true},
         search_(evidence.train, evidence.held_out, built_.uncertain, options().search),
-        found_(search_.with({})) {}
+        found_(search_.with({})) {
+    if (const auto stage = only_open_stage(evidence_, found_)) describe_unknown_law(*stage);
+  }
   AsDescribed(const AsDescribed&) = delete;
 
   /// With one effect if any relieves it, and those that would explain most as `hints`.
@@ -67,9 +77,19 @@ class AsDescribed {
     return built;
   }
 
+  /// One law that the library lacks, at the only stage that shows a gap; none where several do.
+  std::optional<AsBuilt> unknown_law;
   std::vector<Placed> hints;
 
  private:
+  /// As if that stage were explained.
+  void describe_unknown_law(std::size_t stage) {
+    constexpr double price = 30;  // −2 log of the odds of such a law; chosen
+    unknown_law = answer();
+    unknown_law->unknown_law = true;
+    unknown_law->cost += price - misfit(found_.on_train, evidence_.train.residuals(), stage) -
+                         misfit(found_.held_out, evidence_.held_out, stage);
+  }
   const AsBuiltOptions& options() const { return evidence_.options; }
   void compare_suggested() {
     const auto& suggested = options().suggested;
@@ -88,7 +108,8 @@ class WithTolerances {
  public:
   explicit WithTolerances(const Evidence& evidence)
       : evidence_(evidence),
-        built_{.uncertain = uncertain_of(evidence.nominal, evidence.options.search.withhold, false)},
+        built_{.uncertain =
+                   uncertain_of(evidence.nominal, evidence.options.search.withhold, false)},
         search_(evidence.train, evidence.held_out, built_.uncertain, evidence.options.search),
         found_(settle(search_, search_.with({}), evidence_, built_)) {}
   WithTolerances(const WithTolerances&) = delete;
@@ -122,10 +143,9 @@ class WithTolerances {
   Found found_;
 };
 
-/// The one with more evidence. All constants are tried only where one effect on the robot as described leaves more
+/// The one of both with more evidence. All constants are tried only where one effect on the robot as described leaves more
 /// than noise; more effects on that only where the constants do not plainly explain.
-AsBuilt likelier(const Evidence& evidence) {
-  AsDescribed described(evidence);
+AsBuilt likelier(const Evidence& evidence, AsDescribed& described) {
   described.find_first();
   if (described.explains()) return described.answer();
   WithTolerances with(evidence);
@@ -135,6 +155,18 @@ AsBuilt likelier(const Evidence& evidence) {
   if (!one.keeps) return one;
   AsBuilt other = with.answer(described.hints);
   return evidence_cost(other) < evidence_cost(one) ? other : one;
+}
+
+/// Unless it is so many causes that one law that the library lacks has more evidence.
+AsBuilt likeliest(const Evidence& evidence) {
+  constexpr std::size_t few = 2;  // causes; chosen
+  AsDescribed described(evidence);
+  AsBuilt best = likelier(evidence, described);
+  const auto& unknown = described.unknown_law;
+  const std::size_t causes = best.beyond.size() + best.estimate.point.effects.size();
+  const bool is_unknown = unknown && !best.exact && !best.keeps && causes > few &&
+                          evidence_cost(*unknown) < evidence_cost(best);
+  return is_unknown ? *unknown : best;
 }
 
 }  // namespace
@@ -157,7 +189,7 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options) {
   const Estimator estimator(nominal, train, options.estimate);
   const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
-  AsBuilt built = likelier({nominal, estimator, judged, options});
+  AsBuilt built = likeliest({nominal, estimator, judged, options});
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;
 }

@@ -16,6 +16,9 @@ struct AsBuilt {
   std::vector<std::vector<Sized>> indistinguishable;  ///< of each effect: what could stand for it
   double cost = 0;                                    ///< search.hpp
   bool keeps = false;                                 ///< a stage keeps more than noise
+  /// One law that the library lacks, at the only stage with a gap, has more evidence than several constants and
+  /// effects: none is claimed, and `robot` is as described but for what is never certain.
+  bool unknown_law = false;
   bool exact = false;  ///< no constant differs from robot.xml but those that are never certain
 };
 

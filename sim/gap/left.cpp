@@ -39,13 +39,16 @@ Left left_by(const ResidualVector& residuals, const Left& base, const Eigen::Vec
   return {excess(residuals, z), base.raised};
 }
 
-double misfit(const Left& left, const ResidualVector& residuals) {
+double misfit(const Left& left, const ResidualVector& residuals, std::size_t stage) {
   constexpr double of_laws = 0.25, free_rise = 1.5;
+  return of_laws * residuals.independent()[stage] *
+         (std::log1p(std::max(0.0, left.excess[stage])) +
+          2 * std::log(std::max(1.0, left.raised[stage] / free_rise)));
+}
+
+double misfit(const Left& left, const ResidualVector& residuals) {
   double sum = 0;
-  for (std::size_t s = 0; s < left.excess.size(); ++s)
-    sum += of_laws * residuals.independent()[s] *
-           (std::log1p(std::max(0.0, left.excess[s])) +
-            2 * std::log(std::max(1.0, left.raised[s] / free_rise)));
+  for (std::size_t s = 0; s < left.excess.size(); ++s) sum += misfit(left, residuals, s);
   return sum;
 }
 

@@ -23,5 +23,7 @@ Left left_by(const ResidualVector& residuals, const Left& base, const Eigen::Vec
 /// The second term: a law that filters a signal until nothing can be seen above its noise explains
 /// nothing. 1.5: by as much a mass half as heavy again raises it; chosen. 1/4: as in estimate.hpp.
 double misfit(const Left& left, const ResidualVector& residuals);
+/// Of one stage.
+double misfit(const Left& left, const ResidualVector& residuals, std::size_t stage);
 
 }  // namespace sim::gap
