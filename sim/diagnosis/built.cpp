@@ -140,6 +140,11 @@ std::vector<StageGap> left_by(const Evidence& evidence, const Trials& plain, con
   return left;
 }
 
+/// The stage that keeps most.
+StageGap& largest(std::vector<StageGap>& left) {
+  return *std::ranges::max_element(left, {}, &StageGap::excess);
+}
+
 }  // namespace
 
 bool ConstantEstimate::differs() const {
@@ -167,11 +172,17 @@ Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& 
   std::vector<Named> answer = effects_of(found);
   for (std::size_t n = 0; n < found.beyond.size(); ++n) answer.push_back(beyond(found, n));
   const double interaction = set_gains(evidence, plain, found, answer);
-  Built built{found.robot, constants_of(found), std::move(answer), trials_of(evidence, found.robot),
-              {},          found.exact,         found.unknown_law, ends_at_bound(found.estimate),
-              interaction};
+  Built built{.robot = found.robot,
+              .constants = constants_of(found),
+              .answer = std::move(answer),
+              .trials = trials_of(evidence, found.robot),
+              .left = {},
+              .exact = found.exact,
+              .unknown_law = found.unknown_law,
+              .at_bound = ends_at_bound(found.estimate),
+              .interaction = interaction};
   built.left = left_by(evidence, plain, built.trials);
-  if (built.unknown_law) std::ranges::max_element(built.left, {}, &StageGap::excess)->open = true;
+  if (built.unknown_law) largest(built.left).open = true;
   return built;
 }
 

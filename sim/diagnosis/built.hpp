@@ -31,10 +31,10 @@ struct Built {
   std::vector<Named> answer;                ///< effects, then constants beyond their tolerances
   Trials trials;                            ///< of `robot`
   std::vector<StageGap> left;               ///< on the recordings held out; open: not explained
-  bool exact = false;      ///< constants are as described, but for zeros and the like
-  bool unknown_law = false;  ///< one that the library lacks explains with more evidence
-  bool at_bound = false;   ///< a parameter of an effect ends at a bound
-  double interaction = 0;  ///< of the causes of the answer (shares.hpp)
+  bool exact = false;        ///< constants are as described, but for zeros and the like
+  bool unknown_law = false;  ///< one law that the library lacks is likelier than any answer
+  bool at_bound = false;     ///< a parameter of an effect ends at a bound
+  double interaction = 0;    ///< of the causes of the answer (shares.hpp)
 
   bool explained() const;
 };

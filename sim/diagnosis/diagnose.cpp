@@ -114,10 +114,9 @@ struct Question {
   const Observed& observed;
 };
 
-/// Of several constants as an answer, why it is none.
+/// Why constants that would explain the gap are not the answer.
 void warn_of_unknown_law(const std::vector<StageGap>& left, Diagnosis& d) {
-  const auto stage = std::ranges::find_if(left, &StageGap::open);
-  if (stage == left.end()) return;
+  const auto stage = std::ranges::max_element(left, {}, &StageGap::excess);
   d.warnings.push_back(
       fmt::format("only the {} of {} shows a gap: one law there that the library lacks is likelier "
                   "than several constants that are far off and cancel at every other stage",

@@ -82,7 +82,7 @@ class AsDescribed {
   std::vector<Placed> hints;
 
  private:
-  /// As if that stage were explained.
+  /// That stage counts as explained.
   void describe_unknown_law(std::size_t stage) {
     constexpr double price = 30;  // −2 log of the odds of such a law; chosen
     unknown_law = answer();
@@ -143,7 +143,7 @@ class WithTolerances {
   Found found_;
 };
 
-/// The one of both with more evidence. All constants are tried only where one effect on the robot as described leaves more
+/// Of the two hypotheses the one with more evidence. All constants are tried only where one effect on the robot as described leaves more
 /// than noise; more effects on that only where the constants do not plainly explain.
 AsBuilt likelier(const Evidence& evidence, AsDescribed& described) {
   described.find_first();
@@ -157,7 +157,7 @@ AsBuilt likelier(const Evidence& evidence, AsDescribed& described) {
   return evidence_cost(other) < evidence_cost(one) ? other : one;
 }
 
-/// Unless it is so many causes that one law that the library lacks has more evidence.
+/// That, or a law that the library lacks, if the answer has several causes beside estimated constants and less evidence.
 AsBuilt likeliest(const Evidence& evidence) {
   constexpr std::size_t few = 2;  // causes; chosen
   AsDescribed described(evidence);
