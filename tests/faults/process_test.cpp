@@ -92,14 +92,22 @@ bool may_be_said(Bench& bench, const std::string& code, const std::string& subje
   });
 }
 
-/// When an ECU's last frame before then was on the bus; 0: none since the bench settled.
-std::int64_t last_spoke(Bench& bench, const std::string& name, std::int64_t before_ns) {
-  std::int64_t last_ns = 0;
+/// For how long an ECU said nothing, at the end of the time before `at_ns`: up to then, or up to a frame
+/// that came while the gateway was about to report. 0: it was not heard since the bench settled.
+std::int64_t silent_for(Bench& bench, const std::string& name, std::int64_t at_ns) {
+  constexpr auto reporting_ns = std::int64_t(Row::scheduling_ms) * ms;
+  std::int64_t last_ns = 0, longest_ns = 0;
+  const auto until = [&](std::int64_t next_ns) {
+    if (last_ns && next_ns > at_ns - reporting_ns)
+      longest_ns = std::max(longest_ns, std::min(next_ns, at_ns) - last_ns);
+    last_ns = next_ns;
+  };
   for (const auto& heard : bench.bus_ear().since(1))
-    if (!is_command(heard.frame) && heard.at_ns < before_ns &&
+    if (!is_command(heard.frame) && heard.at_ns < at_ns &&
         name == "ecu " + std::to_string(frame_ecu_of(&heard.frame)))
-      last_ns = heard.at_ns;
-  return last_ns;
+      until(heard.at_ns);
+  until(at_ns);
+  return longest_ns;
 }
 
 TEST_CASE("ECU silent") {
@@ -130,7 +138,7 @@ TEST_CASE("ECU silent") {
     }));
     const auto slanders = [&](const auto& said) {
       return said.code == "ecu_silent" && said.subject != name &&
-             last_spoke(bench, said.subject, said.at_ns) > said.at_ns - 9 * ms;
+             silent_for(bench, said.subject, said.at_ns) < 9 * ms;
     };
     safe.also("nobody is called silent who spoke", from,
               std::ranges::none_of(bench.events().since(from), slanders));
