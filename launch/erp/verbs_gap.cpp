@@ -20,8 +20,9 @@ void add_where(CLI::App& gap, Chosen& chosen) {
   auto* where = gap.add_subcommand(
       "where", "Which stages of the chain recordings contradict: motor, gearbox, tendon, joint");
   where->footer(
-      "Exit codes: 0 told, 5 too little moves to judge anything; 1 failed, 2 bad usage or input, "
-      "also columns that no law can do with.");
+      "Exit codes: 0 judged, with a gap or without; 5 too little moves to judge anything; 1 "
+      "failed, "
+      "2 bad usage or input, also columns from which no stage can be judged.");
   where->add_option("--robot", *robot, "robot.xml, the model")->required();
   where->add_option("--real", *recordings, "recordings of the robot, MCAP or CSV")->required();
   where->callback([=, &chosen] {
@@ -59,6 +60,9 @@ void add_gap_calibrate(CLI::App& gap, Chosen& chosen) {
   auto* calibrate = gap.add_subcommand(
       "calibrate",
       "All constants of a robot as built, from recordings: the robot.xml of this robot");
+  calibrate->footer(
+      "Exit codes: 0 estimated, also where stages keep more than noise; 1 failed, 2 bad usage or "
+      "input.");
   calibrate->add_option("--robot", o->robot, "robot.xml, the model")->required();
   calibrate->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")
       ->required();
@@ -75,8 +79,8 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
   auto* plan = gap.add_subcommand(
       "plan", "What to record next: the excitation that best splits what cannot be told apart");
   plan->footer(
-      "Exit codes: 0 written, 1 nothing to split or nothing safe, 5 no excitation would split "
-      "them.");
+      "Exit codes: 0 written; 1 nothing to distinguish, nothing safe, or failed; 2 bad usage or "
+      "input; 5 no excitation would distinguish them.");
   plan->add_option("--robot", o->robot, "robot.xml, the model")->required();
   plan->add_option("--diagnosis", o->diagnosis, "diagnosis.json of erp gap diagnose")->required();
   plan->add_option("--out", o->out, "folder for the graph to launch")->required();

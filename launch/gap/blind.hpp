@@ -32,8 +32,8 @@ struct BlindRunOptions {
 /// Diagnoses the cases that have no diagnosis yet; under mpirun each process its part of them.
 int blind_run(const BlindRunOptions& options, std::ostream& out, std::ostream& remarks);
 
-/// Opens the truth, checks its hash, prints rates and every failure. Returns 1 when the hash is
-/// another.
+/// Opens the truth, checks its hash, prints rates and every failure. Returns 0, or 5 if
+/// cases have no diagnosis. Throws std::invalid_argument if the hash differs.
 int blind_score(const std::string& folder, const std::string& truth, std::ostream& out);
 
 }  // namespace launch::gap

@@ -13,6 +13,7 @@
 #include "launch/gap/words.hpp"
 #include "launch/text/progress.hpp"
 #include "launch/text/text_files.hpp"
+#include "sim/gap/as_built.hpp"
 
 namespace launch::gap {
 namespace {
@@ -44,7 +45,7 @@ Sorted sort(const DiagnoseOptions& options) {
   for (const std::string& file : options.recordings) {
     if (std::ranges::any_of(sorted.files,
                             [&](const std::string& other) { return same_file(other, file); }))
-      throw std::invalid_argument(file + ": named twice; one recording is no repeat of itself");
+      throw std::invalid_argument(file + ": named twice; name each recording once");
     index(file);
   }
   for (const std::string& file : options.train) sorted.train.push_back(index(file));
@@ -60,8 +61,7 @@ Sorted sort(const DiagnoseOptions& options) {
   for (const std::size_t k : sorted.train)
     if (std::ranges::count(sorted.held_out, k))
       throw std::invalid_argument(sorted.files[k] +
-                                  ": both in --train and --held-out; to judge by what one was "
-                                  "fitted to says nothing");
+                                  ": both in --train and --held-out; name it in one of them");
   return sorted;
 }
 
@@ -91,15 +91,14 @@ void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
 void print_constants(const diagnosis::Diagnosis& d, std::ostream& out) {
   if (d.constants.empty()) return;
   std::size_t determined = 0;
-  for (const auto& c : d.constants) determined += c.determined > 0.75;
+  for (const auto& c : d.constants) determined += c.determined > sim::gap::well_determined;
   out << fmt::format(
-      "constants   the robot's constants differ from robot.xml: {} of {} determined by the "
-      "recordings, {} beyond their tolerances\n",
-      determined, d.constants.size(),
-      std::ranges::count_if(d.constants, &diagnosis::ConstantEstimate::beyond));
+      "constants   {} of {} determined by the recordings, {} beyond their tolerances\n", determined,
+      d.constants.size(), std::ranges::count_if(d.constants, &diagnosis::ConstantEstimate::beyond));
   for (const auto& c : d.constants)
     if (const bool differs = c.interval.low > c.nominal || c.interval.high < c.nominal;
-        differs && c.determined > 0.75 && std::abs(c.value - c.nominal) > 0.5 * c.tolerance)
+        differs && c.determined > sim::gap::well_determined &&
+        std::abs(c.value - c.nominal) > 0.5 * c.tolerance)
       out << fmt::format("            {} {}  {:.4g} ({:.4g} to {:.4g}), nominal {:.4g}\n", c.on,
                          c.name, c.value, c.interval.low, c.interval.high, c.nominal);
 }
@@ -121,9 +120,9 @@ void print_answer(const diagnosis::Diagnosis& d, std::ostream& out) {
     out << fmt::format("left over   {} of {}, {:.3g} times its noise", sim::effects::word(u.stage),
                        u.on, std::sqrt(1 + u.excess));
     if (u.shape && u.shape->constant > 0.1)
-      out << fmt::format("; {:.0f} % of it is always there", 100 * u.shape->constant);
+      out << fmt::format("; {:.0f} % of it is constant", 100 * u.shape->constant);
     if (u.shape && u.shape->explained - u.shape->constant > 0.1)
-      out << fmt::format("; {:.0f} % of it goes with the {}",
+      out << fmt::format("; {:.0f} % of it depends on the {}",
                          100 * (u.shape->explained - u.shape->constant), u.shape->variable);
     out << "\n";
   }
@@ -171,7 +170,7 @@ void print(const diagnosis::Diagnosis& d, const sim::rehearsal::FreeRun& free_ru
   out << "verdict     " << diagnosis::word(d.verdict);
   if (d.verdict == diagnosis::Verdict::no_gap && !d.not_judged.empty())
     out << ", in what could be judged";
-  if (!d.mend_first.empty()) out << ", of recordings that want mending first";
+  if (!d.mend_first.empty()) out << ", of recordings to be mended first";
   out << "\n";
 }
 

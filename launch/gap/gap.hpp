@@ -21,9 +21,9 @@ struct Reading {
 };
 /// Throws RecordingError, std::invalid_argument.
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings);
-/// What there is to say of it, a line each.
+/// Prints the corrections, a line each.
 void tell(const std::vector<std::string>& list, std::ostream& remarks);
-/// What a person should mend before anything else is believed.
+/// Prints the columns that look wrong; nothing else is reliable before they are mended.
 void tell_odd(const Reading& read, std::ostream& remarks);
 
 /// Throws std::invalid_argument of a type that the library has not.
@@ -44,7 +44,7 @@ struct DiagnoseOptions {
 };
 
 /// Prints where, which and how far, and writes diagnosis.json, report.html and robot.xml. Throws as
-/// gap_where. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
+/// `where`. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
 int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
 
 struct CalibrateOptions {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
@@ -202,6 +203,26 @@ void check_is_of(const erp::Robot& robot, const std::vector<Placed>& effects,
   }
 }
 
+/// Whether both have the same type, place and, to a thousandth, the same values.
+bool same(Placed a, Placed b) {
+  if (a.on != b.on || a.effect.index() != b.effect.index()) return false;
+  constexpr double rounded = 1e-3;  // diagnosis.json has fewer digits than robot.xml
+  return std::ranges::equal(sim::effects::parameters(a.effect), sim::effects::parameters(b.effect),
+                            [](const auto& p, const auto& q) {
+                              return std::abs(*p.value - *q.value) <= rounded * std::abs(*q.value);
+                            });
+}
+
+/// The robot that was diagnosed, if this one is the robot.xml of the diagnosis: without its answer.
+void remove_effects(erp::Robot& robot, const std::vector<Placed>& answer) {
+  const auto has = sim::effects::read_effects(robot);  // in the order of robot.effects
+  std::vector<erp::Effect> kept;
+  for (std::size_t k = 0; k < has.size(); ++k)
+    if (std::ranges::none_of(answer, [&](const Placed& a) { return same(has[k], a); }))
+      kept.push_back(robot.effects[k]);
+  robot.effects = std::move(kept);
+}
+
 }  // namespace
 
 int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
@@ -215,6 +236,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
                                 "\"; give the robot that was diagnosed");
   check_is_of(robot, suspects, options), check_is_of(robot, known, options);
   make_way(options.out);
+  remove_effects(robot, suspects), remove_effects(robot, known);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
     out << "nothing to plan for: the diagnosis names no effect that a motion could show (the bus "
@@ -223,8 +245,9 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   if (mend_first)
     remarks << options.diagnosis
-            << ": its recordings want mending first, see its warnings: what it names may not be of "
-               "the robot, nor what is planned by it\n";
+            << ": its recordings are to be mended first, see its warnings: its answer, and this "
+               "plan, may "
+               "be wrong\n";
   auto experiment = rehearsed(robot, suspects, options, remarks);
   const auto never = never_split(experiment, suspects);
   if (!experiment.chosen.reference.empty() && !never.empty()) {

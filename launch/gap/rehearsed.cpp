@@ -82,14 +82,11 @@ rehearsal::FreeRun run_freely(diagnosis::Diagnosis& d,
     if (auto run = rehearsals.of({answer.alternatives[k]}); run.all.after < much * best.all.after)
       best = std::move(run), nearest = k;
   if (nearest == answer.alternatives.size()) return best;
-  d.warnings.push_back(
-      fmt::format("{} on {} and {} on {} are alike by the residuals; let run freely, the simulator "
-                  "stays {:.3g} "
-                  "times what noise alone would do off with the former and {:.3g} with the latter, "
-                  "which is put "
-                  "first",
-                  answer.type, answer.on, answer.alternatives[nearest].type,
-                  answer.alternatives[nearest].on, first, best.all.after));
+  d.warnings.push_back(fmt::format(
+      "the residuals cannot tell {} on {} from {} on {}; the free run is off by {:.3g} times "
+      "the noise with the former and {:.3g} with the latter, which is put first",
+      answer.type, answer.on, answer.alternatives[nearest].type, answer.alternatives[nearest].on,
+      first, best.all.after));
   put_first(answer, nearest);
   return best;
 }

@@ -57,9 +57,8 @@ std::string parameters_of(const Named& n) {
 std::string mend_first(const Diagnosis& d) {
   if (d.mend_first.empty()) return "";
   std::string html =
-      "<div class=\"mend\">Mend these recordings first and ask again: until then nothing below is "
-      "of "
-      "the robot.\n<ul>\n";
+      "<div class=\"mend\">Mend these recordings first and diagnose again: until then nothing "
+      "below is reliable.\n<ul>\n";
   for (const std::string& odd : d.mend_first) html += "<li>" + escaped(odd) + "</li>\n";
   return html + "</ul></div>\n";
 }

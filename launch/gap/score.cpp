@@ -245,7 +245,7 @@ void print(const std::string& kind, const Score& score, std::ostream& out) {
     const double p = score.precision / score.answers, r = score.recall / score.answers;
     out << fmt::format("  {:<29} {:5.3f}\n", "F1", p + r > 0 ? 2 * p * r / (p + r) : 0);
   }
-  if (!score.failures.empty()) out << "  failures: hidden | said\n";
+  if (!score.failures.empty()) out << "  failures: hidden | reported\n";
   for (const std::string& failure : score.failures) out << "    " << failure << "\n";
 }
 

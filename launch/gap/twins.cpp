@@ -82,7 +82,7 @@ int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks)
                     fmt::format("{:.4f}", std::sqrt(1 - std::pow(twin.left / twin.shows, 2)))});
   for (const std::string& line : align(rows, {false, false, false, true, true, true}))
     out << line << "\n";
-  if (rows.size() == 1) out << "every effect that shows is told from every other\n";
+  if (rows.size() == 1) out << "every effect that shows can be told from every other\n";
   else
     out << "shows: what a hidden effect of that size changes in all residuals together, in "
            "standard "

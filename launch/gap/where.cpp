@@ -68,7 +68,7 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
   if (bus.there && !bus.told) unjudged.emplace_back("the bus");
   const bool some = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
   if (!unjudged.empty())
-    out << fmt::format("not judged, for want of signals or of windows in which they move: {}\n",
+    out << fmt::format("not judged, for lack of signals or of motion: {}\n",
                        fmt::join(unjudged, ", "));
   if (bus.late)
     out << fmt::format(
@@ -77,15 +77,14 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
         100 * diagnosis::late_share(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
   if (const double late_s = bus.voltage_late_s; late_s > 0)
     out << fmt::format(
-        "the bus is late: voltages act {:.3g} ms after their rows, or all sensors are reported so "
-        "late\n",
+        "the bus is late: voltages act {:.3g} ms after their rows, or all sensors lag by that "
+        "time\n",
         1e3 * late_s);
   if (!open.empty()) out << "the gap is in: " << open << "\n";
   else if (!some) out << "nothing could be judged; record some seconds in which everything moves\n";
-  else if (bus.late)
-    out << "no gap elsewhere: what was judged is left with the noise of its sensors\n";
-  else if (unjudged.empty()) out << "no gap: every stage is left with the noise of its sensors\n";
-  else out << "no gap in the others: they are left with the noise of their sensors\n";
+  else if (bus.late) out << "no gap elsewhere: the residuals of what was judged are noise\n";
+  else if (unjudged.empty()) out << "no gap: the residuals of every stage are noise\n";
+  else out << "no gap in the others: their residuals are noise\n";
   return some;
 }
 
@@ -129,10 +128,11 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
         recording::read_table(file, {.robot = robot.name, .sequences = true, .sent = true});
     read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
     if (soundness::nothing_changes(read.episodes.back()))
-      throw std::invalid_argument(fmt::format(
-          "{}: nothing changes in it: every signal of {} holds one value for {:.1f} s; record the robot "
-          "while it moves",
-          file, robot.name, double(table.rows()) * read.episodes.back().period_s));
+      throw std::invalid_argument(
+          fmt::format("{}: nothing changes in it: every signal of {} holds one value for {:.1f} s; "
+                      "record the robot "
+                      "while it moves",
+                      file, robot.name, double(table.rows()) * read.episodes.back().period_s));
     odd.add(file, soundness::odd_table(table, robot, file));
     odd.add(file, soundness::odd_units(read.episodes.back(), robot));
   }

@@ -20,8 +20,9 @@ std::string opened_doubt(const sim::diagnosis::Diagnosis& d) {
     const auto before = sim::diagnosis::find_stage(d.stages, u.stage, u.on);
     if (before != d.stages.end() && before->judged && !before->open)
       return fmt::format(
-          "with the answer the {} of {} leaves its floor, where it was: it may only look like the "
-          "cause; record other motions",
+          "the answer opens a gap at the {} of {}, which was at its noise: it may not be the "
+          "cause; "
+          "record other motions",
           sim::effects::word(u.stage), u.on);
   }
   return "";
@@ -35,8 +36,7 @@ std::string time_doubt(const std::vector<Named>& answer, const erp::Robot& robot
   for (const Named& n : answer) {
     if (n.type.ends_with("_low_pass"))
       return fmt::format(
-          "a reading that comes {:.3g} ms late looks much like this {} on {}: is its "
-          "column as old as the others?",
+          "a column delayed by {:.3g} ms would look like this {} on {}: check its times",
           1e3 * n.values[0], n.type, n.on);
     if (n.type == "motor_torque_constant")
       ++motors, low = std::min(low, n.values[0]), high = std::max(high, n.values[0]);
@@ -45,8 +45,9 @@ std::string time_doubt(const std::vector<Named>& answer, const erp::Robot& robot
   if (motors < 2 || motors < robot.actuators.size() || widest >= small ||
       high - low > alike * widest)
     return "";
-  return fmt::format("the same on every motor: a time_s that runs {:.2g} % too {} looks alike",
-                     100 * widest, high > 0 ? "fast" : "slowly");
+  return fmt::format(
+      "the same on every motor: time_s running {:.2g} % too {} would look the same; check it",
+      100 * widest, high > 0 ? "fast" : "slowly");
 }
 
 }  // namespace
@@ -106,21 +107,19 @@ std::string free_run_doubt(const sim::diagnosis::Diagnosis& d, const sim::diagno
     return c.before <= barely * c.floor
                ? ""
                : fmt::format(
-                     "no stage leaves its floor, but let run freely the model is {:.3g} times what "
-                     "noise alone would do off: something small adds up that these motions show "
-                     "too "
-                     "little of; record stronger and faster ones",
+                     "no stage has a gap, but the free run is off by {:.3g} times the noise: a "
+                     "small error "
+                     "adds up that these motions hardly show; record stronger and faster ones",
                      c.before);
   if (c.closed >= enough && c.after > rest * c.floor)
     return fmt::format(
-        "let run freely with them, the simulator stays {:.3g} times what noise alone would do off: "
-        "something small is left that these residuals show too little of; record other motions",
+        "the free run with them is still off by {:.3g} times the noise: a small error is left that "
+        "these motions hardly show; record others",
         c.after);
   if (std::max(c.before, c.after) <= plain * c.floor || c.closed >= enough) return "";
   return fmt::format(
-      "let run freely, the simulator is {:.3g} times what noise alone would do off, and {:.3g} "
-      "with "
-      "the effects: they may only look like the cause; record other motions",
+      "the free run is off by {:.3g} times the noise, with the effects by {:.3g}: they may not be "
+      "the cause; record other motions",
       c.before, c.after);
 }
 

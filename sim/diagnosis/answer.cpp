@@ -56,7 +56,7 @@ std::string undetermined(const Named& effect) {
     holds_neutral &= interval.low <= *p.value + beyond && *p.value - beyond <= interval.high;
     ++k;
   }
-  return holds_neutral ? "its interval holds the value of a robot without it" : "";
+  return holds_neutral ? "its interval contains the neutral value" : "";
 }
 
 void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names) {

@@ -48,9 +48,8 @@ bool told(std::span<const Ages> ages);
 
 /// What a recording needs for that, in words.
 inline constexpr const char* bus_is_told_by =
-    "references that change from tick to tick: in an MCAP recording by the set-points that were "
-    "sent "
-    "and followed, in CSV by mode, reference and voltage_V, in length or force mode";
+    "references that change from tick to tick: MCAP with the set-points sent and followed, or CSV "
+    "with mode, reference and voltage_V, in length or force mode";
 
 /// Of the commands that were followed, in the mean.
 double mean_age_s(std::span<const Ages> ages);

@@ -66,7 +66,7 @@ void add_observed(const Observed& observed, Diagnosis& d) {
 void add_unexplained_bus(const std::string& robot, const Observed& observed, Diagnosis& d) {
   d.warnings.push_back(fmt::format(
       "in {:.0f} % of the ticks an ECU did not follow the newest command, and no effect of the bus "
-      "explains how old those were that it followed",
+      "explains the age of those that it followed",
       100 * observed.late));
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
@@ -118,8 +118,8 @@ struct Question {
 void warn_of_unknown_law(const std::vector<StageGap>& left, Diagnosis& d) {
   const auto stage = std::ranges::max_element(left, {}, &StageGap::excess);
   d.warnings.push_back(
-      fmt::format("only the {} of {} shows a gap: one law there that the library lacks is likelier "
-                  "than several constants that are far off and cancel at every other stage",
+      fmt::format("only the {} of {} has a gap: an unknown law there is likelier than several "
+                  "wrong constants that cancel at every other stage",
                   effects::word(stage->stage), stage->on));
 }
 
@@ -157,7 +157,7 @@ void take(const Question& q, const Selection& selection, Diagnosis& d) {
     d.warnings.emplace_back(
         selection.gap
             ? "the recordings held out show too little of the gap to judge what causes it; "
-              "record more of what shows it, see where and when"
+              "record more motion that excites it, see where and when"
             : "nothing could be judged; record all signals, of motions of some seconds");
   d.where = explained ? where_of_answer(q.evidence, q.plain, d.stages, d.answer)
                       : where_of_stages(q.evidence, q.plain, d.stages, d.ranked);
@@ -221,8 +221,8 @@ Diagnosis diagnosed(Evidence& evidence, const Trials& plain, const CutRecordings
   if (evidence.sets.held_out.empty()) {
     evidence.sets.held_out = evidence.sets.train;
     d.warnings.emplace_back(
-        "one recording only, and it was not split: effects are chosen and judged on the same "
-        "data, which supports none; record another");
+        "one recording only, and it was not split: an effect cannot be judged on the data that it "
+        "was fitted to; record another");
   }
   d.train = names_of(evidence, evidence.sets.train);
   d.held_out = names_of(evidence, evidence.sets.held_out);

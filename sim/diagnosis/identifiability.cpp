@@ -30,9 +30,9 @@ void warn_unjudged(const Evidence& evidence, const Observed& observed, Diagnosis
   const bool without_bus = evidence.robot.drives.empty() && !observed.bus_told;
   if (without_bus) d.not_judged.emplace_back("the bus");
   if (d.not_judged.empty()) return;
-  d.warnings.push_back(fmt::format(
-      "not judged, the recordings say too little of it: {}{}", fmt::join(d.not_judged, ", "),
-      without_bus ? fmt::format("; the bus is told by {}", bus_is_told_by) : ""));
+  d.warnings.push_back(
+      fmt::format("not judged, for lack of data: {}{}", fmt::join(d.not_judged, ", "),
+                  without_bus ? fmt::format("; to judge the bus, record {}", bus_is_told_by) : ""));
 }
 
 }  // namespace sim::diagnosis

@@ -6,8 +6,8 @@
 
 namespace sim::gap {
 
-/// False: of a sensor that a drive has not; or a law that differs from a plainer one only in what no
-/// recording has, as friction that is not the same both ways of a shaft that turns one way.
+/// False if the drive lacks the sensor, or if no recording excites what distinguishes the law from a simpler one, such
+/// as both directions of a shaft for friction that differs with the direction.
 bool can_show(const effects::Placed& effect, const erp::Robot& robot,
               std::span<const residuals::Episode> recordings);
 

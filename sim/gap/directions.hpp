@@ -16,8 +16,8 @@ std::vector<effects::Placed> shaped(const effects::Placed& neutral,
 /// Indices of the parameters that are sizes, not shapes.
 std::vector<std::size_t> sizes_of(const effects::Placed& neutral);
 
-/// The same kind of size as an effect's first, as a sine beside a cosine; else a place, which means nothing
-/// without a size.
+/// Whether a parameter is an amplitude as the effect's first is (a sine beside a cosine); else it is a position, which
+/// means nothing without an amplitude.
 bool is_like(const effects::Parameter& p, const effects::Parameter& first);
 
 /// One shape, and what a nudge of each size changes in z.

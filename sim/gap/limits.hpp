@@ -11,8 +11,7 @@
 ///                         the current between rows is known
 ///   a converter at its end  the reading is a bound, not a value
 ///
-/// What is not known counts as not taken, so that no stage is judged by it; the stages that need it less
-/// still are.
+/// Such samples become NaN: stages that need them are not judged there, others still are.
 namespace sim::gap {
 
 /// Adds a line to `remarks` for each limit that a recording meets.

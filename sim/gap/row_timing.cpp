@@ -96,11 +96,12 @@ void undo(const RowTiming& timing, std::vector<residuals::Episode>& episodes,
   }
   remarks.push_back(
       timing.from_row()
-          ? "voltage, mode and reference hold from their row to the next, by the motors' law; "
-            "taken so"
-          : fmt::format("voltages act {:.3g} ms after the row that gives them, or all sensors are "
-                        "reported so late, by the motors' law; undone",
-                        1e3 * timing.delay_s()));
+          ? "voltage, mode and reference hold from their row to the next, by the motors' law: "
+            "shifted by one row"
+          : fmt::format(
+                "voltages act {:.3g} ms after the row that gives them, or all sensors lag by "
+                "that time, by the motors' law: undone",
+                1e3 * timing.delay_s()));
 }
 
 }  // namespace sim::gap

@@ -8,7 +8,7 @@
 /// What a row of a recording means: a voltage that holds from its row to the next, or a command that
 /// acts late, is seen in the motor's law and undone.
 ///
-///   V_k−s ≈ R i_k + K ω_k + L di/dt_k + c        s: rows by which the voltage column is early
+///   V_k−s ≈ R i_k + K ω_k + L di/dt_k + c        s: the voltage of a row acts s rows later
 ///
 /// R, K, L and c are free, so that no constant of the robot takes part. s = 0: a voltage holds until its
 /// row, as in this product's own recordings. s = 1: from its row. s > 1: it acts, or the sensors are

@@ -27,9 +27,10 @@ void take(AsBuilt& built, const Found& found);
 Found settle(const Search& search, Found found, const Evidence& evidence, AsBuilt& built);
 
 /// The answer itself, or one with effects and no constant far off if that costs less and they are no
-/// more causes; of twins the one constant.
+/// more causes; of equivalent answers the single constant.
 /// `hints`: effects that would explain most were all constants as described. Beside constants that have
 /// gone along to imitate it, an effect is no longer found.
-AsBuilt or_effect(const Evidence& evidence, AsBuilt built, const std::vector<effects::Placed>& hints);
+AsBuilt or_effect(const Evidence& evidence, AsBuilt built,
+                  const std::vector<effects::Placed>& hints);
 
 }  // namespace sim::gap

@@ -34,7 +34,7 @@ class Words {
                        : fmt::format("from {:.3g} s to {:.3g} s", double(dead.from) * e_.period_s,
                                      double(dead.until) * e_.period_s);
     return fmt::format(
-        "{} says {:.4g} {} while {} move{}: it looks dead: mend the sensor, or leave {} out",
+        "{} is {:.4g} {} while {} move{}: it looks dead: mend the sensor, or leave {} out",
         names({dead.column}), dead.value, when, names(dead.told_by),
         dead.told_by.size() == 1 ? "s" : "", dead.all_along ? "the column" : "those rows");
   }

@@ -11,25 +11,25 @@ out=erp_runs/gap_rows
 
 # name           robot      kind      cases  first seed  tolerance  signals left out
 rows="
-single           hinge_rig  single    300    310001      0
-null             hinge_rig  null      100    220001      0
-withheld         hinge_rig  withheld   60    330001      0
-outside          hinge_rig  outside    60    340001      0
-pair             hinge_rig  pair       60    250001      0
-arm              arm        single     60    260001      0
-no_tension       hinge_rig  single     60    270001      0          tension
-no_joint         hinge_rig  single     60    271001      0          joint
-no_current       hinge_rig  single     60    272001      0          current
-tolerance        hinge_rig  null       40    410001      0.03
-tolerance_single hinge_rig  single     40    420001      0.02
-tolerance_arm    arm        null       40    430001      0.03
-tolerance_leg    leg        null       40    440001      0.03
-many             hinge_rig  many       40    450001      0
-many_arm         arm        many       40    460001      0
-many_leg         leg        many       40    470001      0
-leg              leg        single     40    280001      0
-seven_dof        seven_dof  single     40    281001      0
-ecce4            ecce4      single     20    282001      0
+single           hinge_rig  single     60    371001      0
+null             hinge_rig  null      100    372001      0
+withheld         hinge_rig  withheld   30    373001      0
+outside          hinge_rig  outside    30    374001      0
+pair             hinge_rig  pair       30    375001      0
+tolerance        hinge_rig  null       40    376001      0.03
+tolerance_single hinge_rig  single     40    377001      0.02
+many             hinge_rig  many       40    378001      0
+leg              leg        single     20    381001      0
+tolerance_leg    leg        null       40    382001      0.03
+many_leg         leg        many       40    383001      0
+no_tension       hinge_rig  single     20    384001      0          tension
+no_current       hinge_rig  single     20    385001      0          current
+no_joint         hinge_rig  single     20    386001      0          joint
+arm              arm        single     20    391001      0
+tolerance_arm    arm        null       40    392001      0.03
+many_arm         arm        many       40    393001      0
+seven_dof        seven_dof  single     10    394001      0
+ecce4            ecce4      single      3    395001      0
 "
 
 run_row() {  # name robot kind cases seed tolerance without
@@ -40,7 +40,9 @@ run_row() {  # name robot kind cases seed tolerance without
   fi
   local freely=
   [[ $1 == tolerance* || $1 == many* ]] && freely=--free-run
+  local began=$SECONDS
   $erp gap blind run "$cases" ${freely:+$freely}
+  echo $((SECONDS - began)) >>"$out/$1.seconds"
   $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
   $erp --version >"$out/$1.version"
 }
@@ -53,7 +55,8 @@ tell() {  # every row that has a score, with what was missed, case by case
     [ -f "$out/$name.score" ] || continue
     echo
     echo "## $name"
-    echo "$cases cases of $robot, seeds from $seed, numbers off by $tolerance${without:+, without $without}; $(cat "$out/$name.version")."
+    echo "$cases cases of $robot, seeds from $seed, numbers off by $tolerance${without:+, without $without}; \
+$(awk '{s += $1} END {print s}' "$out/$name.seconds") s on $(nproc) cores; $(cat "$out/$name.version")."
     echo '```'
     cat "$out/$name.score"
     echo '```'

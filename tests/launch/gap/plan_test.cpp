@@ -20,14 +20,15 @@ struct Planned {
 /// What is planned after a diagnosis that could not tell two effects apart, of which it is sure
 /// beside `sure`.
 Planned plan(const fs::path& folder, const std::string& one, const std::string& other,
-             const std::string& sure = "") {
+             const std::string& sure = "",
+             const std::string& robot = rigs::config("hinge_rig/robot.xml")) {
   fs::create_directories(folder);
   std::ofstream(folder / "diagnosis.json")
       << R"({"robot": "hinge_rig", "verdict": "supported", "effects": [)" << one << ", " << other
       << (sure.empty() ? "" : ", ") << sure << R"(], "confusable": [)" << one << ", " << other
       << "]}";
   std::ostringstream out, remarks;
-  const int code = launch::gap::plan({.robot = rigs::config("hinge_rig/robot.xml"),
+  const int code = launch::gap::plan({.robot = robot,
                                       .diagnosis = (folder / "diagnosis.json").string(),
                                       .out = (folder / "next").string(),
                                       .seconds = 4,
@@ -86,6 +87,23 @@ TEST_CASE("what else is known of the robot is in it when the next motion is rehe
   REQUIRE(beside.code == 0);
   CHECK_THAT(beside.said, !Catch::Contains("motor_resistance"));  // not to be split
   CHECK(beside.said != alone.said);                               // but felt
+}
+
+TEST_CASE("planned on the robot.xml of the diagnosis, no effect acts twice") {
+  const Folder folder;
+  const auto coulomb = effect("gearbox_coulomb", "extra_Nm", 0.05),
+             viscous = effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02),
+             resistance = effect("motor_resistance", "relative", 0.3);
+  auto corrected = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+  corrected.effects = {{{}, "gearbox_coulomb", "flexor", {{{}, "extra_Nm", "0.050001"}}},
+                       {{}, "motor_resistance", "flexor", {{{}, "relative", "0.3"}}}};
+  fs::create_directories(folder.path);
+  const auto file = (folder.path / "robot.xml").string();
+  std::ofstream(file) << erp::write_robot(corrected);
+  const Planned described = plan(folder.path, coulomb, viscous, resistance);
+  const Planned found = plan(folder.path, coulomb, viscous, resistance, file);
+  REQUIRE(described.code == 0);
+  CHECK(found.said == described.said);
 }
 
 TEST_CASE("twins are split by no motion: which they are is said, and no graph is left") {
@@ -157,7 +175,7 @@ TEST_CASE("a plan is for the robot that was diagnosed, though another has places
 TEST_CASE("a plan without a diagnosis says which file it misses") {
   const Folder folder;
   std::ostringstream out, remarks;
-  CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("hinge_rig/robot.xml"),
+  CHECK_THROWS_WITH(launch::gap::plan({.robot = robot,
                                        .diagnosis = (folder.path / "diagnosis.json").string(),
                                        .out = folder.path.string()},
                                       out, remarks),

@@ -204,7 +204,7 @@ TEST_CASE("a drive's sign, unit and dead encoder are told by its inertia, in its
              Catch::Contains("z.position_m: 1000 times what z.control_V foretells"));
   REQUIRE(odd_by(0).size() == 1);
   CHECK_THAT(odd_by(0)[0],
-             Catch::Contains("z.position_m says 0 all the time while z.control_V moves"));
+             Catch::Contains("z.position_m is 0 all the time while z.control_V moves"));
   Episode undriven = slide_that_swings(robot);
   std::ranges::fill(undriven.actuators[0].current_A, 0.5);
   const auto odd = sim::soundness::odd_units(undriven, sim::residuals::as_chains(robot));

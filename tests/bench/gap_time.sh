@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# How long a diagnosis takes: robots of more and more actuators, an effect of the library hidden and a law that
+# it lacks, on one thread, on every core, and on two processes of MPI. 4 recordings of 25 s, without the free run.
+#   tests/bench/gap_time.sh                    every robot: hours
+#   tests/bench/gap_time.sh hinge_rig leg      these
+# Cases go to erp_runs/gap_time. Run it on an idle machine: only ratios within a line compare.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+erp=build/release/bin/erp
+out=${ERP_GAP_TIME:-erp_runs/gap_time}
+
+seconds_of() {  # command...: of its wall time; its output to the log
+  local began ended
+  began=$(date +%s%N)
+  "$@" >>"$out/log" 2>&1 || [ $? -ge 3 ]
+  ended=$(date +%s%N)
+  awk -v ns=$((ended - began)) 'BEGIN {printf "%.0f", 1e-9 * ns}'
+}
+
+measure() {  # robot kind
+  local robot=configs/$1/robot.xml cases=$out/$1_$2
+  [ -d "$cases" ] || $erp gap blind make --robot "$robot" --kind "$2" --cases 1 --seed 397001 \
+    --recordings 4 --seconds 25 --out "$cases" --truth "$cases.json" >>"$out/log" 2>&1
+  local diagnose=("$erp" gap diagnose --robot "$robot" --real "$cases"/case_0001/*.csv --no-free-run)
+  local one all two
+  one=$(seconds_of "${diagnose[@]}" --threads 1)
+  all=$(seconds_of "${diagnose[@]}")
+  two=$(seconds_of mpirun --allow-run-as-root --oversubscribe -n 2 "${diagnose[@]}" --threads 1)
+  echo "| $1 | $($erp model info "$robot" | awk '$1 == "actuators" {print $2}') | $2 | $one | $all | $two |"
+}
+
+mkdir -p "$out"
+echo "| robot | actuators | hidden | 1 thread, s | $(nproc) threads, s | 2 processes of 1 thread, s |"
+echo "|---|---|---|---|---|---|"
+for robot in ${*:-hinge_rig leg arm seven_dof ecce4}; do
+  for kind in single outside; do measure "$robot" "$kind"; done
+done
