@@ -40,9 +40,10 @@ void add_diagnose(CLI::App& gap, Chosen& chosen) {
       "5 not identifiable from these recordings; 1 failed, 2 bad usage or input.");
   diagnose->add_option("--robot", o->robot, "robot.xml, the model")->required();
   diagnose->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")->required();
-  diagnose->add_option("--train", o->train, "those to choose and fit effects by; default: most");
+  diagnose->add_option("--train", o->train,
+                       "of these, those to choose and fit effects by; default: most");
   diagnose->add_option("--held-out", o->held_out,
-                       "those to judge them by; default: a third, the farthest off");
+                       "of these, those to judge them by; default: a third, the farthest off");
   diagnose->add_option("--withhold", o->withhold, "types of effects to do without");
   diagnose->add_option("--out", o->out, "folder for report.html, diagnosis.json and robot.xml");
   diagnose->add_option("--threads", o->threads, "default: all cores")->check(above_zero());

@@ -18,9 +18,12 @@ namespace gap = sim::gap;
 void print_row(const gap::AsBuilt& built, std::size_t k, std::ostream& out) {
   const gap::Constant& c = built.uncertain.constants[k];
   const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
-  const char* remark = gap::determined(built, k) < gap::well_determined ? "not determined"
-                       : std::ranges::count(built.beyond, k) > 0        ? "beyond its tolerance"
-                                                                        : "";
+  constexpr double far = 3;  // tolerances, and standard errors; chosen
+  const bool beyond = std::ranges::count(built.beyond, k) > 0 ||
+                      (std::abs(x) > far && std::abs(x) > far * built.estimate.sigma(k));
+  const char* remark = beyond                                             ? "beyond its tolerance"
+                       : gap::determined(built, k) < gap::well_determined ? "not determined"
+                                                                          : "";
   out << fmt::format("{:<16} {:<28} {:>11.5g} {:>11.5g} {:>11.5g} … {:<11.5g} {}\n", c.on, c.name,
                      c.nominal, c.value(x), c.value(x - half), c.value(x + half), remark);
 }
@@ -47,6 +50,8 @@ int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& 
       std::filesystem::equivalent(options.out, options.robot))
     throw std::invalid_argument("--out " + options.out +
                                 ": is the model itself; name another file");
+  if (!options.out.empty())
+    check_folder(std::filesystem::absolute(options.out).parent_path().string());
   const Reading read = read_episodes(robot, options.recordings);
   const auto pool = sim::make_pool(options.threads);
   if (pool->first()) tell(read.mended, remarks), tell_odd(read, remarks);
@@ -62,6 +67,7 @@ int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& 
     stages.push_back(fmt::format("{} of {}", sim::effects::word(r.stage), r.on));
   print_left(stages, built, out);
   if (options.out.empty()) return 0;
+  make_folder(std::filesystem::absolute(options.out).parent_path().string());
   write_file(options.out, erp::write_robot(built.robot));
   out << "written     " << options.out << "\n";
   return 0;

@@ -239,8 +239,8 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   remove_effects(robot, suspects), remove_effects(robot, known);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
-    out << "nothing to plan for: the diagnosis names no effect that a motion could show (the bus "
-           "shows in none)\n";
+    out << "nothing to plan for: the diagnosis names no effect that a motion could show (constants "
+           "are estimated without a choice, and the bus shows in no motion)\n";
     return 1;
   }
   if (mend_first)

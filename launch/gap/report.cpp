@@ -35,7 +35,9 @@ std::string title_of(const Diagnosis& d) {
           "No gap{}: robot and model differ by no more than the noise of the sensors.",
           d.not_judged.empty() ? "" : " in what could be judged");
     case Verdict::supported:
-      return fmt::format("An explanation, supported by {}.", judged_on(d));
+      return fmt::format(
+          "An explanation, supported by {}{}.", judged_on(d),
+          d.answer.empty() ? ": constants within their tolerances, none far off" : "");
     case Verdict::none_of_the_known:
       return "There is a gap, and none of the known effects explains it.";
     case Verdict::not_identifiable:
@@ -115,8 +117,9 @@ std::string data(const Diagnosis& d) {
 std::string diagnosis_report(const Diagnosis& d, const sim::rehearsal::FreeRun& free_run,
                              const erp::Robot& robot) {
   return head + fmt::format("<h1>{}: where robot and model part</h1>\n", escaped(robot.name)) +
-         summary(d) + page::chains(d) + page::stages(d) + page::ranking(d) + page::moments(d) +
-         page::free_running(d, free_run) + page::unexplained(d) + data(d) + "</body></html>\n";
+         summary(d) + page::chains(d) + page::stages(d) + page::constants(d) + page::ranking(d) +
+         page::moments(d) + page::free_running(d, free_run) + page::unexplained(d) + data(d) +
+         "</body></html>\n";
 }
 
 }  // namespace launch::gap

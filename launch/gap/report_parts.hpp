@@ -14,6 +14,7 @@ std::string chains(const sim::diagnosis::Diagnosis& diagnosis);
 std::string moments(const sim::diagnosis::Diagnosis& diagnosis);  ///< the worst
 // which
 std::string ranking(const sim::diagnosis::Diagnosis& diagnosis);
+std::string constants(const sim::diagnosis::Diagnosis& diagnosis);
 std::string unexplained(const sim::diagnosis::Diagnosis& diagnosis);
 // how far
 std::string stages(const sim::diagnosis::Diagnosis& diagnosis);

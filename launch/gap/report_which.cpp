@@ -4,6 +4,8 @@
 
 #include "launch/gap/report_parts.hpp"
 #include "launch/gap/svg.hpp"
+#include "launch/gap/words.hpp"
+#include "sim/gap/as_built.hpp"
 
 namespace launch::gap {
 
@@ -37,6 +39,41 @@ std::string page::ranking(const Diagnosis& d) {
     html +=
         svg::matrix("Signatures: at which stage an effect shows, in percent", rows, columns, cells);
   return html;
+}
+
+namespace {
+
+std::string row_of(const ConstantEstimate& c) {
+  const char* remark = c.beyond                                   ? "beyond its tolerance"
+                       : c.determined < sim::gap::well_determined ? "not determined"
+                                                                  : "";
+  return fmt::format(
+      "<tr><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:.4g} … "
+      "{:.4g}</td><td>{}</td></tr>\n",
+      escaped(c.on), c.name, c.nominal, c.value, c.interval.low, c.interval.high, remark);
+}
+
+template <class Shown>
+std::string table_of(const std::vector<ConstantEstimate>& constants, Shown shown) {
+  std::string rows;
+  for (const ConstantEstimate& c : constants)
+    if (shown(c)) rows += row_of(c);
+  if (rows.empty()) return "<p>None.</p>\n";
+  return "<table><tr><th>on</th><th>constant</th><th>robot.xml</th><th>found</th><th>95 % "
+         "interval</th><th></th></tr>\n" +
+         rows + "</table>\n";
+}
+
+}  // namespace
+
+std::string page::constants(const Diagnosis& d) {
+  if (d.constants.empty()) return "";
+  return "<h2>Constants</h2>\n<p class=\"note\">All were estimated together, each with its "
+         "tolerance "
+         "as prior. Those that the recordings show to be off:</p>\n" +
+         table_of(d.constants, [](const auto& c) { return c.beyond || is_off(c); }) +
+         fmt::format("<details><summary>All {}</summary>\n", d.constants.size()) +
+         table_of(d.constants, [](const auto&) { return true; }) + "</details>\n";
 }
 
 std::string page::unexplained(const Diagnosis& d) {

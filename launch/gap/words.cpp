@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/gap/as_built.hpp"
+
 namespace launch::gap {
 namespace {
 
@@ -78,6 +80,13 @@ std::string taken_as_it_is(const Named& n) {
   for (const sim::effects::Parameter& p : sim::effects::parameters(effect))
     if (!p.fitted) text += fmt::format("; {} = {:g}, not fitted", p.name, *p.value);
   return text;
+}
+
+bool is_off(const sim::diagnosis::ConstantEstimate& c) {
+  constexpr double least = 0.5;  // tolerances; chosen
+  return c.determined > sim::gap::well_determined &&
+         (c.interval.low > c.nominal || c.interval.high < c.nominal) &&
+         std::abs(c.value - c.nominal) > least * c.tolerance;
 }
 
 std::string share_words(double share) {

@@ -19,6 +19,10 @@ std::string judged_on(const sim::diagnosis::Diagnosis& diagnosis);
 /// "; distance_m = 0.25, not fitted": what of an effect was taken as it is. Empty: nothing.
 std::string taken_as_it_is(const sim::diagnosis::Named& effect);
 
+/// Whether the recordings determine a constant, and show that it is not as described: its interval excludes the
+/// nominal value, which is more than half a tolerance away.
+bool is_off(const sim::diagnosis::ConstantEstimate& constant);
+
 /// "61 %" of a share that is not none.
 std::string share_words(double share);
 

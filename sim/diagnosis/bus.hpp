@@ -49,7 +49,9 @@ bool told(std::span<const Ages> ages);
 /// What a recording needs for that, in words.
 inline constexpr const char* bus_is_told_by =
     "references that change from tick to tick: MCAP with the set-points sent and followed, or CSV "
-    "with mode, reference and voltage_V, in length or force mode";
+    "with mode, reference as sent (erp log export writes those followed) and voltage_V, in length "
+    "or "
+    "force mode";
 
 /// Of the commands that were followed, in the mean.
 double mean_age_s(std::span<const Ages> ages);

@@ -175,7 +175,7 @@ TEST_CASE("a plan is for the robot that was diagnosed, though another has places
 TEST_CASE("a plan without a diagnosis says which file it misses") {
   const Folder folder;
   std::ostringstream out, remarks;
-  CHECK_THROWS_WITH(launch::gap::plan({.robot = robot,
+  CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("hinge_rig/robot.xml"),
                                        .diagnosis = (folder.path / "diagnosis.json").string(),
                                        .out = folder.path.string()},
                                       out, remarks),

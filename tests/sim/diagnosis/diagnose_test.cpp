@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "sim/diagnosis/selection.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
 
 using namespace sim::diagnosis;
@@ -105,6 +106,24 @@ TEST_CASE("two effects at once are both named") {
   }
   CHECK(shares == Approx(1).margin(0.03));  // together they close all
   CHECK(std::abs(d.interaction) < 0.1);     // and each its own stage
+}
+
+TEST_CASE("the same effect on every muscle of a leg is named on each") {
+  const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
+  auto blind = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
+  for (auto& chain : blind.quirks.chains) chain.dead_V = 0.4;
+  std::vector<std::string> withheld;  // to be quick
+  for (const auto& effect : sim::effects::library())
+    if (sim::effects::about(effect).stage != sim::effects::Stage::motor)
+      withheld.emplace_back(sim::effects::about(effect).type);
+  const Evidence evidence{leg, episodes(blind, 6, 3, leg), {.withhold = withheld}, {{0, 1}, {2}}};
+  const Trials trials(leg, evidence.episodes, evidence.options.seed);
+  const auto stages = where(trials, trials.bare(), evidence.sets.all(), evidence.where_options());
+  const Selection selection = select(evidence, trials, stages);
+  CHECK(selection.explained());
+  CHECK(selection.answer.size() == leg.actuators.size());
+  CHECK(selection.answer.size() > evidence.options.most_effects);  // of one after another
+  for (const Named& n : selection.answer) CHECK(n.type == "motor_dead_band");
 }
 
 TEST_CASE("the shares of two effects on one stage add up, and what they share is interaction") {
