@@ -32,9 +32,13 @@ std::string page::ranking(const Diagnosis& d) {
   }
   columns.push_back("like the first");
   std::string html =
-      "<h2>Which</h2>\n<p class=\"note\">First those that take away 30 % of what some stage shows; "
-      "of equals, the plainer.</p>\n" +
-      svg::bars("Share of the gap that each effect alone takes away, held out", bars, 1);
+      "<h2>Which</h2>\n<p class=\"note\">Effects on the robot as described, each alone; first "
+      "those that remove "
+      "30 % of some stage's excess, of equals the plainer." +
+      std::string(d.as_built && d.answer.empty()
+                      ? " None is part of the answer, which is constants."
+                      : "") +
+      "</p>\n" + svg::bars("Share of the gap that each effect alone takes away, held out", bars, 1);
   if (!rows.empty())
     html +=
         svg::matrix("Signatures: at which stage an effect shows, in percent", rows, columns, cells);

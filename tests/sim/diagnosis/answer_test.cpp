@@ -21,9 +21,9 @@ Named sized(const char* type, std::vector<double> values, double half) {
 
 TEST_CASE("an effect is undetermined if its intervals hold a robot without it") {
   CHECK(undetermined(sized("tendon_stiffness", {0.2}, 0.1)).empty());
-  CHECK_THAT(undetermined(sized("tendon_stiffness", {0.2}, 0.3)), Catch::Contains("without it"));
+  CHECK_THAT(undetermined(sized("tendon_stiffness", {0.2}, 0.3)), Catch::Contains("neutral value"));
   CHECK(undetermined(sized("motor_cogging", {0.002, 0}, 0.001)).empty());  // one phase alone
-  CHECK_THAT(undetermined(sized("motor_cogging", {0.002, 0}, 0.003)), Catch::Contains("without it"));
+  CHECK_THAT(undetermined(sized("motor_cogging", {0.002, 0}, 0.003)), Catch::Contains("neutral value"));
 }
 
 TEST_CASE("an effect whose value is at a bound is undetermined") {
@@ -32,5 +32,5 @@ TEST_CASE("an effect whose value is at a bound is undetermined") {
   n.values[0] = n.bounds[0].high;
   CHECK_THAT(undetermined(n), Catch::Contains("at its bound"));
   n.values[0] = 0, n.intervals[0] = {0, 1e-6};  // a bound that is neutral: holds neutral
-  CHECK_THAT(undetermined(n), Catch::Contains("without it"));
+  CHECK_THAT(undetermined(n), Catch::Contains("neutral value"));
 }
