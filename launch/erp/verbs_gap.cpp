@@ -89,6 +89,9 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
       ->check(CLI::Range(2.0, 600.0));
   plan->add_option("--candidates", o->candidates, "that are rehearsed; default: 24")
       ->check(above_zero());
+  plan->add_option("--margin", o->to_stop_rad,
+                   "rad, that hinges keep from their stops; default: 0.05")
+      ->check(CLI::Range(0.0, 3.0));
   plan->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
   plan->add_option("--seed", o->seed, "of the candidates");
   plan->callback([=, &chosen] { chosen = [=] { return gap::plan(*o, std::cout, std::cerr); }; });

@@ -79,6 +79,7 @@ struct PlanOptions {
   double seconds = 20;
   int candidates = 24, threads = 2;
   std::uint64_t seed = 1;
+  double to_stop_rad = 0.05;  ///< hinges stay farther from their stops
 };
 
 /// Searches the excitation that best splits what a diagnosis could not tell apart, and writes it as

@@ -183,7 +183,8 @@ rehearsal::Experiment rehearsed(const erp::Robot& robot, const std::vector<Place
   rehearsal::ExperimentOptions how{.seconds = options.seconds,
                                    .candidates = options.candidates,
                                    .threads = options.threads,
-                                   .seed = options.seed};
+                                   .seed = options.seed,
+                                   .to_stop_rad = options.to_stop_rad};
   how.progress = [&](double share) {
     const std::lock_guard lock(telling_mutex);
     progress.tell("rehearsals", share);
@@ -261,7 +262,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   print(experiment, robot, suspects, out);
   if (experiment.chosen.reference.empty()) {
-    out << "no candidate is safe; try other seeds with --seed\n";
+    out << "no candidate is safe; try others with --seed or --candidates, or a smaller --margin\n";
     return 1;
   }
   const auto& best = experiment.candidates.front();

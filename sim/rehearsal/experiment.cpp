@@ -63,6 +63,8 @@ std::string danger(const Extremes& e, const ExperimentOptions& options) {
   if (e.of_max_tension > options.of_max_tension)
     return fmt::format("{} comes to {:.0f} % of its limit", e.tightest, 100 * e.of_max_tension);
   if (e.to_stop_rad <= 0) return e.nearest + " meets its stop";
+  if (e.to_stop_rad <= options.to_stop_rad)
+    return fmt::format("{} comes within {:.3f} rad of its stop", e.nearest, e.to_stop_rad);
   return "";
 }
 

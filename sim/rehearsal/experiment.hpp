@@ -24,8 +24,8 @@ struct ExperimentOptions {
   double seconds = 20;
   int candidates = 24, threads = 2;
   std::uint64_t seed = 1;
-  double of_max_tension =
-      0.85;  ///< tensions stay below this share of the actuators' limits; chosen
+  double of_max_tension = 0.85;  ///< tensions stay below this share of their limits; chosen
+  double to_stop_rad = 0.05;     ///< hinges stay farther from their stops; chosen
   std::function<void(double)> progress = {};  ///< 0 … 1
 };
 

@@ -23,7 +23,8 @@ TEST_CASE("an effect is undetermined if its intervals hold a robot without it") 
   CHECK(undetermined(sized("tendon_stiffness", {0.2}, 0.1)).empty());
   CHECK_THAT(undetermined(sized("tendon_stiffness", {0.2}, 0.3)), Catch::Contains("neutral value"));
   CHECK(undetermined(sized("motor_cogging", {0.002, 0}, 0.001)).empty());  // one phase alone
-  CHECK_THAT(undetermined(sized("motor_cogging", {0.002, 0}, 0.003)), Catch::Contains("neutral value"));
+  CHECK_THAT(undetermined(sized("motor_cogging", {0.002, 0}, 0.003)),
+             Catch::Contains("neutral value"));
 }
 
 TEST_CASE("an effect whose value is at a bound is undetermined") {

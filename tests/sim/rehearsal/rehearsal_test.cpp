@@ -181,3 +181,17 @@ TEST_CASE("what would overload an actuator is not chosen") {
   CHECK(none.chosen.reference.empty());
   CHECK_THAT(none.candidates[0].unsafe, Catch::Contains("of its limit"));
 }
+
+TEST_CASE("what comes nearer to a stop than the margin is not chosen") {
+  const erp::Robot robot = blind_recording::hinge_rig();
+  const auto farthest = [&](double margin_rad) {
+    return next_experiment(robot, {placed("gearbox_coulomb", "flexor", 0.03)},
+                           {.seconds = 5, .candidates = 4, .to_stop_rad = margin_rad});
+  };
+  const Experiment none = farthest(2);  // more than half of the elbow's range
+  CHECK(none.chosen.reference.empty());
+  CHECK_THAT(none.candidates[0].unsafe, Catch::Contains("elbow comes within"));
+  const Experiment some = farthest(0.05);
+  REQUIRE_FALSE(some.chosen.reference.empty());
+  CHECK(some.candidates.front().extremes.to_stop_rad > 0.05);
+}
