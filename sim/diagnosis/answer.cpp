@@ -59,6 +59,14 @@ std::string undetermined(const Named& effect) {
   return holds_neutral ? "its interval contains the neutral value" : "";
 }
 
+bool is_at_bound(const Named& effect) {
+  effects::AnyEffect neutral = *effects::neutral(effect.type);
+  std::size_t k = 0;
+  for (const effects::Parameter& p : effects::parameters(neutral))
+    if (p.fitted && is_at_bound(p, effect.values[k++])) return true;
+  return false;
+}
+
 void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names) {
   constexpr double rate = 0.05;
   std::vector<std::pair<double, std::size_t>> doubts;

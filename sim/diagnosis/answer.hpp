@@ -40,6 +40,9 @@ Named named(const BusFit& fit);
 /// is at a bound that is not neutral; empty: they are.
 std::string undetermined(const Named& effect);
 
+/// Whether a fitted value is at a bound that is not neutral: there a law is the limit of a simpler one.
+bool is_at_bound(const Named& effect);
+
 /// Benjamini and Hochberg 1995, at 5 %: what is left of `supported`.
 void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names);
 

@@ -238,6 +238,7 @@ Diagnosis diagnosed(Evidence& evidence, const Trials& plain, const CutRecordings
   const Question question{evidence, known, plain, coarse ? *coarse : plain, observed};
   warn_unjudged(evidence, observed, d);
   answer(question, d);
+  drop_alternatives_at_bounds(d.answer);
   require_determined(d);
   require_sampling(plain, d);
   return d;

@@ -6,6 +6,11 @@
 
 namespace sim::diagnosis {
 
+void drop_alternatives_at_bounds(std::vector<Named>& answer) {
+  for (Named& n : answer)
+    std::erase_if(n.alternatives, [](const Named& other) { return is_at_bound(other); });
+}
+
 void require_determined(Diagnosis& d) {
   if (d.verdict != Verdict::supported) return;
   for (const Named& n : d.answer) {

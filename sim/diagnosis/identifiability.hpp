@@ -6,6 +6,8 @@
 /// Whether the recordings identify what an answer reports.
 namespace sim::diagnosis {
 
+/// Drops the alternatives of an answer with a value at a bound: the answer itself could not be supported so.
+void drop_alternatives_at_bounds(std::vector<Named>& answer);
 /// Verdict: not identifiable, if a value of a supported answer is not determined by the recordings.
 void require_determined(Diagnosis& d);
 /// Verdict: not identifiable, if the rows of a drive are too far apart to identify its friction (sampling.hpp).

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "sim/diagnosis/identifiability.hpp"
+
 using namespace sim::diagnosis;
 namespace effects = sim::effects;
 
@@ -25,6 +27,17 @@ TEST_CASE("an effect is undetermined if its intervals hold a robot without it") 
   CHECK(undetermined(sized("motor_cogging", {0.002, 0}, 0.001)).empty());  // one phase alone
   CHECK_THAT(undetermined(sized("motor_cogging", {0.002, 0}, 0.003)),
              Catch::Contains("neutral value"));
+}
+
+TEST_CASE("an alternative with a value at a bound is dropped, a size or a shape") {
+  std::vector<Named> answer{sized("gearbox_coulomb", {0.03}, 0.001)};
+  Named ageing = sized("gearbox_ageing_stiction", {0.03, 1, 0.1}, 0.001);
+  answer[0].alternatives = {ageing, ageing, ageing};
+  answer[0].alternatives[0].values[1] = ageing.bounds[1].low;  // sticks at once
+  answer[0].alternatives[2].values[0] = ageing.bounds[0].high;
+  drop_alternatives_at_bounds(answer);
+  REQUIRE(answer[0].alternatives.size() == 1);
+  CHECK(answer[0].alternatives[0].values == ageing.values);
 }
 
 TEST_CASE("an effect whose value is at a bound is undetermined") {
