@@ -55,7 +55,7 @@ std::vector<std::string> blamed(const std::string& sentence) {
     const std::string one = rest.substr(0, end);
     rest = end == rest.npos ? "" : rest.substr(end + 5);
     if (one.find("contradict each other") == one.npos)
-      all.push_back(one.substr(0, std::min(one.find(": "), one.find(" says "))));
+      all.push_back(one.substr(0, std::min(one.find(": "), one.find(" is "))));
   }
   return all;
 }

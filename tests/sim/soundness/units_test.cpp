@@ -138,9 +138,9 @@ TEST_CASE("a column that stands still while the others move is told, and blames 
     return odd_after([&](Episode& e) { std::ranges::fill(signal_of(e), value); });
   };
   check_says(stuck([](Episode& e) -> Signal& { return e.actuators[0].voltage_V; }, 0),
-             "flexor.voltage_V says 0 all the time", "looks dead");
+             "flexor.voltage_V is 0 all the time", "looks dead");
   check_says(stuck([](Episode& e) -> Signal& { return e.actuators[0].current_A; }, 0.1),
-             "flexor.current_A says 0.1 all the time", "looks dead");
+             "flexor.current_A is 0.1 all the time", "looks dead");
   check_says(stuck([](Episode& e) -> Signal& { return e.actuators[1].shaft_rad; }, 0),
              "extensor.shaft_rad", "looks dead");
   check_says(stuck([](Episode& e) -> Signal& { return e.actuators[1].tension_N; }, 0),
@@ -162,7 +162,7 @@ TEST_CASE("a converter that says the same all along is told by less than one tha
     std::fill(current.begin() + std::ptrdiff_t(from), current.end(), 0.1);
     return sim::soundness::odd_units(e, hinge_rig());
   };
-  check_says(slowly(0), "flexor.current_A says 0.1 all the time", "looks dead");
+  check_says(slowly(0), "flexor.current_A is 0.1 all the time", "looks dead");
   CHECK(slowly(500).empty());
 }
 
@@ -209,6 +209,6 @@ TEST_CASE("a drive's sign, unit and dead encoder are told by its inertia, in its
   std::ranges::fill(undriven.actuators[0].current_A, 0.5);
   const auto odd = sim::soundness::odd_units(undriven, sim::residuals::as_chains(robot));
   REQUIRE(odd.size() == 1);
-  CHECK_THAT(odd[0], Catch::Contains("z.control_V says") &&
+  CHECK_THAT(odd[0], Catch::Contains("z.control_V is") &&
                          Catch::Contains("all the time while z.position_m moves"));
 }
