@@ -198,7 +198,7 @@ void answer(const Question& q, Diagnosis& d) {
   } else if (built && built->unknown_law) {
     if (selection.explained()) built.reset();  // by one effect
   } else if (built && !stands(evidence, *built)) {
-    selection = select(evidence, q.known, d.stages);
+    selection = select(evidence, q.known, d.stages, Depth::full, std::move(selection));
     const bool leaves_less = open_in(built->left) < open_in(selection.left);
     if (selection.explained() || !leaves_less || !apart(built->answer)) built.reset();
   }

@@ -52,28 +52,36 @@ Together one_after_another(const Evidence& evidence, const Trials& trials, const
   return together;
 }
 
+/// Every effect alone, the best first.
+void rank_alone(const Evidence& evidence, const Trials& trials, const std::vector<StageGap>& stages,
+                Selection& s) {
+  auto which = evidence.which_options(0.1, 0.5);
+  which.stages = s.left;
+  s.alone = rank(trials, trials.bare(), which);
+  for (const Ranked& r : s.alone) s.ranked.push_back(named(r, evidence.options.least_gain));
+  sign(evidence, trials, stages, s.alone, s.ranked);
+  control_discoveries(s.alone, s.ranked);
+}
+
 }  // namespace
 
 bool Selection::explained() const { return !answer.empty() && !any_open(left); }
 
 Selection select(const Evidence& evidence, const Trials& trials,
-                 const std::vector<StageGap>& stages, Depth depth) {
+                 const std::vector<StageGap>& stages, Depth depth, Selection earlier) {
   Selection s{
       .left = where(trials, trials.bare(), evidence.sets.held_out, evidence.where_options()),
       .trial = trials.bare()};
-  auto which = evidence.which_options(0.1, 0.5);
-  which.stages = s.left;
   s.gap = any_open(where(trials, trials.bare(), evidence.sets.all(), evidence.where_options()));
   if (!s.gap) return s;
-  auto first = rank(trials, trials.bare(), which);
-  for (const Ranked& r : first) s.ranked.push_back(named(r, evidence.options.least_gain));
-  sign(evidence, trials, stages, first, s.ranked);
-  control_discoveries(first, s.ranked);
+  if (earlier.alone.empty()) rank_alone(evidence, trials, stages, s);
+  else s.alone = std::move(earlier.alone), s.ranked = std::move(earlier.ranked);
+  const std::vector<Ranked>& first = s.alone;
   s.shown = any_open(s.left);
   if (first.empty() || !s.shown) return s;
   if (!s.ranked[0].supported) {
-    const Trial alone = trials.with(trials.bare(), first[0].fit.placed, evidence.sets.held_out);
-    s.shown = any_open(left_open(evidence, trials, alone, evidence.options.alone));
+    const Trial best = trials.with(trials.bare(), first[0].fit.placed, evidence.sets.held_out);
+    s.shown = any_open(left_open(evidence, trials, best, evidence.options.alone));
     return s;
   }
   s.answer = {s.ranked[0]};
@@ -92,12 +100,12 @@ Selection select(const Evidence& evidence, const Trials& trials,
     if (auto batch = of_one_batch(evidence, trials, first))
       if (left_open || (batch->size() <= together.size() && batch->square() < together.square()))
         together = std::move(*batch);
-  const bool alone = together.size() == 1;
-  if (!alone || !s.answer[0].is(together.chosen()[0])) settle(evidence, trials, together, s);
+  const bool one = together.size() == 1;
+  if (!one || !s.answer[0].is(together.chosen()[0])) settle(evidence, trials, together, s);
   else
     for (const std::size_t k : confusable(first, evidence.which_options()))
       s.answer[0].alternatives.push_back(s.ranked[k]);
-  s.left = together.left(alone ? options.alone : options.together);
+  s.left = together.left(one ? options.alone : options.together);
   s.trial = together.trial();
   return s;
 }

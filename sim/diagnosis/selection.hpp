@@ -11,9 +11,10 @@
 namespace sim::diagnosis {
 
 struct Selection {
-  bool gap = false;  ///< some stage leaves its floor
+  bool gap = false;   ///< some stage leaves its floor
   bool shown = true;  ///< false: the recordings held out show too little of it to judge an effect
   std::vector<Named> ranked = {};   ///< one by one, best first
+  std::vector<Ranked> alone = {};   ///< the same with their fits
   std::vector<Named> answer = {};   ///< effects that together close the gap, the most telling first
   std::vector<StageGap> left = {};  ///< after the answer, held-out recordings
   Trial trial = {};                 ///< with the answer
@@ -25,9 +26,11 @@ struct Selection {
 /// How far to look: for the best alone, or for others on top of it too.
 enum class Depth { best_alone, full };
 
-/// `stages`: those that signatures are told by.
+/// `stages`: those that signatures are told by. `earlier`: of the same robot, whose ranking is taken; without one every
+/// effect is fitted.
 Selection select(const Evidence& evidence, const Trials& trials,
-                 const std::vector<StageGap>& stages, Depth depth = Depth::full);
+                 const std::vector<StageGap>& stages, Depth depth = Depth::full,
+                 Selection earlier = {});
 
 /// Whether a stage that keeps `excess` of what `was` there is not explained. `follows`: how much of the
 /// rest follows one variable, asked only where that decides.
