@@ -20,9 +20,8 @@ void add_where(CLI::App& gap, Chosen& chosen) {
   auto* where = gap.add_subcommand(
       "where", "Which stages of the chain recordings contradict: motor, gearbox, tendon, joint");
   where->footer(
-      "Exit codes: 0 judged, with a gap or without; 5 too little moves to judge anything; 1 "
-      "failed, "
-      "2 bad usage or input, also columns from which no stage can be judged.");
+      "Exit codes: 0 judged, with a gap or without; 5 too little moves to judge anything;\n"
+      "1 failed, 2 bad usage or input, also columns from which no stage can be judged.");
   where->add_option("--robot", *robot, "robot.xml, the model")->required();
   where->add_option("--real", *recordings, "recordings of the robot, MCAP or CSV")->required();
   where->callback([=, &chosen] {
@@ -41,9 +40,9 @@ void add_diagnose(CLI::App& gap, Chosen& chosen) {
   diagnose->add_option("--robot", o->robot, "robot.xml, the model")->required();
   diagnose->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")->required();
   diagnose->add_option("--train", o->train,
-                       "of these, those to choose and fit effects by; default: most");
+                       "recordings to choose and fit effects by; default: most of --real");
   diagnose->add_option("--held-out", o->held_out,
-                       "of these, those to judge them by; default: a third, the farthest off");
+                       "recordings to judge them by; default: a third of --real, the farthest off");
   diagnose->add_option("--withhold", o->withhold, "types of effects to do without");
   diagnose->add_option("--out", o->out, "folder for report.html, diagnosis.json and robot.xml");
   diagnose->add_option("--threads", o->threads, "default: all cores")->check(above_zero());
@@ -62,8 +61,8 @@ void add_gap_calibrate(CLI::App& gap, Chosen& chosen) {
       "calibrate",
       "All constants of a robot as built, from recordings: the robot.xml of this robot");
   calibrate->footer(
-      "Exit codes: 0 estimated, also where stages keep more than noise; 1 failed, 2 bad usage or "
-      "input.");
+      "Exit codes: 0 estimated, also where stages keep more than noise;\n"
+      "1 failed, 2 bad usage or input.");
   calibrate->add_option("--robot", o->robot, "robot.xml, the model")->required();
   calibrate->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")
       ->required();

@@ -21,7 +21,7 @@ std::string described(const diagnosis::Named& n) {
   return text + taken_as_it_is(n);
 }
 
-/// Places that share a part of the gap alike could not be told apart.
+/// Places with equal shares cannot be distinguished.
 void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
   for (std::size_t k = 0; k < d.where.size();) {
     const double share = d.where[k].share;
@@ -89,7 +89,7 @@ void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
 
-/// The bus shows in no residual, so no motion splits what is on it.
+/// The bus changes no residual, so no motion distinguishes its effects.
 bool plannable(const diagnosis::Named& n) {
   return sim::effects::about(n.placed.effect).stage != sim::effects::Stage::bus;
 }

@@ -246,9 +246,8 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   }
   if (mend_first)
     remarks << options.diagnosis
-            << ": its recordings are to be mended first, see its warnings: its answer, and this "
-               "plan, may "
-               "be wrong\n";
+            << ": its recordings are to be mended first, see its warnings: its answer and "
+               "this plan may be wrong\n";
   auto experiment = rehearsed(robot, suspects, options, remarks);
   const auto never = never_split(experiment, suspects);
   if (!experiment.chosen.reference.empty() && !never.empty()) {

@@ -26,8 +26,8 @@ struct Selection {
 /// How far to look: for the best alone, or for others on top of it too.
 enum class Depth { best_alone, full };
 
-/// `stages`: those that signatures are told by. `earlier`: of the same robot, whose ranking is taken; without one every
-/// effect is fitted.
+/// `stages`: the columns of the signatures. `earlier`: a selection on the same robot, whose ranking is reused; without
+/// one every effect is fitted.
 Selection select(const Evidence& evidence, const Trials& trials,
                  const std::vector<StageGap>& stages, Depth depth = Depth::full,
                  Selection earlier = {});

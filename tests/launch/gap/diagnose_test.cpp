@@ -153,6 +153,46 @@ TEST_CASE("what wants mending is said once for all recordings, and no experiment
                             !Catch::Contains("next        erp gap plan"));
 }
 
+TEST_CASE("no gap beside a column to be mended is not identifiable, not \"no gap\"") {
+  const Folder folder;
+  std::vector<std::string> files;
+  for (std::uint64_t seed : {1, 2}) {
+    const std::string file = folder.recorded(std::to_string(seed) + ".csv", false, seed);
+    auto table = recording::read_table(file);
+    for (auto& column : table.columns)
+      if (column.name == "flexor.current_A")
+        for (double& x : column.values) x *= 1000;
+    std::ofstream out(file);
+    recording::write_csv(table, out);
+    files.push_back(file);
+  }
+  const Told told = diagnosed(folder, {.recordings = files, .free_run = false});
+  INFO(told.text);
+  CHECK(told.code == 5);
+  CHECK_THAT(told.text,
+             Catch::Contains("verdict     not_identifiable") && Catch::Contains("mend first  "));
+}
+
+TEST_CASE("the page lists the constants of a robot as built, those that are off first") {
+  sim::diagnosis::Diagnosis d;
+  d.verdict = sim::diagnosis::Verdict::supported;
+  const erp::Robot robot = erp::read_robot(robot_file);
+  CHECK_THAT(launch::gap::diagnosis_report(d, {}, robot), !Catch::Contains("<h2>Constants</h2>"));
+  sim::diagnosis::ConstantEstimate off{.name = "resistance_ohm", .on = "flexor"};
+  off.nominal = 0.5, off.tolerance = 0.01, off.value = 0.52, off.interval = {0.515, 0.525};
+  off.determined = 0.9;
+  auto open = off;
+  open.name = "mass_kg", open.determined = 0.1;
+  d.constants = {open, off}, d.as_built = robot;
+  const std::string page = launch::gap::diagnosis_report(d, {}, robot);
+  const auto all = page.find("All 2");
+  REQUIRE(all != page.npos);
+  CHECK(page.find("resistance_ohm") < all);
+  CHECK(page.find("mass_kg") > all);
+  CHECK_THAT(page, Catch::Contains("constants within their tolerances, none far off") &&
+                       Catch::Contains("0.515 … 0.525") && Catch::Contains("not determined"));
+}
+
 TEST_CASE("a folder that cannot be made is refused first; a diagnosis that fails leaves none") {
   const Folder folder;
   const auto one = folder.recorded("one.csv", false, 1);
