@@ -92,25 +92,23 @@ void World::read() {
   }
 }
 
-/// Of this instant; a step gives those over the step.
+double World::tension_now_N(std::size_t k) {
+  const Chain& chain = chains_[k];
+  if (chain.rope) return chain.rope->tension_N();
+  if (chain.snapped) return 0;
+  const double rate = length_rate_m_per_s(chain.shape, poses(), twists());
+  const double speed = chain.state.speed_rad_per_s;
+  if (chain.effects.empty())
+    return chain.tendon.tension_N(chain.shape.length_m, rate, chain.state.shaft_rad, speed);
+  const Line line = line_of(k, 0);
+  if (line.stretch_m <= 0) return 0;
+  const double stretching_m_per_s = line.path_slope * rate + chain.wound.slope * speed;
+  return std::max(0.0, chain.tendon.spring.force_N(line.stretch_m) + line.pull.value +
+                           chain.tendon.damping_N_s_per_m * stretching_m_per_s);
+}
+
 void World::read_tensions() {
-  for (std::size_t k = 0; k < chains_.size(); ++k) {
-    const Chain& chain = chains_[k];
-    const double rate = length_rate_m_per_s(chain.shape, poses(), twists());
-    readings_[k].tension_N = chain.tendon.tension_N(
-        chain.shape.length_m, rate, chain.state.shaft_rad, chain.state.speed_rad_per_s);
-    if (!chain.effects.empty()) {
-      const Line line = line_of(k, 0);
-      const double damper =
-          chain.tendon.damping_N_s_per_m *
-          (line.path_slope * rate + chain.wound.slope * chain.state.speed_rad_per_s);
-      readings_[k].tension_N = line.stretch_m > 0
-                                   ? std::max(0.0, chain.tendon.spring.force_N(line.stretch_m) +
-                                                       line.pull.value + damper)
-                                   : 0.0;
-    }
-    if (chain.rope) readings_[k].tension_N = chain.rope->tension_N();
-  }
+  for (std::size_t k = 0; k < chains_.size(); ++k) readings_[k].tension_N = tension_now_N(k);
 }
 
 void World::pull(std::size_t k, double dt_s) {
@@ -193,6 +191,7 @@ void World::step(std::span<const double> voltage_V, double dt_s) {
     turn_motor(k, voltage_V[k], tension_N, dt_s);
   }
   move(dt_s);
+  read_tensions();
 }
 
 void World::step_pulled(std::span<const double> tension_N, double dt_s) {

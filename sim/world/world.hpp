@@ -50,7 +50,7 @@ struct WorldOptions {
 };
 
 struct ActuatorReading {
-  double tension_N = 0;  ///< over the last step
+  double tension_N = 0;  ///< of the tendon, at this instant as all others
   double length_m = 0;   ///< of the tendon's path
   double current_A = 0, speed_rad_per_s = 0, shaft_rad = 0;
   double line_m = 0;  ///< change since the start; negative: wound up
@@ -68,7 +68,7 @@ struct WorldState {
   double time_s = 0, time_rest_s = 0;  ///< the rest: what adding up has rounded away
   std::vector<JointReading> joints;
   std::vector<MotorState> motors;
-  std::vector<double> tension_N;                                  ///< over the last step
+  std::vector<double> tension_N;
   std::vector<std::array<double, max_path_elements>> around_rad;  ///< how far round its pulleys
   std::vector<RopeState> ropes;                                   ///< of the tendons that are ropes
   std::vector<effects::Memory> effects;                           ///< what they remember
@@ -154,6 +154,7 @@ class World {
   Chain make_chain(const erp::Actuator& actuator) const;
   void make_solver();
   void read();
+  double tension_now_N(std::size_t chain);
   void read_tensions();
   void find_forces(double dt_s, bool springs);
   void move(double dt_s);

@@ -53,6 +53,28 @@ TEST_CASE("the rig stands at its pretension, unpowered, by the friction of its g
   CHECK(world.actuators()[0].shaft_rad == 0.0);
 }
 
+TEST_CASE("a tension is of the same instant as the shaft, the joint and their speeds") {
+  World world(hinge_rig());
+  const erp::Actuator flexor = world.robot().actuators[0];
+  const double r = flexor.spindle.radius_m, start_m = world.actuators()[0].length_m;
+  const auto law_N = [&] {
+    const sim::ActuatorReading& a = world.actuators()[0];
+    const sim::JointReading& elbow = world.joints()[0];
+    const double stretch_m = a.length_m - start_m + r * a.shaft_rad;
+    const double rate = -0.025 * elbow.velocity_rad_per_s[0] + r * a.speed_rad_per_s;
+    return 5 + flexor.tendon.stiffness_N_per_m * stretch_m + flexor.tendon.damping_N_s_per_m * rate;
+  };
+  double worst_N = 0;
+  for (int k = 0; k < 1000; ++k) {
+    world.step(std::vector<double>{4 + 3 * std::sin(0.02 * k), 0}, 1e-3);
+    worst_N = std::max(worst_N, std::abs(world.actuators()[0].tension_N - law_N()));
+  }
+  CHECK(worst_N < 1e-3);
+  world.snap(0);
+  world.step(std::vector<double>(2, 0.0), 1e-3);
+  CHECK(world.actuators()[0].tension_N == 0);
+}
+
 TEST_CASE("winding up the flexor flexes the elbow") {
   World world(hinge_rig());
   const std::vector<double> voltage{3, -3};
