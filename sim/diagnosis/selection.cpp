@@ -27,7 +27,7 @@ std::vector<Named> alternatives(const Evidence& evidence, const Trials& trials,
   return all;
 }
 
-/// Several effects: each with its share of what they close together.
+/// Several effects: each with its share of what they close together; where they explain, with what could stand for it.
 void settle(const Evidence& evidence, const Trials& trials, const Together& together,
             Selection& selection) {
   const Shares part = shares(evidence, trials, together.chosen());
@@ -37,7 +37,8 @@ void settle(const Evidence& evidence, const Trials& trials, const Together& toge
     Ranked r{together.fits()[k], {}, {}, part.share[k], part.interval[k], 0};
     selection.answer.push_back(named(r, 0));
     selection.answer.back().supported = part.lost[k].low > 0;
-    selection.answer.back().alternatives = alternatives(evidence, trials, together, k);
+    if (selection.explained())
+      selection.answer.back().alternatives = alternatives(evidence, trials, together, k);
   }
   std::ranges::stable_sort(selection.answer, std::greater(), &Named::gain);
 }
@@ -101,11 +102,11 @@ Selection select(const Evidence& evidence, const Trials& trials,
       if (left_open || (batch->size() <= together.size() && batch->square() < together.square()))
         together = std::move(*batch);
   const bool one = together.size() == 1;
+  s.left = together.left(one ? options.alone : options.together);
   if (!one || !s.answer[0].is(together.chosen()[0])) settle(evidence, trials, together, s);
   else
     for (const std::size_t k : confusable(first, evidence.which_options()))
       s.answer[0].alternatives.push_back(s.ranked[k]);
-  s.left = together.left(one ? options.alone : options.together);
   s.trial = together.trial();
   return s;
 }
