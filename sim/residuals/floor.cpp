@@ -47,7 +47,7 @@ void requantise(Signal& signal, double noise_rms, double step, Noise& noise) {
   }
 }
 
-/// Sampled half a period late: by an amplifier, or by a simulator's step.
+/// Sampled half a period late, as by an amplifier that smooths.
 void delay(Signal& signal) {
   constexpr double late = 0.5;
   const Signal said = signal;

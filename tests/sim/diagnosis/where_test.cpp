@@ -31,7 +31,8 @@ TEST_CASE("the floor that the sensors' specification gives is what is left witho
     INFO(effects::word(gap.stage) << " " << gap.on << ": rms " << gap.rms << " " << gap.unit
                                   << ", floor " << gap.floor);
     CHECK(gap.rms < 1.35 * gap.floor);
-    CHECK(gap.rms > 0.7 * gap.floor);
+    // the floor of a tendon allows for a tension half a period late, which these are not
+    CHECK(gap.rms > (gap.stage == effects::Stage::tendon ? 0.4 : 0.7) * gap.floor);
     CHECK_FALSE(gap.open);
   }
 }
