@@ -216,4 +216,6 @@ TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored
                             Catch::Contains("90 % of the free run          100.0 %"));
   const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
   CHECK_FALSE(d["constants"].empty());
+  CHECK_FALSE(d["where"].empty());
+  CHECK(d["answer"].empty());
 }

@@ -101,6 +101,23 @@ TEST_CASE(
   CHECK_THAT(again, !Catch::Contains("beyond its tolerance"));
 }
 
+TEST_CASE(
+    "a folder that cannot be made is refused before the recordings are read; one that can is "
+    "made") {
+  const Folder folder;
+  std::ofstream(folder.path / "file") << "no folder";
+  std::ostringstream out, remarks;
+  const auto run = [&](const fs::path& to, const std::string& recording) {
+    launch::gap::CalibrateOptions options{.robot = rigs::config("hinge_rig/robot.xml")};
+    options.out = to, options.recordings = {recording};
+    launch::gap::calibrate(options, out, remarks);
+  };
+  CHECK_THROWS_WITH(run(folder.path / "file" / "built.xml", folder.path / "no_such.csv"),
+                    Catch::Contains("file") && !Catch::Contains("no_such.csv"));
+  run(folder.path / "new" / "built.xml", folder.recorded());
+  CHECK(fs::exists(folder.path / "new" / "built.xml"));
+}
+
 TEST_CASE("a tolerance of no number is refused before the recordings are read") {
   const Folder folder;
   CHECK_THROWS_WITH(
