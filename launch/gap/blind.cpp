@@ -138,6 +138,8 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   const erp::Robot robot = erp::read_robot(options.robot);
   const auto kind = sim::blind::kind_of(options.kind);
   check(options, robot);
+  if (const fs::path folder = fs::path(options.truth).parent_path(); !folder.empty())
+    make_folder(folder);
   make_folder(options.out);
   write_file(options.out + "/robot.xml", erp::write_robot(robot));
   const auto count = static_cast<std::size_t>(options.cases);

@@ -21,6 +21,8 @@ struct Reading {
 };
 /// Throws RecordingError, std::invalid_argument.
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings);
+/// Whether any is long enough to judge something by; prints what to record if not.
+bool can_judge(const std::vector<sim::residuals::Episode>& episodes, std::ostream& out);
 /// Prints the corrections, a line each.
 void tell(const std::vector<std::string>& list, std::ostream& remarks);
 /// Prints the columns that look wrong; nothing else is reliable before they are mended.
@@ -56,7 +58,7 @@ struct CalibrateOptions {
 
 /// Estimates all constants of a robot together and prints a row for each: nominal, found, 95 % interval;
 /// writes the robot.xml of this robot. Throws as where; std::invalid_argument for a robot of drives.
-/// Returns 0.
+/// Returns 0; 5: nothing could be judged.
 int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& remarks);
 
 struct TwinsOptions {

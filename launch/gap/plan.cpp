@@ -236,6 +236,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
                                 options.robot + " is \"" + robot.name +
                                 "\"; give the robot that was diagnosed");
   check_is_of(robot, suspects, options), check_is_of(robot, known, options);
+  check_folder(options.out);
   make_way(options.out);
   remove_effects(robot, suspects), remove_effects(robot, known);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));

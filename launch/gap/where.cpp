@@ -4,26 +4,15 @@
 
 #include <algorithm>
 #include <ostream>
-#include <stdexcept>
 
 #include "sim/diagnosis/bus.hpp"
 #include "sim/diagnosis/where.hpp"
-#include "sim/gap/constants.hpp"
-#include "sim/gap/limits.hpp"
-#include "sim/gap/row_timing.hpp"
-#include "sim/gap/spoilt_rows.hpp"
-#include "sim/residuals/common_signals.hpp"
-#include "sim/residuals/drives.hpp"
-#include "sim/soundness/dead_columns.hpp"
-#include "sim/soundness/odd_table.hpp"
-#include "sim/soundness/units.hpp"
 
 namespace launch::gap {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
 namespace residuals = sim::residuals;
-namespace soundness = sim::soundness;
 
 void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
   const std::string share = !gap.open           ? "-"
@@ -44,7 +33,8 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
 struct Bus {
   std::vector<diagnosis::Ages> ages;
   bool there, told, late;
-  double voltage_late_s;  ///< row_timing.hpp
+  bool explained = false;  ///< late as an effect of the bus has it
+  double voltage_late_s;   ///< row_timing.hpp
 };
 
 Bus look_at_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& episodes) {
@@ -53,6 +43,8 @@ Bus look_at_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& 
   bus.there = robot.drives.empty(), bus.told = bus.there && diagnosis::told(bus.ages);
   bus.voltage_late_s = episodes.empty() ? 0 : episodes[0].voltage_late_s;
   bus.late = bus.told && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
+  const auto fits = diagnosis::fit_bus(bus.ages, bus.ages, robot, {});
+  bus.explained = !fits.empty() && fits[0].supported;
   return bus;
 }
 
@@ -70,7 +62,14 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
   if (!unjudged.empty())
     out << fmt::format("not judged, for lack of signals or of motion: {}\n",
                        fmt::join(unjudged, ", "));
-  if (bus.late)
+  if (bus.late && !bus.explained)
+    out << fmt::format(
+        "in {:.0f} % of the ticks with a new command the ECUs followed an older one by their law, "
+        "and "
+        "no effect of the bus explains how old: a wrong tension or shaft column would look the "
+        "same\n",
+        100 * diagnosis::late_share(bus.ages));
+  else if (bus.late)
     out << fmt::format(
         "the bus is late: in {:.0f} % of the ticks with a new command the ECUs followed "
         "an older one, {:.3g} ms old in the mean\n",
@@ -88,69 +87,7 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
   return some;
 }
 
-/// What several recordings share is said once.
-class Remarks {
- public:
-  void add(const std::string& file, const std::vector<std::string>& of_file) {
-    for (const std::string& remark : of_file) {
-      const std::string what = remark.substr(file.size());  // each begins with its recording
-      const auto said = std::ranges::find(all_, what, &Remark::what);
-      if (said == all_.end()) all_.push_back({file, what});
-      else said->files += ", " + file;
-    }
-  }
-  std::vector<std::string> take() const {
-    std::vector<std::string> lines;
-    for (const Remark& remark : all_) lines.push_back(remark.files + remark.what);
-    return lines;
-  }
-
- private:
-  struct Remark {
-    std::string files, what;
-  };
-  std::vector<Remark> all_;
-};
-
 }  // namespace
-
-erp::Robot read_chains(const std::string& robot_file) {
-  erp::Robot robot = residuals::as_chains(erp::read_robot(robot_file));
-  sim::gap::constants_of(robot);  // throws if a tolerance matches no number
-  return robot;
-}
-
-Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings) {
-  Reading read;
-  Remarks odd;
-  for (const std::string& file : recordings) {
-    const auto table =
-        recording::read_table(file, {.robot = robot.name, .sequences = true, .sent = true});
-    read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
-    if (soundness::nothing_changes(read.episodes.back()))
-      throw std::invalid_argument(
-          fmt::format("{}: nothing changes in it: every signal of {} holds one value for {:.1f} s; "
-                      "record the robot "
-                      "while it moves",
-                      file, robot.name, double(table.rows()) * read.episodes.back().period_s));
-    odd.add(file, soundness::odd_table(table, robot, file));
-    odd.add(file, soundness::odd_units(read.episodes.back(), robot));
-  }
-  read.odd = odd.take();
-  residuals::keep_common(read.episodes, robot, read.mended);
-  sim::gap::mend_spoilt_rows(read.episodes, read.mended);
-  sim::gap::undo(sim::gap::row_timing(read.episodes), read.episodes, read.mended);
-  sim::gap::apply_limits(robot, read.episodes, read.mended);
-  return read;
-}
-
-void tell(const std::vector<std::string>& list, std::ostream& remarks) {
-  for (const std::string& remark : list) remarks << remark << "\n";
-}
-
-void tell_odd(const Reading& read, std::ostream& remarks) {
-  for (const std::string& odd : read.odd) remarks << "mend first  " << odd << "\n";
-}
 
 int where(const std::string& robot_file, const std::vector<std::string>& recordings,
           std::ostream& out, std::ostream& remarks) {

@@ -30,26 +30,46 @@ std::string opened_doubt(const sim::diagnosis::Diagnosis& d) {
   return "";
 }
 
-/// What a time column that is wrong, or a column behind the others, would look like.
-std::string time_doubt(const std::vector<Named>& answer, const erp::Robot& robot) {
-  constexpr double small = 0.02, alike = 0.2;  // chosen
-  double low = small, high = -small;
-  std::size_t motors = 0;
-  for (const Named& n : answer) {
-    if (n.type.ends_with("_low_pass"))
+/// A low-pass of a sensor in the answer, or among what could stand for it.
+std::string late_column_doubt(const Named& n) {
+  if (n.type.ends_with("_low_pass"))
+    return fmt::format(
+        "a column delayed by {:.3g} ms would look like this {} on {}: check its times",
+        1e3 * n.values[0], n.type, n.on);
+  for (const Named& other : n.alternatives)
+    if (other.type.ends_with("_low_pass"))
       return fmt::format(
-          "a column delayed by {:.3g} ms would look like this {} on {}: check its times",
-          1e3 * n.values[0], n.type, n.on);
-    if (n.type == "motor_torque_constant")
-      ++motors, low = std::min(low, n.values[0]), high = std::max(high, n.values[0]);
-  }
+          "a column of {} that is some ms behind the others would look like this {}: "
+          "check its times",
+          other.on, n.type);
+  return "";
+}
+
+/// How much the torque and back-EMF constants of the motors are off, by the answer or as constants.
+std::vector<double> magnets_off(const sim::diagnosis::Diagnosis& d) {
+  std::vector<double> off;
+  for (const Named& n : d.answer)
+    if (n.type == "motor_torque_constant") off.push_back(n.values[0]);
+  if (off.empty())
+    for (const auto& c : d.constants)
+      if (c.name == "torque_Nm_per_A" && c.differs()) off.push_back(c.value / c.nominal - 1);
+  return off;
+}
+
+/// What columns would look like this answer: one behind the others, a time or voltages that are scaled.
+std::string column_doubt(const sim::diagnosis::Diagnosis& d, const erp::Robot& robot) {
+  for (const Named& n : d.answer)
+    if (const std::string doubt = late_column_doubt(n); !doubt.empty()) return doubt;
+  constexpr double alike = 0.2;  // chosen
+  const std::vector<double> off = magnets_off(d);
+  if (off.size() < 2 || off.size() < robot.actuators.size()) return "";
+  const auto [low, high] = std::ranges::minmax(off);
   const double widest = std::max(std::abs(low), std::abs(high));
-  if (motors < 2 || motors < robot.actuators.size() || widest >= small ||
-      high - low > alike * widest)
-    return "";
+  if (high - low > alike * widest) return "";
   return fmt::format(
-      "the same on every motor: time_s running {:.2g} % too {} would look the same; check it",
-      100 * widest, high > 0 ? "fast" : "slowly");
+      "the same on every motor: time_s running {:.2g} % too {}, or voltages recorded that much too "
+      "{}, would look the same; check both",
+      100 * widest, high > 0 ? "fast" : "slowly", high > 0 ? "high" : "low");
 }
 
 }  // namespace
@@ -137,7 +157,7 @@ std::vector<std::string> doubts(const sim::diagnosis::Diagnosis& d,
   std::vector<std::string> all{free_run_doubt(d, free_run)};
   if (d.verdict == sim::diagnosis::Verdict::supported)
     for (std::string& doubt :
-         std::vector{opened_doubt(d), zero_doubt(d.answer, robot), time_doubt(d.answer, robot)})
+         std::vector{opened_doubt(d), zero_doubt(d.answer, robot), column_doubt(d, robot)})
       all.push_back(std::move(doubt));
   std::erase(all, "");
   return all;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include "sim/diagnosis/selection.hpp"
 #include "sim/diagnosis/shape.hpp"
@@ -32,6 +34,29 @@ std::vector<ConstantEstimate> constants_of(const gap::AsBuilt& built) {
                    gap::determined(built, k),
                    std::ranges::count(built.beyond, k) > 0});
   }
+  return all;
+}
+
+/// Parts of the robot whose constants are off, largest first: Σ z² that a part's deviations make alone, z linear in
+/// them, and its share of the sum over all parts.
+std::vector<Located> where_off(const gap::AsBuilt& built) {
+  constexpr double least = 0.02;  // of the sum, to be listed; chosen
+  std::map<std::pair<effects::Stage, std::string>, Eigen::VectorXd> change;
+  for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) {
+    const gap::Constant& c = built.uncertain.constants[k];
+    const Eigen::VectorXd by =
+        built.estimate.jacobian.col(Eigen::Index(k)) * built.estimate.point.x[k];
+    Eigen::VectorXd& sum = change[{c.stage, c.on}];
+    if (sum.size() == 0) sum = by;
+    else sum += by;
+  }
+  double whole = 0;
+  for (const auto& [part, z] : change) whole += z.squaredNorm();
+  std::vector<Located> all;
+  for (const auto& [part, z] : change)
+    if (const double share = z.squaredNorm() / whole; share > least)
+      all.push_back({part.first, part.second, share, {0, 1}, {}});
+  std::ranges::stable_sort(all, std::greater(), &Located::share);
   return all;
 }
 
@@ -180,7 +205,8 @@ Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& 
               .exact = found.exact,
               .unknown_law = found.unknown_law,
               .at_bound = ends_at_bound(found.estimate),
-              .interaction = interaction};
+              .interaction = interaction,
+              .off = where_off(found)};
   built.left = left_by(evidence, plain, built.trials);
   if (built.unknown_law) largest(built.left).open = true;
   return built;

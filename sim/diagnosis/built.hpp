@@ -5,6 +5,7 @@
 
 #include "sim/diagnosis/answer.hpp"
 #include "sim/diagnosis/evidence.hpp"
+#include "sim/diagnosis/located.hpp"
 #include "sim/gap/as_built.hpp"
 
 /// What sim/gap finds, as an answer: effects that are missing, constants beyond their tolerances, and
@@ -35,6 +36,8 @@ struct Built {
   bool unknown_law = false;  ///< one law that the library lacks is likelier than any answer
   bool at_bound = false;     ///< a parameter of an effect ends at a bound
   double interaction = 0;    ///< of the causes of the answer (shares.hpp)
+  std::vector<Located>
+      off;  ///< where its constants are off, by what each part changes in the residuals
 
   bool explained() const;
 };

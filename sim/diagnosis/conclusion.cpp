@@ -81,9 +81,7 @@ void conclude(const Question& q, const Built& built, Selection selection, Diagno
   add_bus(q.observed, d);
   if (built.explained() && !d.answer.empty())
     d.where = where_of_answer(q.evidence, q.plain, d.stages, d.answer);
-  else if (built.explained())  // by constants, of which none alone is the cause
-    for (const StageGap& gap : d.stages)
-      if (gap.open) d.where.push_back({gap.stage, gap.on, gap.share, {0, 1}, {}});
+  else if (built.explained()) d.where = built.off;
   for (const StageGap& gap : built.left)
     if (gap.open && !built.explained())
       d.where.push_back({gap.stage, gap.on, gap.share, {0, 1}, {}});

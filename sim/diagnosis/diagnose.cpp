@@ -115,8 +115,11 @@ std::optional<Diagnosis> diagnosed(Evidence& evidence, const Trials& plain,
   if (evidence.sets.held_out.empty()) {
     evidence.sets.held_out = evidence.sets.train;
     d.warnings.emplace_back(
-        "one recording only, and it was not split: an effect cannot be judged on the data that it "
-        "was fitted to; record another");
+        evidence.sets.train.size() == 1
+            ? "one recording only, and it was not split: an effect cannot be judged on the data "
+              "that it was fitted to; record another"
+            : "no recording is held out: an effect cannot be judged on the data that it was fitted "
+              "to; name fewer in --train");
   }
   d.train = names_of(evidence, evidence.sets.train);
   d.held_out = names_of(evidence, evidence.sets.held_out);

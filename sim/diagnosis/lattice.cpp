@@ -40,9 +40,8 @@ double beyond_chance(std::size_t n, double length, double steps_wide, double s) 
   return std::sqrt(std::log(tries / chance) / static_cast<double>(n));
 }
 
-}  // namespace
-
-double lattice_step(std::span<const residuals::Signal* const> readings, double finest) {
+/// Different readings in ascending order, in units of the finest step.
+std::vector<double> distinct(std::span<const residuals::Signal* const> readings, double finest) {
   std::vector<double> values;
   for (const residuals::Signal* signal : readings)
     for (const double v : *signal)
@@ -50,28 +49,70 @@ double lattice_step(std::span<const residuals::Signal* const> readings, double f
   std::ranges::sort(values);
   const auto repeats = std::ranges::unique(values);
   values.erase(repeats.begin(), repeats.end());
+  return values;
+}
+
+/// Readings near one another, and how well they must be in step.
+struct Stretch {
+  std::vector<double> values;
+  double convincing;
+};
+
+/// Which steps are looked for, in units of the finest.
+struct Steps {
+  double guess;
+  double narrowest() const { return guess - 1; }
+  double widest() const { return guess + 1.5; }
+};
+
+/// Some from all over the range, `length` steps each: further off, a step that is a little wrong is whole steps wrong.
+/// Several, since while a motion is uniform its readings are evenly apart, each time by another step.
+std::vector<Stretch> stretches(const std::vector<double>& values, Steps steps, double length) {
+  constexpr std::size_t most = 5;  // chosen
+  constexpr double least = 0.7;    // of 1; strays and rounding leave more; chosen
+  std::vector<Stretch> all, some;
+  for (auto from = values.begin(); from != values.end();) {
+    const auto to = std::upper_bound(from, values.end(), *from + length * steps.guess);
+    if (std::size_t(to - from) >= fewest)
+      all.push_back(
+          {{from, to},
+           std::max(least, beyond_chance(std::size_t(to - from), *(to - 1) - *from,
+                                         steps.widest() - steps.narrowest(), steps.guess))});
+    from = to;
+  }
+  const std::size_t count = std::min(most, all.size());
+  for (std::size_t k = 0; k < count; ++k) some.push_back(all[k * all.size() / count]);
+  return some;
+}
+
+/// Summed over stretches, each with an offset of its own; 0: one of them is not in step.
+double in_step(const std::vector<Stretch>& all, double s) {
+  double sum = 0;
+  for (const Stretch& one : all) {
+    const double here = in_step(one.values, s);
+    if (here <= one.convincing) return 0;
+    sum += here;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double lattice_step(std::span<const residuals::Signal* const> readings, double finest) {
+  const std::vector<double> values = distinct(readings, finest);
   if (values.size() < fewest) return 0;
   std::vector<double> gaps;
   for (std::size_t k = 1; k < values.size(); ++k) gaps.push_back(values[k] - values[k - 1]);
   std::ranges::sort(gaps);
   // A few strays, of samples that were interpolated, are passed over.
-  const double guess = gaps[gaps.size() / 20];
-  if (guess < 2) return guess * finest;
-  // Far off, a step that is a little wrong is whole steps wrong: only so many are looked at.
-  constexpr double steps = 500, of_a_step = 0.1;
-  const double last = values[values.size() / 3] + steps * guess;
-  values.erase(std::ranges::upper_bound(values, last), values.end());
-  values.erase(values.begin(), std::ranges::lower_bound(values, last - steps * guess));
-  if (values.size() < fewest) return finest;
+  const Steps steps{gaps[gaps.size() / 20]};
+  if (steps.guess < 2) return steps.guess * finest;
+  constexpr double length = 500, of_a_step = 0.1;
+  const std::vector<Stretch> all = stretches(values, steps, length);
   double best = 0, step = finest;
-  const double narrowest = guess - 1, widest = guess + 1.5;
-  for (double s = narrowest; s < widest; s += of_a_step / steps * guess)
-    if (const double fits = in_step(values, s); fits > best) best = fits, step = s * finest;
-  constexpr double least = 0.7;  // of 1; strays and rounding leave more; chosen
-  const double convincing = std::max(
-      least,
-      beyond_chance(values.size(), values.back() - values.front(), widest - narrowest, guess));
-  return best > convincing ? step : finest;
+  for (double s = steps.narrowest(); s < steps.widest(); s += of_a_step / length * steps.guess)
+    if (const double fits = in_step(all, s); fits > best) best = fits, step = s * finest;
+  return step;
 }
 
 std::vector<effects::Placed> coarse_sensors(std::span<const residuals::Episode> episodes,

@@ -41,7 +41,8 @@ struct PathsNearby {
 struct JointTrace {
   std::vector<JointSignals> signals;
   std::vector<Signal> speed_rad_per_s;  ///< of revolute joints
-  std::vector<Motion> motions;          ///< one a window; empty: a joint was not measured
+  bool complete = false;                ///< every joint was measured, or found by the tendons
+  std::vector<Motion> motions;          ///< one a window, if complete
   bool estimated = false;               ///< some were told by the tendons (pose_from_tendons.hpp)
   bool by_lines = false;  ///< estimated, or loose: they move with what is known of a line
   bool by_bones = false;  ///< some bend under the bones: they move with what those weigh

@@ -116,7 +116,8 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   for (const JointSignals& joint : trace.signals)
     trace.speed_rad_per_s.push_back(bump.rates(joint.angle_rad));
   const auto bends = bend(episode, trace);
-  if (bones_.measured(trace.signals))
+  trace.complete = bones_.measured(trace.signals);
+  if (trace.complete)
     for (const std::size_t row : rows) {
       Motion& motion = trace.motions.emplace_back(bones_.motion(trace.signals, bump, row));
       for (const Bend& b : bends) {
@@ -148,7 +149,7 @@ bool Stages::pass_joint(std::size_t j, const JointReading& reading,
 
 Eigen::MatrixXd Stages::bones(const Episode&, const JointTrace& joints,
                               std::span<const std::size_t> rows) {
-  const auto columns = static_cast<Eigen::Index>(joints.motions.empty() ? 0 : rows.size());
+  const auto columns = static_cast<Eigen::Index>(joints.complete ? rows.size() : 0);
   Eigen::MatrixXd torques = Eigen::MatrixXd::Constant(bones_.coordinates(), columns, nan);
   for (Eigen::Index k = 0; k < columns; ++k) {
     const Motion& motion = joints.motions[static_cast<std::size_t>(k)];
@@ -202,7 +203,7 @@ std::pair<double, double> Stages::leave(const JointTrace& joints, std::size_t j,
 }
 
 void Stages::add_joints(const Episode& episode, Explanation& e) const {
-  if (e.joints->motions.empty()) return;
+  if (!e.joints->complete) return;
   for (const auto& chain : e.chains)
     if (chain->tension_N.empty()) return;
   const Bump bump(windows_.half_width_s, episode.period_s);

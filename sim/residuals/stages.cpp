@@ -54,10 +54,10 @@ Reach Stages::reach(const effects::Placed& placed) const {
   return reach;
 }
 
-std::vector<std::size_t> Stages::rows(const Episode& episode) const {
-  const std::size_t reach = 2 * Bump(windows_.half_width_s, episode.period_s).reach() + 1;
-  const auto stride = static_cast<std::size_t>(
-      std::max<long>(1, std::lround(windows_.stride_s / episode.period_s)));
+std::vector<std::size_t> windows_of(const Episode& episode, const Windows& windows) {
+  const std::size_t reach = 2 * Bump(windows.half_width_s, episode.period_s).reach() + 1;
+  const auto stride =
+      static_cast<std::size_t>(std::max<long>(1, std::lround(windows.stride_s / episode.period_s)));
   std::vector<std::size_t> rows;
   for (std::size_t k = reach; k + reach < episode.rows; k += stride)
     if (episode.judged(k)) rows.push_back(k);
@@ -70,7 +70,7 @@ Explanation Stages::explain(const Episode& episode, std::shared_ptr<const JointT
   const std::size_t count = equipped_.robot.actuators.size();
   Explanation fresh;
   fresh.joints = std::move(guess);
-  fresh.rows = rows(episode);
+  fresh.rows = windows_of(episode, windows_);
   fresh.paths.resize(count), fresh.gradients.resize(count);
   fresh.chains.resize(count), fresh.of_chain.resize(count);
   return renew(episode, std::move(fresh), {true, true, each(count), each(count)});

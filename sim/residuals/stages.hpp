@@ -33,6 +33,9 @@ struct Windows {
   double speed_half_width_s = 0.006;
 };
 
+/// The rows in the middle of an episode's windows; none: it is too short to judge anything by.
+std::vector<std::size_t> windows_of(const Episode& episode, const Windows& windows);
+
 /// A robot with its effects, ready to be held against recordings.
 class Stages {
  public:
@@ -62,7 +65,6 @@ class Stages {
   std::vector<PathTrace> paths_nearby(const JointTrace& joints,
                                       std::span<const std::size_t> actuators) const;
   Explanation renew(const Episode& episode, Explanation explanation, const Touched& touched);
-  std::vector<std::size_t> rows(const Episode& episode) const;
   JointTrace joint_trace(const Episode& episode, std::span<const std::size_t> rows,
                          const JointTrace* guess);
   /// Joints that the recording leaves out and tendons may tell: no free ones, of which they say too

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "interfaces/xml/words.hpp"
 #include "sim/residuals/drives.hpp"
@@ -48,6 +49,13 @@ std::vector<std::string> strangers(const recording::Table& table, const erp::Rob
   return odd;
 }
 
+/// Near the ECUs' period, but off by more than a clock is.
+bool is_another_clock(double period_s) {
+  constexpr double drift = 0.005, near = 0.2;  // of the period; chosen
+  const double off = std::abs(period_s / residuals::tick_s - 1);
+  return off > drift && off < near;
+}
+
 }  // namespace
 
 std::vector<std::string> odd_table(const recording::Table& table, const erp::Robot& robot,
@@ -63,6 +71,14 @@ std::vector<std::string> odd_table(const recording::Table& table, const erp::Rob
         "and gearboxes may be what is missing between the rows: record one each {:g} ms; if "
         "they are that close, time_s is stretched",
         name, 1e3 * period_s, 1e3 * residuals::tick_s, 1e3 * residuals::tick_s));
+  if (has_ecus && is_another_clock(period_s))
+    odd.push_back(
+        fmt::format("{}: time_s: a row each {:.4g} ms, the ECUs' period is {:g} ms: its clock runs "
+                    "{:.2g} % too "
+                    "{}; scale time_s, or every speed is wrong by that",
+                    name, 1e3 * period_s, 1e3 * residuals::tick_s,
+                    100 * std::abs(period_s / residuals::tick_s - 1),
+                    period_s > residuals::tick_s ? "fast" : "slowly"));
   if (jitter_s > much * period_s)
     odd.push_back(fmt::format(
         "{}: time_s: rows come {:.2g} ms rms before and after an even {:.3g} ms: they are "

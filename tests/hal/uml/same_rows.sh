@@ -34,7 +34,9 @@ whole() {
 same_rows() {
   whole "$2" || return 2
   local different
-  different=$(rows "$2" | grep -Fxvcf <(rows "$1"))
-  echo "$different rows differ"
-  [ "$different" = 0 ]
+  different=$(diff <(rows "$1") <(rows "$2")) && return 0
+  echo "$(grep -c '^>' <<< "$different") rows differ, the first of the reference (<) and of the other (>):"
+  grep -m1 '^<' <<< "$different"
+  grep -m1 '^>' <<< "$different"
+  return 1
 }

@@ -1,53 +1,22 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "interfaces/recording/csv.hpp"
 #include "launch/gap/files.hpp"
 #include "launch/gap/gap.hpp"
-#include "tests/sim/residuals/rig_recording.hpp"
-#include "tests/sim/rigs.hpp"
+#include "tests/launch/gap/recorded.hpp"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::string robot_file = rigs::config("hinge_rig/robot.xml");
-
-/// A folder of recordings of the rig, as it is modelled and with a gearbox that rubs.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("erp_diagnose_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-
-  std::string found(const char* file) const { return path / "found" / file; }
-  std::string read(const char* file) const {
-    std::ifstream in(found(file));
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  std::string recorded(const std::string& name, bool rubs, std::uint64_t seed,
-                       double seconds = 5) const {
-    erp::Robot robot = erp::read_robot(robot_file);
-    if (rubs) robot.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
-    rig_recording::Plan plan{.seconds = seconds, .seed = seed};
-    plan.swing_Hz += 0.1 * double(seed);
-    std::ofstream out(path / name);
-    recording::write_csv(rig_recording::table_of_run(robot, plan), out);
-    return path / name;
-  }
-};
 
 struct Told {
   int code;
   std::string text;
 };
 
-Told diagnosed(const Folder& folder, launch::gap::DiagnoseOptions how) {
-  if (how.robot.empty()) how.robot = robot_file;
+Told diagnosed(const RecordedRig& folder, launch::gap::DiagnoseOptions how) {
+  if (how.robot.empty()) how.robot = rig_file;
   how.out = folder.path / "found";
   std::ostringstream out, remarks;
   const int code = launch::gap::diagnose(how, out, remarks);
@@ -57,7 +26,7 @@ Told diagnosed(const Folder& folder, launch::gap::DiagnoseOptions how) {
 }  // namespace
 
 TEST_CASE("a model that is put together from parts is mended as one file") {
-  const Folder folder;
+  const RecordedRig folder;
   const std::string model = rigs::config("ecce4/robot.xml"), mended = folder.path / "robot.xml";
   erp::Robot robot = erp::read_robot(model);
   const erp::Effect rubs{
@@ -68,7 +37,7 @@ TEST_CASE("a model that is put together from parts is mended as one file") {
 }
 
 TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is explained") {
-  const Folder folder;
+  const RecordedRig folder;
   const auto plain = folder.recorded("plain.csv", false, 1);
   const auto rubs = folder.recorded("rubs.csv", true, 1),
              again = folder.recorded("again.csv", true, 2);
@@ -102,8 +71,8 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
 }
 
 TEST_CASE("spindles that are all wrong alike are not taken for the sensor of the joint they move") {
-  const Folder folder;
-  erp::Robot robot = erp::read_robot(robot_file);
+  const RecordedRig folder;
+  erp::Robot robot = erp::read_robot(rig_file);
   for (erp::Actuator& actuator : robot.actuators) actuator.spindle.radius_m /= 0.75;
   const std::string model = folder.path / "thick.xml";
   std::ofstream(model) << erp::write_robot(robot);
@@ -119,7 +88,7 @@ TEST_CASE("spindles that are all wrong alike are not taken for the sensor of the
 }
 
 TEST_CASE("one recording too short to be split supports nothing, and says what it looks like") {
-  const Folder folder;
+  const RecordedRig folder;
   const Told told = diagnosed(folder, {.recordings = {folder.recorded("short.csv", true, 1, 1.6)}});
   INFO(told.text);
   CHECK(told.code == 5);
@@ -133,7 +102,7 @@ TEST_CASE("one recording too short to be split supports nothing, and says what i
 }
 
 TEST_CASE("what wants mending is said once for all recordings, and no experiment is proposed") {
-  const Folder folder;
+  const RecordedRig folder;
   std::vector<std::string> files;
   for (std::uint64_t seed : {1, 2}) {
     const std::string file = folder.recorded(std::to_string(seed) + ".csv", true, seed);
@@ -154,7 +123,7 @@ TEST_CASE("what wants mending is said once for all recordings, and no experiment
 }
 
 TEST_CASE("no gap beside a column to be mended is not identifiable, not \"no gap\"") {
-  const Folder folder;
+  const RecordedRig folder;
   std::vector<std::string> files;
   for (std::uint64_t seed : {1, 2}) {
     const std::string file = folder.recorded(std::to_string(seed) + ".csv", false, seed);
@@ -176,7 +145,7 @@ TEST_CASE("no gap beside a column to be mended is not identifiable, not \"no gap
 TEST_CASE("the page lists the constants of a robot as built, those that are off first") {
   sim::diagnosis::Diagnosis d;
   d.verdict = sim::diagnosis::Verdict::supported;
-  const erp::Robot robot = erp::read_robot(robot_file);
+  const erp::Robot robot = erp::read_robot(rig_file);
   CHECK_THAT(launch::gap::diagnosis_report(d, {}, robot), !Catch::Contains("<h2>Constants</h2>"));
   sim::diagnosis::ConstantEstimate off{.name = "resistance_ohm", .on = "flexor"};
   off.nominal = 0.5, off.tolerance = 0.01, off.value = 0.52, off.interval = {0.515, 0.525};
@@ -194,10 +163,10 @@ TEST_CASE("the page lists the constants of a robot as built, those that are off 
 }
 
 TEST_CASE("a folder that cannot be made is refused first; a diagnosis that fails leaves none") {
-  const Folder folder;
+  const RecordedRig folder;
   const auto one = folder.recorded("one.csv", false, 1);
   std::ostringstream out, remarks;
-  launch::gap::DiagnoseOptions how{.robot = robot_file, .recordings = {one}};
+  launch::gap::DiagnoseOptions how{.robot = rig_file, .recordings = {one}};
   how.out = one + "/below_a_file";
   CHECK_THROWS_WITH(launch::gap::diagnose(how, out, remarks), Catch::Contains("cannot be made"));
   how.out = folder.path / "new/er", how.train = {one}, how.held_out = {one};
@@ -206,7 +175,7 @@ TEST_CASE("a folder that cannot be made is refused first; a diagnosis that fails
 }
 
 TEST_CASE("the report shows where, which and how far, and needs no other file") {
-  const Folder folder;
+  const RecordedRig folder;
   diagnosed(folder,
             {.recordings = {folder.recorded("1.csv", true, 1), folder.recorded("2.csv", true, 2)}});
   const std::string report = folder.read("report.html");
@@ -233,7 +202,7 @@ TEST_CASE("the report shows where, which and how far, and needs no other file") 
 }
 
 TEST_CASE("what cannot be asked of recordings is refused, with the name that is wrong") {
-  const Folder folder;
+  const RecordedRig folder;
   const auto one = folder.recorded("one.csv", false, 1), two = folder.recorded("two.csv", false, 2);
   CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one}, .withhold = {"no_such_effect"}}),
                     Catch::Contains("no_such_effect") && Catch::Contains("erp model effects"));
@@ -246,11 +215,11 @@ TEST_CASE("what cannot be asked of recordings is refused, with the name that is 
 }
 
 TEST_CASE("a model in the folder of a diagnosis is neither written over nor removed") {
-  const Folder folder;
+  const RecordedRig folder;
   const auto plain = folder.recorded("plain.csv", false, 1);
   fs::create_directories(folder.path / "found");
   const std::string mine = folder.found("robot.xml");
-  fs::copy_file(robot_file, mine);
+  fs::copy_file(rig_file, mine);
   launch::gap::DiagnoseOptions how{.recordings = {plain}};
   CHECK_THROWS_WITH(diagnosed(folder, how), Catch::Contains("that no diagnosis wrote"));
   std::ostringstream out, remarks;
@@ -258,7 +227,7 @@ TEST_CASE("a model in the folder of a diagnosis is neither written over nor remo
   CHECK_THROWS_WITH(launch::gap::diagnose(how, out, remarks),
                     Catch::Contains("is the model itself"));
   CHECK(folder.read("robot.xml") == [&] {
-    std::ifstream in(robot_file);
+    std::ifstream in(rig_file);
     return std::string(std::istreambuf_iterator<char>(in), {});
   }());
 }

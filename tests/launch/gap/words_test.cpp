@@ -79,10 +79,26 @@ TEST_CASE("what speaks against an answer is said: a stage it opens, a clock, a l
   d.answer = {named("motor_torque_constant", "flexor", 0.005),
               named("motor_torque_constant", "extensor", 0.0051)};
   REQUIRE(say().size() == 1);
-  CHECK_THAT(say()[0], Catch::Contains("time_s running 0.51 % too fast"));
+  const std::string time = say()[0];
+  CHECK_THAT(time, Catch::Contains("time_s running 0.51 % too fast"));
   d.answer[1].values = {0.009};
   CHECK(say().empty());
+  CHECK_THAT(time, Catch::Contains("voltages recorded that much too high"));
   d.answer = {named("sensor_joint_low_pass", "elbow", 0.01)};
   REQUIRE(say().size() == 1);
   CHECK_THAT(say()[0], Catch::Contains("delayed by 10 ms"));
+  d.answer = {named("tendon_damping", "flexor", -12)};
+  CHECK(say().empty());
+  d.answer[0].alternatives = {named("sensor_tension_low_pass", "flexor", 0.002)};
+  REQUIRE(say().size() == 1);
+  CHECK_THAT(say()[0], Catch::Contains("a column of flexor that is some ms behind the others"));
+  d.answer.clear();
+  for (const char* on : {"flexor", "extensor"}) {
+    sim::diagnosis::ConstantEstimate c{"torque_Nm_per_A", on, Stage::motor, 0.0115, 0.05, 0.01035};
+    c.interval = {0.0103, 0.0104};
+    d.constants.push_back(c);
+  }
+  REQUIRE(say().size() == 1);
+  CHECK_THAT(say()[0], Catch::Contains("time_s running 10 % too slowly") &&
+                           Catch::Contains("voltages recorded that much too low"));
 }

@@ -1,6 +1,7 @@
 #include "sim/diagnosis/lattice.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "sim/diagnosis/diagnose.hpp"
@@ -49,6 +50,18 @@ TEST_CASE("a few readings anywhere are on no lattice, as many on one are") {
       readings[0] = &on_one;
       CHECK(lattice_step(readings, 1) == Approx(7).margin(0.1));
     }
+}
+
+TEST_CASE("a fast motion whose speed hardly changes is on no lattice") {
+  for (const double counts_per_row : {90.0, 137.0, 200.0}) {
+    Signal there_and_back;
+    for (int k = 0; k < 900; ++k)
+      there_and_back.push_back(
+          std::round(1e5 + 900 * counts_per_row / 6.3 * std::sin(6.3 * k / 900)));
+    const Signal* readings[] = {&there_and_back};
+    CAPTURE(counts_per_row);
+    CHECK(lattice_step(readings, 1) < 1.8);
+  }
 }
 
 TEST_CASE("where nothing can be judged, readings that look coarse explain nothing") {

@@ -137,7 +137,7 @@ TEST_CASE("an effect shows at its own stages alone, and is gone where the robot 
       if (shows) CHECK(value > 1.3 * floor.at(stage));
       else CHECK(value < 1.25 * floor.at(stage));
       CHECK(right.at(stage) < 1.8 * floor.at(stage));
-      CHECK(cut.at(stage) < 1.8 * floor.at(stage));
+      CHECK(cut.at(stage) < 2.1 * floor.at(stage));  // hysteresis after a hole starts anew
     }
   }
 }
