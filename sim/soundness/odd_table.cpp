@@ -71,7 +71,7 @@ std::vector<std::string> odd_table(const recording::Table& table, const erp::Rob
         "and gearboxes may be what is missing between the rows: record one each {:g} ms; if "
         "they are that close, time_s is stretched",
         name, 1e3 * period_s, 1e3 * residuals::tick_s, 1e3 * residuals::tick_s));
-  if (has_ecus && is_another_clock(period_s))
+  if (has_ecus && jitter_s < much * period_s && is_another_clock(period_s))
     odd.push_back(
         fmt::format("{}: time_s: a row each {:.4g} ms, the ECUs' period is {:g} ms: its clock runs "
                     "{:.2g} % too "

@@ -52,6 +52,14 @@ TEST_CASE("rows further apart than the ECUs' ticks are told, of a drive, which h
   CHECK(odd(table_of(0.004, {"drive.control_V", "drive.position_m"}), "drive").empty());
 }
 
+TEST_CASE("rows by a clock that runs by more than half a percent too fast or slowly are told") {
+  CHECK(odd(table_of(0.002008, {"flexor.tension_N"})).empty());
+  REQUIRE(odd(table_of(0.0021, {"flexor.tension_N"})).size() == 1);
+  CHECK_THAT(odd(table_of(0.0021, {"flexor.tension_N"}))[0], Catch::Contains("5 % too fast"));
+  CHECK_THAT(odd(table_of(0.00196, {"flexor.tension_N"}))[0], Catch::Contains("2 % too slowly"));
+  CHECK(odd(table_of(0.001, {"flexor.tension_N"})).empty());  // rows between the ticks
+}
+
 TEST_CASE("rows that come early and late are told, those whose frames are numbered not") {
   recording::Table table = table_of(0.002, {"flexor.tension_N"});
   for (int k = 0; k < 20; ++k) table.columns[0].values[std::size_t(k)] += 2.8e-4 * std::sin(k * k);
