@@ -2,7 +2,7 @@
 #include <string>
 
 #include "interfaces/robot/robot.hpp"
-#include "sim/actuator/excitation.hpp"
+#include "sim/rehearsal/experiment.hpp"
 
 /// The graph that `erp gap plan` writes: a motion to record next.
 namespace launch::gap {
