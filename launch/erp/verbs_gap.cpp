@@ -62,7 +62,7 @@ void add_gap_calibrate(CLI::App& gap, Chosen& chosen) {
       "All constants of a robot as built, from recordings: the robot.xml of this robot");
   calibrate->footer(
       "Exit codes: 0 estimated, also where stages keep more than noise;\n"
-      "1 failed, 2 bad usage or input.");
+      "5 too little to judge anything; 1 failed, 2 bad usage or input.");
   calibrate->add_option("--robot", o->robot, "robot.xml, the model")->required();
   calibrate->add_option("--real", o->recordings, "recordings of the robot, MCAP or CSV")
       ->required();
@@ -101,6 +101,9 @@ void add_twins(CLI::App& gap, Chosen& chosen) {
   o->threads = all_cores();
   auto* twins = gap.add_subcommand(
       "twins", "Which effects the sensors of a robot cannot tell apart, before anything is wrong");
+  twins->footer(
+      "Exit codes: 0 listed, 5 recordings too short to judge anything; 1 failed, 2 bad usage or "
+      "input.");
   twins->add_option("--robot", o->robot, "robot.xml, the model")->required();
   twins->add_option("--real", o->recordings, "recordings to ask; default: four of the simulator");
   twins->add_option("--without", o->without, "signals to do without")

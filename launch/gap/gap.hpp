@@ -73,7 +73,7 @@ struct TwinsOptions {
 };
 
 /// Prints which effects the robot's sensors cannot tell apart, a row a pair; of several that stand
-/// for one together, a row an effect. Throws as where, std::runtime_error. Returns the exit code.
+/// for one together, a row an effect. Throws as where, std::runtime_error. Returns 0; 5: nothing could be judged.
 int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks);
 
 struct PlanOptions {
