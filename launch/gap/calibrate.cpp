@@ -55,7 +55,10 @@ int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& 
   const Reading read = read_episodes(robot, options.recordings);
   const auto pool = sim::make_pool(options.threads);
   if (pool->first()) tell(read.mended, remarks), tell_odd(read, remarks);
-  if (!can_judge(read.episodes, out)) return 5;
+  if (!can_judge(read.episodes)) {
+    if (pool->first()) out << nothing_judged;
+    return 5;
+  }
   gap::EstimateOptions how;
   how.threads = options.threads, how.seed = options.seed, how.pool = pool.get();
   const gap::AsBuilt built = gap::calibrated(robot, read.episodes, how);

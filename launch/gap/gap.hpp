@@ -19,10 +19,12 @@ struct Reading {
   std::vector<sim::residuals::Episode> episodes;
   std::vector<std::string> mended, odd;
 };
-/// Throws RecordingError, std::invalid_argument.
+/// Throws RecordingError, std::invalid_argument, also of a copy: it could not judge what was fitted to the other.
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings);
-/// Whether any is long enough to judge something by; prints what to record if not.
-bool can_judge(const std::vector<sim::residuals::Episode>& episodes, std::ostream& out);
+/// Whether any is long enough to judge something by.
+bool can_judge(const std::vector<sim::residuals::Episode>& episodes);
+inline constexpr const char* nothing_judged =
+    "nothing could be judged; record some seconds in which everything moves\n";
 /// Prints the corrections, a line each.
 void tell(const std::vector<std::string>& list, std::ostream& remarks);
 /// Prints the columns that look wrong; nothing else is reliable before they are mended.

@@ -106,7 +106,7 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
       read.mended.push_back(fmt::format(
           "{}: {:.2g} s are too short to judge anything by: it counts for nothing", file, seconds));
     odd.add(file, soundness::odd_table(table, robot, file));
-    odd.add(file, soundness::odd_units(read.episodes.back(), robot));
+    odd.add(file, soundness::odd_units(episode, robot));
   }
   read.odd = odd.take();
   residuals::keep_common(read.episodes, robot, read.mended);
@@ -116,11 +116,9 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
   return read;
 }
 
-bool can_judge(const std::vector<residuals::Episode>& episodes, std::ostream& out) {
-  for (const residuals::Episode& e : episodes)
-    if (!residuals::windows_of(e, {}).empty()) return true;
-  out << "nothing could be judged; record some seconds in which everything moves\n";
-  return false;
+bool can_judge(const std::vector<residuals::Episode>& episodes) {
+  return std::ranges::any_of(
+      episodes, [](const residuals::Episode& e) { return !residuals::windows_of(e, {}).empty(); });
 }
 
 void tell(const std::vector<std::string>& list, std::ostream& remarks) {

@@ -73,7 +73,10 @@ int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks)
   tell(read.mended, remarks), tell_odd(read, remarks);
   auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds) : read.episodes;
   leave_out(options.without, episodes);
-  if (!can_judge(episodes, out)) return 5;
+  if (!can_judge(episodes)) {
+    out << nothing_judged;
+    return 5;
+  }
   const diagnosis::Trials trials(robot, std::move(episodes));
   std::vector<std::vector<std::string>> rows{
       {"hidden", "as small as", "would pass for", "shows, sigma", "left, sigma", "likeness"}};

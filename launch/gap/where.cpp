@@ -65,8 +65,7 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
   if (bus.late && !bus.explained)
     out << fmt::format(
         "in {:.0f} % of the ticks with a new command the ECUs followed an older one by their law, "
-        "and "
-        "no effect of the bus explains how old: a wrong tension or shaft column would look the "
+        "and no effect of the bus explains how old: a wrong tension or shaft column would look the "
         "same\n",
         100 * diagnosis::late_share(bus.ages));
   else if (bus.late)
@@ -80,7 +79,7 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
         "time\n",
         1e3 * late_s);
   if (!open.empty()) out << "the gap is in: " << open << "\n";
-  else if (!some) out << "nothing could be judged; record some seconds in which everything moves\n";
+  else if (!some) out << nothing_judged;
   else if (bus.late) out << "no gap elsewhere: the residuals of what was judged are noise\n";
   else if (unjudged.empty()) out << "no gap: the residuals of every stage are noise\n";
   else out << "no gap in the others: their residuals are noise\n";

@@ -60,12 +60,12 @@ std::vector<double> magnets_off(const sim::diagnosis::Diagnosis& d) {
 std::string column_doubt(const sim::diagnosis::Diagnosis& d, const erp::Robot& robot) {
   for (const Named& n : d.answer)
     if (const std::string doubt = late_column_doubt(n); !doubt.empty()) return doubt;
-  constexpr double alike = 0.2;  // chosen
+  constexpr double differs = 0.2;  // of the largest: motors are not off by the same; chosen
   const std::vector<double> off = magnets_off(d);
   if (off.size() < 2 || off.size() < robot.actuators.size()) return "";
   const auto [low, high] = std::ranges::minmax(off);
   const double widest = std::max(std::abs(low), std::abs(high));
-  if (high - low > alike * widest) return "";
+  if (high - low > differs * widest) return "";
   return fmt::format(
       "the same on every motor: time_s running {:.2g} % too {}, or voltages recorded that much too "
       "{}, would look the same; check both",

@@ -74,8 +74,7 @@ std::vector<std::string> odd_table(const recording::Table& table, const erp::Rob
   if (has_ecus && jitter_s < much * period_s && is_another_clock(period_s))
     odd.push_back(
         fmt::format("{}: time_s: a row each {:.4g} ms, the ECUs' period is {:g} ms: its clock runs "
-                    "{:.2g} % too "
-                    "{}; scale time_s, or every speed is wrong by that",
+                    "{:.2g} % too {}; scale time_s, or every speed is wrong by that",
                     name, 1e3 * period_s, 1e3 * residuals::tick_s,
                     100 * std::abs(period_s / residuals::tick_s - 1),
                     period_s > residuals::tick_s ? "fast" : "slowly"));

@@ -154,6 +154,7 @@ class World {
   Chain make_chain(const erp::Actuator& actuator) const;
   void make_solver();
   void read();
+  /// By the tendon's law, of where bones and shaft are now; the force over a step is older.
   double tension_now_N(std::size_t chain);
   void read_tensions();
   void find_forces(double dt_s, bool springs);

@@ -27,7 +27,7 @@ const std::string robot_file = rigs::config("hinge_rig/robot.xml");
 
 TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds") {
   const Folder folder;
-  const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
+  const std::string cases = folder.path / "cases", truth = folder.path / "sealed/truth.json";
   std::ostringstream out, remarks;
   launch::gap::BlindMakeOptions make{.robot = robot_file, .out = cases, .truth = truth};
   make.cases = 2, make.recordings = 3, make.seconds = 5, make.seed = 14;

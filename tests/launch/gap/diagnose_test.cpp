@@ -68,6 +68,11 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
                                 Catch::Contains("next        erp gap plan --robot "));
 
   CHECK(diagnosed(folder, {.train = {rubs}, .held_out = {plain}}).code == 5);
+
+  const Told all_train = diagnosed(folder, {.recordings = {rubs, again}, .train = {rubs, again}});
+  CHECK(all_train.code == 5);
+  CHECK_THAT(all_train.text,
+             Catch::Contains("no recording is held out") && !Catch::Contains("one recording only"));
 }
 
 TEST_CASE("spindles that are all wrong alike are not taken for the sensor of the joint they move") {
@@ -106,12 +111,7 @@ TEST_CASE("what wants mending is said once for all recordings, and no experiment
   std::vector<std::string> files;
   for (std::uint64_t seed : {1, 2}) {
     const std::string file = folder.recorded(std::to_string(seed) + ".csv", true, seed);
-    auto table = recording::read_table(file);
-    for (auto& column : table.columns)
-      if (column.name == "extensor.voltage_V")
-        for (double& x : column.values) x = -x;
-    std::ofstream out(file);
-    recording::write_csv(table, out);
+    scale_column(file, "extensor.voltage_V", -1);
     files.push_back(file);
   }
   const Told told = diagnosed(folder, {.recordings = files, .free_run = false});
@@ -127,12 +127,7 @@ TEST_CASE("no gap beside a column to be mended is not identifiable, not \"no gap
   std::vector<std::string> files;
   for (std::uint64_t seed : {1, 2}) {
     const std::string file = folder.recorded(std::to_string(seed) + ".csv", false, seed);
-    auto table = recording::read_table(file);
-    for (auto& column : table.columns)
-      if (column.name == "flexor.current_A")
-        for (double& x : column.values) x *= 1000;
-    std::ofstream out(file);
-    recording::write_csv(table, out);
+    scale_column(file, "flexor.current_A", 1000);
     files.push_back(file);
   }
   const Told told = diagnosed(folder, {.recordings = files, .free_run = false});

@@ -181,3 +181,13 @@ TEST_CASE("a plan without a diagnosis says which file it misses") {
                                       out, remarks),
                     Catch::Contains("diagnosis.json"));
 }
+
+TEST_CASE("a plan into a file is refused before anything is rehearsed, and the file stays") {
+  const Folder folder;
+  fs::create_directories(folder.path);
+  std::ofstream(folder.path / "next") << "mine";
+  CHECK_THROWS_WITH(plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
+                         effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02)),
+                    Catch::Contains("next: this folder cannot be made"));
+  CHECK(fs::is_regular_file(folder.path / "next"));
+}

@@ -34,3 +34,13 @@ struct RecordedRig {
     return path / name;
   }
 };
+
+/// Multiplies a column of a recording.
+inline void scale_column(const std::string& file, const std::string& name, double by) {
+  recording::Table table = recording::read_table(file);
+  for (auto& column : table.columns)
+    if (column.name == name)
+      for (double& value : column.values) value *= by;
+  std::ofstream out(file);
+  recording::write_csv(table, out);
+}

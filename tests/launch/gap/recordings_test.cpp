@@ -6,19 +6,6 @@
 
 namespace fs = std::filesystem;
 
-namespace {
-
-void scale(const std::string& file, const std::string& name, double by) {
-  recording::Table table = recording::read_table(file);
-  for (auto& column : table.columns)
-    if (column.name == name)
-      for (double& value : column.values) value *= by;
-  std::ofstream out(file);
-  recording::write_csv(table, out);
-}
-
-}  // namespace
-
 TEST_CASE(
     "a recording too short to judge by is named, counts for nothing and changes nothing else") {
   const RecordedRig folder;
@@ -67,7 +54,7 @@ TEST_CASE("a copy of a recording is refused: it could not judge what was fitted 
 TEST_CASE("a tension column that is wrong does not make the bus late") {
   const RecordedRig folder;
   const auto file = folder.recorded("one.csv", false, 1, 8);
-  scale(file, "flexor.tension_N", 1.1);
+  scale_column(file, "flexor.tension_N", 1.1);
   std::ostringstream out, remarks;
   launch::gap::where(rig_file, {file}, out, remarks);
   CHECK_THAT(out.str(), !Catch::Contains("the bus is late") && Catch::Contains("the gap is in: ") &&
@@ -77,7 +64,7 @@ TEST_CASE("a tension column that is wrong does not make the bus late") {
 TEST_CASE("rows by another clock are to be mended first") {
   const RecordedRig folder;
   const auto file = folder.recorded("one.csv", false, 1);
-  scale(file, "time_s", 1.05);
+  scale_column(file, "time_s", 1.05);
   const auto odd = launch::gap::read_episodes(erp::read_robot(rig_file), {file}).odd;
   REQUIRE(odd.size() == 1);
   CHECK_THAT(odd[0], Catch::Contains("a row each 2.1 ms, the ECUs' period is 2 ms") &&
