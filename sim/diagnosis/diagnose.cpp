@@ -8,6 +8,7 @@
 #include "sim/diagnosis/conclusion.hpp"
 #include "sim/diagnosis/identifiability.hpp"
 #include "sim/diagnosis/residual_split.hpp"
+#include "sim/diagnosis/together.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -55,6 +56,22 @@ void add_indistinguishable(Named& answer, const Named& other) {
       answer.alternatives.push_back(n);
 }
 
+/// Gives the one effect of both the values, intervals and gain of the joint estimate: with the zeros free, and with the
+/// noise floor of the robot that has the effect. Least squares on the floor of the robot as described makes the size
+/// of an effect that multiplies a noisy signal too small, and its interval too narrow (errors in variables). Returns
+/// false, with `selection` as it was, where these values leave a stage open without the zeros that belong to them.
+bool take_estimate(const Question& q, const Named& estimated, Selection& selection) {
+  const Trial trial = q.known.with(q.known.bare(), estimated.placed, q.evidence.sets.all());
+  auto left = left_open(q.evidence, q.known, trial, q.evidence.options.alone);
+  if (any_open(left)) return false;
+  Named& answer = selection.answer[0];
+  answer.placed = estimated.placed;
+  answer.values = estimated.values, answer.intervals = estimated.intervals;
+  answer.gain = estimated.gain, answer.gain_interval = estimated.gain_interval;
+  selection.trial = trial, selection.left = std::move(left);
+  return true;
+}
+
 /// Sorts the recordings anew by what this robot leaves of them; whether that changed anything.
 using SortAgain = std::function<bool(const erp::Robot&)>;
 
@@ -82,7 +99,8 @@ bool answer(const Question& q, const SortAgain& sort_again, Diagnosis& d) {
     built.emplace(as_built(evidence, q.robot, q.plain, selection.answer));
   if (built && agree(*built, selection)) {
     add_indistinguishable(selection.answer[0], built->answer[0]);
-    built.reset();
+    if (take_estimate(q, built->answer[0], selection)) built.reset();
+    else built->answer[0].alternatives = selection.answer[0].alternatives;
   } else if (built && !built->explained() && !selection.explained() && sort_again(built->robot)) {
     return false;
   } else if (built && built->unknown_law) {
