@@ -67,13 +67,16 @@ Plant::Chain Plant::chain_of(const erp::Robot& nominal, std::size_t a, const Cha
   return k;
 }
 
-/// Of spring and line in series under a pull, by a fixed-point iteration.
+/// Of spring and line in series under a pull, by bisection.
 double Plant::stretch_at(const Chain& k, double pull_N) const {
   constexpr int enough = 60;
-  double stretch = pull_N / k.spring;
-  for (int n = 0; n < enough; ++n)
-    stretch += (pull_N - spring_N(k, stretch)) * (1 / k.spring + k.line);
-  return stretch;
+  double low = 0, high = pull_N * (1 / k.spring + k.line);
+  while (spring_N(k, high) < pull_N) high *= 2;
+  for (int n = 0; n < enough; ++n) {
+    const double middle = (low + high) / 2;
+    (spring_N(k, middle) < pull_N ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace sim::blind

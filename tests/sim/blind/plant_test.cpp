@@ -41,6 +41,18 @@ TEST_CASE(
   CHECK(moved_rad > 0.1);
 }
 
+TEST_CASE("every tendon of every robot starts at its pretension") {
+  for (const char* name : {"hinge_rig", "leg", "arm", "seven_dof", "ecce4"}) {
+    const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
+    Plant plant(robot, no_quirks(robot));
+    REQUIRE(plant.run(std::vector<double>(robot.actuators.size()), 1e-5, 0));
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+      CAPTURE(name, robot.actuators[a].name);
+      CHECK(plant.tension_N(a) == Approx(robot.actuators[a].tendon.pretension_N).margin(0.1));
+    }
+  }
+}
+
 TEST_CASE("a quirk changes what it is named for") {
   const erp::Robot robot = hinge_rig();
   const auto shaft_after = [&](const Quirks& quirks) {
