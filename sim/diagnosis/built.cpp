@@ -19,6 +19,12 @@ std::vector<residuals::Episode> some(const Evidence& evidence,
   return episodes;
 }
 
+gap::EstimateOptions estimate_options(const Evidence& evidence) {
+  return {.threads = evidence.options.threads,
+          .seed = evidence.options.seed,
+          .pool = evidence.options.pool};
+}
+
 std::vector<ConstantEstimate> constants_of(const gap::AsBuilt& built) {
   std::vector<ConstantEstimate> all;
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) {
@@ -184,9 +190,7 @@ Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& 
                const std::vector<Named>& suggested) {
   const auto train = some(evidence, evidence.sets.train),
              held_out = some(evidence, evidence.sets.held_out);
-  gap::AsBuiltOptions options;
-  options.estimate.threads = evidence.options.threads,
-  options.estimate.pool = evidence.options.pool, options.estimate.seed = evidence.options.seed;
+  gap::AsBuiltOptions options{.estimate = estimate_options(evidence)};
   for (const Named& n : suggested) options.suggested.push_back(n.placed);
   options.search.withhold = evidence.options.withhold;
   options.search.most_effects = evidence.options.most_effects;
@@ -210,6 +214,11 @@ Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& 
   built.left = left_by(evidence, plain, built.trials);
   if (built.unknown_law) largest(built.left).open = true;
   return built;
+}
+
+Named estimated(const Evidence& evidence, const erp::Robot& robot, const Named& effect) {
+  return with_intervals(gap::estimated(robot, some(evidence, evidence.sets.train), effect.placed,
+                                       estimate_options(evidence)));
 }
 
 }  // namespace sim::diagnosis

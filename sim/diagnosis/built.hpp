@@ -47,4 +47,8 @@ struct Built {
 Built as_built(const Evidence& evidence, const erp::Robot& robot, const Trials& plain,
                const std::vector<Named>& suggested);
 
+/// The one effect of an answer on `robot`, as described but for zeros and the like, by the estimate of sim/gap: without
+/// gain and alternatives.
+Named estimated(const Evidence& evidence, const erp::Robot& robot, const Named& effect);
+
 }  // namespace sim::diagnosis

@@ -8,6 +8,7 @@
 #include "sim/diagnosis/conclusion.hpp"
 #include "sim/diagnosis/identifiability.hpp"
 #include "sim/diagnosis/residual_split.hpp"
+#include "sim/diagnosis/shares.hpp"
 #include "sim/diagnosis/together.hpp"
 
 namespace sim::diagnosis {
@@ -56,19 +57,21 @@ void add_indistinguishable(Named& answer, const Named& other) {
       answer.alternatives.push_back(n);
 }
 
-/// Gives the one effect of both the values, intervals and gain of the joint estimate: with the zeros free, and with the
+/// Gives the one effect of an answer the values and intervals of the joint estimate: with the zeros free, and with the
 /// noise floor of the robot that has the effect. Least squares on the floor of the robot as described makes the size
 /// of an effect that multiplies a noisy signal too small, and its interval too narrow (errors in variables). Returns
 /// false, with `selection` as it was, where these values leave a stage open without the zeros that belong to them.
 bool take_estimate(const Question& q, const Named& estimated, Selection& selection) {
-  const Trial trial = q.known.with(q.known.bare(), estimated.placed, q.evidence.sets.all());
-  auto left = left_open(q.evidence, q.known, trial, q.evidence.options.alone);
+  const Evidence& evidence = q.evidence;
+  Trial trial = q.known.with(q.known.bare(), estimated.placed, evidence.sets.all());
+  auto left = left_open(evidence, q.known, trial, evidence.options.alone);
   if (any_open(left)) return false;
+  const Shares gain = shares(evidence, q.known, {estimated.placed});
   Named& answer = selection.answer[0];
   answer.placed = estimated.placed;
   answer.values = estimated.values, answer.intervals = estimated.intervals;
-  answer.gain = estimated.gain, answer.gain_interval = estimated.gain_interval;
-  selection.trial = trial, selection.left = std::move(left);
+  answer.gain = gain.share[0], answer.gain_interval = gain.interval[0];
+  selection.trial = std::move(trial), selection.left = std::move(left);
   return true;
 }
 
@@ -94,8 +97,10 @@ bool answer(const Question& q, const SortAgain& sort_again, Diagnosis& d) {
   Selection selection =
       select(evidence, q.known, d.stages, coarse ? Depth::full : Depth::best_alone);
   std::optional<Built> built;
-  if (selection.gap && selection.shown && !(coarse && selection.explained()) &&
-      !leaves_noise_on_large_robot(evidence, selection))
+  if (leaves_noise_on_large_robot(evidence, selection)) {
+    if (selection.answer.size() == 1)
+      take_estimate(q, estimated(evidence, q.robot, selection.answer[0]), selection);
+  } else if (selection.gap && selection.shown && !(coarse && selection.explained()))
     built.emplace(as_built(evidence, q.robot, q.plain, selection.answer));
   if (built && agree(*built, selection)) {
     add_indistinguishable(selection.answer[0], built->answer[0]);

@@ -185,6 +185,12 @@ AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode
   return built;
 }
 
+Sized estimated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                const effects::Placed& effect, const EstimateOptions& options) {
+  const Estimator estimator(nominal, train, options);
+  return sized(estimator.run(uncertain_of(nominal, {}, true), {{}, {effect}})).front();
+}
+
 AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options) {
   const Estimator estimator(nominal, train, options.estimate);

@@ -36,6 +36,10 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
 AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                    const EstimateOptions& options = {});
 
+/// One effect on a robot that is as described but for what is never certain: no other is looked for.
+Sized estimated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                const effects::Placed& effect, const EstimateOptions& options = {});
+
 /// A constant is determined if less than 0.63 of its tolerance is left; chosen.
 inline constexpr double well_determined = 0.6;
 

@@ -54,6 +54,19 @@ TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings hel
   for (const std::string& name : d.held_out) CHECK(std::ranges::count(d.train, name) == 0);
 }
 
+TEST_CASE("an inertia that multiplies noisy accelerations is not too small, and its interval holds") {
+  const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
+  auto blind = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
+  blind.quirks.bodies["shank"].inertia = 2.5;
+  const Diagnosis d = diagnose(leg, episodes(blind, 12, 3, leg));
+  REQUIRE(d.verdict == Verdict::supported);
+  REQUIRE(d.answer.size() == 1);
+  REQUIRE(d.answer[0].type == "skeleton_inertia");
+  CHECK(value_of(d.answer[0], "relative") == Approx(2.5).epsilon(0.1));
+  CHECK(d.answer[0].intervals[0].low < 2.5);
+  CHECK(d.answer[0].intervals[0].high > 2.5);
+}
+
 TEST_CASE("a loose sensor of a joint is named: where it rests, the tendons tell of the bone") {
   auto blind = nothing_hidden();
   blind.quirks.joints[0].loose_rad = 0.03;
