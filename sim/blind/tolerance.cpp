@@ -56,8 +56,9 @@ void off(erp::Body& body, Draw& draw) {
   const auto& i = was.inertia_kg_m2;
   body.mass_kg = mass * was.mass_kg;
   body.com_m = {com * was.com_m[0], com * was.com_m[1], com * was.com_m[2]};
-  body.inertia_kg_m2 = {inertia * i[0], inertia * i[1], inertia * i[2]};
-  body.products_kg_m2 = {inertia * i[3], inertia * i[4], inertia * i[5]};
+  const double moments = mass * inertia;
+  body.inertia_kg_m2 = {moments * i[0], moments * i[1], moments * i[2]};
+  body.products_kg_m2 = {moments * i[3], moments * i[4], moments * i[5]};
   body.density_kg_per_m3.reset();
   std::erase_if(body.parts,
                 [](const erp::Part& part) { return std::holds_alternative<erp::Weight>(part); });

@@ -9,8 +9,8 @@
 /// A robot as built: its physical numbers are those of its description, each a little off.
 namespace sim::blind {
 
-/// A number as drawn: `name` as in robot.xml; of a body "mass", "com", "inertia", and of a tendon
-/// "moment_arm", as factors.
+/// A number as drawn: `name` as in robot.xml; of a body "mass" (spread as before), "com" and "inertia" (of the moments
+/// that it then has), and of a tendon "moment_arm", as factors.
 struct Drawn {
   std::string on, name;
   double value;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "interfaces/robot/mass.hpp"
+#include "sim/effects/library.hpp"
 #include "sim/effects/own.hpp"
 #include "sim/gap/tolerances.hpp"
 
@@ -193,7 +194,8 @@ void add_joint(std::vector<Constant>& all, const erp::Joint& joint) {
   }
 }
 
-/// Factors of what robot.xml gives, however it gives it.
+/// Factors of what robot.xml gives, however it gives it: of the mass, spread as before; of how far its centre is; of the
+/// moments of inertia about the centre.
 void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::string& body) {
   erp::Robot copy = robot;
   const erp::Vec3 com = erp::mass_of(body_of(copy, body)).com_m;
@@ -216,14 +218,12 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
                    effect,
                    effect_scale});
   };
-  factor("mass", of_mass, "skeleton_mass", 1, [](erp::Body& b, double v) { b.mass_kg *= v; });
-  factor("com", of_com, "skeleton_com", com_m, [](erp::Body& b, double v) {
-    for (double& x : b.com_m) x *= v;
-  });
-  factor("inertia", of_inertia, "skeleton_inertia", 1, [](erp::Body& b, double v) {
-    for (double& x : b.inertia_kg_m2) x *= v;
-    for (double& x : b.products_kg_m2) x *= v;
-  });
+  factor("mass", of_mass, "skeleton_mass", 1,
+         [](erp::Body& b, double v) { effects::SkeletonMass{v - 1}.change_body(b); });
+  factor("com", of_com, "skeleton_com", com_m,
+         [com_m](erp::Body& b, double v) { effects::SkeletonCom{com_m * (v - 1)}.change_body(b); });
+  factor("inertia", of_inertia, "skeleton_inertia", 1,
+         [](erp::Body& b, double v) { effects::SkeletonInertia{v - 1}.change_body(b); });
 }
 
 }  // namespace

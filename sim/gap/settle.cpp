@@ -5,6 +5,7 @@
 #include <span>
 
 #include "sim/gap/beyond.hpp"
+#include "sim/gap/far_rivals.hpp"
 
 namespace sim::gap {
 
@@ -41,6 +42,8 @@ Found settle(const Search& search, Found found, const Evidence& evidence, AsBuil
   settle_far_off(evidence.train, built);
   Found settled = search.judge(built.estimate);
   settled.rivals = std::move(found.rivals);
+  const double gain = std::max(0.0, found.cost - settled.cost);
+  settled = with_rivals_far(search, std::move(settled), evidence, gain, built);
   if (!built.beyond.empty()) settled = search.pruned(std::move(settled));
   take(built, settled);
   built.cost = settled.cost;

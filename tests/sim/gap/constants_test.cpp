@@ -6,6 +6,8 @@
 
 #include "interfaces/xml/errors.hpp"
 #include "sim/effects/library.hpp"
+#include "sim/gap/far_off.hpp"
+#include "sim/residuals/stages.hpp"
 #include "tests/sim/diagnosis/blind_recording.hpp"
 
 using namespace sim::gap;
@@ -43,7 +45,46 @@ std::string message_of(const erp::Tolerance& given) {
   return "";
 }
 
+/// Σ over stages of |r' − r|²/|r|², windows that both judge.
+double difference(const sim::residuals::Explanation& a, const sim::residuals::Explanation& b) {
+  double sum = 0;
+  for (std::size_t s = 0; s < a.residuals.size(); ++s) {
+    double square = 0, change = 0;
+    for (std::size_t k = 0; k < a.residuals[s].value.size(); ++k) {
+      const double was = a.residuals[s].value[k], is = b.residuals[s].value[k];
+      if (std::isnan(was) || std::isnan(is)) continue;
+      square += was * was, change += (is - was) * (is - was);
+    }
+    if (square > 0) sum += change / square;
+  }
+  return sum;
+}
+
 }  // namespace
+
+TEST_CASE("a constant that is off is the effect of the library that stands for it") {
+  const erp::Robot robot = hinge_rig();
+  const auto episode = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 1)[0];
+  const auto explain = [&](const erp::Robot& r) {
+    return sim::residuals::Stages(r).explain(episode);
+  };
+  const auto nominal = explain(robot);
+  const std::vector<Constant> constants = constants_of(robot);
+  for (std::size_t k = 0; k < constants.size(); ++k) {
+    const Constant& c = constants[k];
+    CAPTURE(c.name, c.on, c.effect);
+    std::vector<double> x(constants.size());
+    x[k] = 1;
+    erp::Robot with_effect = robot;
+    with_effect.effects.push_back(sim::effects::written(as_effect(c, {k, x[k], 0}).effect));
+    const auto by_constant = explain(with_constants(robot, constants, x));
+    const double change = difference(nominal, by_constant);
+    // A rotor's friction passes through the efficiency of the gearbox, that of the effect does not.
+    const bool before_gearbox =
+        c.name == "rotor_coulomb_Nm" || c.name == "rotor_viscous_Nm_s_per_rad";
+    CHECK(difference(by_constant, explain(with_effect)) < (before_gearbox ? 0.15 : 1e-6) * change);
+  }
+}
 
 TEST_CASE("a tolerance of robot.xml replaces the default, of one part or of all") {
   erp::Robot robot = hinge_rig();
