@@ -116,6 +116,22 @@ TEST_CASE("a gearbox's friction of many times its nominal one is that constant, 
   check_within(found, "flexor", "gear_viscous_Nm_s_per_rad", 0.0505);
 }
 
+TEST_CASE("a forearm far too light is found, its centre of mass nearer instead is an alternative") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.02, change_magnet(built, 0.99);
+  built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.bodies["forearm"].mass = -0.4;
+  const auto recordings = recordings_of(built, 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  REQUIRE(found.beyond.size() == 1);
+  CHECK(found.beyond[0] == index_of(found, "forearm", "mass"));
+  check_within(found, "forearm", "mass", 0.6);
+  REQUIRE(found.instead[0].size() == 1);
+  CHECK(sim::effects::name_of(found.instead[0][0].effect) == "skeleton_com on forearm");
+}
+
 TEST_CASE("an effect is found beside constants that are all a little off") {
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.03, change_magnet(built, 0.98);
