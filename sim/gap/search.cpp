@@ -150,14 +150,29 @@ Found Search::pruned(Found found) const {
 
 namespace {
 
-/// Of each effect whether a parameter of it ends at a bound.
-std::vector<bool> at_bound(const Estimate& estimate) {
+/// Whether an effect's estimate allows a robot without it: the intervals of all its fitted parameters hold their neutral
+/// values.
+bool may_be_neutral(const Sized& sized) {
+  constexpr double half = 1.96;  // standard deviations
+  effects::AnyEffect effect = sized.effect.effect;
+  effects::AnyEffect neutral = *effects::neutral(effects::about(effect).type);
+  const auto values = effects::parameters(effect), neutrals = effects::parameters(neutral);
+  for (std::size_t p = 0, k = 0; p < values.size(); ++p) {
+    if (!is_estimated(values[p])) continue;
+    const double sigma = sized.sigma[k++];
+    if (values[p].fitted && std::abs(*values[p].value - *neutrals[p].value) > half * sigma)
+      return false;
+  }
+  return true;
+}
+
+/// Of each effect whether a parameter of it ends at a bound, or it may be neutral.
+std::vector<bool> doubtful(const Estimate& estimate) {
   std::vector<bool> all;
   std::size_t k = estimate.point.x.size();
-  for (effects::Placed effect : estimate.point.effects) {
-    bool any = false;
-    for (const effects::Parameter& p : effects::parameters(effect.effect))
-      if (is_estimated(p)) any |= estimate.bound[k++];
+  for (const Sized& one : sized(estimate)) {
+    bool any = may_be_neutral(one);
+    for (std::size_t p = 0; p < one.sigma.size(); ++p) any |= estimate.bound[k++];
     all.push_back(any);
   }
   return all;
@@ -165,11 +180,11 @@ std::vector<bool> at_bound(const Estimate& estimate) {
 
 }  // namespace
 
-Found Search::within_bounds(Found found) const {
-  const std::vector<bool> bound = at_bound(found.train);
-  for (std::size_t k = 0; k < bound.size(); ++k)
-    if (bound[k])
-      if (Found base = without(found, k); !keeps(base)) return within_bounds(std::move(base));
+Found Search::without_doubtful(Found found) const {
+  const std::vector<bool> doubt = doubtful(found.train);
+  for (std::size_t k = 0; k < doubt.size(); ++k)
+    if (doubt[k])
+      if (Found base = without(found, k); !keeps(base)) return without_doubtful(std::move(base));
   return found;
 }
 
@@ -199,7 +214,7 @@ Found Search::run(Found found, std::size_t most) const {
     if (!more || !relieves(*more, found)) break;
     found = exchanged(std::move(*more));
   }
-  return within_bounds(std::move(found));
+  return without_doubtful(std::move(found));
 }
 
 std::vector<Sized> sized(const Estimate& estimate) {

@@ -70,12 +70,12 @@ class Search {
   }
   /// Without effects that cost more than they explain beside the others.
   Found pruned(Found found) const;
+  /// Without effects that end at a bound or may be neutral, where those that stay leave no more than noise.
+  Found without_doubtful(Found found) const;
 
  private:
   Found with_best_of(const std::vector<Found>& joined, const Found& base) const;
   Found exchanged(Found found) const;
-  /// Without effects that end at a bound, where those that stay leave no more than noise.
-  Found within_bounds(Found found) const;
   Found without(const Found& found, std::size_t effect) const;
 
   const Estimator& train_;

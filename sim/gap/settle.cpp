@@ -45,6 +45,7 @@ Found settle(const Search& search, Found found, const Evidence& evidence, AsBuil
   const double gain = std::max(0.0, found.cost - settled.cost);
   settled = with_rivals_far(search, std::move(settled), evidence, gain, built);
   if (!built.beyond.empty()) settled = search.pruned(std::move(settled));
+  settled = search.without_doubtful(std::move(settled));
   take(built, settled);
   built.cost = settled.cost;
   return settled;
