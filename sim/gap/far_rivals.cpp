@@ -9,28 +9,29 @@ namespace {
 
 using Eigen::Index;
 
-/// Cosine of the angle between what two constants change, and how much of `other` changes as much as one of `k`.
-struct Likeness {
+/// Of what two constants change in the residuals: the cosine between them, and how many tolerances of `other` change as
+/// much as one of `k`.
+struct Similarity {
   double cosine = 0, ratio = 0;
 };
 
-Likeness likeness(const Estimate& e, std::size_t k, std::size_t other) {
+Similarity similarity(const Estimate& e, std::size_t k, std::size_t other) {
   const Eigen::VectorXd of_k = e.jacobian.col(Index(k)), of_other = e.jacobian.col(Index(other));
   const Eigen::VectorXd weighted = e.weight.cwiseProduct(of_k);
   const double dot = weighted.dot(of_other), square = of_other.dot(e.weight.cwiseProduct(of_other));
   const double length = std::sqrt(weighted.dot(of_k) * square);
-  return length > 0 ? Likeness{dot / length, dot / square} : Likeness{};
+  return length > 0 ? Similarity{dot / length, dot / square} : Similarity{};
 }
 
-/// Those most like a constant that is far off, itself not far off.
-std::vector<std::size_t> most_alike(const AsBuilt& built, std::size_t k) {
-  constexpr double alike = 0.8;    // chosen
+/// The constants, not far off, whose effect on the residuals is most similar to that of a constant far off.
+std::vector<std::size_t> most_similar(const AsBuilt& built, std::size_t k) {
+  constexpr double similar = 0.8;  // chosen
   constexpr std::size_t most = 2;  // chosen
   std::vector<std::pair<double, std::size_t>> all;
   for (std::size_t other = 0; other < built.uncertain.constants.size(); ++other) {
     if (other == k || built.uncertain.far[other] || built.uncertain.constants[other].zero) continue;
-    const double cosine = std::abs(likeness(built.estimate, k, other).cosine);
-    if (cosine > alike) all.emplace_back(cosine, other);
+    const double cosine = std::abs(similarity(built.estimate, k, other).cosine);
+    if (cosine > similar) all.emplace_back(cosine, other);
   }
   std::ranges::sort(all, std::greater());
   all.resize(std::min(most, all.size()));
@@ -39,12 +40,12 @@ std::vector<std::size_t> most_alike(const AsBuilt& built, std::size_t k) {
   return constants;
 }
 
-/// Its deviation as nominal, and that of the other as large as what both change says, within what makes sense.
+/// The estimate with a constant far off at its nominal value, and another as far off as makes the same change.
 Point exchanged(const AsBuilt& built, std::size_t k, std::size_t other) {
   constexpr double part = 0.5;  // of the way to a bound, at most; chosen
   const Constant& c = built.uncertain.constants[other];
   Point point = built.estimate.point;
-  const double x = point.x[k] * likeness(built.estimate, k, other).ratio;
+  const double x = point.x[k] * similarity(built.estimate, k, other).ratio;
   point.x[other] = std::clamp(x, part * (c.lowest - c.nominal) / c.tolerance,
                               part * (c.highest - c.nominal) / c.tolerance);
   point.x[k] = 0;
@@ -93,7 +94,7 @@ Found with_rivals_far(const Search& search, Found found, const Evidence& evidenc
   constexpr std::size_t few = 2;  // of more, each would take estimates of its own; chosen
   if (built.beyond.size() > few) return found;
   for (std::size_t n = 0; n < built.beyond.size(); ++n)
-    for (const std::size_t other : most_alike(built, built.beyond[n]))
+    for (const std::size_t other : most_similar(built, built.beyond[n]))
       if (!built.uncertain.far[other]) compare(search, evidence, n, other, gain, found, built);
   return found;
 }
