@@ -17,9 +17,9 @@ withheld         hinge_rig  withheld   30    373001      0
 outside          hinge_rig  outside    30    374001      0
 pair             hinge_rig  pair       30    375001      0
 tolerance        hinge_rig  null       40    376001      0.03
-tolerance_single hinge_rig  single     40    377001      0.02
+tolerance_single hinge_rig  single     40    402001      0.02
 many             hinge_rig  many       40    378001      0
-leg              leg        single     20    381001      0
+leg              leg        single     20    401001      0
 tolerance_leg    leg        null       40    382001      0.03
 many_leg         leg        many       40    383001      0
 no_tension       hinge_rig  single     20    384001      0          tension
