@@ -64,7 +64,8 @@ void add_instead(std::vector<Sized>& instead, Sized one) {
   instead.push_back(std::move(one));
 }
 
-/// Compares the n-th constant far off with one other.
+/// Estimates `other` as far off instead of the n-th constant far off. The cheaper of the two stays; the other one becomes
+/// an alternative if its cost is near.
 void compare(const Search& search, const Evidence& evidence, std::size_t n, std::size_t other,
              double gain, Found& found, AsBuilt& built) {
   const std::size_t k = built.beyond[n];
