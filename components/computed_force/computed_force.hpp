@@ -5,9 +5,9 @@
 #include "components/computed_force/jacobian_source.hpp"
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
-#include "sim/actuator/force_reference.hpp"
-#include "sim/actuator/musculoskeletal.hpp"
-#include "sim/actuator/tension_share.hpp"
+#include "sim/control/force_reference.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
+#include "sim/control/tension_share.hpp"
 
 /// Computed force control (paper, 5.3 and Fig. 8a):
 ///

@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "interfaces/xml/xml.hpp"
-#include "sim/actuator/tendon.hpp"
-#include "sim/learning/learnt_lengths.hpp"
-#include "sim/learning/length_learner.hpp"
+#include "sim/model/actuator/tendon.hpp"
+#include "sim/learning/muscle_networks/learnt_lengths.hpp"
+#include "sim/learning/muscle_networks/length_learner.hpp"
 
 namespace control {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Joints = std::span<const sim::JointReading>;
-namespace learning = sim::learning;
+namespace muscle_networks = sim::muscle_networks;
 
 class Analytic : public JacobianSource {
  public:
@@ -27,14 +27,14 @@ class Analytic : public JacobianSource {
 
 class Network : public JacobianSource {
  public:
-  Network(learning::LearntLengths lengths, bool by_difference)
+  Network(muscle_networks::LearntLengths lengths, bool by_difference)
       : lengths_(std::move(lengths)), by_difference_(by_difference) {}
   const MatrixXd& at(Joints joints) override {
     return by_difference_ ? lengths_.jacobian_by_difference(joints) : lengths_.jacobian(joints);
   }
 
  private:
-  learning::LearntLengths lengths_;
+  muscle_networks::LearntLengths lengths_;
   bool by_difference_;
 };
 
@@ -42,7 +42,7 @@ class Network : public JacobianSource {
 class OnLine : public JacobianSource {
  public:
   OnLine(const erp::Robot& robot, const sim::Musculoskeletal& model,
-         std::unique_ptr<learning::LearntLengths> network)
+         std::unique_ptr<muscle_networks::LearntLengths> network)
       : robot_(robot),
         model_(model),
         network_(std::move(network)),
@@ -85,8 +85,8 @@ class OnLine : public JacobianSource {
 
   erp::Robot robot_;
   const sim::Musculoskeletal& model_;
-  std::unique_ptr<learning::LearntLengths> network_;
-  learning::LengthLearner learner_;
+  std::unique_ptr<muscle_networks::LearntLengths> network_;
+  muscle_networks::LengthLearner learner_;
   std::vector<sim::TendonLaw> laws_;
   VectorXd beside_m_;
   MatrixXd jacobian_;
@@ -98,10 +98,10 @@ std::unique_ptr<JacobianSource> jacobian_source(JacobianKind kind, const std::st
                                                 const erp::Robot& robot,
                                                 const sim::Musculoskeletal& model) {
   if (kind == JacobianKind::analytic) return std::make_unique<Analytic>(model);
-  std::unique_ptr<learning::LearntLengths> network;
+  std::unique_ptr<muscle_networks::LearntLengths> network;
   if (!file.empty())
     network =
-        std::make_unique<learning::LearntLengths>(robot, xml::read<learning::LearntMuscles>(file));
+        std::make_unique<muscle_networks::LearntLengths>(robot, xml::read<muscle_networks::LearntMuscles>(file));
   if (kind == JacobianKind::on_line)
     return std::make_unique<OnLine>(robot, model, std::move(network));
   if (!network)

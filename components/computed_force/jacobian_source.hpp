@@ -3,7 +3,7 @@
 #include <string>
 
 #include "interfaces/topics.hpp"
-#include "sim/actuator/musculoskeletal.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
 
 /// Where the muscle Jacobian L(q) = ∂l/∂q comes from (paper, 5.3).
 namespace control {

@@ -6,7 +6,7 @@
 
 #include "components/node/ask.hpp"
 #include "interfaces/xml/document.hpp"
-#include "sim/learner/keep.hpp"
+#include "sim/learning/training_loop/keep.hpp"
 
 namespace control {
 namespace {
@@ -160,7 +160,7 @@ void Experience::write() const {
   all.experiences.all = rows_of(base_);
   node::write_or_report(
       node_, xml::resolved(params_.save, params_.place.file),
-      [&](const std::string& file) { sim::learner::keep(file, xml::write(all)); });
+      [&](const std::string& file) { sim::training_loop::keep(file, xml::write(all)); });
 }
 
 }  // namespace control

@@ -5,9 +5,9 @@
 
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
-#include "sim/experience/base_file.hpp"
-#include "sim/experience/motors.hpp"
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/learning/experience/base_file.hpp"
+#include "sim/learning/experience/motors.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 
 /// Reaching with what was experienced before (paper, 5.6 and Fig. 11): from the nearest start a
 /// pattern of voltages, then feedback on what the hand is off; goal after goal.

@@ -8,7 +8,7 @@
 #include "components/node/run.hpp"
 #include "firmware/core/laws.h"
 #include "interfaces/topics.hpp"
-#include "sim/actuator/design.hpp"
+#include "sim/control/gain_design.hpp"
 
 /// Following actuator targets with one of the firmware's laws: at the ECU, by passing the
 /// reference on, or on the host, by running the same law here and sending voltages.

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "components/images/image_files.hpp"
-#include "sim/skeleton/robot_tree.hpp"
+#include "sim/model/skeleton/robot_tree.hpp"
 
 namespace images {
 

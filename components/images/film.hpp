@@ -6,8 +6,8 @@
 #include "components/joints/joints.hpp"
 #include "components/node/node.hpp"
 #include "interfaces/xml/fields.hpp"
-#include "sim/cameras/images.hpp"
-#include "sim/cameras/view.hpp"
+#include "sim/model/cameras/images.hpp"
+#include "sim/model/cameras/view.hpp"
 
 /// What cameras see, image after image: painted, as they would see the simulated robot (from the
 /// sim's joint_state), or read from a folder: <camera>_00000.png, …, one of each camera a period.

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/cameras/images.hpp"
+#include "sim/model/cameras/images.hpp"
 
 /// Images as files of eight bits a pixel.
 namespace images {

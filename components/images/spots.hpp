@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "sim/cameras/images.hpp"
+#include "sim/model/cameras/images.hpp"
 
 namespace images {
 

@@ -7,9 +7,9 @@
 
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/topics.hpp"
-#include "sim/skeleton/catch_up.hpp"
-#include "sim/skeleton/joint_path.hpp"
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/skeleton/catch_up.hpp"
+#include "sim/model/skeleton/joint_path.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 
 /// The joints of a robot, in its order, as they cross the bus by name.
 namespace joints {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/skeleton/joint_path.hpp"
+#include "sim/model/skeleton/joint_path.hpp"
 
 namespace capture {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "sim/skeleton/joint_path.hpp"
+#include "sim/model/skeleton/joint_path.hpp"
 
 namespace capture {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "components/motion_capture/markers.hpp"
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 
 namespace capture {
 

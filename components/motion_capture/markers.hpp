@@ -5,8 +5,8 @@
 
 #include "components/motion_capture/stereo.hpp"
 #include "interfaces/robot/robot.hpp"
-#include "sim/cameras/view.hpp"
-#include "sim/skeleton/robot_tree.hpp"
+#include "sim/model/cameras/view.hpp"
+#include "sim/model/skeleton/robot_tree.hpp"
 
 /// Which point is which marker.
 namespace capture {

@@ -5,7 +5,7 @@
 namespace node {
 namespace {
 
-// Chosen: behind ECUs that are processes (firmware/board/host), each with a processor to itself.
+// Chosen: behind ECUs that are processes (hal/ecu), each with a processor to itself.
 constexpr sched_param urgent{.sched_priority = 5};
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/actuator/motor.hpp"
+#include "sim/model/actuator/motor.hpp"
 
 namespace plant {
 namespace {

@@ -7,7 +7,7 @@
 #include "components/plant/limits.hpp"
 #include "components/plant/slew.hpp"
 #include "components/plant/tendon_watch.hpp"
-#include "sim/actuator/ecu_units.hpp"
+#include "sim/model/actuator/ecu_units.hpp"
 
 /// One actuator as the plant sees it: from what controllers offer and what its ECU says, to what
 /// its ECU is asked next.

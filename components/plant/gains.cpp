@@ -3,7 +3,7 @@
 #include <array>
 
 #include "firmware/core/parameters.h"
-#include "sim/actuator/design.hpp"
+#include "sim/control/gain_design.hpp"
 
 namespace plant {
 

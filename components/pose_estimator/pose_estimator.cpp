@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/actuator/sensors.hpp"
+#include "sim/model/actuator/sensors.hpp"
 
 namespace pose {
 namespace {

@@ -2,7 +2,7 @@
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
 #include "components/pose_estimator/pose_filter.hpp"
-#include "sim/actuator/tendon.hpp"
+#include "sim/model/actuator/tendon.hpp"
 
 /// The pose, computed back from the actuators' sensors (paper, 2.3): joint_state from sensor_frame.
 ///

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/actuator/musculoskeletal.hpp"
-#include "sim/skeleton/joint_path.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
+#include "sim/model/skeleton/joint_path.hpp"
 
 /// Joint angles and velocities from how long the tendons' paths are: an error-state Kalman filter.
 ///

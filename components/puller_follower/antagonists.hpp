@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "sim/actuator/motor_inverse.hpp"
-#include "sim/actuator/spring.hpp"
+#include "sim/control/motor_inverse.hpp"
+#include "sim/model/actuator/spring.hpp"
 
 /// The pieces of puller-follower control (paper, 5.2): who pulls, how taut the follower is kept, and
 /// what voltage makes a tension follow.

@@ -5,8 +5,8 @@
 #include "components/puller_follower/antagonists.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/topics.hpp"
-#include "sim/actuator/musculoskeletal.hpp"
-#include "sim/loop_shaping/joint_loops.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
+#include "sim/control/loop_shaping/joint_loops.hpp"
 
 /// A hinge's two tendons, driven so that they give a torque: the second step of puller-follower
 /// control (paper, 5.2 and Fig. 7a).

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "sim/actuator/musculoskeletal.hpp"
-#include "sim/loop_shaping/joint_loops.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
+#include "sim/control/loop_shaping/joint_loops.hpp"
 
 /// From where hinges are and should be to their torques: the first step of puller-follower control.
 /// All by coordinate of the model.

@@ -5,8 +5,8 @@
 
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
-#include "sim/actuator/pose_plan.hpp"
-#include "sim/skeleton/catch_up.hpp"
+#include "sim/control/pose_plan.hpp"
+#include "sim/model/skeleton/catch_up.hpp"
 
 /// Leads the joints through the poses of a file with the least jerk, with a halt in each or without.
 ///

@@ -4,8 +4,8 @@
 
 #include "components/node/ask.hpp"
 #include "interfaces/xml/document.hpp"
-#include "sim/learner/keep.hpp"
-#include "sim/sensorimotor/learnt_file.hpp"
+#include "sim/learning/training_loop/keep.hpp"
+#include "sim/learning/sensorimotor/learnt_file.hpp"
 
 namespace control {
 namespace {
@@ -108,7 +108,7 @@ void Sensorimotor::write() const {
   if (params_.save.empty()) return;
   node::write_or_report(
       node_, xml::resolved(params_.save, params_.place.file), [&](const std::string& file) {
-        sim::learner::keep(file, xml::write(file_of(session_.learnt(), session_.goals())));
+        sim::training_loop::keep(file, xml::write(file_of(session_.learnt(), session_.goals())));
       });
 }
 

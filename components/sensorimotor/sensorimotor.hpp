@@ -3,8 +3,8 @@
 #include <string>
 
 #include "components/node/run.hpp"
-#include "sim/sensorimotor/experiment.hpp"
-#include "sim/sensorimotor/eye.hpp"
+#include "sim/learning/sensorimotor/experiment.hpp"
+#include "sim/learning/sensorimotor/eye.hpp"
 
 /// Reaching in a camera's image, learnt on the live graph (paper, 5.4 and Fig. 9): twitches, then
 /// tries at each goal; or tries alone, with what was learnt before.

@@ -6,8 +6,8 @@
 
 #include "components/node/ask.hpp"
 #include "interfaces/xml/document.hpp"
-#include "sim/learner/dice.hpp"
-#include "sim/learner/keep.hpp"
+#include "sim/learning/training_loop/dice.hpp"
+#include "sim/learning/training_loop/keep.hpp"
 
 namespace control {
 namespace {
@@ -81,7 +81,7 @@ void Synergy::begin() {
   Blend blend = bank_.blend(sim::vec(params_.targets[target_].at_m));
   credits_ = std::move(blend.credits), seen_ = true;
   trial_.emplace(std::move(blend.plan), file_.times, params_.noise,
-                 sim::learner::dice(static_cast<std::uint64_t>(params_.seed), target_)());
+                 sim::training_loop::dice(static_cast<std::uint64_t>(params_.seed), target_)());
 }
 
 void Synergy::watch(const std::optional<Vec3>& hand_m) {
@@ -123,7 +123,7 @@ void Synergy::learn(Taught taught) {
   bank_.trim();
   node::write_or_report(
       node_, xml::resolved(params_.save, params_.place.file),
-      [&](const std::string& file) { sim::learner::keep(file, text_of(file_, bank_)); });
+      [&](const std::string& file) { sim::training_loop::keep(file, text_of(file_, bank_)); });
 }
 
 erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/node/run.hpp"
-#include "sim/synergy/bank_file.hpp"
+#include "sim/learning/synergy/bank_file.hpp"
 
 /// Striking targets by motor plans of a bank (paper, 5.5): open loop, target after target, each from
 /// the lengths that lines had at the start.

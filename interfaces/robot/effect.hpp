@@ -8,7 +8,7 @@ namespace erp {
 
 /// Something the nominal robot leaves out and the simulator adds: `<effect type="gearbox_backlash"
 /// on="flexor" width_rad="0.01"/>`. Which types there are, on what, and their parameters:
-/// sim/effects, which checks them. Components other than the simulator do not look at effects.
+/// sim/model/effects, which checks them. Components other than the simulator do not look at effects.
 struct Effect {
   static constexpr auto element = "effect";
   xml::Place place;

@@ -7,7 +7,7 @@
 #include "interfaces/recording/error.hpp"
 #include "interfaces/xml/errors.hpp"
 #include "interfaces/xml/words.hpp"
-#include "launch/erp/verbs.hpp"
+#include "launch/erp/verbs/verbs.hpp"
 #include "launch/erp/version.hpp"
 
 namespace launch {

@@ -5,9 +5,9 @@
 
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/tree.hpp"
-#include "sim/actuator/routing.hpp"
+#include "sim/model/actuator/routing.hpp"
 #include "sim/formats/formats.hpp"
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 
 namespace formats {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/actuator/path_line.hpp"
-#include "sim/actuator/routing.hpp"
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/actuator/path_line.hpp"
+#include "sim/model/actuator/routing.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 
 namespace formats {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "interfaces/robot/robot.hpp"
-#include "sim/skeleton/pose.hpp"
+#include "sim/model/skeleton/pose.hpp"
 
 /// A robot in its starting pose as strokes in the world, for pictures.
 namespace formats {

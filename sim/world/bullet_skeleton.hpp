@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/skeleton/joint_reading.hpp"
-#include "sim/skeleton/pose.hpp"
-#include "sim/skeleton/robot_tree.hpp"
+#include "sim/model/skeleton/joint_reading.hpp"
+#include "sim/model/skeleton/pose.hpp"
+#include "sim/model/skeleton/robot_tree.hpp"
 
 /// The robot's bones and joints in Bullet: one btMultiBody a tree, double precision. Bullet holds
 /// where the joints are and moves them; which velocities they get is decided outside

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "sim/skeleton/pose.hpp"
+#include "sim/model/skeleton/pose.hpp"
 #include "sim/world/bullet_headers.hpp"
 
 namespace sim {

@@ -3,8 +3,8 @@
 #include <deque>
 
 #include "interfaces/topics.hpp"
-#include "sim/actuator/noise.hpp"
-#include "sim/effects/acting.hpp"
+#include "sim/model/actuator/noise.hpp"
+#include "sim/model/effects/acting.hpp"
 
 /// The bus between plant and ECUs, with its effects: commands and frames in the order they were
 /// sent, each when its delay is over; a frame that has not arrived leaves the one before.

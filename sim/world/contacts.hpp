@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 #include "sim/world/step_solver.hpp"
 
 /// Bones that cannot pass through each other, as forces that push them apart over a time step.

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "firmware/core/sensing.h"
-#include "sim/actuator/sampling.hpp"
-#include "sim/actuator/sensors.hpp"
+#include "sim/model/actuator/sampling.hpp"
+#include "sim/model/actuator/sensors.hpp"
 #include "sim/world/mishaps.hpp"
 #include "sim/world/world.hpp"
 

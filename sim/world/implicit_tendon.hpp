@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "sim/actuator/tendon.hpp"
+#include "sim/model/actuator/tendon.hpp"
 #include "sim/world/step_solver.hpp"
 
 /// A tendon over a time step, implicit in the motion at its end.

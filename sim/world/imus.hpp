@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "interfaces/topics.hpp"
-#include "sim/actuator/imu.hpp"
-#include "sim/actuator/sampling.hpp"
+#include "sim/model/actuator/imu.hpp"
+#include "sim/model/actuator/sampling.hpp"
 #include "sim/world/world.hpp"
 
 /// The inertial units of a simulated robot: each looks at its own rate, and what it saw arrives

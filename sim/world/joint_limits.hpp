@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 #include "sim/world/step_solver.hpp"
 
 /// The stops of joints, as forces that push back over a time step.

@@ -7,7 +7,7 @@
 #include "firmware/core/sensing.h"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/fields.hpp"
-#include "sim/actuator/sensors.hpp"
+#include "sim/model/actuator/sensors.hpp"
 #include "sim/world/world.hpp"
 
 /// What breaks in a simulated robot, and when: for practice, and to see that it ends safely.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "firmware/core/ecu.h"
-#include "sim/effects/library.hpp"
+#include "sim/model/effects/library.hpp"
 
 namespace sim {
 namespace {

@@ -1,6 +1,6 @@
 #include "sim/world/virtual_ecus.hpp"
 
-#include "sim/effects/library.hpp"
+#include "sim/model/effects/library.hpp"
 
 namespace sim {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/actuator/of_actuator.hpp"
-#include "sim/effects/library.hpp"
+#include "sim/model/actuator/of_actuator.hpp"
+#include "sim/model/effects/library.hpp"
 
 namespace sim {
 

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "interfaces/topics.hpp"
-#include "sim/actuator/motor.hpp"
-#include "sim/actuator/muscle_jacobian.hpp"
-#include "sim/actuator/rope.hpp"
-#include "sim/actuator/routing.hpp"
-#include "sim/actuator/tendon.hpp"
-#include "sim/effects/acting.hpp"
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/actuator/motor.hpp"
+#include "sim/model/actuator/muscle_jacobian.hpp"
+#include "sim/model/actuator/rope.hpp"
+#include "sim/model/actuator/routing.hpp"
+#include "sim/model/actuator/tendon.hpp"
+#include "sim/model/effects/acting.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 #include "sim/world/bullet_skeleton.hpp"
 #include "sim/world/contacts.hpp"
 #include "sim/world/implicit_tendon.hpp"
@@ -36,7 +36,7 @@ struct Equipped;
 /// v⁺ = v¹ would feed energy into ball joints: 7 J in 10 s into the free arm at 1 ms, against 0.07
 /// J.
 ///
-/// The robot's effects (sim/effects) act in its chains and joints, each held over a step.
+/// The robot's effects (sim/model/effects) act in its chains and joints, each held over a step.
 ///
 /// Tendons that are ropes (rope.hpp) follow the bones: their forces act over the next step.
 ///

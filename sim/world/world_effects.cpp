@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "sim/actuator/sensors.hpp"
+#include "sim/model/actuator/sensors.hpp"
 #include "sim/world/world.hpp"
 
 /// What a world's effects do in its chains and joints.

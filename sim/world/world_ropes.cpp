@@ -1,5 +1,5 @@
-#include "sim/actuator/of_actuator.hpp"
-#include "sim/actuator/path_line.hpp"
+#include "sim/model/actuator/of_actuator.hpp"
+#include "sim/model/actuator/path_line.hpp"
 #include "sim/world/world.hpp"
 
 /// The tendons of a world that are ropes.

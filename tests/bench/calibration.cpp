@@ -12,9 +12,9 @@
 
 #include "interfaces/recording/table.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "launch/text/gnuplot.hpp"
-#include "sim/calibration/perturb.hpp"
-#include "sim/calibration/strategy.hpp"
+#include "launch/erp/text/gnuplot.hpp"
+#include "sim/learning/calibration/perturb.hpp"
+#include "sim/learning/calibration/strategy.hpp"
 
 namespace {
 

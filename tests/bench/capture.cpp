@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "interfaces/recording/table.hpp"
-#include "sim/actuator/pose_plan.hpp"
+#include "sim/control/pose_plan.hpp"
 #include "tests/bench/times.hpp"
 #include "tests/components/motion_capture/studio.hpp"
 

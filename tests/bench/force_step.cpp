@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <map>
 
-#include "launch/text/gnuplot.hpp"
-#include "sim/actuator/spring.hpp"
+#include "launch/erp/text/gnuplot.hpp"
+#include "sim/model/actuator/spring.hpp"
 #include "tests/sim/world/limb.hpp"
 
 namespace {

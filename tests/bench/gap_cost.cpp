@@ -2,8 +2,8 @@
 // of 4 × 25 s. Google Benchmark; ask for JSON with --benchmark_format=json.
 #include <benchmark/benchmark.h>
 
-#include "sim/blind/record.hpp"
-#include "sim/diagnosis/diagnose.hpp"
+#include "sim/gap/blind/record.hpp"
+#include "sim/gap/diagnosis/diagnose.hpp"
 #include "tests/bench/side_by_side.hpp"
 
 namespace {

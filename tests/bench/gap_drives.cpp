@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/diagnosis/diagnose.hpp"
-#include "sim/diagnosis/sampling.hpp"
-#include "sim/residuals/drives.hpp"
-#include "tests/sim/diagnosis/light_drive.hpp"
+#include "sim/gap/diagnosis/diagnose.hpp"
+#include "sim/gap/diagnosis/sampling.hpp"
+#include "sim/gap/residuals/drives.hpp"
+#include "tests/sim/gap/diagnosis/light_drive.hpp"
 
 namespace {
 

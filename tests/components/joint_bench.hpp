@@ -5,7 +5,7 @@
 
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
-#include "sim/actuator/musculoskeletal.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
 
 /// A robot in its starting pose at rest, all tendons at 5 N, and asked to stay there.
 struct JointBench {

@@ -25,9 +25,9 @@ std::string named(std::string text) {
 
 TEST_CASE("the controller in the README is the one that erp new controller writes") {
   const auto readme = content("README.md");
-  CHECK(readme.find(named(content("launch/erp/templates/controller/controller.hpp"))) !=
+  CHECK(readme.find(named(content("launch/erp/new/templates/controller/controller.hpp"))) !=
         std::string::npos);
-  CHECK(readme.find(named(content("launch/erp/templates/controller/main.cpp"))) !=
+  CHECK(readme.find(named(content("launch/erp/new/templates/controller/main.cpp"))) !=
         std::string::npos);
 }
 

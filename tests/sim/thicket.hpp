@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "sim/skeleton/joint_reading.hpp"
+#include "sim/model/skeleton/joint_reading.hpp"
 #include "tests/sim/skeletons.hpp"
 
 /// Robots drawn at random.

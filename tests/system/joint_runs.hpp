@@ -4,7 +4,7 @@
 
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/table.hpp"
-#include "launch/erp/joints.hpp"
+#include "launch/erp/record/joints.hpp"
 #include "tests/system/command.hpp"
 
 /// Graphs in which joints are led, and how far they were off.

@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "interfaces/xml/xml.hpp"
-#include "sim/experience/base_file.hpp"
-#include "sim/sensorimotor/learnt_file.hpp"
-#include "sim/synergy/bank_file.hpp"
+#include "sim/learning/experience/base_file.hpp"
+#include "sim/learning/sensorimotor/learnt_file.hpp"
+#include "sim/learning/synergy/bank_file.hpp"
 #include "tests/system/command.hpp"
 
 using namespace tests;

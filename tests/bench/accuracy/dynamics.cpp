@@ -1,4 +1,4 @@
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 #include "sim/world/bullet_skeleton.hpp"
 #include "tests/bench/accuracy/figure.hpp"
 #include "tests/sim/thicket.hpp"

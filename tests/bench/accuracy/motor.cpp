@@ -1,4 +1,4 @@
-#include "sim/actuator/motor.hpp"
+#include "sim/model/actuator/motor.hpp"
 
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>

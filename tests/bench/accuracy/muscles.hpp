@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "sim/actuator/muscle_jacobian.hpp"
+#include "sim/model/actuator/muscle_jacobian.hpp"
 
 namespace accuracy {
 

@@ -1,4 +1,4 @@
-#include "sim/actuator/routing.hpp"
+#include "sim/model/actuator/routing.hpp"
 
 #include <Eigen/Geometry>
 #include <numbers>

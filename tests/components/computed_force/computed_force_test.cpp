@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "sim/actuator/tendon.hpp"
+#include "sim/model/actuator/tendon.hpp"
 #include "tests/components/joint_bench.hpp"
 
 using control::ComputedForce;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/sim/residuals/rig_recording.hpp"
+#include "tests/sim/gap/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "components/images/image_files.hpp"
 #include "interfaces/recording/table.hpp"
-#include "sim/actuator/pose_plan.hpp"
+#include "sim/control/pose_plan.hpp"
 #include "tests/components/motion_capture/studio.hpp"
 #include "tests/interfaces/recording/support.hpp"
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "sim/actuator/tension_share.hpp"
+#include "sim/control/tension_share.hpp"
 
 namespace {
 

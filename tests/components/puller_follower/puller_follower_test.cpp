@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "sim/actuator/motor.hpp"
+#include "sim/model/actuator/motor.hpp"
 #include "tests/components/joint_bench.hpp"
 
 using namespace control;

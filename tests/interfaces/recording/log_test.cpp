@@ -1,4 +1,4 @@
-#include "launch/erp/log.hpp"
+#include "launch/erp/record/log.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "interfaces/recording/mcap_reader.hpp"
-#include "launch/erp/plot.hpp"
+#include "launch/erp/record/plot.hpp"
 #include "tests/interfaces/recording/support.hpp"
 #include "tests/interfaces/recording/tables.hpp"
 

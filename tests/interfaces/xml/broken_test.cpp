@@ -8,7 +8,7 @@
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "launch/erp/check.hpp"
+#include "launch/erp/inspect/check.hpp"
 #include "tests/interfaces/xml/example.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
 

@@ -17,13 +17,13 @@
 #include "components/replay/replay_node.hpp"
 #include "components/sensorimotor/sensorimotor.hpp"
 #include "components/synergy/synergy.hpp"
-#include "hal/can/gateway_node.hpp"
+#include "components/gateway/gateway_node.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "sim/calibration/parameters.hpp"
-#include "sim/experience/task.hpp"
-#include "sim/learning/learnt_lengths.hpp"
-#include "sim/synergy/task.hpp"
-#include "sim/world/sim_node.hpp"
+#include "sim/learning/calibration/parameters.hpp"
+#include "sim/learning/experience/task.hpp"
+#include "sim/learning/muscle_networks/learnt_lengths.hpp"
+#include "sim/learning/synergy/task.hpp"
+#include "components/sim/sim_node.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
 
 namespace fs = std::filesystem;
@@ -59,7 +59,7 @@ const std::map<std::string, Kind> kinds{
     {"loops", kind_of<sim::loop_shaping::JointShape>()},
     {"logger", kind_of<logger::LoggerNode::Params>()},
     {"motion_capture", kind_of<capture::MotionCapture::Params>()},
-    {"muscles", kind_of<sim::learning::LearntMuscles>()},
+    {"muscles", kind_of<sim::muscle_networks::LearntMuscles>()},
     {"plant", kind_of<plant::Plant::Params>()},
     {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},

@@ -2,7 +2,7 @@
 
 #include "interfaces/robot/mass.hpp"
 #include "sim/formats/formats.hpp"
-#include "sim/skeleton/skeleton_model.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
 #include "tests/sim/formats/file.hpp"
 #include "tests/sim/rigs.hpp"
 

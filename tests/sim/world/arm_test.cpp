@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/actuator/pose_plan.hpp"
+#include "sim/control/pose_plan.hpp"
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/sim/effects/magnitudes.hpp"
+#include "tests/sim/model/effects/magnitudes.hpp"
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "sim/actuator/holding.hpp"
+#include "sim/control/holding.hpp"
 #include "sim/world/world.hpp"
 #include "tests/sim/skeletons.hpp"
 

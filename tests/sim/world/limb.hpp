@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/actuator/design.hpp"
+#include "sim/control/gain_design.hpp"
 #include "sim/world/virtual_ecus.hpp"
 
 /// A simulated robot driven as the plant drives it: parameters, arming, set-points every tick.

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "interfaces/recording/csv.hpp"
-#include "sim/actuator/pose_plan.hpp"
+#include "sim/control/pose_plan.hpp"
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
 #include "tests/sim/world/readings.hpp"

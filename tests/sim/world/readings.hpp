@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "sim/skeleton/joint_reading.hpp"
+#include "sim/model/skeleton/joint_reading.hpp"
 
 /// The angle between two readings of a joint.
 inline double apart_rad(const sim::JointReading& a, const sim::JointReading& b) {

@@ -1,0 +1,184 @@
+#include "components/gateway/gateway_node.hpp"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "firmware/core/bundle.h"
+#include "hal/can/load.hpp"
+
+namespace can {
+namespace {
+
+constexpr std::int64_t tick_ns = 2'000'000;        // the ECUs' period
+constexpr std::int64_t late_ns = 3'000'000;        // chosen: what an ECU may lag behind the others
+constexpr std::int64_t mind_ns = 1'000'000;        // chosen: how often buses are looked after
+constexpr std::int64_t say_ns = 1'000'000'000;     // counters are said once a second at most
+constexpr std::int64_t discover_ns = 100'000'000;  // chosen: between two calls for ECUs
+constexpr std::uint64_t clock_period = 50;         // ticks: 10 Hz
+constexpr std::size_t window = 2;                  // chosen: frames an ECU in flight
+
+std::uint64_t ticks_in(double duration_s) {
+  return static_cast<std::uint64_t>(std::llround(duration_s * 1e9 / tick_ns));
+}
+
+std::vector<std::string> actuators_by_ecu(const erp::Robot& robot) {
+  std::vector<std::string> names(FRAME_ECUS);
+  for (const erp::Actuator& actuator : robot.actuators) {
+    std::string& list = names[static_cast<std::size_t>(actuator.ecu)];
+    list += (list.empty() ? "" : ", ") + actuator.name;
+  }
+  return names;
+}
+
+std::string trace_name(const std::string& file, const std::string& bus, std::size_t buses) {
+  if (buses == 1) return file;
+  std::filesystem::path path(file);
+  return path.replace_filename(path.stem().string() + "." + bus + path.extension().string());
+}
+
+/// Of its bus's time, worst case. On CAN FD they are taken to go four to a bundle.
+double time_of_a_frame_s(const erp::BusPlan& plan) {
+  if (!plan.data_bitrate_per_s) return erp::frame_time_s(8, plan.bitrate_per_s);
+  const std::size_t bytes = bundle_size(4);
+  return erp::fd_frame_time_s(bytes, plan.bitrate_per_s, *plan.data_bitrate_per_s) / 4;
+}
+
+}  // namespace
+
+GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::Node& node)
+    : node_(node),
+      routes_(robot),
+      gateway_(robot),
+      ecus_(robot.ecus()),
+      drives_(actuators_by_ecu(robot)),
+      frame_out_(node.advertise<erp::EcuFrame>()),
+      clock_out_(node.advertise<erp::Clock>()),
+      end_sequence_(ticks_in(node.options().duration_s)) {
+  open(params, robot);
+  parameter_in_ = &node.subscribe<erp::EcuParameter>(
+      [this](const auto& m) { send(gateway_.parameters(m)); }, 8);
+  node.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
+  for (erp::BusKeeper& bus : buses_) node.watch(bus.bus().fd(), [this, &bus] { receive(bus); });
+  node.on_activate([this] {
+    began_ns_ = node::monotonic_ns();
+    discover();
+  });
+  node.on_deactivate([this] { publish_clock(); });
+  node.every(say_ns, [this] { say_counters(); });
+  node.every(discover_ns, [this] { discover(); });
+  node.every(mind_ns, [this] { mind(); });
+  if (!node.clock().lockstep()) node.every(tick_ns, [this] { close_late_tick(); });
+}
+
+void GatewayNode::open(const Params& params, const erp::Robot& robot) {
+  erp::refuse_overload(robot);
+  auto opened = erp::open_buses(robot, params.bus, window);
+  buses_.reserve(opened.size());
+  for (std::size_t k = 0; k < opened.size(); ++k) {
+    buses_.emplace_back(routes_.name(k), std::move(opened[k]));
+    if (!params.trace.empty())
+      buses_[k].record(trace_name(params.trace, routes_.name(k), opened.size()));
+  }
+  for (const erp::BusPlan& plan : robot.buses()) frame_time_s_.push_back(time_of_a_frame_s(plan));
+  refused_said_.assign(buses_.size(), 0);
+  frames_before_.assign(buses_.size(), 0);
+}
+
+std::int64_t GatewayNode::now_ns() const {
+  return node_.clock().lockstep() ? 0 : node::monotonic_ns();
+}
+
+void GatewayNode::send(std::span<const erp::CanFrame> frames) {
+  if (buses_.size() == 1) return buses_[0].post(frames, now_ns());
+  routes_.sort(frames);
+  for (std::size_t k = 0; k < buses_.size(); ++k) buses_[k].post(routes_.on(k), now_ns());
+}
+
+void GatewayNode::on_command(const erp::EcuCommand& command) {
+  // Gains sent before this command are waiting already: they go first, in every run alike.
+  parameter_in_->poll(true);
+  node_.count_step(gateway_.frame().stamp_ns);
+  if (node_.clock().lockstep() && command.answers != gateway_.frame().sequence) return;
+  send(gateway_.commands(command));
+  if (end_sequence_ && command.answers >= end_sequence_) node_.finish();
+}
+
+void GatewayNode::receive(erp::BusKeeper& bus) {
+  std::array<erp::CanFrame, 64> frames;
+  while (const auto n = bus.bus().receive(frames, 0))
+    for (const erp::CanFrame& frame : std::span(frames).first(n)) {
+      const auto ecu = frame_ecu_of(&frame);
+      if (gateway_.understands(ecu)) watch_.heard(ecu, now_ns());
+      switch (gateway_.hear(frame)) {
+        case erp::Heard::tick:
+          take_tick();
+          break;
+        case erp::Heard::tick_repeated:
+          send(gateway_.again());
+          break;
+        case erp::Heard::nothing:
+          if (!open_since_ns_) open_since_ns_ = node::monotonic_ns();
+          break;
+      }
+    }
+  if (tick_waits_) publish_tick();
+  bus.flush(now_ns());
+  say_news();
+}
+
+/// Of several ticks that waited together, for want of a processor, only the newest is worth an
+/// answer; in lockstep there is never more than one.
+void GatewayNode::take_tick() {
+  ticks_left_out_ += tick_waits_;
+  tick_waits_ = true;
+  if (node_.clock().lockstep()) publish_tick();
+}
+
+void GatewayNode::mind() {
+  for (erp::BusKeeper& bus : buses_)
+    for (const auto& notice : bus.mind(now_ns()))
+      node_.report(notice.severity, bus.name(), notice.code, notice.text);
+  if (node_.clock().lockstep()) return;  // an ECU is not expected at any time then
+  // What waits unread is read before an ECU is called silent: this process may have been late itself.
+  const auto judged_at_ns = now_ns();
+  for (erp::BusKeeper& bus : buses_) receive(bus);
+  watch_.step(judged_at_ns, [this](int ecu, erp::EcuWatch::News news) { say_ecu(ecu, news); });
+}
+
+/// Calls for the ECUs until all have said what they are.
+void GatewayNode::discover() {
+  const auto introduced = [this](int ecu) { return gateway_.introduced(ecu); };
+  if (std::ranges::all_of(ecus_, introduced)) return;
+  send(gateway_.discover());
+  if (++asked_ == 11) say_unanswered();
+}
+
+void GatewayNode::close_late_tick() {
+  if (!open_since_ns_ || node::monotonic_ns() - *open_since_ns_ < late_ns) return;
+  gateway_.close_tick();
+  publish_tick();
+}
+
+void GatewayNode::publish_tick() {
+  tick_waits_ = false;
+  open_since_ns_.reset();
+  auto& frame = gateway_.frame();
+  // Simulated time begins at the first tick, as it does in the simulator itself.
+  node_.clock().advance(static_cast<std::int64_t>(frame.sequence - 1) * tick_ns);
+  frame.stamp_ns = node_.clock().now_ns();
+  if (frame.sequence % clock_period == 1) publish_clock();
+  frame_out_.publish_numbered(frame);
+}
+
+void GatewayNode::publish_clock() {
+  erp::Clock clock;
+  const auto sequence = gateway_.frame().sequence;
+  clock.stamp_ns = sequence ? static_cast<std::int64_t>(sequence - 1) * tick_ns : 0;
+  const auto elapsed_ns = node::monotonic_ns() - began_ns_;
+  clock.real_time_factor =
+      elapsed_ns > 0 ? static_cast<double>(clock.stamp_ns) / static_cast<double>(elapsed_ns) : 0;
+  clock_out_.publish(clock);
+}
+
+}  // namespace can

@@ -1,0 +1,181 @@
+#include "hal/ecu/program.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <ctime>
+#include <stdexcept>
+
+#include "firmware/board/wire.h"
+
+namespace board {
+namespace {
+
+constexpr long period_ns = 2'000'000;
+
+int period_timer() {
+  const int timer = ::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
+  const itimerspec each{{0, period_ns}, {0, period_ns}};
+  if (timer < 0 || ::timerfd_settime(timer, 0, &each, nullptr) != 0)
+    throw std::runtime_error("no timer for the control period");
+  return timer;
+}
+
+int converter_socket(const sockaddr_in& robot) {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd < 0 || ::connect(fd, reinterpret_cast<const sockaddr*>(&robot), sizeof robot) != 0)
+    throw std::runtime_error("no socket for the converters");
+  return fd;
+}
+
+/// What this program has worked. Not the time it was kept from working by others on this machine,
+/// which no ECU has beside it.
+std::int64_t worked_ns() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+class Program {
+ public:
+  Program(const board_fitted& fitted, const Place& place, frame_reset_cause cause, int kick)
+      : fitted_(fitted),
+        kick_(kick),
+        bus_(erp::open_bus(place.bus, place.bus_options)),
+        converters_(converter_socket(place.converters)),
+        timer_(period_timer()) {
+    wait_for_power();
+    erp::CanFrame boot;
+    ecu_board_init(&board_, &fitted, cause, &boot);
+    bus_->send({&boot, 1});
+  }
+
+  /// False: the robot is gone.
+  bool wait_and_serve() {
+    std::array<pollfd, 3> ready{
+        {{bus_->fd(), POLLIN, 0}, {converters_, POLLIN, 0}, {timer_, POLLIN, 0}}};
+    ::poll(ready.data(), ready.size(), -1);
+    if (ready[0].revents) hear();
+    if (ready[1].revents) read_converters();
+    std::uint64_t periods = 0;
+    if (::read(timer_, &periods, sizeof periods) > 0) mind_the_time();
+    return silent_periods_ < (period_.readings.turn ? lockstep_periods : unplugged_periods);
+  }
+
+ private:
+  static constexpr int unplugged_periods = 50;    ///< without a reading: 100 ms; chosen
+  static constexpr int lockstep_periods = 5'000;  ///< where partners may take their time
+
+  /// Calls for the robot until it answers: before that there is nothing to run on.
+  void wait_for_power() {
+    pollfd answer{converters_, POLLIN, 0};
+    do {
+      say({});
+      asked_ = false;
+      ask();
+    } while (::poll(&answer, 1, 8) <= 0);
+  }
+
+  /// Asks for the readings of the next period; in lockstep once the host has answered this one.
+  void ask() {
+    if (asked_ || ecu_board_awaits_host(&board_, &period_.readings)) return;
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    const unsigned size = wire_pack_sample(bytes.data(), fitted_.ecu, period_.readings.turn);
+    (void)::send(converters_, bytes.data(), size, 0);
+    asked_ = true;
+  }
+
+  /// What may have got lost is said again.
+  void mind_the_time() {
+    kick();
+    if (ecu_board_awaits_host(&board_, &period_.readings)) {
+      silent_periods_ = 0;
+      if (++for_host_ % ECU_BOARD_REPEAT_PERIODS == 0) repeat();
+      return;
+    }
+    for_host_ = 0;
+    if (++silent_periods_ % ECU_BOARD_ASK_PERIODS == 0) asked_ = false;
+    ask();
+  }
+  void repeat() {
+    std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
+    bus_->send(std::span(frames).first(ecu_board_repeat(&board_, frames.data())));
+  }
+
+  void hear() {
+    std::array<erp::CanFrame, 64> frames;
+    while (const auto count = bus_->receive(frames, 0))
+      for (std::size_t i = 0; i < count && bus_off_periods_ == 0; ++i)
+        ecu_board_hear(&board_, &frames[i]);
+    ask();
+  }
+
+  void read_converters() {
+    std::array<std::uint8_t, 1500> datagram;
+    for (ssize_t n = 0; (n = ::recv(converters_, datagram.data(), datagram.size(), 0)) > 0;)
+      for (ssize_t i = 0; i < n; ++i) take(wire_take(&reader_, datagram[std::size_t(i)]));
+  }
+
+  void take(wire_kind kind) {
+    if (kind == WIRE_READINGS) wire_unpack_readings(&reader_, &period_.readings), pass_period();
+    if (kind != WIRE_MISHAP) return;
+    wire_mishap mishap;
+    wire_unpack_mishap(&reader_, &mishap);
+    if (mishap.kind == WIRE_MISHAP_HANG)
+      for (volatile bool for_ever = true; for_ever;) continue;
+    if (mishap.kind == WIRE_MISHAP_BUSY) busy_periods_ = mishap.periods;
+    if (mishap.kind == WIRE_MISHAP_BUS_OFF) bus_off_periods_ = mishap.periods;
+  }
+
+  /// The simulated robot gives readings each 2 ms of its own time: that is this ECU's clock.
+  void pass_period() {
+    silent_periods_ = 0;
+    asked_ = false;
+    if (ecu_board_awaits_robot(&board_, &period_.readings)) return;  // said again
+    const std::int64_t began_ns = worked_ns();
+    std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
+    std::array<std::int16_t, 2> duty;
+    period_.bus_off = bus_off_periods_ > 0;
+    const unsigned count = ecu_board_period(&board_, &period_, duty.data(), frames.data());
+    say(duty);
+    if (bus_off_periods_ == 0) bus_->send(std::span(frames).first(count));
+    while (busy_periods_ > 0 && worked_ns() - began_ns < period_ns) continue;
+    if (busy_periods_ > 0) --busy_periods_;
+    if (bus_off_periods_ > 0) --bus_off_periods_;
+    period_.overran = worked_ns() - began_ns >= period_ns;
+    ask();
+  }
+
+  /// Both PWM outputs to the robot, and a kick to the watchdog.
+  void say(const std::array<std::int16_t, 2>& duty) {
+    std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
+    const unsigned size = wire_pack_drive(bytes.data(), fitted_.ecu, duty.data());
+    (void)::send(converters_, bytes.data(), size, 0);  // no robot there yet: it is said again
+    kick();
+  }
+  void kick() { (void)!::write(kick_, "", 1); }
+
+  board_fitted fitted_;
+  int kick_;
+  ecu_board board_{};
+  board_period period_{};
+  std::unique_ptr<erp::CanBus> bus_;
+  int converters_, timer_;
+  wire_reader reader_{};
+  bool asked_ = false;      ///< for readings
+  int silent_periods_ = 0;  ///< since the robot gave some
+  unsigned for_host_ = 0;   ///< periods waited for it, in lockstep
+  unsigned busy_periods_ = 0, bus_off_periods_ = 0;
+};
+
+}  // namespace
+
+void run(const board_fitted& fitted, const Place& place, frame_reset_cause cause, int kick) {
+  Program program(fitted, place, cause, kick);
+  while (program.wait_and_serve()) continue;
+}
+
+}  // namespace board

@@ -1,0 +1,219 @@
+#include "launch/erp/gap/blind.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "launch/erp/gap/files.hpp"
+#include "launch/erp/gap/gap.hpp"
+#include "launch/erp/gap/rehearsed.hpp"
+#include "launch/erp/gap/truth.hpp"
+#include "launch/erp/text/progress.hpp"
+#include "launch/erp/text/text_files.hpp"
+#include "sim/gap/blind/shows.hpp"
+#include "sim/gap/diagnosis/diagnose.hpp"
+#include "interfaces/parallel/in_parallel.hpp"
+
+namespace launch::gap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// Without the columns of what is not recorded, to nine decimals: below any sensor's step.
+recording::Table as_recorded(recording::Table table, const std::vector<std::string>& without) {
+  const auto hidden = [&](const recording::Column& column) {
+    const auto signal = recording::signal_of(column.name);
+    for (const std::string& what : without) {
+      if (what == "tension" && signal == "tension_N") return true;
+      if (what == "current" && signal == "current_A") return true;
+      if (what == "joint" && (signal == "angle_rad" || signal[0] == 'q')) return true;
+    }
+    return false;
+  };
+  std::erase_if(table.columns, hidden);
+  for (recording::Column& column : table.columns)
+    for (double& value : column.values) value = std::round(value * 1e9) / 1e9;
+  return table;
+}
+
+Json truth_of(const std::string& name, const sim::blind::Case& blind) {
+  Json hidden = Json::array();
+  for (const sim::blind::Hidden& h : blind.hidden) {
+    Json parameters = Json::object();
+    for (const auto& [parameter, value] : h.parameters) parameters[parameter] = value;
+    hidden.push_back(
+        {{"type", h.type}, {"stage", h.stage}, {"on", h.on}, {"parameters", parameters}});
+  }
+  Json numbers = Json::array();
+  for (const sim::blind::Drawn& d : blind.built.drawn)
+    numbers.push_back({{"on", d.on}, {"name", d.name}, {"value", d.value}});
+  return {{"case", name},
+          {"kind", sim::blind::word(blind.kind)},
+          {"seed", blind.seed},
+          {"hidden", hidden},
+          {"numbers", numbers}};
+}
+
+/// A case as it was recorded: one CSV a recording.
+struct Recorded {
+  sim::blind::Case blind;
+  std::vector<std::string> csv;
+  int not_finite = 0;  ///< drawn before it, whose motion was not finite
+};
+
+/// Draws a case and records it; one whose motion is not finite is no robot's, and drawn anew.
+Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64_t seed,
+                     const BlindMakeOptions& options, const sim::blind::Shows& shows) {
+  constexpr std::uint64_t next_draw = 1'000'003;  // beyond the seeds of the other cases
+  constexpr int most = 20;                        // chosen
+  for (int draw = 0;; ++draw) {
+    Recorded found{sim::blind::draw_case(robot, kind, seed + next_draw * std::uint64_t(draw),
+                                         options.only, shows),
+                   {},
+                   draw};
+    if (options.tolerance > 0)
+      found.blind.built =
+          sim::blind::as_built(robot, options.tolerance, found.blind.seed, found.blind.quirks);
+    try {
+      for (int r = 0; r < options.recordings; ++r) {
+        const auto excitation = sim::excitation(robot, r, options.seconds, seed);
+        const auto table = sim::blind::record(robot, found.blind, excitation,
+                                              seed * 1000 + static_cast<std::uint64_t>(r));
+        std::ostringstream text;
+        recording::write_csv(as_recorded(table, options.without), text);
+        found.csv.push_back(text.str());
+      }
+      return found;
+    } catch (const sim::blind::NotFinite&) {
+      if (draw == most) throw;
+    }
+  }
+}
+
+/// Which part of the work is this process's, of how many: under Open MPI, else all.
+std::pair<std::size_t, std::size_t> part_of_work() {
+  const auto number = [](const char* name, std::size_t otherwise) {
+    const char* text = std::getenv(name);
+    return text ? static_cast<std::size_t>(std::strtoul(text, nullptr, 10)) : otherwise;
+  };
+  return {number("OMPI_COMM_WORLD_RANK", 0),
+          std::max<std::size_t>(1, number("OMPI_COMM_WORLD_SIZE", 1))};
+}
+
+/// What the cases would not be, or would lose.
+void check(const BlindMakeOptions& options, const erp::Robot& robot) {
+  if (robot.actuators.empty())
+    throw std::invalid_argument(options.robot +
+                                ": has no actuator to hide anything in; give a robot with muscles");
+  if (!robot.effects.empty())
+    throw std::invalid_argument(options.robot +
+                                ": has effects, which the cases would lack; give it without them");
+  if (options.kind == "many" && options.tolerance > 0)
+    throw std::invalid_argument(fmt::format(
+        "--tolerance {}: cases of many draw their own numbers; leave it out", options.tolerance));
+  if (fs::exists(options.out + "/cases.json"))
+    throw std::invalid_argument(options.out +
+                                ": holds cases already; move it away or name another");
+  if (fs::exists(options.truth))
+    throw std::invalid_argument("--truth " + options.truth +
+                                ": is there, and seals other cases; name another");
+  const fs::path inside =
+      fs::weakly_canonical(options.truth).lexically_relative(fs::weakly_canonical(options.out));
+  if (!inside.empty() && *inside.begin() != "..")
+    throw std::invalid_argument("--truth " + options.truth +
+                                ": lies among the cases, which must not tell it; name another");
+}
+
+}  // namespace
+
+int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream& remarks) {
+  const erp::Robot robot = erp::read_robot(options.robot);
+  const auto kind = sim::blind::kind_of(options.kind);
+  check(options, robot);
+  if (const fs::path folder = fs::path(options.truth).parent_path(); !folder.empty())
+    make_folder(folder);
+  make_folder(options.out);
+  write_file(options.out + "/robot.xml", erp::write_robot(robot));
+  const auto count = static_cast<std::size_t>(options.cases);
+  std::vector<Json> truths(count), cases(count);
+  const sim::blind::Shows shows(robot);
+  std::atomic<int> drawn_anew = 0, not_finite = 0;
+  std::size_t done = 0;
+  std::mutex telling;
+  Progress progress(remarks);
+  sim::in_parallel(count, options.threads, [&](std::size_t k) {
+    const std::string name = fmt::format("case_{:04}", k + 1);
+    const Recorded made = record_case(robot, kind, options.seed + k, options, shows);
+    drawn_anew += made.blind.drawn_anew, not_finite += made.not_finite;
+    fs::create_directories(options.out + "/" + name);
+    Json files = Json::array();
+    for (std::size_t r = 0; r < made.csv.size(); ++r) {
+      files.push_back(fmt::format("{}/{}.csv", name, r + 1));
+      write_file(options.out + "/" + files.back().get<std::string>(), made.csv[r]);
+    }
+    cases[k] = {{"case", name}, {"recordings", files}, {"withhold", made.blind.withhold}};
+    truths[k] = truth_of(name, made.blind);
+    const std::lock_guard lock(telling);
+    progress.tell("cases", double(++done) / double(count));
+  });
+  const std::string truth = Json(truths).dump(1) + "\n";
+  write_file(options.truth, truth);
+  const Json manifest{{"format", "erp gap blind 1"},
+                      {"robot", "robot.xml"},
+                      {"truth_sha256", sha256(truth)},
+                      {"cases", cases}};
+  write_file(options.out + "/cases.json", manifest.dump(1) + "\n");
+  out << fmt::format("{} {} in {}\nsealed      {}\nsha256      {}\n", count,
+                     count == 1 ? "case" : "cases", options.out, options.truth, sha256(truth));
+  if (drawn_anew > 0)
+    out << fmt::format("drawn anew  {} that would not have shown in any reading\n",
+                       drawn_anew.load());
+  if (not_finite > 0)
+    out << fmt::format("drawn anew  {} whose motion was not finite\n", not_finite.load());
+  return 0;
+}
+
+int blind_run(const BlindRunOptions& options, std::ostream& out, std::ostream& remarks) {
+  const std::string& folder = options.folder;
+  const Json manifest = Json::parse(read_text(folder + "/cases.json"));
+  const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
+  const auto [part, parts] = part_of_work();
+  std::vector<Json> mine;
+  std::size_t n = 0;
+  for (const Json& one : manifest["cases"])
+    if (n++ % parts == part &&
+        !fs::exists(folder + "/" + one["case"].get<std::string>() + "/diagnosis.json"))
+      mine.push_back(one);
+  std::atomic<std::size_t> done = 0;
+  std::mutex telling;
+  Progress progress(remarks);
+  sim::in_parallel(mine.size(), options.threads, [&](std::size_t k) {
+    std::vector<std::string> files;
+    for (const Json& file : mine[k]["recordings"])
+      files.push_back(folder + "/" + file.get<std::string>());
+    sim::diagnosis::DiagnoseOptions how{.threads = 1};
+    how.withhold = mine[k]["withhold"].get<std::vector<std::string>>();
+    const auto episodes = read_episodes(robot, files).episodes;
+    auto d = sim::diagnosis::diagnose(robot, episodes, how);
+    const DiagnoseOptions freely{.threads = 1, .free_run = options.free_run};
+    const auto free_run = run_freely(d, episodes, robot, freely, [](double) {});
+    const std::string place = folder + "/" + mine[k]["case"].get<std::string>();
+    write_file(place + "/diagnosis.part", diagnosis_json(d, free_run, robot));
+    fs::rename(place + "/diagnosis.part", place + "/diagnosis.json");
+    const std::lock_guard lock(telling);
+    progress.tell("diagnoses", double(++done) / double(mine.size()));
+  });
+  out << fmt::format("{} {} in {}\n", mine.size(), mine.size() == 1 ? "diagnosis" : "diagnoses",
+                     folder);
+  return 0;
+}
+
+}  // namespace launch::gap

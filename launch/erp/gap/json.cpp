@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "launch/erp/gap/files.hpp"
+
+namespace launch::gap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace sim::diagnosis;
+
+/// Five digits tell all that such figures hold; what is no number becomes null.
+double rounded(double x) {
+  if (x == 0 || !std::isfinite(x)) return x;
+  const double scale = std::pow(10, 5 - std::ceil(std::log10(std::abs(x))));
+  return std::round(x * scale) / scale;
+}
+
+Json pair_of(const Interval& i) { return Json::array({rounded(i.low), rounded(i.high)}); }
+
+Json json_of(const Located& place) {
+  Json when = Json::array();
+  for (const Region& r : place.when)
+    when.push_back({{"variable", r.variable}, {"fifth", r.fifth}, {"share", rounded(r.share)}});
+  return {{"stage", sim::effects::word(place.stage)},
+          {"on", place.on},
+          {"share", rounded(place.share)},
+          {"interval", pair_of(place.interval)},
+          {"when", when}};
+}
+
+Json json_of(const Named& n) {
+  Json parameters = Json::object(), intervals = Json::object();
+  for (std::size_t k = 0; k < n.names.size(); ++k)
+    parameters[n.names[k]] = rounded(n.values[k]), intervals[n.names[k]] = pair_of(n.intervals[k]);
+  return {{"type", n.type},           {"on", n.on},
+          {"parameters", parameters}, {"intervals", intervals},
+          {"gain", rounded(n.gain)},  {"gain_interval", pair_of(n.gain_interval)},
+          {"supported", n.supported}};
+}
+
+Json json_of(const Closed& c) {
+  Json json{{"unit", c.unit},
+            {"before", rounded(c.before)},
+            {"floor", rounded(c.floor)},
+            {"after", rounded(c.after)}};
+  if (c.driven_by > 0) json["driven_by"] = rounded(c.driven_by);
+  json["closed"] = rounded(c.closed);
+  json["closed_interval"] = pair_of(c.interval);
+  return json;
+}
+
+/// By name. What a channel without a gap closes is null.
+Json channels_of(const std::vector<Closed>& channels) {
+  Json all = Json::object();
+  for (const Closed& c : channels) {
+    Json& json = all[c.channel] = json_of(c);
+    if (!c.gapes()) json["closed"] = json["closed_interval"] = nullptr;
+  }
+  return all;
+}
+
+Json json_of(const StageGap& gap) {
+  return {{"stage", sim::effects::word(gap.stage)},
+          {"on", gap.on},
+          {"unit", gap.unit},
+          {"residual", rounded(gap.rms)},
+          {"floor", rounded(gap.floor)},
+          {"excess", rounded(gap.excess)},
+          {"excess_interval", pair_of(gap.excess_interval)},
+          {"share", rounded(gap.share)},
+          {"windows", gap.windows},
+          {"judged", gap.judged},
+          {"open", gap.open}};
+}
+
+Json json_of(const ConstantEstimate& c) {
+  return {{"name", c.name},
+          {"on", c.on},
+          {"stage", sim::effects::word(c.stage)},
+          {"nominal", c.nominal},
+          {"tolerance", rounded(c.tolerance)},
+          {"value", rounded(c.value)},
+          {"interval", pair_of(c.interval)},
+          {"determined", rounded(std::clamp(c.determined, 0.0, 1.0))},
+          {"differs", c.differs()},
+          {"beyond", c.beyond}};
+}
+
+template <class Items>
+Json list_of(const Items& items) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+/// The answer's effects first, then the others as they fitted one by one.
+Json effects_of(const Diagnosis& d) {
+  Json list = list_of(d.answer);
+  for (const Named& n : d.ranked)
+    if (std::ranges::none_of(d.answer,
+                             [&](const Named& a) { return a.type == n.type && a.on == n.on; })) {
+      list.push_back(json_of(n));
+      list.back()["supported"] = false;
+    }
+  return list;
+}
+
+/// Effects of the same `set` could stand for each other.
+Json confusable_of(const Diagnosis& d) {
+  Json list = Json::array();
+  int set = 0;
+  for (const Named& answer : d.answer) {
+    if (answer.alternatives.empty()) continue;
+    const auto add = [&](const Named& n) {
+      list.push_back(
+          {{"type", n.type}, {"on", n.on}, {"set", set}, {"parameters", json_of(n)["parameters"]}});
+    };
+    add(answer);
+    for (const Named& other : answer.alternatives) add(other);
+    ++set;
+  }
+  return list;
+}
+
+/// Of the recordings that are used for both, by name.
+Json shared(const sim::diagnosis::Diagnosis& d) {
+  Json all = Json::object();
+  for (const auto& one : d.shared) all[one.recording] = one.judged_from_s;
+  return all;
+}
+
+}  // namespace
+
+std::string diagnosis_json(const Diagnosis& d, const sim::closed_loop::FreeRun& free_run,
+                           const erp::Robot& robot) {
+  Json gap = json_of(d.overall);
+  gap["channels"] = channels_of(d.channels);
+  gap["interaction"] = rounded(d.interaction);
+  if (!free_run.channels.empty()) {
+    gap["free_running"] = json_of(free_run.all);
+    gap["free_running"]["channels"] = channels_of(free_run.channels);
+  }
+  Json unexplained = Json::array();
+  for (const Unexplained& u : d.unexplained) {
+    Json one{{"stage", sim::effects::word(u.stage)}, {"on", u.on}, {"excess", rounded(u.excess)}};
+    if (u.shape) {
+      one["depends_on"] = u.shape->variable, one["unit"] = u.shape->unit;
+      one["explained"] = rounded(u.shape->explained);
+      one["constant"] = rounded(u.shape->constant);
+      one["map"] = {
+          {"at", u.shape->middle}, {"mean", u.shape->mean}, {"deviation", u.shape->deviation}};
+    }
+    unexplained.push_back(one);
+  }
+  const Json all{{"format", "erp gap diagnosis 1"},
+                 {"robot", robot.name},
+                 {"verdict", word(d.verdict)},
+                 {"where", list_of(d.where)},
+                 {"effects", effects_of(d)},
+                 {"confusable", confusable_of(d)},
+                 {"constants", list_of(d.constants)},
+                 {"gap", gap},
+                 {"unexplained", unexplained},
+                 {"residuals", list_of(d.stages)},
+                 {"recordings", d.recordings},
+                 {"train", d.train},
+                 {"held_out", d.held_out},
+                 {"judged_from_s", shared(d)},
+                 {"mend_first", d.mend_first},
+                 {"warnings", d.warnings}};
+  return all.dump(1) + "\n";
+}
+
+}  // namespace launch::gap

@@ -1,0 +1,32 @@
+#include "interfaces/xml/errors.hpp"
+#include "interfaces/xml/writer.hpp"
+#include "launch/erp/gap/files.hpp"
+#include "launch/erp/text/text_files.hpp"
+
+namespace launch::gap {
+namespace {
+
+/// Whether the file is the robot.
+bool is(const std::string& file, const erp::Robot& robot) {
+  try {
+    return erp::write_robot(erp::read_robot(file)) == erp::write_robot(robot);
+  } catch (const xml::Errors&) {
+    return false;  // it names files that are not beside it
+  }
+}
+
+}  // namespace
+
+void write_mended(const std::string& file, const std::string& model, const erp::Robot& mended,
+                  std::vector<erp::Effect> added) {
+  std::string text = read_text(model), effects;
+  for (erp::Effect& effect : added) effects += xml::Writer::text_of(effect, effect.element, 1);
+  const auto end = text.rfind("</robot>");
+  if (end != text.npos) {
+    write_file(file, text.insert(end, effects));
+    if (is(file, mended)) return;
+  }
+  write_file(file, erp::write_robot(mended));
+}
+
+}  // namespace launch::gap

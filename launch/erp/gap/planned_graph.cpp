@@ -1,0 +1,65 @@
+#include "launch/erp/gap/planned_graph.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+#include "interfaces/recording/csv.hpp"
+#include "launch/erp/text/text_files.hpp"
+
+namespace launch::gap {
+namespace {
+
+namespace fs = std::filesystem;
+
+recording::Table trajectory_of(const sim::Excitation& excitation, const erp::Robot& robot) {
+  constexpr std::size_t each = 5;  // rows: `reference` draws lines between them
+  recording::Table table;
+  table.columns.push_back({"time_s", {}});
+  for (const erp::Actuator& a : robot.actuators)
+    table.columns.push_back({a.name + ".mode", {}}),
+        table.columns.push_back({a.name + ".reference", {}});
+  for (std::size_t k = 0; k < excitation.reference.size(); k += each) {
+    table.columns[0].values.push_back(excitation.period_s * double(k));
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+      table.columns[1 + 2 * a].values.push_back(static_cast<double>(excitation.mode));
+      table.columns[2 + 2 * a].values.push_back(excitation.reference[k][a]);
+    }
+  }
+  return table;
+}
+
+constexpr const char* mark = "<!-- By erp gap plan. -->";
+
+}  // namespace
+
+void make_way(const std::string& out) {
+  const std::string graph = out + "/graph.xml";
+  const bool ours = fs::exists(graph) && read_text(graph).starts_with(mark);
+  for (const char* name : {"graph.xml", "reference.xml", "trajectory.csv"}) {
+    const std::string file = fs::path(out) / name;
+    if (!ours && fs::exists(file))
+      throw std::invalid_argument("--out " + out + ": holds a " + name +
+                                  " that no plan wrote; name another folder");
+    fs::remove(file);
+  }
+}
+
+void write_graph(const std::string& out, const std::string& robot_file, const erp::Robot& robot,
+                 const sim::Excitation& excitation) {
+  make_folder(out);
+  std::ostringstream csv;
+  recording::write_csv(trajectory_of(excitation, robot), csv);
+  write_file(out + "/trajectory.csv", csv.str());
+  write_file(out + "/reference.xml", "<reference file=\"trajectory.csv\"/>\n");
+  const auto robot_path = fs::relative(fs::absolute(robot_file), fs::absolute(out));
+  write_file(out + "/graph.xml",
+             fmt::format("{}\n<graph name=\"{}_next\" robot=\"{}\" device=\"sim\">\n"
+                         "  <component name=\"reference\" config=\"reference.xml\"/>\n"
+                         "  <component name=\"logger\"/>\n</graph>\n",
+                         mark, robot.name.substr(0, 20), robot_path.string()));
+}
+
+}  // namespace launch::gap

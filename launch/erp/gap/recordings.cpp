@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <ostream>
+#include <stdexcept>
+
+#include "launch/erp/gap/gap.hpp"
+#include "sim/gap/estimation/constants.hpp"
+#include "sim/gap/estimation/limits.hpp"
+#include "sim/gap/estimation/row_timing.hpp"
+#include "sim/gap/estimation/spoilt_rows.hpp"
+#include "sim/gap/residuals/common_signals.hpp"
+#include "sim/gap/residuals/drives.hpp"
+#include "sim/gap/residuals/stages.hpp"
+#include "sim/gap/checks/dead_columns.hpp"
+#include "sim/gap/checks/odd_table.hpp"
+#include "sim/gap/checks/units.hpp"
+
+namespace launch::gap {
+namespace {
+
+namespace residuals = sim::residuals;
+namespace checks = sim::checks;
+
+/// What several recordings share is said once.
+class Remarks {
+ public:
+  void add(const std::string& file, const std::vector<std::string>& of_file) {
+    for (const std::string& remark : of_file) {
+      const std::string what = remark.substr(file.size());  // each begins with its recording
+      const auto said = std::ranges::find(all_, what, &Remark::what);
+      if (said == all_.end()) all_.push_back({file, what});
+      else said->files += ", " + file;
+    }
+  }
+  std::vector<std::string> take() const {
+    std::vector<std::string> lines;
+    for (const Remark& remark : all_) lines.push_back(remark.files + remark.what);
+    return lines;
+  }
+
+ private:
+  struct Remark {
+    std::string files, what;
+  };
+  std::vector<Remark> all_;
+};
+
+/// The recordings so far, to find copies: data that an effect was fitted to cannot judge it.
+class Originals {
+ public:
+  /// Throws std::invalid_argument if another recording holds the same values.
+  void add(const std::string& file, const recording::Table& table) {
+    const std::uint64_t hash = hash_of(table);
+    const auto same = std::ranges::find(all_, hash, &Original::hash);
+    if (same != all_.end())
+      throw std::invalid_argument(
+          fmt::format("{}: holds the same values as {}: a copy; leave it out", file, same->file));
+    all_.push_back({file, hash});
+  }
+
+ private:
+  struct Original {
+    std::string file;
+    std::uint64_t hash;
+  };
+  /// FNV-1a of names and values.
+  static std::uint64_t hash_of(const recording::Table& table) {
+    std::uint64_t hash = 14695981039346656037u;
+    const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 1099511628211u; };
+    for (const auto& column : table.columns) {
+      for (const char c : column.name) add(std::uint64_t(c));
+      for (const double x : column.values) add(std::bit_cast<std::uint64_t>(x));
+    }
+    return hash;
+  }
+  std::vector<Original> all_;
+};
+
+}  // namespace
+
+erp::Robot read_chains(const std::string& robot_file) {
+  erp::Robot robot = residuals::as_chains(erp::read_robot(robot_file));
+  sim::estimation::constants_of(robot);  // throws if a tolerance matches no number
+  return robot;
+}
+
+Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings) {
+  Reading read;
+  Remarks odd;
+  Originals originals;
+  for (const std::string& file : recordings) {
+    const auto table =
+        recording::read_table(file, {.robot = robot.name, .sequences = true, .sent = true});
+    originals.add(file, table);
+    read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
+    const residuals::Episode& episode = read.episodes.back();
+    const double seconds = double(table.rows()) * episode.period_s;
+    if (checks::nothing_changes(episode))
+      throw std::invalid_argument(
+          fmt::format("{}: nothing changes in it: every signal of {} holds one value for {:.1f} s; "
+                      "record the robot while it moves",
+                      file, robot.name, seconds));
+    if (residuals::windows_of(episode, {}).empty())
+      read.mended.push_back(fmt::format(
+          "{}: {:.2g} s are too short to judge anything by: it counts for nothing", file, seconds));
+    odd.add(file, checks::odd_table(table, robot, file));
+    odd.add(file, checks::odd_units(episode, robot));
+  }
+  read.odd = odd.take();
+  residuals::keep_common(read.episodes, robot, read.mended);
+  sim::estimation::mend_spoilt_rows(read.episodes, read.mended);
+  sim::estimation::undo(sim::estimation::row_timing(read.episodes), read.episodes, read.mended);
+  sim::estimation::apply_limits(robot, read.episodes, read.mended);
+  return read;
+}
+
+bool can_judge(const std::vector<residuals::Episode>& episodes) {
+  return std::ranges::any_of(
+      episodes, [](const residuals::Episode& e) { return !residuals::windows_of(e, {}).empty(); });
+}
+
+void tell(const std::vector<std::string>& list, std::ostream& remarks) {
+  for (const std::string& remark : list) remarks << remark << "\n";
+}
+
+void tell_odd(const Reading& read, std::ostream& remarks) {
+  for (const std::string& odd : read.odd) remarks << "mend first  " << odd << "\n";
+}
+
+}  // namespace launch::gap

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "launch/erp/gap/files.hpp"
+#include "launch/erp/gap/report_parts.hpp"
+#include "launch/erp/gap/svg.hpp"
+#include "launch/erp/gap/words.hpp"
+
+namespace launch::gap {
+namespace {
+
+using namespace sim::diagnosis;
+using svg::escaped;
+
+constexpr const char* head = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>Where robot and model part</title><style>
+body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
+h1{font-size:1.5rem;margin:0}h2{font-size:1.15rem;margin:2rem 0 .4rem;border-bottom:1px solid #ddd}
+.verdict{font-size:1.2rem;padding:.6rem 1rem;border-left:6px solid #1e5aa0;background:#f3f6fa;margin:1rem 0}
+.mend{padding:.6rem 1rem;border-left:6px solid #c0392b;background:#fbf0ee;margin:1rem 0}
+table{border-collapse:collapse;margin:.5rem 0}td,th{padding:.2rem .7rem;text-align:right}
+th{border-bottom:1px solid #999;font-weight:600}td:first-child,th:first-child{text-align:left}
+svg{max-width:100%;height:auto;display:block;margin:.6rem 0}svg text{font-size:12px}
+.t{font-weight:600;font-size:13px!important}.band{fill:#dfe9df}.grid{stroke:#e6e6e6}
+.strong{fill:#1e5aa0}.weak{fill:#a9bfd8}.whisker{stroke:#222;stroke-width:1.5}
+.note{color:#555}</style></head><body>
+)";
+
+std::string title_of(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::no_gap:
+      return fmt::format(
+          "No gap{}: robot and model differ by no more than the noise of the sensors.",
+          d.not_judged.empty() ? "" : " in what could be judged");
+    case Verdict::supported:
+      return fmt::format(
+          "An explanation, supported by {}{}.", judged_on(d),
+          d.answer.empty() ? ": constants within their tolerances, none far off" : "");
+    case Verdict::none_of_the_known:
+      return "There is a gap, and none of the known effects explains it.";
+    case Verdict::not_identifiable:
+      if (!d.judged_apart() && !d.answer.empty())
+        return "An explanation, judged by the recording that it was found on: record another.";
+  }
+  return "These recordings cannot show what the gap is.";
+}
+
+std::string parameters_of(const Named& n) {
+  std::string text;
+  for (std::size_t k = 0; k < n.names.size(); ++k)
+    text += fmt::format("{}{} = {:.4g} ({:.4g} … {:.4g})", k ? ", " : "", n.names[k], n.values[k],
+                        n.intervals[k].low, n.intervals[k].high);
+  return text + taken_as_it_is(n);
+}
+
+/// What nothing that follows may be believed before.
+std::string mend_first(const Diagnosis& d) {
+  if (d.mend_first.empty()) return "";
+  std::string html =
+      "<div class=\"mend\">Mend these recordings first and diagnose again: until then nothing "
+      "below is reliable.\n<ul>\n";
+  for (const std::string& odd : d.mend_first) html += "<li>" + escaped(odd) + "</li>\n";
+  return html + "</ul></div>\n";
+}
+
+std::string summary(const Diagnosis& d) {
+  std::string html = mend_first(d);
+  html += fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d));
+  const bool whole = d.verdict == Verdict::supported;
+  if (!d.answer.empty())
+    html += whole ? "<ul>\n"
+            : d.verdict == Verdict::not_identifiable
+                ? "<p>Perhaps:</p>\n<ul>\n"
+                : "<p>A part of it goes with these, which are no answer:</p>\n<ul>\n";
+  for (const Named& n : d.answer)
+    html += fmt::format("<li>{0}{2}{1}: {3}</li>\n", whole ? "<b>" : "", whole ? "</b>" : "",
+                        escaped(page::name_of(n)), escaped(parameters_of(n)));
+  if (!d.answer.empty()) html += "</ul>\n";
+  for (const Named& n : d.answer) {
+    if (n.alternatives.empty()) continue;
+    html += fmt::format("<p>As good as {}, and not to be told apart by these recordings: ",
+                        escaped(page::name_of(n)));
+    for (std::size_t k = 0; k < n.alternatives.size(); ++k)
+      html += fmt::format("{}{}", k ? ", " : "", escaped(page::name_of(n.alternatives[k])));
+    html += ".</p>\n";
+  }
+  if (d.overall.before > 0)
+    html += fmt::format(
+        "<p>Error on {}, in units of noise: {:.3g} before, {:.3g} after: {}{}.</p>\n", judged_on(d),
+        d.overall.before, d.overall.after, closed_words(d.overall), closed_interval(d.overall));
+  if (d.verdict == Verdict::supported)
+    html += "<p>Beside this page: robot.xml, the model with it; diagnosis.json, all figures.</p>\n";
+  return html;
+}
+
+std::string use_of(const Diagnosis& d, const std::string& recording) {
+  const bool teaches = std::ranges::count(d.train, recording) > 0,
+             judges = std::ranges::count(d.held_out, recording) > 0;
+  return std::string(teaches ? "choose and fit" : "") + (teaches && judges ? ", " : "") +
+         (judges ? "judge" : "");
+}
+
+std::string data(const Diagnosis& d) {
+  std::string html = "<h2>Recordings</h2>\n<table><tr><th>file</th><th>used to</th></tr>\n";
+  for (const std::string& name : d.recordings)
+    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), use_of(d, name));
+  html += "</table>\n";
+  for (const std::string& warning : d.warnings)
+    html += fmt::format("<p class=\"note\">{}</p>\n", escaped(warning));
+  return html;
+}
+
+}  // namespace
+
+std::string diagnosis_report(const Diagnosis& d, const sim::closed_loop::FreeRun& free_run,
+                             const erp::Robot& robot) {
+  return head + fmt::format("<h1>{}: where robot and model part</h1>\n", escaped(robot.name)) +
+         summary(d) + page::chains(d) + page::stages(d) + page::constants(d) + page::ranking(d) +
+         page::moments(d) + page::free_running(d, free_run) + page::unexplained(d) + data(d) +
+         "</body></html>\n";
+}
+
+}  // namespace launch::gap

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "launch/erp/gap/report_parts.hpp"
+#include "launch/erp/gap/svg.hpp"
+#include "launch/erp/gap/words.hpp"
+#include "sim/gap/estimation/as_built.hpp"
+
+namespace launch::gap {
+
+using namespace sim::diagnosis;
+using svg::escaped;
+
+std::string page::name_of(const Named& n) { return n.type + " on " + n.on; }
+
+std::string page::ranking(const Diagnosis& d) {
+  if (d.ranked.empty()) return "";
+  constexpr std::size_t most = 14;
+  std::vector<svg::Bar> bars;
+  std::vector<std::string> rows, columns;
+  std::vector<std::vector<double>> cells;
+  for (const StageGap& gap : d.stages)
+    columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
+  for (std::size_t k = 0; k < d.ranked.size() && k < most; ++k) {
+    const Named& n = d.ranked[k];
+    bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
+                    n.gain_interval.high, n.supported});
+    if (n.signature.empty() || columns.size() > 24) continue;
+    rows.push_back(name_of(n)), cells.push_back(n.signature);
+    cells.back().push_back(std::abs(n.likeness));
+  }
+  columns.push_back("like the first");
+  std::string html =
+      "<h2>Which</h2>\n<p class=\"note\">Effects on the robot as described, each alone; first "
+      "those that remove "
+      "30 % of some stage's excess, of equals the plainer." +
+      std::string(d.as_built && d.answer.empty()
+                      ? " None is part of the answer, which is constants."
+                      : "") +
+      "</p>\n" + svg::bars("Share of the gap that each effect alone takes away, held out", bars, 1);
+  if (!rows.empty())
+    html +=
+        svg::matrix("Signatures: at which stage an effect shows, in percent", rows, columns, cells);
+  return html;
+}
+
+namespace {
+
+std::string row_of(const ConstantEstimate& c) {
+  const char* remark = c.beyond                                   ? "beyond its tolerance"
+                       : c.determined < sim::estimation::well_determined ? "not determined"
+                                                                  : "";
+  return fmt::format(
+      "<tr><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:.4g} … "
+      "{:.4g}</td><td>{}</td></tr>\n",
+      escaped(c.on), c.name, c.nominal, c.value, c.interval.low, c.interval.high, remark);
+}
+
+template <class Shown>
+std::string table_of(const std::vector<ConstantEstimate>& constants, Shown shown) {
+  std::string rows;
+  for (const ConstantEstimate& c : constants)
+    if (shown(c)) rows += row_of(c);
+  if (rows.empty()) return "<p>None.</p>\n";
+  return "<table><tr><th>on</th><th>constant</th><th>robot.xml</th><th>found</th><th>95 % "
+         "interval</th><th></th></tr>\n" +
+         rows + "</table>\n";
+}
+
+}  // namespace
+
+std::string page::constants(const Diagnosis& d) {
+  if (d.constants.empty()) return "";
+  return "<h2>Constants</h2>\n<p class=\"note\">All were estimated together, each with its "
+         "tolerance "
+         "as prior. Those that the recordings show to be off:</p>\n" +
+         table_of(d.constants, [](const auto& c) { return c.beyond || is_off(c); }) +
+         fmt::format("<details><summary>All {}</summary>\n", d.constants.size()) +
+         table_of(d.constants, [](const auto&) { return true; }) + "</details>\n";
+}
+
+std::string page::unexplained(const Diagnosis& d) {
+  if (d.unexplained.empty()) return "";
+  std::string html = "<h2>What no effect explains</h2>\n";
+  if (d.verdict == Verdict::supported)
+    html += "<p>Small beside the gap that is explained, but more than noise:</p>\n";
+  for (const Unexplained& u : d.unexplained) {
+    html += fmt::format("<p>{} of {}: {:.3g} times its noise.", sim::effects::word(u.stage),
+                        escaped(u.on), std::sqrt(1 + u.excess));
+    if (!u.shape) {
+      html += "</p>\n";
+      continue;
+    }
+    html += fmt::format(
+        " A map over the {} foretells {:.0f} % of it, a constant {:.0f} %. Grey: its spread; noise "
+        "alone stays within the green band.</p>\n",
+        escaped(u.shape->variable), 100 * std::max(0.0, u.shape->explained),
+        100 * u.shape->constant);
+    std::vector<double> low = u.shape->mean, high = u.shape->mean;
+    for (std::size_t k = 0; k < low.size(); ++k)
+      low[k] -= u.shape->deviation[k], high[k] += u.shape->deviation[k];
+    html += svg::plot({fmt::format("{} of {}", sim::effects::word(u.stage), u.on),
+                       fmt::format("{}, {}", u.shape->variable, u.shape->unit),
+                       "residual, times noise", 720, 240, 1},
+                      {{"", "#bbb", u.shape->middle, low},
+                       {"", "#bbb", u.shape->middle, high},
+                       {"mean", "#c0392b", u.shape->middle, u.shape->mean}});
+  }
+  return html;
+}
+
+}  // namespace launch::gap

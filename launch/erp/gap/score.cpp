@@ -1,0 +1,296 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "launch/erp/gap/blind.hpp"
+#include "launch/erp/gap/truth.hpp"
+#include "launch/erp/text/text_files.hpp"
+#include "sim/gap/estimation/as_built.hpp"
+
+namespace launch::gap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string type_of(const Json& j) { return j["type"].get<std::string>(); }
+std::string on_of(const Json& j) { return j["on"].get<std::string>(); }
+bool same(const Json& a, const Json& b) { return type_of(a) == type_of(b) && on_of(a) == on_of(b); }
+
+/// Shares of yes.
+struct Rate {
+  int yes = 0, of = 0;
+  void count(bool is) { ++of, yes += is; }
+  std::string told() const {
+    return of ? fmt::format("{:5.1f} %  ({} of {})", 100.0 * yes / of, yes, of) : "-";
+  }
+};
+
+/// What one kind of case came to.
+struct Score {
+  std::map<std::string, Rate> rates;
+  std::vector<std::string> failures;
+  double set_size = 0, group_size = 0, closed = 0, precision = 0, recall = 0;
+  int sets = 0, groups = 0, closings = 0, answers = 0;
+};
+
+std::vector<Json> answer_of(const Json& diagnosis) {
+  std::vector<Json> all;
+  for (const Json& effect : diagnosis["effects"])
+    if (effect["supported"].get<bool>()) all.push_back(effect);
+  return all;
+}
+
+std::string what(const Json& truth) {
+  std::string text;
+  for (const Json& h : truth["hidden"]) {
+    text += fmt::format("{}{} on {}", text.empty() ? "" : " + ", type_of(h), on_of(h));
+    for (const auto& [name, value] : h["parameters"].items())
+      text += fmt::format(" {}={:.3g}", name, value.get<double>());
+  }
+  return text;
+}
+
+std::string said(const Json& diagnosis) {
+  std::string text = diagnosis["verdict"].get<std::string>();
+  for (const Json& effect : answer_of(diagnosis))
+    text += fmt::format(", {} on {}", type_of(effect), on_of(effect));
+  if (!diagnosis["where"].empty())
+    text += fmt::format(" [{} {}]", diagnosis["where"][0]["stage"].get<std::string>(),
+                        on_of(diagnosis["where"][0]));
+  return text;
+}
+
+std::string failure(const Json& truth, const Json& diagnosis) {
+  return fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(diagnosis));
+}
+
+bool located(const Json& hidden, const Json& diagnosis) {
+  return !diagnosis["where"].empty() && diagnosis["where"][0]["stage"] == hidden["stage"] &&
+         diagnosis["where"][0]["on"] == hidden["on"];
+}
+
+/// How many places are named first, alike.
+std::size_t group_size(const Json& diagnosis) {
+  std::size_t size = 0;
+  for (const Json& place : diagnosis["where"])
+    size += place["share"] == diagnosis["where"][0]["share"];
+  return size;
+}
+
+/// The place that is named first, with other stages that could not be told from it.
+bool in_group(const Json& hidden, const Json& diagnosis) {
+  for (const Json& place : diagnosis["where"])
+    if (place["on"] == hidden["on"] && place["stage"] == hidden["stage"] &&
+        place["share"] == diagnosis["where"][0]["share"])
+      return true;
+  return false;
+}
+
+/// Counts the intervals that hold the true value, of parameters that both call the same.
+void count_intervals(const Json& hidden, const Json& effect, Rate& rate) {
+  for (const auto& [name, value] : hidden["parameters"].items())
+    if (effect["intervals"].contains(name))
+      rate.count(effect["intervals"][name][0] <= value && value <= effect["intervals"][name][1]);
+}
+
+/// Of a gap that is no more than noise a share says nothing.
+std::string truth_closes(double share) {
+  return share < 0 || share > 1.1 ? "a gap within the noise"
+                                  : fmt::format("truth closes {:.0f} %", 100 * share);
+}
+
+/// `most`: what the truth closes, if the library has it.
+void score_single(const Json& truth, const Json& d, std::optional<double> most, Score& score) {
+  const Json& hidden = truth["hidden"][0];
+  const auto answer = answer_of(d);
+  const bool first = !answer.empty() && same(answer[0], hidden);
+  bool in_set = first;
+  for (const Json& other : d["confusable"]) in_set |= same(other, hidden);
+  score.rates["1 stage and place"].count(located(hidden, d));
+  score.rates["5 stage and place in the group"].count(in_group(hidden, d));
+  score.rates["2 true effect first"].count(first);
+  score.rates["3 true effect in the set"].count(in_set);
+  score.set_size += static_cast<double>(std::max<std::size_t>(1, d["confusable"].size()));
+  ++score.sets;
+  for (const Json& effect : d["effects"])
+    if (same(effect, hidden)) count_intervals(hidden, effect, score.rates["4 interval holds"]);
+  score.rates["6 confident and the stage wrong"].count(d["verdict"] == "supported" && !in_set &&
+                                                       !in_group(hidden, d));
+  score.group_size += double(group_size(d)), score.groups += !d["where"].empty();
+  constexpr double worth_closing = 0.02;
+  if (most && *most > worth_closing)
+    score.closed += d["gap"]["closed"].get<double>() / *most, ++score.closings;
+  if (d["verdict"] != "supported" || !in_set || !located(hidden, d))
+    score.failures.push_back(failure(truth, d) + (most ? " | " + truth_closes(*most) : ""));
+}
+
+void score_none(const Json& truth, const Json& d, Score& score) {
+  const Json& hidden = truth["hidden"][0];
+  const bool none = d["verdict"] == "none_of_the_known";
+  const bool stage = !d["where"].empty() && d["where"][0]["stage"] == hidden["stage"];
+  score.rates["1 none of the known"].count(none);
+  score.rates["2 stage"].count(stage);
+  score.rates["4 stage in the reported group"].count(in_group(hidden, d));
+  score.group_size += double(group_size(d)), score.groups += !d["where"].empty();
+  score.rates["3 place"].count(!d["where"].empty() && d["where"][0]["on"] == hidden["on"]);
+  if (!none || !stage) score.failures.push_back(failure(truth, d));
+}
+
+/// They are in one set of what could not be told apart.
+bool stand_for_each_other(const Json& diagnosis, const Json& one, const Json& other) {
+  for (const Json& a : diagnosis["confusable"])
+    for (const Json& b : diagnosis["confusable"])
+      if (a["set"] == b["set"] && same(a, one) && same(b, other)) return true;
+  return false;
+}
+
+void score_pair(const Json& truth, const Json& d, Score& score) {
+  const auto answer = answer_of(d);
+  const auto tells = [&](const Json& effect, const Json& hidden) {
+    return same(effect, hidden) || stand_for_each_other(d, effect, hidden);
+  };
+  int found = 0, right = 0;
+  for (const Json& hidden : truth["hidden"])
+    found += std::ranges::any_of(answer, [&](const Json& a) { return tells(a, hidden); });
+  for (const Json& a : answer)
+    right += std::ranges::any_of(truth["hidden"], [&](const Json& h) { return tells(a, h); });
+  score.rates["1 both in the answer or its set"].count(found == 2);
+  score.precision += answer.empty() ? 0 : double(right) / double(answer.size());
+  score.recall += found / 2.0, ++score.answers;
+  if (found < 2) score.failures.push_back(failure(truth, d));
+}
+
+void score_null(const Json& truth, const Json& d, Score& score) {
+  const bool alarm = d["verdict"] != "no_gap";
+  score.rates["1 false alarms"].count(alarm);
+  if (alarm)
+    score.failures.push_back(
+        fmt::format("{}: nothing | {}", truth["case"].get<std::string>(), said(d)));
+}
+
+/// Whether an effect is one that constants stand for.
+bool is_constant(const Json& effect, const std::vector<std::string>& of_constants) {
+  return std::ranges::count(of_constants, type_of(effect)) > 0;
+}
+
+/// The constant of a diagnosis that is that number; null: none is.
+Json constant_of(const Json& number, const Json& d) {
+  for (const Json& c : d["constants"])
+    if (c["on"] == number["on"] && c["name"] == number["name"]) return c;
+  return {};
+}
+
+/// Of constants that the recordings determined, whose intervals hold the number drawn.
+void count_numbers(const Json& truth, const Json& d, Rate& rate) {
+  for (const Json& number : truth["numbers"])
+    if (const Json c = constant_of(number, d);
+        !c.is_null() && c["determined"] > sim::estimation::well_determined)
+      rate.count(c["interval"][0] <= number["value"] && number["value"] <= c["interval"][1]);
+}
+
+/// Of estimated numbers: which errors of twice their interval are said to differ, and which of those are none.
+void count_named(const Json& truth, const Json& d, Rate& named, Rate& falsely) {
+  for (const Json& number : truth["numbers"]) {
+    const Json c = constant_of(number, d);
+    if (c.is_null()) continue;
+    const double nominal = c["nominal"], error = number["value"].get<double>() - nominal;
+    const double half = (c["interval"][1].get<double>() - c["interval"][0].get<double>()) / 2;
+    if (std::abs(error) > 2 * half) named.count(c["differs"]);
+    if (c["differs"]) falsely.count(std::abs(error) < 1e-9 * std::abs(nominal));
+  }
+}
+
+/// Nothing hidden, but every number a little off, or some of them.
+void score_tolerance(const Json& truth, const Json& d, const std::vector<std::string>& of_constants,
+                     Score& score) {
+  const auto answer = answer_of(d);
+  const bool structural =
+      std::ranges::any_of(answer, [&](const Json& e) { return !is_constant(e, of_constants); });
+  const bool explained = d["verdict"] == "supported" || d["verdict"] == "no_gap";
+  const double closed = d["verdict"] == "no_gap" ? 1 : d["gap"]["closed"].get<double>();
+  score.rates["1 explained by constants alone"].count(explained && !structural);
+  score.rates["2 98 % closed"].count(closed >= 0.98);
+  count_numbers(truth, d, score.rates["4 interval holds the number"]);
+  if (const Json free = d["gap"].value("free_running", Json::object());
+      !free.empty() && free["before"] > 1.5 * free["floor"].get<double>())
+    score.rates["3 90 % of the free run"].count(explained && free["closed"] >= 0.9);
+  if (truth["kind"] == "many")
+    count_named(truth, d, score.rates["5 named, of errors seen"],
+                score.rates["6 falsely, of those named"]);
+  if (!explained || structural) score.failures.push_back(failure(truth, d));
+}
+
+std::vector<std::string> effects_of_constants(const erp::Robot& robot) {
+  std::vector<std::string> all;
+  for (const auto& c : sim::estimation::constants_of(robot)) all.push_back(c.effect);
+  return all;
+}
+
+void print(const std::string& kind, const Score& score, std::ostream& out) {
+  out << kind << "\n";
+  for (const auto& [name, rate] : score.rates)
+    out << fmt::format("  {:<29} {}\n", name.substr(2), rate.told());
+  if (score.sets > 0)
+    out << fmt::format("  {:<29} {:5.2f}\n", "mean set size", score.set_size / score.sets);
+  if (score.groups > 0)
+    out << fmt::format("  {:<29} {:5.2f}\n", "mean group size", score.group_size / score.groups);
+  if (score.closings > 0)
+    out << fmt::format("  {:<29} {:5.1f} %\n", "closed, of what truth closes",
+                       100 * score.closed / score.closings);
+  if (score.answers > 0) {
+    const double p = score.precision / score.answers, r = score.recall / score.answers;
+    out << fmt::format("  {:<29} {:5.3f}\n", "F1", p + r > 0 ? 2 * p * r / (p + r) : 0);
+  }
+  if (!score.failures.empty()) out << "  failures: hidden | reported\n";
+  for (const std::string& failure : score.failures) out << "    " << failure << "\n";
+}
+
+}  // namespace
+
+int blind_score(const std::string& folder, const std::string& truth_file, std::ostream& out) {
+  const Json manifest = Json::parse(read_text(folder + "/cases.json"));
+  const std::string sealed = read_text(truth_file);
+  if (sha256(sealed) != manifest["truth_sha256"])
+    throw std::invalid_argument(truth_file + ": is not the truth of " + folder +
+                                ", its hash is another; give the file that --truth named when the "
+                                "cases were made");
+  const Json truths = Json::parse(sealed);
+  std::vector<std::string> of_constants;
+  std::map<std::string, Score> scores;
+  int missing = 0;
+  for (const Json& truth : truths) {
+    const std::string file = folder + "/" + truth["case"].get<std::string>() + "/diagnosis.json";
+    if (!std::ifstream(file)) {
+      ++missing;
+      continue;
+    }
+    const Json d = Json::parse(read_text(file));
+    const bool built = !truth.value("numbers", Json::array()).empty();
+    const std::string hides = truth["kind"],
+                      kind = hides + (built && hides != "many" ? ", as built" : "");
+    Score& score = scores[kind];
+    if (hides == "single") {
+      score_single(truth, d, built ? std::nullopt : closed_by_truth(folder, truth), score);
+      if (built) count_numbers(truth, d, score.rates["7 interval holds the number"]);
+    }
+    if (hides == "many" || (hides == "null" && built)) {
+      if (of_constants.empty())
+        of_constants = effects_of_constants(erp::read_robot(folder + "/robot.xml"));
+      score_tolerance(truth, d, of_constants, score);
+    }
+    if (hides == "null" && !built) score_null(truth, d, score);
+    if (hides == "pair") score_pair(truth, d, score);
+    if (hides == "outside" || hides == "withheld") score_none(truth, d, score);
+  }
+  for (const auto& [kind, score] : scores) print(kind, score, out);
+  if (missing)
+    out << fmt::format("{} of {} cases not diagnosed: erp gap blind run {}\n", missing,
+                       truths.size(), folder);
+  return missing ? 5 : 0;
+}
+
+}  // namespace launch::gap

@@ -1,0 +1,60 @@
+#include "launch/erp/gap/truth.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "launch/erp/gap/gap.hpp"
+#include "launch/erp/text/text_files.hpp"
+#include "sim/gap/diagnosis/diagnose.hpp"
+
+namespace launch::gap {
+
+std::string sha256(const std::string& text) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr);
+  std::string hex;
+  for (unsigned int k = 0; k < length; ++k) hex += fmt::format("{:02x}", digest[k]);
+  return hex;
+}
+
+std::optional<double> closed_by_truth(const std::string& folder,
+                                      const nlohmann::ordered_json& truth) {
+  namespace diagnosis = sim::diagnosis;
+  namespace effects = sim::effects;
+  std::vector<effects::Placed> hidden;
+  for (const auto& one : truth["hidden"]) {
+    const auto neutral = effects::neutral(one["type"].get<std::string>());
+    if (!neutral || effects::about(*neutral).stage == effects::Stage::bus) return {};
+    effects::Placed placed{one["on"], *neutral};
+    for (const effects::Parameter& p : effects::parameters(placed.effect))
+      if (one["parameters"].contains(p.name)) *p.value = one["parameters"][p.name];
+    hidden.push_back(placed);
+  }
+  const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
+  const std::string place = folder + "/" + truth["case"].get<std::string>();
+  const auto d = nlohmann::ordered_json::parse(read_text(place + "/diagnosis.json"));
+  std::vector<std::string> files;  // wherever it was diagnosed from
+  for (const auto& name : d["held_out"])
+    files.push_back(place + "/" +
+                    std::filesystem::path(name.get<std::string>()).filename().string());
+  auto episodes = read_episodes(robot, files).episodes;
+  const auto judged_from_s = d.value("judged_from_s", nlohmann::ordered_json::object());
+  for (std::size_t k = 0; k < episodes.size(); ++k)
+    if (const auto name = d["held_out"][k].get<std::string>(); judged_from_s.contains(name))
+      episodes[k].judge_from(judged_from_s[name].get<double>());
+  const diagnosis::Trials trials(robot, std::move(episodes));
+  std::vector<std::size_t> all(files.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+  const auto rms = [](const diagnosis::ScoreBlock& b) {
+    return std::sqrt(b.square / static_cast<double>(std::max<std::size_t>(1, b.windows)));
+  };
+  const double before = rms(sum(trials.blocks(trials.bare(), all)));
+  const double after = rms(sum(trials.blocks(trials.with(hidden, all), all)));
+  return before > 1 ? (before - after) / (before - 1) : 0;
+}
+
+}  // namespace launch::gap

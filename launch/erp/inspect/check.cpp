@@ -1,0 +1,130 @@
+#include "launch/erp/inspect/check.hpp"
+
+#include <filesystem>
+#include <ostream>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+
+#include "hal/can/load.hpp"
+#include "interfaces/graph/graph.hpp"
+#include "interfaces/robot/robot.hpp"
+#include "interfaces/xml/xml.hpp"
+#include "launch/erp/verbs/ask.hpp"
+#include "launch/erp/gap/gap.hpp"
+#include "sim/learning/calibration/parameters.hpp"
+#include "sim/model/cameras/view.hpp"
+#include "sim/model/effects/library.hpp"
+#include "sim/learning/experience/base_file.hpp"
+#include "sim/learning/experience/task.hpp"
+#include "sim/learning/muscle_networks/learnt_lengths.hpp"
+#include "sim/control/loop_shaping/joint_loops.hpp"
+#include "sim/learning/sensorimotor/learnt_file.hpp"
+#include "sim/learning/synergy/task.hpp"
+
+namespace launch {
+namespace {
+
+/// Checks files, each once, and whatever a graph names.
+class Checker {
+ public:
+  Checker(std::ostream& out, const CheckComponent& component) : out_(out), component_(component) {}
+
+  void check(const std::string& file) {
+    std::error_code ignored;
+    if (!done_.insert(std::filesystem::weakly_canonical(file, ignored).string()).second) return;
+    try {
+      check_as(xml::read_document(file), file);
+    } catch (const xml::Errors& errors) {
+      complain(errors.what());
+    } catch (const std::invalid_argument& error) {
+      complain(file + ": " + error.what());
+    }
+  }
+  int exit_code() const { return sound_ ? 0 : 2; }
+
+ private:
+  void check_as(const xml::Element& root, const std::string& file) {
+    if (root.name == erp::Robot::element) {
+      const erp::Robot robot = erp::read_robot(file);
+      sim::effects::equip(robot);
+      launch::gap::read_chains(file);  // throws if a tolerance matches no number
+      erp::refuse_overload(robot);
+      praise(file);
+      if (!robot.can_buses.empty())
+        for (const erp::BusLoad& load : erp::bus_loads(robot))
+          out_ << "  bus " << to_string(load) << '\n';
+    } else if (root.name == erp::Graph::element) {
+      const erp::Graph graph = erp::read_graph(file);
+      praise(file);
+      check(graph.robot);
+      for (const erp::GraphComponent& line : graph.components)
+        if (!line.config.empty()) check(line.config);
+    } else if (reads_as_one_of<sim::calibration::Choice, sim::cameras::ViewConfig,
+                               sim::muscle_networks::LearntMuscles, sim::loop_shaping::JointShape,
+                               sim::sensorimotor::LearntFile, sim::experience::Task,
+                               sim::experience::BaseFile, sim::synergy::Task,
+                               sim::synergy::BankFile>(root.name, file)) {
+      praise(file);
+    } else {
+      check_config(root, file);
+    }
+  }
+
+  /// Files that configs and verbs name. Throws Errors.
+  template <class... Kind>
+  bool reads_as_one_of(const std::string& root, const std::string& file) {
+    return ((root == Kind::element && (xml::read<Kind>(file), true)) || ...);
+  }
+
+  void check_config(const xml::Element& root, const std::string& file) {
+    const auto mistakes = component_ ? component_(root.name, file) : std::nullopt;
+    if (!mistakes)
+      complain(to_string(
+          xml::error_in(root.name, root.place, "no component of this type is installed",
+                        xml::did_you_mean(root.name, {erp::Robot::element, erp::Graph::element}) +
+                            ", or the type of a component")));
+    else if (!mistakes->empty()) complain(*mistakes);
+    else praise(file);
+  }
+
+  void praise(const std::string& file) { out_ << file << ": ok\n"; }
+  void complain(const std::string& lines) {
+    sound_ = false;
+    out_ << lines << (lines.ends_with('\n') ? "" : "\n");
+  }
+
+  std::ostream& out_;
+  const CheckComponent& component_;
+  std::set<std::string> done_;
+  bool sound_ = true;
+};
+
+}  // namespace
+
+CheckComponent ask_program(std::function<std::string(const std::string&)> find) {
+  return [find = std::move(find)](const std::string& type,
+                                  const std::string& file) -> std::optional<std::string> {
+    const std::string program = find(type);
+    if (program.empty()) return std::nullopt;
+    return ask_to_check({program, "--config", file});
+  };
+}
+
+int check(const std::vector<std::string>& files, std::ostream& out,
+          const CheckComponent& component) {
+  Checker checker(out, component);
+  for (const std::string& file : files) checker.check(file);
+  return checker.exit_code();
+}
+
+void print_schema(const std::string& kind, std::ostream& out) {
+  if (kind == erp::Robot::element) out << xml::schema<erp::Robot>();
+  else if (kind == erp::Graph::element) out << xml::schema<erp::Graph>();
+  else
+    throw xml::Errors({{{"--schema " + kind, 0, 0},
+                        "there is no such schema",
+                        xml::did_you_mean(kind, {erp::Robot::element, erp::Graph::element})}});
+}
+
+}  // namespace launch

@@ -1,0 +1,67 @@
+#include "launch/erp/inspect/yaml.hpp"
+
+#include <algorithm>
+
+#include "launch/erp/inspect/meaning.hpp"
+
+namespace launch {
+namespace {
+
+bool holds_structures(const recording::Values& values) {
+  return !values.empty() && values.front().members() != nullptr;
+}
+
+/// Text that YAML could take for something else is quoted.
+std::string scalar(const recording::Value& value) {
+  const std::string* text = value.text();
+  if (!text) return recording::to_text(value);
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.' || c == ' ' || c == '/' || static_cast<unsigned char>(c) >= 0x80;
+  };
+  const auto letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  const bool reserved = *text == "true" || *text == "false" || *text == "null" || *text == "yes" ||
+                        *text == "no" || *text == "on" || *text == "off";
+  if (!text->empty() && letter(text->front()) && text->back() != ' ' && !reserved &&
+      std::all_of(text->begin(), text->end(), plain))
+    return *text;
+  recording::Value list;  // JSON's quotes are YAML's too
+  list.data = recording::Values{value};
+  const std::string json = recording::to_text(list);
+  return json.substr(1, json.size() - 2);
+}
+
+/// The word for a small number, behind it as a comment.
+std::string remark(const recording::Structure& type, std::size_t field,
+                   const recording::Value& value) {
+  const auto* number = std::get_if<std::uint64_t>(&value.data);
+  const std::string meaning = number ? meaning_of(type.name, type.fields[field].name, *number) : "";
+  return meaning.empty() ? "" : "  # " + meaning;
+}
+
+std::string list_of_structures(const recording::Values& values, int indent) {
+  std::string yaml;
+  for (const auto& value : values) {
+    std::string item = to_yaml(*value.members(), indent + 2);
+    item[static_cast<std::size_t>(indent)] = '-';
+    yaml += item;
+  }
+  return yaml;
+}
+
+}  // namespace
+
+std::string to_yaml(const recording::Members& message, int indent) {
+  std::string yaml;
+  for (std::size_t i = 0; i < message.fields.size(); ++i) {
+    const auto& value = message.fields[i];
+    yaml += std::string(static_cast<std::size_t>(indent), ' ') + message.type->fields[i].name + ":";
+    if (const auto* members = value.members()) yaml += "\n" + to_yaml(*members, indent + 2);
+    else if (const auto* values = value.elements(); values && holds_structures(*values))
+      yaml += "\n" + list_of_structures(*values, indent + 2);
+    else yaml += " " + scalar(value) + remark(*message.type, i, value) + "\n";
+  }
+  return yaml;
+}
+
+}  // namespace launch

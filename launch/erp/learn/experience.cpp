@@ -1,0 +1,187 @@
+#include "launch/erp/learn/experience.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <ostream>
+
+#include "interfaces/xml/document.hpp"
+#include "interfaces/xml/xml.hpp"
+#include "launch/erp/learn/task_poses.hpp"
+#include "launch/erp/text/gnuplot.hpp"
+#include "launch/erp/text/text_files.hpp"
+#include "sim/learning/training_loop/dice.hpp"
+#include "sim/learning/simulated_training/experience_lesson.hpp"
+
+namespace launch {
+namespace {
+
+using sim::Vec3;
+using sim::experience::FeedbackKind;
+using sim::experience::Task;
+using sim::simulated_training::ExperienceLesson;
+
+constexpr std::array ways{FeedbackKind::none, FeedbackKind::linear, FeedbackKind::fuzzy};
+constexpr std::array way_names{"feed-forward", "linear", "fuzzy"};
+
+std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, const Task& task,
+                                                          const ExperienceLesson& lesson, int start,
+                                                          const Vec3& target_m) {
+  using namespace sim::experience;
+  if (kind == FeedbackKind::linear)
+    return linear_feedback(lesson.base(), start, target_m, task.closing_per_s);
+  if (kind == FeedbackKind::fuzzy)
+    return fuzzy_feedback(lesson.base(), start, xml::resolved(task.rules, task.place.file));
+  return nullptr;
+}
+
+/// Fresh targets, each reached in each way, from one start after the other.
+class Tests {
+ public:
+  Tests(const ExperienceLesson& lesson, const erp::Robot& robot, const Task& task)
+      : lesson_(lesson), robot_(robot), task_(task) {
+    if (task.rules.empty()) kinds_.pop_back();
+  }
+
+  /// False: interrupted.
+  bool run(const ExperienceOptions& options, const sim::Pool& pool, std::ostream& remarks) {
+    const auto all = static_cast<std::size_t>(options.tests) * kinds_.size();
+    off_m_ = run_tests(
+        all,
+        [&](std::size_t k) {
+          const Vec3 off_m = ended(k / kinds_.size(), kinds_[k % kinds_.size()], nullptr);
+          return sim::Pool::Numbers(off_m.begin(), off_m.end());
+        },
+        options.course, pool, remarks);
+    return off_m_.size() == all;
+  }
+  std::size_t count() const { return off_m_.size() / kinds_.size(); }
+  std::size_t kinds() const { return kinds_.size(); }
+  Vec3 target_m(std::size_t test) const {
+    return lesson_.fresh_target(static_cast<std::uint64_t>(task_.seed), test);
+  }
+  Vec3 off_m(std::size_t test, std::size_t kind) const {
+    return Eigen::Map<const Vec3>(off_m_[test * kinds_.size() + kind].data());
+  }
+  sim::simulated_training::HandTrack track(std::size_t test, std::size_t kind) const {
+    sim::simulated_training::HandTrack track;
+    ended(test, kinds_[kind], &track);
+    return track;
+  }
+
+ private:
+  /// The hand's offset at the end, without the noise of seeing it.
+  Vec3 ended(std::size_t test, FeedbackKind kind, sim::simulated_training::HandTrack* kept) const {
+    const int start = static_cast<int>(test % lesson_.file().starts.all.size());
+    const Vec3 target = target_m(test);
+    auto reach = lesson_.reach(start, target, feedback(kind, task_, lesson_, start, target));
+    sim::simulated_training::HandTrack own, &track = kept ? *kept : own;
+    constexpr std::uint64_t of_noise = 77;  // apart from the dice that draw the target
+    const auto seed = sim::training_loop::dice(static_cast<std::uint64_t>(task_.seed), test, of_noise)();
+    if (!play(reach, robot_, task_.hand, task_.noise_m, seed, &track))
+      return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    return track.hand_m.back() - target;
+  }
+
+  const ExperienceLesson& lesson_;
+  const erp::Robot& robot_;
+  const Task& task_;
+  std::vector<FeedbackKind> kinds_{ways.begin(), ways.end()};
+  std::vector<sim::Pool::Numbers> off_m_;
+};
+
+void print_offsets(const Tests& tests, std::ostream& out) {
+  out << fmt::format("offset at rest, {} fresh targets, mm\n{:<14}{:>22}{:>22}{:>22}\n",
+                     tests.count(), "", "x  mean / most", "y  mean / most", "z  mean / most");
+  for (std::size_t kind = 0; kind < tests.kinds(); ++kind) {
+    Vec3 sum = Vec3::Zero(), most = Vec3::Zero();
+    std::size_t tripped = 0;
+    for (std::size_t k = 0; k < tests.count(); ++k) {
+      const Vec3 off = 1e3 * tests.off_m(k, kind).cwiseAbs();
+      if (!off.allFinite()) {
+        ++tripped;
+        continue;
+      }
+      sum += off, most = most.cwiseMax(off);
+    }
+    const Vec3 mean = sum / static_cast<double>(std::max<std::size_t>(1, tests.count() - tripped));
+    out << fmt::format("{:<14}", way_names[kind]);
+    for (int axis = 0; axis < 3; ++axis)
+      out << fmt::format("{:>14.2f} / {:>5.2f}", mean[axis], most[axis]);
+    out << (tripped ? fmt::format("   {} ended by an ECU that tripped\n", tripped) : "\n");
+  }
+}
+
+std::string csv_of(const Tests& tests) {
+  std::string text = "test,way,target_x_m,target_y_m,target_z_m,off_x_mm,off_y_mm,off_z_mm\n";
+  for (std::size_t k = 0; k < tests.count(); ++k)
+    for (std::size_t kind = 0; kind < tests.kinds(); ++kind) {
+      const Vec3 at = tests.target_m(k), off = 1e3 * tests.off_m(k, kind);
+      text += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}\n", k + 1,
+                          way_names[kind], at.x(), at.y(), at.z(), off.x(), off.y(), off.z());
+    }
+  return text;
+}
+
+/// The first test's hand, axis by axis, with either feedback, beside where it shall be.
+PlotScript figure(const Tests& tests) {
+  constexpr std::array colours{"#0072B2", "#D55E00"};
+  std::string data, plots;
+  for (std::size_t kind = 1; kind < tests.kinds(); ++kind) {
+    const auto track = tests.track(0, kind);
+    data += fmt::format("$way{} << E\n", kind);
+    for (std::size_t k = 0; k < track.time_s.size(); k += 10)
+      data +=
+          fmt::format("{} {} {} {} {}\n", track.time_s[k], track.hand_m[k].x(), track.hand_m[k].y(),
+                      track.hand_m[k].z(), 1e3 * (track.hand_m[k] - tests.target_m(0)).norm());
+    data += "E\n";
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    plots += fmt::format("set ylabel '{} m'\n", "xyz"[axis]);
+    plots += fmt::format("plot {} with lines lw 1.5 dt 2 lc rgb '#444444' title 'target'",
+                         tests.target_m(0)[axis]);
+    for (std::size_t kind = 1; kind < tests.kinds(); ++kind)
+      plots += fmt::format(", $way{} using 1:{} with lines lw 2 lc rgb '{}' title '{} feedback'",
+                           kind, axis + 2, colours[kind - 1], way_names[kind]);
+    plots += "\n";
+  }
+  plots += "set ylabel 'off mm'\nset logscale y\nset xlabel 's'\nplot";
+  for (std::size_t kind = 1; kind < tests.kinds(); ++kind)
+    plots += fmt::format("{} $way{} using 1:5 with lines lw 2 lc rgb '{}' title '{} feedback'",
+                         kind > 1 ? "," : "", kind, colours[kind - 1], way_names[kind]);
+  plots += "\n";
+  return {.commands = data +
+                      "set multiplot layout 4,1\nset lmargin 12\nset rmargin 22\n"
+                      "set key outside right\nset grid\n" +
+                      plots + "unset multiplot\n",
+          .panels = 4};
+}
+
+}  // namespace
+
+int learn_experience(const ExperienceOptions& options, std::ostream& out, std::ostream& remarks) {
+  const auto pool = sim::make_pool(options.course.threads);
+  const erp::Robot robot = erp::read_robot(options.robot);
+  auto task = xml::read<Task>(options.task);
+  if (options.seed != 0) task.seed = options.seed;
+  ExperienceLesson lesson(robot, task, task_poses(options.task, task.starts, robot));
+  CourseOptions course = options.course;
+  course.rounds = task.rounds;
+  if (!run_course(lesson, course, *pool, remarks)) return 1;
+  if (pool->first()) write_file(course.folder + "/base.xml", lesson.state());
+  Tests tests(lesson, robot, task);
+  if (!tests.run(options, *pool, remarks)) return 1;
+  if (!pool->first()) return 0;
+  if (options.tests > 0) {
+    write_file(course.folder + "/tests.csv", csv_of(tests));
+    draw(figure(tests), course.folder + "/figure.svg");
+    print_offsets(tests, out);
+  }
+  if (lesson.tripped() > 0)
+    out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n",
+                       lesson.tripped());
+  out << fmt::format("{0}/base.xml is what the component experience reaches with\n", course.folder);
+  return 0;
+}
+
+}  // namespace launch

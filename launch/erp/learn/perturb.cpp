@@ -1,0 +1,50 @@
+#include "sim/learning/calibration/perturb.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <numbers>
+#include <ostream>
+
+#include "interfaces/xml/xml.hpp"
+#include "launch/erp/learn/poses.hpp"
+#include "launch/erp/learn/report.hpp"
+#include "launch/erp/text/text_files.hpp"
+
+namespace launch {
+
+namespace calibration = sim::calibration;
+
+namespace {
+
+/// By joint that moves.
+std::vector<double> off_rad(const erp::Robot& robot, std::map<std::string, double> off_deg) {
+  std::vector<double> off;
+  for (const erp::Joint& joint : robot.joints()) {
+    if (sim::coordinates_of(joint.type) == 0) continue;
+    const auto asked = off_deg.extract(joint.name);
+    off.push_back(asked ? asked.mapped() * std::numbers::pi / 180
+                        : std::numeric_limits<double>::quiet_NaN());
+  }
+  if (!off_deg.empty())
+    throw std::invalid_argument("robot \"" + robot.name + "\" has no joint \"" +
+                                off_deg.begin()->first + "\" that moves; name one of its joints");
+  return off;
+}
+
+}  // namespace
+
+int calibrate_perturb(const PerturbOptions& options, std::ostream& out) {
+  const erp::Robot robot = erp::read_robot(options.robot);
+  const calibration::Parameters parameters(robot, xml::read<calibration::Choice>(options.choice));
+  const auto poses = read_poses(robot, options.poses);
+  const auto x = perturbed(parameters, poses.learn, off_rad(robot, options.off_deg), options.seed);
+  write_file(options.out, erp::write_robot(parameters.robot_at(x)));
+  print_errors(robot, poses,
+               {errors_of("as given", parameters.start(), poses),
+                errors_of("perturbed", parameters.at(x), poses)},
+               out);
+  return 0;
+}
+
+}  // namespace launch

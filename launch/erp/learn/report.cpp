@@ -1,0 +1,113 @@
+#include "launch/erp/learn/report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <ostream>
+
+#include "interfaces/recording/csv.hpp"
+#include "interfaces/parallel/in_parallel.hpp"
+#include "sim/gap/closed_loop/standing.hpp"
+
+namespace launch {
+namespace {
+
+namespace calibration = sim::calibration;
+using calibration::Quantity;
+
+/// Of its spread, from which on nothing is known of a parameter; chosen.
+constexpr double unknown = 0.9;
+
+std::vector<std::string> joints_of(const erp::Robot& robot) {
+  std::vector<std::string> names;
+  for (const erp::Joint& joint : robot.joints())
+    if (sim::coordinates_of(joint.type) > 0) names.push_back(joint.name);
+  return names;
+}
+
+struct Change {
+  double by = 0;
+  const char* unit = "";
+};
+
+/// In units that people use.
+Change change_of(const calibration::Parameter& parameter, double x) {
+  const double off = parameter.spread * x;
+  const bool relative = parameter.what == Quantity::stiffness || parameter.what == Quantity::radius;
+  return relative ? Change{100 * std::expm1(off), "%"} : Change{1e3 * off, "mm"};
+}
+
+}  // namespace
+
+ErrorColumn errors_of(const std::string& name, const calibration::Candidate& candidate,
+                      const calibration::PoseSet& poses) {
+  ErrorColumn column{name, pose_errors(candidate, poses.learn), {}};
+  if (!poses.check.empty()) column.checked = pose_errors(candidate, poses.check);
+  return column;
+}
+
+ErrorColumn simulated_errors(const std::string& name, const erp::Robot& robot,
+                             const calibration::PoseSet& poses, int threads) {
+  ErrorColumn column{name, {}, {}};
+  const std::array parts{std::pair(&poses.learn, &column.learnt),
+                         std::pair(&poses.check, &column.checked)};
+  sim::in_parallel(poses.check.empty() ? 1 : 2, threads, [&](std::size_t k) {
+    const std::vector<calibration::StillPose>& part = *parts[k].first;
+    std::vector<std::vector<double>> shafts_rad;
+    for (const auto& still : part) shafts_rad.push_back(still.shaft_rad);
+    std::vector<sim::Pose> there;
+    for (const auto& standing : sim::closed_loop::standings(robot, shafts_rad))
+      there.push_back(standing.pose);
+    *parts[k].second = errors_between(robot, part, there);
+  });
+  return column;
+}
+
+void print_errors(const erp::Robot& robot, const calibration::PoseSet& poses,
+                  const std::vector<ErrorColumn>& columns, std::ostream& out) {
+  constexpr double degree = std::numbers::pi / 180;
+  out << fmt::format("{:<24} {:>6}", "mean angle off, degrees", "poses");
+  for (const ErrorColumn& column : columns) out << fmt::format(" {:>10}", column.name);
+  const auto names = joints_of(robot);
+  const auto rows = [&](const char* of, std::size_t count, auto errors) {
+    for (std::size_t j = 0; count > 0 && j < names.size(); ++j) {
+      out << fmt::format("\n{:<24} {:>6}", names[j] + ", " + of, count);
+      for (const ErrorColumn& column : columns)
+        out << fmt::format(" {:>10.2f}", (column.*errors).mean_rad[j] / degree);
+    }
+  };
+  rows("learnt", poses.learn.size(), &ErrorColumn::learnt);
+  rows("checked", poses.check.size(), &ErrorColumn::checked);
+  out << '\n';
+}
+
+void print_identified(const calibration::Parameters& parameters,
+                      const calibration::Identified& identified, std::ostream& out) {
+  std::string names;
+  int count = 0;
+  for (std::size_t k = 0; k < parameters.list().size(); ++k)
+    if (identified.left[static_cast<Eigen::Index>(k)] > unknown)
+      names += (count++ ? ", " : "") + parameters.name_of(parameters.list()[k]);
+  out << fmt::format("identified: {} combinations of {} parameters\n", identified.combinations,
+                     parameters.size());
+  if (count > 0)
+    out << fmt::format("not identified, as far off as before ({} of {}): {}\n", count,
+                       parameters.size(), names);
+}
+
+std::string parameters_csv(const calibration::Parameters& parameters, const Eigen::VectorXd& x,
+                           const calibration::Identified& identified) {
+  std::string text = "parameter,changed,unit,left\n";
+  for (std::size_t k = 0; k < parameters.list().size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const Change change = change_of(parameters.list()[k], x[at]);
+    text += fmt::format("{},{:.4g},{},{:.3f}\n",
+                        recording::csv_cell(parameters.name_of(parameters.list()[k])), change.by,
+                        change.unit, identified.left[at]);
+  }
+  return text;
+}
+
+}  // namespace launch

@@ -1,0 +1,84 @@
+#include "launch/erp/model/loops.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "interfaces/recording/csv.hpp"
+#include "interfaces/xml/xml.hpp"
+#include "launch/erp/text/gnuplot.hpp"
+#include "sim/control/pose_plan.hpp"
+#include "sim/control/loop_shaping/loop_curves.hpp"
+
+namespace launch {
+namespace {
+
+namespace shaping = sim::loop_shaping;
+
+/// Bones and tendons at rest in a pose.
+void place(sim::Musculoskeletal& model, const sim::Pose& pose) {
+  std::vector<sim::JointReading> readings;
+  for (std::size_t j = 0; j < pose.size(); ++j) {
+    readings.push_back(sim::start_of(model.tree().joints[j]));
+    readings.back().position = pose[j];
+  }
+  model.place(readings);
+}
+
+bool print_posture(const std::string& name, const shaping::LoopCheck& check, std::ostream& out) {
+  const bool stable = check.slowest_per_s < 0;
+  out << fmt::format("{:<10} {:>8} {:>14.2f} {:>13.2f}   ", name,
+                     stable ? fmt::format("{:.3f}", check.margin) : "unstable", check.slowest_per_s,
+                     check.most_sensitive);
+  for (const double hz : check.crossover_Hz) out << fmt::format(" {:.2f}", hz);
+  out << '\n';
+  return stable;
+}
+
+PlotScript script(const shaping::JointLoops& loops, const std::string& robot) {
+  std::string data = "$loops << E\n";
+  for (const auto& p : shaping::loop_curves(loops, 0.05, 50, 200))
+    data +=
+        fmt::format("{:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g}\n", p.Hz, p.wanted.largest,
+                    p.wanted.smallest, p.got.largest, p.got.smallest, p.s, p.t);
+  PlotScript plot{.panels = 2};
+  plot.commands =
+      data +
+      "E\nset grid\nset key outside right\nset logscale xy\nset multiplot layout 2,1 title '" +
+      robot +
+      "'\nset xlabel 'frequency  [Hz]'\nset style fill transparent solid 0.3 noborder\n"
+      "set ylabel 'singular values of the loop'\n"
+      "plot $loops using 1:2:3 with filledcurves lc rgb '#D55E00' title 'wanted shape', "
+      "$loops using 1:4:5 with filledcurves lc rgb '#0072B2' title 'with K'\n"
+      "set ylabel 'and of the closed loop'\n"
+      "plot $loops using 1:6 with lines lw 2 lc rgb '#D55E00' title 'S: disturbances', "
+      "$loops using 1:7 with lines lw 2 lc rgb '#0072B2' title 'T: following, noise'\n"
+      "unset multiplot\n";
+  return plot;
+}
+
+}  // namespace
+
+int model_loops(const ModelLoopsOptions& options, std::ostream& out) {
+  const erp::Robot robot = erp::read_robot(options.robot);
+  const auto shape =
+      options.loops.empty() ? shaping::JointShape{} : xml::read<shaping::JointShape>(options.loops);
+  sim::Musculoskeletal model(robot);
+  const shaping::JointLoops loops = shaping::joint_loops(model, shape);
+  out << fmt::format(
+      "{}: stability margin {:.3f}, of {:.3f} that this shape allows (0.25 and more is good)\n"
+      "{:<10} {:>8} {:>14} {:>13}    {}\n",
+      robot.name, loops.robust.margin, loops.robust.greatest_margin, "posture", "margin",
+      "slowest pole", "sensitivity", "crossover by joint, Hz");
+  bool stable = print_posture("start", checked(loops), out);
+  if (!options.poses.empty())
+    for (const auto& [time_s, pose] : sim::poses_of(recording::read_table(options.poses), robot)) {
+      place(model, pose);
+      const auto check = checked(moved(loops, model, shape));
+      stable = print_posture(fmt::format("{:.2f} s", time_s), check, out) && stable;
+    }
+  if (!options.out.empty()) draw(script(loops, robot.name), options.out);
+  return stable ? 0 : 1;
+}
+
+}  // namespace launch

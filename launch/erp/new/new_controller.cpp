@@ -1,0 +1,96 @@
+#include "launch/erp/new/new_controller.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace launch {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t longest_name = 32;  // `component` is a string<32> on the bus
+constexpr auto reserved = std::to_array<std::string_view>(
+    {"sim", "plant", "gateway", "replay", "logger", "reference", "target", "length_control",
+     "force_control", "gap_monitor", "controller", "erp", "node", "main", "test"});
+constexpr auto keywords = std::to_array<std::string_view>(
+    {"auto",      "bool",    "break",    "case",    "catch",     "char",   "class",    "const",
+     "continue",  "default", "delete",   "do",      "double",    "else",   "enum",     "explicit",
+     "export",    "extern",  "false",    "float",   "for",       "friend", "goto",     "if",
+     "inline",    "int",     "long",     "mutable", "namespace", "new",    "operator", "private",
+     "protected", "public",  "register", "return",  "short",     "signed", "sizeof",   "static",
+     "struct",    "switch",  "template", "this",    "throw",     "true",   "try",      "typedef",
+     "typename",  "union",   "unsigned", "using",   "virtual",   "void",   "volatile", "while"});
+
+bool is_snake_case(const std::string& name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' && name.back() != '_' &&
+         name.find("__") == name.npos && std::all_of(name.begin(), name.end(), allowed);
+}
+
+void check_name(const std::string& name) {
+  const auto refuse = [&name](const std::string& why) {
+    throw std::invalid_argument("\"" + name + "\" cannot name a controller: " + why);
+  };
+  if (!is_snake_case(name)) refuse("write lower-case words joined by _, such as my_controller");
+  if (name.size() > longest_name) refuse("it is longer than 32 letters");
+  if (std::find(keywords.begin(), keywords.end(), name) != keywords.end())
+    refuse("it is a word of C++");
+  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
+    refuse("a program of that name exists already");
+}
+
+std::string filled(std::string text, const std::string& name) {
+  for (const auto& [mark, value] :
+       {std::pair<std::string, std::string>{"@name@", name}, {"@Class@", class_name(name)}})
+    for (auto at = text.find(mark); at != text.npos; at = text.find(mark, at + value.size()))
+      text.replace(at, mark.size(), value);
+  return text;
+}
+
+/// `controller.hpp` → `<name>.hpp`, `controller_test.cpp` → `<name>_test.cpp`.
+std::string file_name(const std::string& file, const std::string& name) {
+  constexpr std::string_view stem = "controller";
+  return file.starts_with(stem) ? name + file.substr(stem.size()) : file;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+}  // namespace
+
+std::string class_name(const std::string& snake_case_name) {
+  std::string result;
+  bool start = true;
+  for (const char c : snake_case_name) {
+    if (c != '_')
+      result += start ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    start = c == '_';
+  }
+  return result;
+}
+
+std::vector<fs::path> new_controller(const std::string& name, const fs::path& folder) {
+  check_name(name);
+  if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
+    throw std::invalid_argument(folder.string() + " exists already; name a new folder");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
+  std::vector<fs::path> written;
+  for (const auto& [file, text] : controller_templates()) {
+    written.push_back(folder / file_name(file, name));
+    write(written.back(), filled(text, name));
+  }
+  return written;
+}
+
+}  // namespace launch

@@ -1,0 +1,227 @@
+#include "launch/erp/record/plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "interfaces/recording/error.hpp"
+#include "interfaces/values.hpp"
+
+namespace launch {
+namespace {
+
+using recording::Column;
+using recording::Table;
+using Values = std::vector<double>;
+
+/// One panel: what it shows, in which unit, and which mode's references belong there.
+struct Panel {
+  const char* signal;
+  const char* label;
+  double scale;
+  erp::Mode mode;
+  bool standard;  ///< shown unless something else is asked for
+};
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr Panel panels[] = {{"tension_N", "tension  [N]", 1, erp::Mode::force, true},
+                            {"line_m", "line length  [mm]", 1e3, erp::Mode::length, true},
+                            {"shaft_rad", "shaft  [rad]", 1, erp::Mode::off, false},
+                            {"voltage_V", "voltage  [V]", 1, erp::Mode::voltage, false},
+                            {"current_A", "current  [A]", 1, erp::Mode::current, false},
+                            {"angle_rad", "joint angle  [°]", degrees, erp::Mode::off, true},
+                            {"qw", "joint rotation  [°]", 2 * degrees, erp::Mode::off, true}};
+
+// Colours that colour-blind eyes tell apart, after Okabe & Ito and Tol. Joints begin at `joint`.
+constexpr std::array<unsigned, 12> colours{0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
+                                           0xE69F00, 0x56B4E9, 0x882255, 0x44AA99,
+                                           0x999933, 0x332288, 0xAA4499, 0x661100};
+constexpr std::size_t first_joint_colour = 6;
+constexpr std::size_t most_points = 2000;  // a curve; more than a screen has columns
+constexpr std::size_t most_keys = 14;      // entries that fit beside one panel
+
+/// gnuplot's literal string. What could end it or be run by it is replaced by its look-alike.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '`') out += "’";
+    else if (static_cast<unsigned char>(c) >= 0x20) out += c;
+  }
+  return out + "'";
+}
+
+std::string rgb(unsigned colour) {
+  std::array<char, 16> text;
+  std::snprintf(text.data(), text.size(), "'#%06X'", colour);
+  return text.data();
+}
+/// Half as bright: a reference stays visible on top of the curve that follows it.
+unsigned dark(unsigned colour) { return (colour >> 1) & 0x7F7F7F; }
+
+std::string number(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.9g", value);
+  return text.data();
+}
+
+void put_point(std::string& out, double time_s, double value) {
+  out += number(time_s) + " " + number(value) + "\n";
+}
+
+/// The lowest and the highest of each stretch of samples, so that no peak is lost; a blank line
+/// where nothing was measured.
+std::string thinned(const Values& time_s, const Values& values) {
+  const std::size_t stretch = std::max<std::size_t>(1, 2 * values.size() / most_points);
+  std::string out;
+  for (std::size_t start = 0; start < values.size(); start += stretch) {
+    std::size_t low = values.size(), high = values.size();
+    for (std::size_t i = start; i < std::min(start + stretch, values.size()); ++i) {
+      if (!std::isfinite(values[i])) continue;
+      if (low == values.size() || values[i] < values[low]) low = i;
+      if (high == values.size() || values[i] > values[high]) high = i;
+    }
+    if (low == values.size()) {
+      if (!out.empty() && !out.ends_with("\n\n")) out += "\n";
+      continue;
+    }
+    put_point(out, time_s[std::min(low, high)], values[std::min(low, high)]);
+    if (low != high) put_point(out, time_s[std::max(low, high)], values[std::max(low, high)]);
+  }
+  return out;
+}
+
+/// What was asked for in a panel's unit: the reference while the ECU follows it, else the target.
+Values wanted_values(const Table& table, const std::string& owner, const Panel& panel) {
+  const auto pick = [&](const char* mode_name, const char* value_name, std::size_t row) {
+    const Column* mode = table.find(owner + mode_name);
+    const Column* value = table.find(owner + value_name);
+    const bool ours = mode && value && mode->values[row] == static_cast<double>(panel.mode);
+    return ours ? value->values[row] : recording::not_taken;
+  };
+  Values values(table.rows(), recording::not_taken);
+  if (panel.mode == erp::Mode::off) return values;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    values[row] = pick(".mode", ".reference", row);
+    if (std::isnan(values[row])) values[row] = pick(".target_mode", ".target", row);
+    values[row] *= panel.scale;
+  }
+  return values;
+}
+
+Values measured_values(const Column& column, const Panel& panel) {
+  Values values = column.values;
+  // A unit quaternion turns by 2 acos |w|, whatever the axis.
+  if (std::string_view(panel.signal) == "qw")
+    for (double& w : values) w = std::acos(std::min(1.0, std::abs(w)));
+  for (double& value : values) value *= panel.scale;
+  return values;
+}
+
+bool chosen(const std::vector<std::string>& signals, const std::string& owner, const Panel& panel) {
+  if (signals.empty()) return panel.standard;
+  return std::ranges::any_of(signals, [&](const std::string& signal) {
+    return (signal == owner && panel.standard) || signal == panel.signal ||
+           signal == owner + "." + panel.signal;
+  });
+}
+
+class Script {
+ public:
+  Script(const Table& table, const std::vector<std::string>& signals)
+      : table_(table), time_s_(table.columns.front().values) {
+    for (const Panel& panel : panels) add(panel, signals);
+  }
+
+  PlotScript finish(const std::string& title) const {
+    const double from_s = time_s_.empty() ? 0 : time_s_.front();
+    const double to_s = time_s_.empty() || time_s_.back() <= from_s ? from_s + 1 : time_s_.back();
+    const double height = picture_height(static_cast<int>(plots_.size()));
+    std::string out = data_ + "set multiplot layout " + std::to_string(plots_.size()) +
+                      ",1 title " + quoted(title) +
+                      " font ',15' noenhanced margins screen 0.065,0.83," + number(60.0 / height) +
+                      "," + number(1 - 50.0 / height) + " spacing screen 0," +
+                      number(22.0 / height) +
+                      "\n"
+                      "set border 3 linecolor '#777777'\nset grid linecolor '#dddddd' linetype 1\n"
+                      "set tics nomirror textcolor '#333333'\nset xrange [" +
+                      number(from_s) + ":" + number(to_s) +
+                      "]\nset key at screen 0.84, graph 1.02 left top Left reverse noenhanced "
+                      "samplen 2 spacing 1.2\n"
+                      "set ylabel noenhanced\nset format x ''\n";
+    for (std::size_t i = 0; i < plots_.size(); ++i) {
+      if (i + 1 == plots_.size()) out += "set format x '%g'\nset xlabel 'time  [s]'\n";
+      out += plots_[i];
+    }
+    return {out + "unset multiplot\n", static_cast<int>(plots_.size())};
+  }
+  bool empty() const { return plots_.empty(); }
+
+ private:
+  std::string block(const Values& values) {
+    const std::string points = thinned(time_s_, values);
+    if (points.empty()) return {};
+    const std::string name = "$d" + std::to_string(blocks_++);
+    data_ += name + " << EOD\n" + points + "EOD\n";
+    return name;
+  }
+
+  void add(const Panel& panel, const std::vector<std::string>& signals) {
+    constexpr auto* dashes = " with lines linewidth 1.3 dashtype (9,6) linecolor rgb ";
+    const std::string_view signal = panel.signal;
+    const bool joint = signal == "angle_rad" || signal == "qw";
+    std::string measured, wanted;
+    std::size_t curve = 0;
+    for (const std::string& owner : table_.owners(signal)) {
+      if (!chosen(signals, owner, panel)) continue;
+      const Column& column = *table_.find(owner + "." + panel.signal);
+      const std::string data = block(measured_values(column, panel));
+      if (data.empty()) continue;
+      const unsigned colour = colours[(curve + (joint ? first_joint_colour : 0)) % colours.size()];
+      measured += (measured.empty() ? "" : ", ") + data + " with lines linewidth 2 linecolor rgb " +
+                  rgb(colour) + (curve < most_keys ? " title " + quoted(owner) : " notitle");
+      const std::string reference = block(wanted_values(table_, owner, panel));
+      if (!reference.empty()) wanted += ", " + reference + dashes + rgb(dark(colour)) + " notitle";
+      ++curve;
+    }
+    if (measured.empty()) return;
+    if (!wanted.empty()) wanted += std::string(", NaN") + dashes + "'#333333' title 'asked for'";
+    plots_.push_back("set ylabel " + quoted(panel.label) + "\nplot " + measured + wanted + "\n");
+  }
+
+  const Table& table_;
+  const Values& time_s_;
+  std::string data_;
+  std::vector<std::string> plots_;
+  std::size_t blocks_ = 0;
+};
+
+/// Every signal asked for must name something.
+void check_signals(const Table& table, const std::vector<std::string>& signals,
+                   const std::string& place) {
+  for (const std::string& signal : signals) {
+    bool known = false;
+    std::string there;
+    for (const Panel& panel : panels)
+      for (const std::string& owner : table.owners(panel.signal)) {
+        known = known || chosen({signal}, owner, panel);
+        there += (there.empty() ? "" : ", ") + owner + "." + panel.signal;
+      }
+    if (!known)
+      throw recording::RecordingError(place + ": no signal \"" + signal + "\"; there are " + there);
+  }
+}
+
+}  // namespace
+
+PlotScript plot_script(const Table& table, const std::vector<std::string>& signals,
+                       const std::string& title, const std::string& place) {
+  check_signals(table, signals, place);
+  const Script script(table, signals);
+  if (script.empty())
+    throw recording::RecordingError(place + ": holds no samples to draw; see erp log info " +
+                                    place);
+  return script.finish(title);
+}
+
+}  // namespace launch

@@ -1,0 +1,197 @@
+#include "launch/erp/record/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "interfaces/recording/error.hpp"
+
+namespace launch {
+namespace {
+
+constexpr double worth_saying = 0.98;  // a recording that misses more of its run says so; chosen
+
+using Values = std::vector<double>;
+
+/// What a mode measures.
+const char* measured_signal(erp::Mode mode) {
+  switch (mode) {
+    case erp::Mode::voltage:
+      return ".voltage_V";
+    case erp::Mode::length:
+      return ".line_m";
+    case erp::Mode::current:
+      return ".current_A";
+    case erp::Mode::force:
+      return ".tension_N";
+    case erp::Mode::off:
+      break;
+  }
+  return "";
+}
+
+/// One actuator's target beside what came of it; rows without both are left out.
+struct Followed {
+  std::string actuator;
+  erp::Mode mode = erp::Mode::off;
+  Values time_s, target, measured;
+};
+
+/// The columns that say what an actuator was to do: a planner's target, or, when nobody published
+/// one, what the ECU itself followed. A voltage is no target: nothing measures it.
+struct Wanted {
+  const recording::Column *mode = nullptr, *value = nullptr;
+  explicit operator bool() const { return mode && value; }
+};
+
+Wanted wanted(const recording::Table& table, const std::string& actuator) {
+  const Wanted planned{table.find(actuator + ".target_mode"), table.find(actuator + ".target")};
+  if (planned) return planned;
+  return {table.find(actuator + ".mode"), table.find(actuator + ".reference")};
+}
+
+Followed follow(const recording::Table& table, const std::string& actuator) {
+  Followed one{actuator, erp::Mode::off, {}, {}, {}};
+  const auto [modes, values] = wanted(table, actuator);
+  const auto* running = table.find(actuator + ".mode");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (std::isnan(values->values[row]) || std::isnan(modes->values[row])) continue;
+    const auto mode = static_cast<erp::Mode>(std::lround(modes->values[row]));
+    if (mode == erp::Mode::off || mode == erp::Mode::voltage) continue;
+    if (one.mode == erp::Mode::off) one.mode = mode;
+    const auto* measured = table.find(actuator + measured_signal(mode));
+    if (mode != one.mode || !measured || std::isnan(measured->values[row])) continue;
+    if (running && !(running->values[row] > 0)) continue;
+    one.time_s.push_back(table.columns.front().values[row]);
+    one.target.push_back(values->values[row]);
+    one.measured.push_back(measured->values[row]);
+  }
+  return one;
+}
+
+std::vector<Followed> followed(const recording::Table& table) {
+  std::vector<Followed> all;
+  for (const auto& actuator : table.owners("mode"))
+    if (wanted(table, actuator))
+      if (auto one = follow(table, actuator); !one.target.empty()) all.push_back(std::move(one));
+  return all;
+}
+
+double rms_error(const Followed& f, std::size_t from) {
+  double sum = 0;
+  for (std::size_t i = from; i < f.target.size(); ++i)
+    sum += (f.measured[i] - f.target[i]) * (f.measured[i] - f.target[i]);
+  return std::sqrt(sum / static_cast<double>(f.target.size() - from));
+}
+
+/// The row of the only change of the target; nothing when it changes more often or never.
+std::optional<std::size_t> only_jump(const Values& target) {
+  std::optional<std::size_t> jump;
+  for (std::size_t i = 1; i < target.size(); ++i) {
+    if (target[i] == target[i - 1]) continue;
+    if (jump) return std::nullopt;
+    jump = i;
+  }
+  return jump;
+}
+
+/// When the measured signal first passed a part of the way from → to, after `start`.
+std::optional<double> passed_s(const Followed& f, std::size_t start, double level, bool upward) {
+  for (std::size_t i = start; i < f.measured.size(); ++i)
+    if (upward ? f.measured[i] >= level : f.measured[i] <= level) return f.time_s[i];
+  return std::nullopt;
+}
+
+StepResponse response_of(const Followed& f, std::size_t jump) {
+  StepResponse r{f.actuator, f.mode, f.target[jump - 1], f.target[jump], f.time_s[jump], {}, 0, 0};
+  const double way = r.to - r.from;
+  const auto low = passed_s(f, jump, r.from + 0.1 * way, way > 0);
+  const auto high = passed_s(f, jump, r.from + 0.9 * way, way > 0);
+  if (low && high) r.rise_s = *high - *low;
+  for (std::size_t i = jump; i < f.measured.size(); ++i)
+    r.overshoot = std::max(r.overshoot, (f.measured[i] - r.to) * (way > 0 ? 1 : -1));
+  r.steady_rms = rms_error(f, jump + (f.target.size() - jump) / 2);
+  return r;
+}
+
+/// Lengths are small numbers: shown in mm.
+std::string amount(double value, erp::Mode mode) {
+  if (mode == erp::Mode::length) return fmt::format("{:.3f} mm", 1000 * value);
+  return fmt::format("{:.3f} {}", value, erp::unit_of(mode));
+}
+
+}  // namespace
+
+std::vector<Tracking> tracking(const recording::Table& table) {
+  std::vector<Tracking> all;
+  for (const auto& f : followed(table)) {
+    Tracking t{f.actuator, f.mode, rms_error(f, 0), 0, f.target.size()};
+    for (std::size_t i = 0; i < f.target.size(); ++i)
+      t.largest = std::max(t.largest, std::abs(f.measured[i] - f.target[i]));
+    all.push_back(t);
+  }
+  return all;
+}
+
+std::vector<StepResponse> step_responses(const recording::Table& table) {
+  std::vector<StepResponse> all;
+  for (const auto& f : followed(table))
+    if (const auto jump = only_jump(f.target)) all.push_back(response_of(f, *jump));
+  return all;
+}
+
+namespace {
+
+void print_tracking(const std::vector<Tracking>& tracks, std::ostream& out) {
+  if (tracks.empty()) return;
+  out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", "actuator", "mode", "RMS error", "largest");
+  for (const auto& t : tracks)
+    out << fmt::format("{:<20} {:<8} {:>14} {:>14}\n", t.actuator, erp::name_of(t.mode),
+                       amount(t.rms, t.mode), amount(t.largest, t.mode));
+}
+
+void print_steps(const std::vector<StepResponse>& steps, std::ostream& out) {
+  for (const auto& s : steps)
+    out << fmt::format(
+        "{} steps {} -> {} at {:.3f} s: rise (10-90 %) {}, overshoot {}, steady RMS {}\n",
+        s.actuator, amount(s.from, s.mode), amount(s.to, s.mode), s.at_s,
+        s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "never reached",
+        amount(s.overshoot, s.mode), amount(s.steady_rms, s.mode));
+}
+
+/// A logger that was killed leaves its part behind as NAME.1.mcap, NAME.2.mcap …
+void print_parts(const std::vector<std::string>& parts, std::ostream& out) {
+  if (parts.size() == 1) {
+    out << "recording " << parts.front() << '\n';
+    return;
+  }
+  out << "recording in " << parts.size() << " parts, because the logger was started again:\n";
+  for (const auto& part : parts) out << "  " << part << '\n';
+  out << "a part that was cut off is mended by: erp log recover PART\n";
+}
+
+}  // namespace
+
+int print_summary(const RecordedRun& run, std::ostream& out) try {
+  print_parts(run.parts, out);
+  if (run.lasted_s < 0) return 0;  // nothing moved
+  recording::TableOptions options;
+  options.lines = options.targets = true;
+  options.robot = run.robot;
+  const auto table = recording::read_table(run.parts.back(), options);
+  const double span_s = table.columns.front().values.back();
+  out << fmt::format("{} {:.2f} s", run.parts.size() > 1 ? "the last part covers" : "it covers",
+                     span_s)
+      << (span_s < worth_saying * run.lasted_s ? fmt::format(" of the run's {:.2f} s", run.lasted_s)
+                                               : "")
+      << '\n';
+  print_tracking(tracking(table), out);
+  print_steps(step_responses(table), out);
+  return 0;
+} catch (const recording::RecordingError& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
+}
+
+}  // namespace launch

@@ -1,0 +1,48 @@
+#include "launch/erp/run/bus_link.hpp"
+
+#include "components/node/clock.hpp"
+
+namespace launch {
+
+constexpr int event_depth = 64;  // chosen: a burst of notices from one component
+
+BusLink::BusLink(std::string robot)
+    : robot_(std::move(robot)),
+      self_(node::own_peer("erp", "")),
+      participant_(node::join(self_)),
+      peers_(participant_, wake_, self_),
+      states_(participant_, wake_),
+      events_(participant_, wake_, event_depth),
+      clock_(participant_, unheeded_),
+      commands_(participant_) {}
+
+void BusLink::poll(const Hearing& hearing) {
+  wake_.clear();
+  const auto only_ours = [this](const auto& use) {
+    return [this, &use](const auto& message) {
+      if (robot_ == message.robot) use(message);
+    };
+  };
+  states_.take(only_ours(hearing.state));
+  events_.take(only_ours(hearing.event));
+  clock_.take(only_ours(hearing.clock));
+}
+
+std::vector<node::Peer> BusLink::peers() {
+  peers_.look();
+  std::vector<node::Peer> ours;
+  for (const auto& peer : peers_.known())
+    if (peer.robot == robot_) ours.push_back(peer);
+  return ours;
+}
+
+void BusLink::command(const std::string& component, erp::Lifecycle target) {
+  erp::LifecycleCommand command;
+  erp::assign(command.robot, robot_);
+  erp::assign(command.component, component);
+  command.stamp_ns = node::wall_ns();
+  command.target = static_cast<std::uint8_t>(target);
+  commands_.write(command);
+}
+
+}  // namespace launch

@@ -1,0 +1,188 @@
+#include "launch/erp/run/plan.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "hal/can/bus.hpp"
+#include "interfaces/xml/errors.hpp"
+#include "interfaces/xml/words.hpp"
+#include "launch/erp/run/program.hpp"
+
+namespace launch {
+namespace {
+
+const char* word_of(erp::Time time) {
+  for (const auto& [word, value] : xml::Names<erp::Time>::list)
+    if (value == time) return word;
+  return "";
+}
+
+const char* device_type(erp::Device device) {
+  switch (device) {
+    case erp::Device::sim:
+      return "sim";
+    case erp::Device::can:
+      return "gateway";
+    case erp::Device::replay:
+      break;
+  }
+  return "replay";
+}
+
+bool is_device_type(const std::string& type) {
+  return type == "sim" || type == "gateway" || type == "replay";
+}
+
+std::string bus_of(const erp::Graph& graph) {
+  return graph.bus != erp::Graph{}.bus ? graph.bus : erp::own_bus();
+}
+
+bool needs_robot_behind_bus(const erp::Graph& graph) {
+  return graph.device == erp::Device::can && !graph.hardware;
+}
+
+std::string type_of(const erp::GraphComponent& component) {
+  return component.type.empty() ? component.name : component.type;
+}
+
+/// The graph's own line for an implicit component, or one without config. A plant that ends, for
+/// whatever reason, must come back: nothing moves without it.
+erp::GraphComponent line_for(const erp::Graph& graph, const std::string& type) {
+  for (const auto& component : graph.components)
+    if (component.name == type) return component;
+  erp::GraphComponent implicit;
+  implicit.name = type;
+  if (type == "plant") implicit.restart = erp::Restart::always;
+  return implicit;
+}
+
+void check_graph(const erp::Graph& graph) {
+  if (graph.hardware && graph.device == erp::Device::can && graph.time == erp::Time::lockstep)
+    throw std::invalid_argument(
+        "lockstep cannot hold a real robot still; use --realtime, or hardware=\"false\"");
+  if (graph.device == erp::Device::replay && graph.replay.empty())
+    throw std::invalid_argument("device replay without a recording; use --device replay:FILE");
+}
+
+std::vector<std::string> settings_of(const erp::Graph& graph, const Wishes& wishes,
+                                     const PlannedProcess& process) {
+  std::vector<std::string> settings;
+  if (process.type == "gateway" || process.role == Role::robot_behind_bus)
+    settings.push_back("bus=" + bus_of(graph));
+  if (process.type == "replay") settings.push_back("file=" + graph.replay);
+  if (process.role == Role::logger) {
+    const auto& stem = process.name == "logger" ? graph.name : process.name;
+    settings.push_back("file=" + wishes.folder + "/" + stem + ".mcap");
+    settings.push_back("attach=" + xml::joined(wishes.attach, ":"));
+  }
+  // a person's word comes last, and so wins
+  for (const auto& setting : wishes.settings) {
+    if (setting.component != process.name) continue;
+    std::erase_if(settings, [&](const auto& own) { return own.starts_with(setting.key + "="); });
+    settings.push_back(setting.key + "=" + setting.value);
+  }
+  return settings;
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return text.str();
+}
+
+void fill_command_line(PlannedProcess& process, const erp::Graph& graph, const Wishes& wishes,
+                       const std::string& config) {
+  auto& argv = process.argv;
+  const auto add = [&argv](const char* option, const std::string& value) {
+    argv.insert(argv.end(), {option, value});
+  };
+  add("--name", process.name);
+  add("--robot", graph.robot);
+  if (!config.empty()) add("--config", config);
+  add("--time", word_of(graph.time));
+  // In lockstep the device counts the run's ticks; otherwise the launcher's clock ends the run.
+  if (process.role == Role::device && graph.duration_s > 0 && graph.time == erp::Time::lockstep)
+    add("--duration", number(graph.duration_s));
+  for (const auto& setting : settings_of(graph, wishes, process)) add("--set", setting);
+  argv.push_back("--managed");
+}
+
+void check_settings(const Plan& plan, const Wishes& wishes) {
+  std::vector<std::string> names;
+  for (const auto& process : plan.processes) names.push_back(process.name);
+  for (const auto& setting : wishes.settings)
+    if (std::find(names.begin(), names.end(), setting.component) == names.end())
+      throw std::invalid_argument("--set " + setting.component + "." + setting.key +
+                                  ": no such component in this run; " +
+                                  xml::did_you_mean(setting.component, names));
+}
+
+/// Of one that the graph does not name, such as its device, there is no place to tell.
+[[noreturn]] void refuse_missing(const erp::GraphComponent& component, const std::string& type) {
+  const std::string what = "component \"" + component.name + "\": no program \"" + type +
+                           "\" beside erp, in $ERP_COMPONENT_PATH or in $PATH";
+  const std::string remedy = xml::did_you_mean(type, own_programs());
+  if (component.place.file.empty()) throw std::invalid_argument(what + "; " + remedy);
+  throw xml::Errors({xml::error_in(erp::GraphComponent::element, component.place, what, remedy)});
+}
+
+std::string recording_of(const PlannedProcess& logger) {
+  for (const auto& word : logger.argv)
+    if (word.starts_with("file=")) return word.substr(5);
+  return "";
+}
+
+}  // namespace
+
+Setting parse_setting(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto dot = text.find('.');
+  if (equals == text.npos || dot == text.npos || dot == 0 || equals <= dot + 1)
+    throw std::invalid_argument("--set " + text + ": expected component.key=value");
+  return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
+}
+
+void choose_device(erp::Graph& graph, const std::string& text) {
+  constexpr std::string_view replay = "replay:";
+  if (text.starts_with(replay) && text.size() > replay.size()) {
+    graph.device = erp::Device::replay;
+    graph.replay = text.substr(replay.size());
+  } else if (text == "sim") {
+    graph.device = erp::Device::sim;
+  } else if (text == "can") {
+    graph.device = erp::Device::can;
+  } else {
+    throw std::invalid_argument("--device " + text + ": expected sim, can or replay:FILE");
+  }
+}
+
+Plan make_plan(const erp::Graph& graph, const Wishes& wishes, const FindProgram& find_program) {
+  check_graph(graph);
+  Plan plan;
+  const auto add = [&](const erp::GraphComponent& component, Role role) {
+    PlannedProcess process{component.name, type_of(component), role, component.restart, {}, {}};
+    const std::string program = find_program(process.type);
+    if (program.empty()) refuse_missing(component, process.type);
+    process.argv.push_back(program);
+    process.log_file = wishes.folder + "/" + process.name + ".log";
+    fill_command_line(process, graph, wishes, component.config);
+    plan.processes.push_back(std::move(process));
+  };
+  for (const auto& component : graph.components)
+    if (type_of(component) == "logger") add(component, Role::logger);
+  add(line_for(graph, "plant"), Role::plant);
+  for (const auto& component : graph.components)
+    if (type_of(component) != "logger" && component.name != "plant" &&
+        !is_device_type(component.name))
+      add(component, Role::controller);
+  if (needs_robot_behind_bus(graph)) add(line_for(graph, "sim"), Role::robot_behind_bus);
+  add(line_for(graph, device_type(graph.device)), Role::device);
+  check_settings(plan, wishes);
+  if (plan.processes.front().role == Role::logger)
+    plan.recording = recording_of(plan.processes.front());
+  return plan;
+}
+
+}  // namespace launch

@@ -1,0 +1,137 @@
+#include "launch/erp/run/process.hpp"
+
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace launch {
+namespace {
+
+[[noreturn]] void fail(int error, const std::string& what) {
+  throw std::system_error(error, std::generic_category(), what);
+}
+
+/// Closes itself; −1 is nothing.
+struct Descriptor {
+  int number = -1;
+  ~Descriptor() { close(); }
+  void close() {
+    if (number >= 0) ::close(std::exchange(number, -1));
+  }
+};
+
+/// From here to exec only async-signal-safe calls: the launcher has threads of DDS.
+[[noreturn]] void become(char* const* argv, pid_t parent, int death_signal, int input, int log,
+                         int complaint) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, death_signal);
+  if (getppid() != parent) _exit(1);  // the launcher died before the line above
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD}) signal(number, SIG_DFL);
+  dup2(input, STDIN_FILENO);
+  dup2(log, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // also sockets that a library opened without it
+  execvp(argv[0], argv);
+  const int error = errno;
+  [[maybe_unused]] const auto written = write(complaint, &error, sizeof error);
+  _exit(127);
+}
+
+}  // namespace
+
+std::string to_string(const Ending& ending) {
+  if (!ending.signal) return "exit code " + std::to_string(ending.code);
+  return "killed by signal " + std::to_string(ending.signal) + " (" + strsignal(ending.signal) +
+         ")";
+}
+
+Process::Process(const std::vector<std::string>& argv, const std::string& log_file,
+                 int death_signal) {
+  const Descriptor input{open("/dev/null", O_RDONLY | O_CLOEXEC)};
+  const Descriptor log{open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)};
+  if (log.number < 0) fail(errno, log_file);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) fail(errno, "pipe");
+  Descriptor complaint_out{ends[0]}, complaint_in{ends[1]};
+
+  std::vector<char*> words;
+  for (const auto& word : argv) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  const pid_t parent = getpid();
+  pid_ = fork();
+  if (pid_ < 0) fail(errno, "fork");
+  if (pid_ == 0)
+    become(words.data(), parent, death_signal, input.number, log.number, complaint_in.number);
+  setpgid(pid_, pid_);  // both sides set it, so that neither has to wait for the other
+  complaint_in.close();
+
+  // exec closes the pipe; an error number in it means there was no exec.
+  int error = 0;
+  if (read(complaint_out.number, &error, sizeof error) == sizeof error) {
+    waitpid(pid_, nullptr, 0);
+    fail(error, argv[0]);
+  }
+  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
+  if (descriptor_ < 0) {
+    error = errno;
+    send(SIGKILL);
+    collect(0);
+    fail(error, "pidfd_open");
+  }
+}
+
+Process::Process(Process&& other) noexcept
+    : pid_(std::exchange(other.pid_, -1)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      ending_(std::exchange(other.ending_, std::nullopt)) {}
+
+Process& Process::operator=(Process&& other) noexcept {
+  std::swap(pid_, other.pid_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(ending_, other.ending_);
+  return *this;
+}
+
+Process::~Process() {
+  if (pid_ > 0 && !ending_) {
+    send(SIGKILL);
+    collect(0);
+  }
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void Process::send(int signal) const {
+  if (pid_ > 0 && !ending_) kill(-pid_, signal);
+}
+
+std::optional<Ending> Process::poll() {
+  if (pid_ > 0 && !ending_) collect(WNOHANG);
+  return ending_;
+}
+
+void Process::collect(int wait_options) {
+  // Look first, reap after: while the zombie holds its number, the group can be named safely.
+  siginfo_t info{};
+  if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT | wait_options) != 0) {
+    ending_ = Ending{-1, 0};  // somebody else reaped it
+    return;
+  }
+  if (info.si_pid == 0) return;
+  kill(-pid_, SIGKILL);
+  waitpid(pid_, nullptr, 0);
+  const bool exited = info.si_code == CLD_EXITED;
+  ending_ = exited ? Ending{info.si_status, 0} : Ending{0, info.si_status};
+}
+
+}  // namespace launch

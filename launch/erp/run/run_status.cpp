@@ -1,0 +1,50 @@
+#include "launch/erp/run/component_row.hpp"
+#include "launch/erp/run/run.hpp"
+
+/// What a run shows of itself.
+namespace launch {
+namespace {
+
+constexpr std::int64_t silence_ns = 1'000'000'000;  // ten heartbeats
+
+template <class Enum>
+std::string word_of(Enum value) {
+  for (const auto& [word, named] : xml::Names<Enum>::list)
+    if (named == value) return word;
+  return "";
+}
+
+}  // namespace
+
+std::string Run::state_of(std::size_t index) const {
+  const Phase phase = supervisor_.phase(index);
+  const bool on_bus = phase == Phase::active || phase == Phase::inactive;
+  if (on_bus && time_.now_ns() - members_[index].heard_ns > silence_ns) return "silent";
+  return name_of(phase);
+}
+
+Row Run::row(std::size_t index) {
+  Member& member = members_[index];
+  Row row{.name = plan_.processes[index].name, .state = state_of(index)};
+  row.restarts = static_cast<long>(supervisor_.restarts(index));
+  if (member.process) {
+    row.pid = member.process->pid();
+    row.cpu_percent = member.share.measure(member.process->pid(), time_.now_ns());
+  }
+  if (member.heard) fill_figures(row, *member.heard);
+  return row;
+}
+
+Status Run::status() {
+  Status status{.graph = graph_.name,
+                .device = word_of(graph_.device),
+                .time = word_of(graph_.time),
+                .stage = name_of(supervisor_.stage()),
+                .elapsed_s = time_.elapsed_s(),
+                .device_s = time_.device_s(),
+                .left_s = supervisor_.stage() == Stage::running ? time_.left_s() : -1};
+  for (std::size_t i = 0; i < members_.size(); ++i) status.rows.push_back(row(i));
+  return status;
+}
+
+}  // namespace launch

@@ -1,0 +1,68 @@
+#include "launch/erp/run/screen.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "launch/erp/text/columns.hpp"
+
+namespace launch {
+namespace {
+
+struct Size {
+  std::size_t rows = 24, columns = 80;
+};
+
+Size size_of(std::FILE* out) {
+  winsize size{};
+  if (ioctl(fileno(out), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return {};
+  return {size.ws_row, size.ws_col};
+}
+
+}  // namespace
+
+Screen::Screen(std::FILE* out) : out_(out), terminal_(isatty(fileno(out)) != 0) {}
+
+void Screen::say(double time_s, const std::string& text) {
+  clear();
+  std::fprintf(out_, "%8.2f  %s\n", time_s, text.c_str());
+  draw();
+  std::fflush(out_);
+}
+
+void Screen::show(const Status& status) {
+  if (terminal_) {
+    clear();
+    table_ = render(status);
+    draw();
+    std::fflush(out_);
+    return;
+  }
+  for (const auto& row : status.rows) {
+    auto& said = states_[row.name];
+    if (said == row.state) continue;
+    said = row.state;
+    say(status.elapsed_s, row.name + ": " + row.state);
+  }
+}
+
+void Screen::clear() {
+  if (drawn_) std::fprintf(out_, "\033[%zuA\r\033[J", drawn_);
+  drawn_ = 0;
+}
+
+void Screen::draw() {
+  if (!terminal_) return;
+  const Size size = size_of(out_);
+  const std::size_t room = std::max<std::size_t>(size.rows, 4) - 2;
+  drawn_ = std::min(table_.size(), room);
+  for (std::size_t i = 0; i < drawn_; ++i) {
+    const bool cut = i + 1 == drawn_ && drawn_ < table_.size();
+    const std::string line =
+        cut ? "… and " + std::to_string(table_.size() - i) + " more" : table_[i];
+    std::fprintf(out_, "%s\n", clipped(line, size.columns).c_str());
+  }
+}
+
+}  // namespace launch

@@ -1,0 +1,253 @@
+#include "launch/erp/run/supervisor.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+namespace launch {
+namespace {
+
+constexpr int bad_input = 2;
+
+std::string seconds(std::int64_t duration_ns) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(duration_ns));
+  return text;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(std::vector<Charge> charges, Tuning tuning) : tuning_(tuning) {
+  for (auto& charge : charges) members_.push_back({std::move(charge), BackOff(tuning.restart)});
+}
+
+void Supervisor::start(std::int64_t now_ns) {
+  started_ns_ = now_ns;
+  for (auto& member : members_) member.spawn_due_ns = now_ns;
+  spawn_due(now_ns);
+}
+
+void Supervisor::tick(std::int64_t now_ns) {
+  if (stage_ == Stage::stopping) return stop_next(now_ns);
+  if (stage_ == Stage::done) return;
+  spawn_due(now_ns);
+  if (stage_ == Stage::starting) await_all(now_ns);
+  if (stage_ == Stage::activating || stage_ == Stage::running) activate_next(now_ns);
+}
+
+void Supervisor::heard(std::size_t index, const Heartbeat& heartbeat, std::int64_t now_ns) {
+  Member& member = members_[index];
+  if (heartbeat.links != member.heartbeat.links) member.links_since_ns = now_ns;
+  member.heartbeat = heartbeat;
+  member.finalized = heartbeat.lifecycle == erp::Lifecycle::finalized;
+  const bool starting = member.phase == Phase::starting;
+  if (starting && heartbeat.lifecycle == erp::Lifecycle::inactive) {
+    member.phase = Phase::inactive;
+    member.links_since_ns = now_ns;
+  }
+  if ((starting || member.phase == Phase::inactive) &&
+      heartbeat.lifecycle == erp::Lifecycle::active)
+    member.phase = Phase::active;
+}
+
+void Supervisor::ended(std::size_t index, const Ending& ending, std::int64_t now_ns) {
+  Member& member = members_[index];
+  const std::string what = member.charge.name + ": " + to_string(ending);
+  if (stage_ == Stage::stopping) {
+    const bool obeyed = ending.clean() || (ending.signal == SIGTERM && !member.killed);
+    member.phase = obeyed ? Phase::ended : Phase::failed;
+    if (obeyed) return;
+    exit_code_ = std::max(exit_code_, 1);
+    say(what + " while stopping");
+    if (!member.killed) act(Action::Kind::show_log, index);
+    return;
+  }
+  member.phase = Phase::ended;
+  if (ending.clean() && member.charge.ends_run)
+    return stop(member.charge.name + " has reached the end of the run", 0, now_ns);
+  if (!ending.signal && ending.code == bad_input)
+    return fail(index, what + ", it cannot use what it was given", bad_input, now_ns);
+  if (member.charge.restart == erp::Restart::always ||
+      (!ending.clean() && member.charge.restart == erp::Restart::on_failure))
+    return restart(index, ending, now_ns);
+  if (ending.clean()) return say(member.charge.name + " has ended");
+  fail(index, what + ", restart=\"never\"", 1, now_ns);
+}
+
+void Supervisor::restart(std::size_t index, const Ending& ending, std::int64_t now_ns) {
+  Member& member = members_[index];
+  const std::string what = member.charge.name + ": " + to_string(ending);
+  const auto delay_ns = member.back_off.fail(now_ns);
+  const std::size_t k = member.back_off.restarts_in_window();
+  if (!delay_ns)
+    return fail(index,
+                what + ", given up after " + std::to_string(k) + " restarts in " +
+                    seconds(tuning_.restart.window_ns),
+                1, now_ns);
+  ++member.restarts;
+  member.phase = Phase::backing_off;
+  member.spawn_due_ns = now_ns + *delay_ns;
+  say(what + ", restart " + std::to_string(k) + " of " + std::to_string(tuning_.restart.most) +
+      " in " + seconds(*delay_ns));
+  if (k == 1 && !ending.clean()) act(Action::Kind::show_log, index);
+}
+
+void Supervisor::fail(std::size_t index, const std::string& why, int exit_code,
+                      std::int64_t now_ns) {
+  members_[index].phase = Phase::failed;
+  act(Action::Kind::show_log, index);
+  stop(why, exit_code, now_ns);
+}
+
+void Supervisor::stop(const std::string& why, int exit_code, std::int64_t now_ns) {
+  exit_code_ = std::max(exit_code_, exit_code);
+  if (stage_ == Stage::stopping || stage_ == Stage::done) return;
+  say(why + "; stopping");
+  stage_ = Stage::stopping;
+  for (auto& member : members_) {
+    member.asked_ns.reset();
+    if (member.phase == Phase::waiting || member.phase == Phase::backing_off)
+      member.phase = Phase::ended;
+  }
+  stop_next(now_ns);
+}
+
+void Supervisor::kill_now() {
+  stage_ = Stage::stopping;
+  exit_code_ = std::max(exit_code_, 1);
+  for (auto& member : members_) {
+    if (!alive(member)) continue;
+    member.phase = Phase::stopping;
+    member.killed = true;
+    act(Action::Kind::kill, index_of(member));
+  }
+}
+
+bool Supervisor::alive(const Member& member) const {
+  return member.phase == Phase::starting || member.phase == Phase::inactive ||
+         member.phase == Phase::active || member.phase == Phase::stopping;
+}
+
+bool Supervisor::ready(const Member& member, std::int64_t now_ns) const {
+  // each sees the others and the launcher: (n − 1) + 1
+  const auto n = std::count_if(members_.begin(), members_.end(),
+                               [this](const Member& other) { return alive(other); });
+  return member.phase == Phase::inactive && member.heartbeat.peers >= n &&
+         now_ns - member.links_since_ns >= tuning_.settle_ns;
+}
+
+void Supervisor::spawn_due(std::int64_t now_ns) {
+  for (auto& member : members_) {
+    if (member.phase != Phase::waiting && member.phase != Phase::backing_off) continue;
+    if (now_ns < member.spawn_due_ns) continue;
+    member.phase = Phase::starting;
+    member.heartbeat = {};
+    member.finalized = false;
+    member.asked_ns.reset();
+    act(Action::Kind::spawn, index_of(member));
+  }
+}
+
+void Supervisor::await_all(std::int64_t now_ns) {
+  std::string missing;
+  for (const auto& member : members_)
+    if (member.phase != Phase::active && member.phase != Phase::ended && !ready(member, now_ns))
+      missing += (missing.empty() ? "" : ", ") + member.charge.name;
+  if (missing.empty()) {
+    stage_ = Stage::activating;
+    return say("all components are ready");
+  }
+  if (now_ns - started_ns_ >= tuning_.start_patience_ns)
+    stop("not ready after " + seconds(tuning_.start_patience_ns) + ": " + missing, 1, now_ns);
+}
+
+void Supervisor::activate_next(std::int64_t now_ns) {
+  bool all_active = true;
+  for (auto& member : members_) {
+    if (member.phase == Phase::active || member.phase == Phase::ended) continue;
+    all_active = false;
+    const bool asked_lately = member.asked_ns && now_ns - *member.asked_ns < tuning_.resend_ns;
+    if (ready(member, now_ns) && !asked_lately) {
+      member.asked_ns = now_ns;
+      act(Action::Kind::activate, index_of(member));
+    }
+    if (stage_ == Stage::activating) return;  // in order: the others wait for this one
+  }
+  if (all_active && stage_ == Stage::activating) {
+    stage_ = Stage::running;
+    say("all components are active");
+  }
+}
+
+void Supervisor::stop_next(std::int64_t now_ns) {
+  bool waiting = false;  // for one that is still at work
+  bool all_gone = true;
+  for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
+    if (!alive(*member)) continue;
+    all_gone = false;
+    if (!member->asked_ns && !waiting) {
+      member->phase = Phase::stopping;
+      member->asked_ns = now_ns;
+      act(Action::Kind::terminate, index_of(*member));
+    }
+    waiting |= !member->finalized;
+    kill_if_late(*member, now_ns);
+  }
+  if (all_gone) stage_ = Stage::done;
+}
+
+void Supervisor::kill_if_late(Member& member, std::int64_t now_ns) {
+  if (member.killed || !member.asked_ns) return;
+  if (now_ns - *member.asked_ns < tuning_.stop_patience_ns) return;
+  member.killed = true;
+  say(member.charge.name + " did not stop within " + seconds(tuning_.stop_patience_ns) +
+      "; killing it");
+  act(Action::Kind::kill, index_of(member));
+}
+
+void Supervisor::act(Action::Kind kind, std::size_t index, std::string text) {
+  actions_.push_back({kind, index, std::move(text)});
+}
+
+std::vector<Action> Supervisor::take_actions() { return std::exchange(actions_, {}); }
+
+const char* name_of(Phase phase) {
+  switch (phase) {
+    case Phase::waiting:
+      return "waiting";
+    case Phase::starting:
+      return "starting";
+    case Phase::inactive:
+      return "inactive";
+    case Phase::active:
+      return "active";
+    case Phase::backing_off:
+      return "restarting";
+    case Phase::stopping:
+      return "stopping";
+    case Phase::ended:
+      return "ended";
+    case Phase::failed:
+      break;
+  }
+  return "failed";
+}
+
+const char* name_of(Stage stage) {
+  switch (stage) {
+    case Stage::starting:
+      return "starting";
+    case Stage::activating:
+      return "activating";
+    case Stage::running:
+      return "running";
+    case Stage::stopping:
+      return "stopping";
+    case Stage::done:
+      break;
+  }
+  return "done";
+}
+
+}  // namespace launch

@@ -1,0 +1,112 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interfaces/graph/graph.hpp"
+#include "interfaces/values.hpp"
+#include "launch/erp/run/back_off.hpp"
+#include "launch/erp/run/process.hpp"
+
+/// The life of a graph as a pure state machine: events and the time go in, actions come out.
+///
+///   starting ──all ready──▶ activating ──all active──▶ running ──stop──▶ stopping ──▶ done
+///
+/// A component is ready when it is inactive, sees every other process and the launcher on the bus,
+/// and its links have not changed for a while. Members are activated in the order given and
+/// stopped in reverse, each waiting until the one before has said that it is finalized, or is gone.
+namespace launch {
+
+/// One process to look after.
+struct Charge {
+  std::string name;
+  erp::Restart restart = erp::Restart::on_failure;
+  bool ends_run = false;  ///< a device: when it exits 0 by itself, the run is over
+};
+
+/// What a component says of itself on `component_state`.
+struct Heartbeat {
+  erp::Lifecycle lifecycle = erp::Lifecycle::unconfigured;
+  std::uint32_t peers = 0, links = 0;
+};
+
+/// Chosen, all of them.
+struct Tuning {
+  std::int64_t settle_ns = 200'000'000;  ///< links unchanged for so long
+  std::int64_t resend_ns = 200'000'000;  ///< an activation nobody followed is sent again
+  std::int64_t start_patience_ns = 60'000'000'000;
+  std::int64_t stop_patience_ns = 5'000'000'000;  ///< from SIGTERM to SIGKILL
+  BackOff::Tuning restart;
+};
+
+enum class Phase { waiting, starting, inactive, active, backing_off, stopping, ended, failed };
+enum class Stage { starting, activating, running, stopping, done };
+const char* name_of(Phase phase);
+const char* name_of(Stage stage);
+
+struct Action {
+  enum class Kind { spawn, activate, terminate, kill, say, show_log };
+  Kind kind;
+  std::size_t member = 0;
+  std::string text;  ///< for `say`
+};
+
+class Supervisor {
+ public:
+  explicit Supervisor(std::vector<Charge> charges, Tuning tuning = {});
+
+  void start(std::int64_t now_ns);
+  void tick(std::int64_t now_ns);
+  void heard(std::size_t member, const Heartbeat& heartbeat, std::int64_t now_ns);
+  void ended(std::size_t member, const Ending& ending, std::int64_t now_ns);
+  /// Ends the run in order. `exit_code` 0 for a person's wish; the worst code given counts.
+  void stop(const std::string& why, int exit_code, std::int64_t now_ns);
+  void kill_now();
+
+  std::vector<Action> take_actions();
+  Stage stage() const { return stage_; }
+  bool done() const { return stage_ == Stage::done; }
+  int exit_code() const { return exit_code_; }
+  Phase phase(std::size_t member) const { return members_[member].phase; }
+  std::size_t restarts(std::size_t member) const { return members_[member].restarts; }
+
+ private:
+  struct Member {
+    Charge charge;
+    BackOff back_off;
+    Phase phase = Phase::waiting;
+    Heartbeat heartbeat;
+    std::int64_t links_since_ns = 0;       ///< when the links last changed
+    std::optional<std::int64_t> asked_ns;  ///< when it was last told to activate or to end
+    std::int64_t spawn_due_ns = 0;
+    bool killed = false;
+    bool finalized = false;  ///< has said its last word; the process only has to end
+    std::size_t restarts = 0;
+  };
+
+  bool alive(const Member& member) const;
+  bool ready(const Member& member, std::int64_t now_ns) const;
+  void spawn_due(std::int64_t now_ns);
+  void await_all(std::int64_t now_ns);
+  void activate_next(std::int64_t now_ns);
+  void stop_next(std::int64_t now_ns);
+  void kill_if_late(Member& member, std::int64_t now_ns);
+  void restart(std::size_t index, const Ending& ending, std::int64_t now_ns);
+  void fail(std::size_t index, const std::string& why, int exit_code, std::int64_t now_ns);
+  void act(Action::Kind kind, std::size_t index = 0, std::string text = "");
+  void say(const std::string& text) { act(Action::Kind::say, 0, text); }
+  std::size_t index_of(const Member& member) const {
+    return static_cast<std::size_t>(&member - members_.data());
+  }
+
+  std::vector<Member> members_;
+  Tuning tuning_;
+  Stage stage_ = Stage::starting;
+  std::int64_t started_ns_ = 0;
+  int exit_code_ = 0;
+  std::vector<Action> actions_;
+};
+
+}  // namespace launch

@@ -1,0 +1,156 @@
+#include "launch/erp/security/security.hpp"
+
+#include <fcntl.h>
+#include <openssl/bio.h>
+#include <openssl/ec.h>
+#include <openssl/pem.h>
+#include <openssl/pkcs7.h>
+#include <openssl/rand.h>
+#include <openssl/x509v3.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include "components/node/clock.hpp"
+#include "components/node/security.hpp"
+#include "launch/erp/security/security_texts.hpp"
+
+namespace launch {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = node::SecurityFiles;
+using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
+using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
+using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
+using Signed = std::unique_ptr<PKCS7, decltype(&PKCS7_free)>;
+
+void check(bool worked, const char* operation) {
+  if (!worked) throw std::runtime_error(std::string("libcrypto cannot ") + operation);
+}
+
+struct Party {
+  const char* name;
+  Key key{EVP_EC_gen("prime256v1"), EVP_PKEY_free};  // the curve that DDS Security names
+  Certificate certificate{X509_new(), X509_free};
+};
+
+void extend(X509* certificate, int kind, const char* value) {
+  const std::unique_ptr<X509_EXTENSION, decltype(&X509_EXTENSION_free)> extension(
+      X509V3_EXT_conf_nid(nullptr, nullptr, kind, value), X509_EXTENSION_free);
+  check(extension && X509_add_ext(certificate, extension.get(), -1), "extend a certificate");
+}
+
+void number_at_random(X509* certificate) {
+  unsigned char bytes[16];
+  check(RAND_bytes(bytes, sizeof bytes) == 1, "draw a number");
+  bytes[0] &= 0x7f;  // positive
+  const std::unique_ptr<BIGNUM, decltype(&BN_free)> number(BN_bin2bn(bytes, sizeof bytes, nullptr),
+                                                           BN_free);
+  check(BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate)), "number");
+}
+
+void say_name(X509_NAME* into, const char* organisation, const char* name) {
+  const auto add = [&](const char* field, const char* value) {
+    const auto* text = reinterpret_cast<const unsigned char*>(value);
+    check(X509_NAME_add_entry_by_txt(into, field, MBSTRING_ASC, text, -1, -1, 0) == 1, "name");
+  };
+  add("O", organisation), add("CN", name);
+}
+
+/// `by` vouches that the key of `whose` is its own.
+void certify(Party& whose, const Party& by, const Validity& validity) {
+  X509* c = whose.certificate.get();
+  check(X509_set_version(c, X509_VERSION_3) == 1, "make a certificate");
+  number_at_random(c);
+  check(ASN1_TIME_set(X509_getm_notBefore(c), validity.from_s) &&
+            ASN1_TIME_set(X509_getm_notAfter(c), validity.until_s),
+        "date a certificate");
+  say_name(X509_get_subject_name(c), security_organisation, whose.name);
+  check(X509_set_issuer_name(c, X509_get_subject_name(by.certificate.get())) == 1, "name");
+  check(X509_set_pubkey(c, whose.key.get()) == 1, "certify a key");
+  const bool authority = &whose == &by;
+  extend(c, NID_basic_constraints, authority ? "critical,CA:TRUE" : "critical,CA:FALSE");
+  extend(c, NID_key_usage,
+         authority ? "critical,keyCertSign,digitalSignature"
+                   : "critical,digitalSignature,keyAgreement");
+  check(X509_sign(c, by.key.get(), EVP_sha256()) > 0, "sign a certificate");
+}
+
+/// S/MIME, as DDS Security wants its documents.
+void write_signed(BIO* out, const std::string& text, const Party& by) {
+  constexpr int flags = PKCS7_TEXT | PKCS7_DETACHED;
+  const Bio in(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())), BIO_free);
+  const Signed made(PKCS7_sign(by.certificate.get(), by.key.get(), nullptr, in.get(), flags),
+                    PKCS7_free);
+  check(
+      made && BIO_reset(in.get()) == 1 && SMIME_write_PKCS7(out, made.get(), in.get(), flags) == 1,
+      "sign a document");
+}
+
+/// A folder's files, each made once.
+class Writer {
+ public:
+  explicit Writer(fs::path folder) : folder_(std::move(folder)) {
+    if (fs::exists(folder_) && !(fs::is_directory(folder_) && fs::is_empty(folder_)))
+      throw std::invalid_argument(folder_.string() + " exists already; name a new folder");
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (!error) fs::permissions(folder_, fs::perms::owner_all, error);
+    if (error) throw std::runtime_error(folder_.string() + ": " + error.message());
+  }
+  template <class Write>
+  void write(const char* name, mode_t mode, Write&& write_into) {
+    const fs::path file = folder_ / name;
+    const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (descriptor < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
+    const Bio out(BIO_new_fd(descriptor, BIO_CLOSE), BIO_free);
+    write_into(out.get());
+    written_.push_back(file);
+  }
+  void write(const char* certificate, const char* key, const Party& party) {
+    write(certificate, 0644, [&](BIO* out) {
+      check(PEM_write_bio_X509(out, party.certificate.get()) == 1, "write a certificate");
+    });
+    write(key, 0600, [&](BIO* out) {
+      check(PEM_write_bio_PrivateKey(out, party.key.get(), nullptr, nullptr, 0, nullptr, nullptr) ==
+                1,
+            "write a key");
+    });
+  }
+  const std::vector<fs::path>& written() const { return written_; }
+
+ private:
+  fs::path folder_;
+  std::vector<fs::path> written_;
+};
+
+constexpr std::int64_t day_s = 86400;
+
+}  // namespace
+
+Validity valid_for_days(int days) {
+  const std::int64_t now_s = node::wall_ns() / 1'000'000'000;
+  return {now_s - day_s, now_s + days * day_s};
+}
+
+std::vector<fs::path> make_security(const fs::path& folder, const Validity& validity) {
+  Party authority{.name = "authority"}, robot{.name = security_identity};
+  check(authority.key && robot.key, "make a key");
+  certify(authority, authority, validity);
+  certify(robot, authority, validity);
+  Writer writer(folder);
+  writer.write(Files::authority, Files::authority_key, authority);
+  writer.write(Files::identity, Files::identity_key, robot);
+  writer.write(Files::governance, 0644,
+               [&](BIO* out) { write_signed(out, governance_text(), authority); });
+  writer.write(Files::permissions, 0644,
+               [&](BIO* out) { write_signed(out, permissions_text(validity), authority); });
+  return writer.written();
+}
+
+}  // namespace launch

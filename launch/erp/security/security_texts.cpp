@@ -1,0 +1,63 @@
+#include "launch/erp/security/security_texts.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+
+namespace launch {
+namespace {
+
+constexpr auto header = R"(<?xml version="1.0" encoding="utf-8"?>
+<dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_{}.xsd">
+)";
+
+// ERP_DOMAIN's
+constexpr auto domains = "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
+
+// Metadata are whole submessages, with what they carry: encrypted once, the data need no more.
+constexpr auto rule = R"(
+  <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
+  <enable_join_access_control>true</enable_join_access_control>
+  <discovery_protection_kind>ENCRYPT</discovery_protection_kind>
+  <liveliness_protection_kind>ENCRYPT</liveliness_protection_kind>
+  <rtps_protection_kind>NONE</rtps_protection_kind>
+  <topic_access_rules><topic_rule>
+    <topic_expression>*</topic_expression>
+    <enable_discovery_protection>true</enable_discovery_protection>
+    <enable_liveliness_protection>true</enable_liveliness_protection>
+    <enable_read_access_control>true</enable_read_access_control>
+    <enable_write_access_control>true</enable_write_access_control>
+    <metadata_protection_kind>ENCRYPT</metadata_protection_kind>
+    <data_protection_kind>NONE</data_protection_kind>
+  </topic_rule></topic_access_rules>)";
+
+std::string utc(std::int64_t time_s) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(static_cast<std::time_t>(time_s)));
+}
+
+std::string allow(const char* what) {
+  return fmt::format(
+      "<allow_rule>{1}<{0}><topics><topic>*</topic></topics>"
+      "<partitions><partition>*</partition></partitions></{0}></allow_rule>\n",
+      what, domains);
+}
+
+}  // namespace
+
+std::string governance_text() {
+  return fmt::format(fmt::runtime(header), "governance") + "<domain_access_rules><domain_rule>" +
+         domains + rule + "\n</domain_rule></domain_access_rules></dds>\n";
+}
+
+std::string permissions_text(const Validity& validity) {
+  return fmt::format(fmt::runtime(header), "permissions") +
+         fmt::format(
+             "<permissions><grant name=\"everything\"><subject_name>CN={},O={}</subject_name>\n"
+             "<validity><not_before>{}</not_before><not_after>{}</not_after></validity>\n{}{}"
+             "<default>DENY</default></grant></permissions></dds>\n",
+             security_identity, security_organisation, utc(validity.from_s), utc(validity.until_s),
+             allow("publish"), allow("subscribe"));
+}
+
+}  // namespace launch

@@ -1,9 +1,0 @@
-#pragma once
-#include "launch/learn/calibrate.hpp"
-
-namespace launch {
-
-/// The still poses of recordings.
-sim::calibration::PoseSet read_poses(const erp::Robot& robot, const PoseFiles& files);
-
-}  // namespace launch

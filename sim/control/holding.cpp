@@ -1,0 +1,117 @@
+#include "sim/control/holding.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <stdexcept>
+
+#include "sim/model/actuator/musculoskeletal.hpp"
+#include "sim/model/actuator/spring.hpp"
+
+namespace sim {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The dual of eq. (1): D(λ) = bᵀ λ − Σ φ(J λ) − ε/2 |λ|², φ' = f. Concave, by pieces quadratic.
+class Dual {
+ public:
+  Dual(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options)
+      : j_(j), b_(b), rest_(options.rest_N), least_(options.least_N) {
+    constexpr double stiff = 1e-8;  // of the largest Σ J²; chosen: what is left is far below friction
+    epsilon_ = stiff * (j.size() > 0 ? j.colwise().squaredNorm().maxCoeff() : 1);
+  }
+
+  VectorXd tensions(const VectorXd& at) const {
+    return (rest_ + (j_ * at).array()).max(least_).matrix();
+  }
+  VectorXd gradient(const VectorXd& at) const {
+    return b_ - j_.transpose() * tensions(at) - epsilon_ * at;
+  }
+  double value(const VectorXd& at) const {
+    const auto pull = rest_ + (j_ * at).array();
+    const auto f = pull.max(least_);
+    return b_.dot(at) - (f * pull - f.square() / 2).sum() - epsilon_ / 2 * at.squaredNorm();
+  }
+  VectorXd newton(const VectorXd& at, const VectorXd& gradient) const {
+    const VectorXd pulls = ((rest_ + (j_ * at).array()) > least_).cast<double>();
+    MatrixXd slope = j_.transpose() * pulls.asDiagonal() * j_;
+    slope.diagonal().array() += epsilon_;
+    return slope.ldlt().solve(gradient);
+  }
+
+ private:
+  const MatrixXd& j_;
+  const VectorXd& b_;
+  double rest_, least_, epsilon_;
+};
+
+/// Tensions nearest to rest that hold b, and of what cannot be held leave as little as they can.
+VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options) {
+  const Dual dual(j, b, options);
+  VectorXd lambda = VectorXd::Zero(j.cols());
+  for (int k = 0; k < 200; ++k) {
+    const VectorXd gradient = dual.gradient(lambda);
+    if (gradient.norm() < 1e-10) break;
+    const VectorXd newton = dual.newton(lambda, gradient);
+    const double before = dual.value(lambda), slope = gradient.dot(newton);
+    double size = 1;
+    while (size > 1e-6 && dual.value(lambda + size * newton) < before + 1e-4 * size * slope)
+      size /= 2;
+    lambda += size * newton;
+  }
+  return dual.tensions(lambda);
+}
+
+}  // namespace
+
+struct PoseHolder::Inside {
+  explicit Inside(const erp::Robot& r) : robot(r), model(r), start_m(model.length_m()) {}
+
+  /// Throws where a point of a path lies inside its pulley.
+  void place(const Pose& pose) {
+    std::vector<JointReading> joints;
+    for (std::size_t j = 0; j < pose.size(); ++j) {
+      joints.push_back(start_of(model.tree().joints[j]));
+      joints[j].position = pose[j];
+    }
+    model.place(joints);
+    for (std::size_t k = 0; k < model.shapes().size(); ++k)
+      if (const int element = model.shapes()[k].pierced(); element >= 0)
+        throw std::invalid_argument("actuator \"" + robot.actuators[k].name + "\": in this pose " +
+                                    "a point beside element " + std::to_string(element + 1) +
+                                    " of its path lies inside that pulley");
+  }
+
+  erp::Robot robot;
+  Musculoskeletal model;
+  VectorXd start_m;
+};
+
+PoseHolder::PoseHolder(const erp::Robot& robot) : inside_(std::make_unique<Inside>(robot)) {}
+PoseHolder::~PoseHolder() = default;
+
+Holding PoseHolder::hold(const Pose& pose, const HoldingOptions& options) {
+  inside_->place(pose);
+  const MatrixXd& jacobian = inside_->model.jacobian();
+  VectorXd gravity_Nm;
+  inside_->model.skeleton().gravity_torques(gravity_Nm);
+  const VectorXd f = balance(jacobian, -gravity_Nm, options);
+  Holding holding;
+  holding.unbalanced_Nm = (jacobian.transpose() * f + gravity_Nm).norm();
+  for (Eigen::Index i = 0; i < f.size(); ++i) {
+    const erp::Tendon& tendon = inside_->robot.actuators[static_cast<std::size_t>(i)].tendon;
+    const Spring spring = Spring::of(tendon);
+    holding.tension_N.push_back(f[i]);
+    holding.line_m.push_back(inside_->model.length_m()[i] - inside_->start_m[i] -
+                             (spring.stretch_m(f[i]) - spring.stretch_m(tendon.pretension_N)));
+  }
+  return holding;
+}
+
+Holding hold_pose(const erp::Robot& robot, const Pose& pose, const HoldingOptions& options) {
+  return PoseHolder(robot).hold(pose, options);
+}
+
+}  // namespace sim

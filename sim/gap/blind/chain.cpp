@@ -1,0 +1,159 @@
+// One actuator of a blind plant: motor, gear, spindle, tendon.
+#include <cmath>
+
+#include "sim/gap/blind/plant.hpp"
+#include "sim/gap/blind/state.hpp"
+
+namespace sim::blind {
+
+namespace c = chain_state;
+
+namespace {
+
+constexpr double shaft_reach_rad = 3e-4, shaft_settles_s = 2e-3;
+constexpr double line_reach_m = 4e-5, line_damps_N_s_per_m = 5;
+// A steel spindle of 4.5 mm with the gear's last wheel; the tooth is stiff, not rigid.
+constexpr double spindle_kg_m2 = 1e-6, tooth_Nm_per_rad = 120, steel_damps_s = 1.7e-4;
+constexpr double spindle_dry_Nm = 0.003;  // of what the gearbox has, beyond the play
+constexpr double copper_per_K = 0.00393;
+constexpr double tau = 2 * 3.14159265358979323846;
+
+double dead_zone(double x, double low, double high) {
+  return x > high ? x - high : x < low ? x - low : 0;
+}
+
+/// Elements that slide: each a spring up to its yield.
+double slide_rate(double stress, double rate, double stiffness, double yield) {
+  const bool loading = stress * rate > 0;
+  const double share = std::abs(stress) / yield;
+  return stiffness * rate * (loading ? std::max(0.0, 1 - std::pow(share, 8)) : 1);
+}
+
+}  // namespace
+
+double Plant::spring_N(const Chain& k, double stretch_m) const {
+  if (stretch_m <= 0) return 0;
+  const auto plain = [&](double x) { return k.spring * x + k.cubic * x * x * x; };
+  double force = plain(stretch_m);
+  if (k.line > 0) {  // secant steps: x = Δx − c F(x)
+    double x = stretch_m / (1 + k.line * k.spring);
+    for (int n = 0; n < 20; ++n) {
+      const double error = x + k.line * plain(x) - stretch_m;
+      x -= error / (1 + k.line * (k.spring + 3 * k.cubic * x * x));
+      if (std::abs(error) < 1e-13) break;
+    }
+    force = plain(x);
+  }
+  return force;
+}
+
+Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx) const {
+  const ChainQuirks& q = k.q;
+  const double shaft = k.two_masses ? x[c::spindle] : x[c::shaft];
+  const double speed = k.two_masses ? x[c::spindle_speed] : x[c::speed];
+  const double wound = k.radius_m * shaft + q.growth_m_per_rad * shaft * shaft / 2 +
+                       q.oval_m * (std::cos(shaft) - 1);
+  const double wound_slope = k.radius_m + q.growth_m_per_rad * shaft - q.oval_m * std::sin(shaft);
+  const double change = k.shape.length_m - k.start_m;
+  const double path = k.shape.length_m + q.arm * change + q.arm_per_m * change * change / 2;
+  const double path_slope = 1 + q.arm + q.arm_per_m * change;
+  const double stretch = path + q.knot_m - k.rest_m + wound - x[c::lost];
+  const double rate = path_slope * path_rate + wound_slope * speed;  // slip is slow
+
+  double force = spring_N(k, stretch) + k.damping * rate;
+  if (q.line_m_per_N > 0) {  // Δx = x + c l/l₀ F, F = spring(x) + d ẋ
+    const double free_length =
+        (k.shape.length_m - stretch) / k.start_m;  // what is wound up does not stretch
+    force = std::max(0.0, stretch - x[c::inner]) / (q.line_m_per_N * free_length);
+    dx[c::inner] = (force - spring_N(k, x[c::inner])) / std::max(k.damping, line_damps_N_s_per_m);
+  }
+  const double drawn = std::max(0.0, stretch);  // the line hangs slack beyond
+  force += q.creep_N_per_m * (drawn - x[c::flowed]);
+  if (q.fibres_N > 0) force += x[c::slide1] + x[c::slide2] + x[c::slide3];
+  if (q.slack_N > 0) force -= q.slack_N * (1 - std::exp(-stretch / q.slack_m));
+  force = stretch > 0 ? std::max(0.0, force) : 0.0;
+
+  dx[c::flowed] = (drawn - x[c::flowed]) / q.creep_s;
+  if (q.fibres_N > 0)
+    for (std::size_t n = 0; n < 3; ++n) {
+      const double yield = q.fibres_N / 3, reach = q.fibres_m * (n == 0 ? 0.4 : n == 1 ? 1 : 2);
+      dx[c::slide1 + n] =
+          slide_rate(x[c::slide1 + n], stretch > 0 ? rate : 0, yield / reach, yield);
+    }
+  dx[c::lost] = q.slip_per_N * force * std::abs(wound_slope * speed);
+
+  const double line_speed = wound_slope * speed;
+  dx[c::line_bristle] = bristle_rate(x[c::line_bristle], line_speed, line_reach_m);
+  const double bend = bend_rad(k.shape);
+  double near = force * std::exp(q.rub * bend * x[c::line_bristle]);
+  if (q.snag_N > 0) {
+    const double off = (change - q.snag_m) / 0.004;
+    near += q.snag_N * std::exp(-off * off) * x[c::line_bristle];
+  }
+  return {force, path_slope, std::max(0.0, near), wound_slope, bend};
+}
+
+void Plant::turn(const Chain& k, const double* x, const Line& line, double voltage_V,
+                 double* dx) const {
+  const ChainQuirks& q = k.q;
+  const erp::MotorType& m = k.motor;
+  const double n = m.gear_ratio, omega = x[c::speed], s = x[c::bristle];
+  const double duty = voltage_V / m.supply_V;
+  const double volts =
+      dead_zone(voltage_V, -q.dead_V, q.dead_V) - duty * duty * q.source_ohm * x[c::current];
+  const double ohm = m.resistance_ohm * (1 + copper_per_K * x[c::heat]);
+  dx[c::current] =
+      (volts - ohm * x[c::current] - m.back_emf_V_s_per_rad * n * omega) / m.inductance_H;
+  dx[c::heat] = q.kelvin_per_W > 0
+                    ? (ohm * x[c::current] * x[c::current] * q.kelvin_per_W - x[c::heat]) / q.heat_s
+                    : 0;
+
+  dx[c::bristle] = bristle_rate(s, omega, shaft_reach_rad);
+  const double rub = std::clamp(s + shaft_settles_s * dx[c::bristle], -1.2, 1.2);
+  double load = line.wound_slope * line.motor_side_N;
+  if (k.two_masses) {
+    const double low = q.play_rad > 0 ? -q.play_rad : 0.0;
+    const double stiff = q.twist_rad_per_Nm > 0 ? 1 / q.twist_rad_per_Nm : tooth_Nm_per_rad;
+    const double twist = dead_zone(x[c::shaft] - x[c::spindle], low, 0);
+    const double touch = twist != 0 ? steel_damps_s * stiff * (omega - x[c::spindle_speed]) : 0;
+    const double carried = stiff * twist + touch;
+    const double still = std::tanh(x[c::spindle_speed] / 0.02);
+    dx[c::spindle] = x[c::spindle_speed];
+    dx[c::spindle_speed] = (carried - load - spindle_dry_Nm * still) / spindle_kg_m2;
+    load = carried;
+  }
+  double dry = m.gear_coulomb_Nm + q.dry_Nm - (k.two_masses ? spindle_dry_Nm : 0) +
+               (rub > 0 ? q.one_way_Nm : -q.one_way_Nm);
+  dry += q.load_share * std::abs(load);
+  dry += q.stribeck_Nm * std::exp(-std::abs(omega / q.stribeck_rad_per_s));
+  dx[c::aged] =
+      (1 - x[c::aged]) / q.stuck_after_s - std::abs(omega) * x[c::aged] / q.freed_after_rad;
+  dry += q.stuck_Nm * x[c::aged];
+  const double turned = q.turn_periods * x[c::shaft];
+  dry += q.turn_sine_Nm * std::sin(turned) + q.turn_cosine_Nm * std::cos(turned);
+  const double tooth = q.tooth_Nm * std::pow(0.5 + 0.5 * std::cos(x[c::shaft]), 8);
+  dry = std::max(0.0, dry + tooth);
+  const double out =
+      std::max(0.0, m.gear_viscous_Nm_s_per_rad + q.viscous) * omega + dry * rub + load;
+  const double way = out >= 0 ? rub : -rub;
+  const double e = std::pow(m.gear_efficiency, std::clamp(way, -1.0, 1.0));
+  const double kt = m.torque_Nm_per_A / (1 + q.saturation_per_A2 * x[c::current] * x[c::current]);
+  const double phase = 12 * n * x[c::shaft];
+  const double cog = q.cog_sine_Nm * std::sin(phase) + q.cog_cosine_Nm * std::cos(phase);
+  const double drive = n * (kt * x[c::current] - m.rotor_viscous_Nm_s_per_rad * n * omega -
+                            m.rotor_coulomb_Nm * rub - cog);
+  const double inertia = m.rotor_inertia_kg_m2 * n * n + m.gear_inertia_kg_m2 / e;
+  dx[c::shaft] = omega;
+  dx[c::speed] = (drive - out / e) / inertia;
+}
+
+void Plant::lag(const Chain& k, const double* x, const Line& line, double* dx) const {
+  const auto follow = [&](std::size_t said, double value, const SenseQuirks& sense) {
+    dx[said] = sense.lag_s > 0 ? (value - x[said]) / sense.lag_s : 0;
+  };
+  follow(c::said_shaft, x[c::shaft], k.q.shaft);
+  follow(c::said_current, x[c::current], k.q.current);
+  follow(c::said_tension, line.tension_N, k.q.tension);
+}
+
+}  // namespace sim::blind

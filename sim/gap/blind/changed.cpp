@@ -1,0 +1,115 @@
+// A robot whose bones are others than drawn.
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "interfaces/robot/mass.hpp"
+#include "sim/gap/blind/plant.hpp"
+
+namespace sim::blind {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+struct Solid {
+  double mass_kg;
+  Vector3d com_m;
+  Matrix3d about_com;
+};
+
+Solid solid_of(const erp::Body& body) {
+  const erp::Mass m = erp::mass_of(body);
+  const auto& i = m.inertia_kg_m2;
+  Matrix3d inertia;
+  inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  return {m.mass_kg, {m.com_m[0], m.com_m[1], m.com_m[2]}, inertia};
+}
+
+void give(erp::Body& body, const Solid& s) {
+  const Matrix3d& i = s.about_com;
+  body.mass_kg = s.mass_kg, body.com_m = {s.com_m[0], s.com_m[1], s.com_m[2]};
+  body.inertia_kg_m2 = {i(0, 0), i(1, 1), i(2, 2)};
+  body.products_kg_m2 = {i(0, 1), i(0, 2), i(1, 2)};
+  body.density_kg_per_m3.reset();
+  std::erase_if(body.parts,
+                [](const erp::Part& part) { return std::holds_alternative<erp::Weight>(part); });
+}
+
+Matrix3d of_point(double mass_kg, const Vector3d& r) {
+  return mass_kg * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+}
+
+/// A thing that is two.
+Solid joined(const Solid& a, const Solid& b) {
+  Solid sum{a.mass_kg + b.mass_kg, {}, {}};
+  sum.com_m = (a.mass_kg * a.com_m + b.mass_kg * b.com_m) / sum.mass_kg;
+  sum.about_com = a.about_com + of_point(a.mass_kg, a.com_m - sum.com_m) + b.about_com +
+                  of_point(b.mass_kg, b.com_m - sum.com_m);
+  return sum;
+}
+
+Solid quirky(Solid s, const BodyQuirks& q) {
+  constexpr double payload_at_m = 0.25;
+  const Vector3d along = s.com_m.normalized();
+  s.mass_kg *= 1 + q.mass;
+  s.about_com *= (1 + q.mass) * (1 + q.inertia);
+  s.com_m += q.com_m * along;
+  if (q.payload_kg > 0) s = joined(s, {q.payload_kg, payload_at_m * along, Matrix3d::Zero()});
+  return s;
+}
+
+/// Sets the far half on a hinge at the centre of mass: two equal rods that together weigh the same.
+void bow(erp::Skeleton& part, std::size_t b) {
+  erp::Body& inner = part.bodies[b];
+  erp::Body outer = inner;
+  const Solid whole = solid_of(inner);
+  const Vector3d along = whole.com_m.normalized();
+  const double across = whole.about_com(0, 0);
+  const double far = std::sqrt(0.75 * across / whole.mass_kg);  // a rod's: some of it is its own
+  const auto half = [&](double way) {
+    Matrix3d own = (whole.about_com - of_point(whole.mass_kg, far * along)) / 2;
+    return Solid{whole.mass_kg / 2, whole.com_m + way * far * along, own};
+  };
+  outer.name = inner.name + "_outer", outer.parts.clear();
+  give(inner, half(-1));
+  Solid end = half(1);
+  end.com_m -= whole.com_m;
+  give(outer, end);
+  for (std::size_t j = 0; j < part.joints.size(); ++j) {
+    if (part.joints[j].child != inner.name) continue;
+    erp::Joint hinge = part.joints[j];
+    hinge.name = inner.name + "_bows", hinge.parent = inner.name, hinge.child = outer.name;
+    hinge.at_m = {whole.com_m[0], whole.com_m[1], whole.com_m[2]};
+    hinge.min_rad = -1, hinge.max_rad = 1, hinge.initial_rad = 0;
+    hinge.coulomb_Nm = 0, hinge.viscous_Nm_s_per_rad = 0.005;
+    part.bodies.push_back(outer), part.joints.push_back(hinge);
+    return;
+  }
+}
+
+}  // namespace
+
+erp::Robot changed(const erp::Robot& nominal, const Quirks& quirks) {
+  erp::Robot robot = nominal;
+  robot.effects.clear();
+  const Matrix3d back = (Eigen::AngleAxisd(quirks.tilt_y_rad, Vector3d::UnitY()) *
+                         Eigen::AngleAxisd(quirks.tilt_x_rad, Vector3d::UnitX()))
+                            .toRotationMatrix()
+                            .transpose();
+  for (erp::Skeleton& part : robot.skeletons) {
+    if (auto& g = part.gravity_m_per_s2) {
+      const Vector3d turned = back * Vector3d((*g)[0], (*g)[1], (*g)[2]);
+      *g = {turned[0], turned[1], turned[2]};
+    }
+    const std::size_t count = part.bodies.size();
+    for (std::size_t b = 0; b < count; ++b) {
+      const auto found = quirks.bodies.find(part.bodies[b].name);
+      if (found == quirks.bodies.end()) continue;
+      give(part.bodies[b], quirky(solid_of(part.bodies[b]), found->second));
+      if (found->second.bend_rad_per_Nm > 0) bow(part, b);
+    }
+  }
+  return robot;
+}
+
+}  // namespace sim::blind

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "interfaces/robot/mass.hpp"
+#include "sim/gap/blind/kinds.hpp"
+#include "sim/gap/blind/strength.hpp"
+
+namespace sim::blind {
+namespace {
+
+constexpr std::pair<Kind, const char*> words[] = {
+    {Kind::single, "single"},   {Kind::null, "null"},         {Kind::pair, "pair"},
+    {Kind::outside, "outside"}, {Kind::withheld, "withheld"}, {Kind::many, "many"}};
+
+std::size_t any(std::size_t count, Random& random) {
+  return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+}
+
+/// Revolute joints only: what has an angle to be loose, stopped or badly read.
+std::size_t any_joint(const erp::Robot& robot, Random& random) {
+  const auto joints = robot.joints();
+  std::vector<std::size_t> turning;
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (joints[k].type == erp::JointType::revolute) turning.push_back(k);
+  if (turning.empty()) throw std::invalid_argument(robot.name + ": no revolute joint");
+  return turning[any(turning.size(), random)];
+}
+
+Hidden hide(const HiddenKind& kind, const erp::Robot& robot, Quirks& quirks, Random& random) {
+  constexpr double hinge_rig_Nm = 3.75;
+  Place place{quirks, robot, any(robot.actuators.size(), random), any_joint(robot, random), {}};
+  place.stronger = strength_Nm(robot, place.joint) / hinge_rig_Nm;
+  std::vector<std::string> moved;
+  for (const erp::Body& body : robot.bodies())
+    if (erp::mass_of(body).mass_kg > 0) moved.push_back(body.name);
+  place.body = moved.at(any(moved.size(), random));
+  if (kind.on == HiddenKind::link) place.body = robot.joints()[place.joint].child;
+  const std::string on[] = {robot.actuators[place.chain].name, robot.joints()[place.joint].name,
+                            place.body, place.body, robot.name};
+  return {kind.type, kind.stage, on[kind.on], kind.draw(place, random)};
+}
+
+std::vector<const HiddenKind*> among(std::span<const HiddenKind> all,
+                                     const std::vector<std::string>& only) {
+  std::vector<const HiddenKind*> kinds;
+  for (const HiddenKind& kind : all)
+    if (only.empty() || std::ranges::count(only, kind.type)) kinds.push_back(&kind);
+  for (const std::string& type : only)
+    if (std::ranges::none_of(all, [&](const HiddenKind& kind) { return kind.type == type; }))
+      throw std::invalid_argument("\"" + type + "\" is not among what this kind of case hides");
+  return kinds;
+}
+
+}  // namespace
+
+const char* word(Kind kind) {
+  return std::ranges::find(words, kind, &std::pair<Kind, const char*>::first)->second;
+}
+
+Kind kind_of(const std::string& said) {
+  for (const auto& [kind, name] : words)
+    if (said == name) return kind;
+  throw std::invalid_argument("kind \"" + said +
+                              "\" is none of single, null, pair, outside, withheld, many");
+}
+
+Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
+               const std::vector<std::string>& only,
+               const std::function<bool(const Quirks&)>& shows) {
+  if (robot.actuators.empty()) throw std::invalid_argument(robot.name + ": no actuator");
+  Random random(seed * 0x9e3779b97f4a7c15u + 0x1234567u);
+  Case blind{seed, kind, {}, {}, {}};
+  blind.quirks.chains.resize(robot.actuators.size());
+  blind.quirks.joints.resize(robot.joints().size());
+  const Quirks none = blind.quirks;
+  constexpr int enough = 50;
+  const auto hide_one = [&](std::span<const HiddenKind> all) -> const HiddenKind& {
+    const auto kinds = among(all, only);
+    while (true) {
+      const HiddenKind& chosen = *kinds[any(kinds.size(), random)];
+      const Random before = random;
+      Quirks alone = none;
+      const Hidden hidden = hide(chosen, robot, alone, random);
+      if (shows && blind.drawn_anew < enough && !shows(alone)) {
+        ++blind.drawn_anew;
+        continue;
+      }
+      Random again = before;
+      hide(chosen, robot, blind.quirks, again);
+      blind.hidden.push_back(hidden);
+      return chosen;
+    }
+  };
+  if (kind == Kind::single) hide_one(in_library());
+  if (kind == Kind::outside) hide_one(outside_library());
+  if (kind == Kind::pair)
+    while (blind.hidden.size() < 2) {
+      hide_one(in_library());
+      if (blind.hidden.size() == 2 && blind.hidden[0].type == blind.hidden[1].type &&
+          blind.hidden[0].on == blind.hidden[1].on)
+        blind.hidden.pop_back();
+    }
+  if (kind == Kind::many) blind.built = many_off(robot, seed, blind.quirks);
+  if (kind == Kind::withheld) {
+    const HiddenKind& chosen = hide_one(in_library());
+    blind.withhold.emplace_back(chosen.type);
+    for (const char* twin : chosen.twins) blind.withhold.emplace_back(twin);
+  }
+  return blind;
+}
+
+}  // namespace sim::blind

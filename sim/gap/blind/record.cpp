@@ -1,0 +1,238 @@
+#include "sim/gap/blind/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "interfaces/recording/columns.hpp"
+#include "sim/control/gain_design.hpp"
+#include "sim/model/actuator/ecu_units.hpp"
+#include "sim/model/actuator/noise.hpp"
+#include "sim/model/actuator/sensors.hpp"
+#include "sim/gap/blind/plant.hpp"
+
+namespace sim::blind {
+namespace {
+
+constexpr double period_s = 0.002;
+
+/// One sensor: value to what it says.
+class Sense {
+ public:
+  Sense(const SenseQuirks& quirks, double noise, double step, double low, double high,
+        double turns = 1)
+      : q_(quirks), noise_(noise), step_(step), low_(low), high_(high), turns_(turns) {}
+
+  double read(double value, double time_s, std::mt19937_64& random) {
+    const double disc = (ray_rad(turns_ * value) - ray_rad(0)) / turns_;
+    double said = (1 + q_.gain) * (value + disc) + q_.offset + q_.rate * time_s +
+                  q_.bend * value * std::abs(value);
+    said += noise_ * normal_(random);
+    if (q_.step > 0) said = q_.step * std::floor(said / q_.step + 0.5);
+    return std::clamp(step_ * std::floor(said / step_ + 0.5), low_, high_);
+  }
+
+ private:
+  /// From the centre of the disc, which goes round the axis, to the head at (1, 0).
+  double ray_rad(double angle) const {
+    const double s = std::sin(angle), c = std::cos(angle);
+    return std::atan2(q_.sine_rad * s + q_.cosine_rad * c, 1 - q_.sine_rad * c + q_.cosine_rad * s);
+  }
+
+  SenseQuirks q_;
+  double noise_, step_, low_, high_, turns_;
+  std::normal_distribution<double> normal_;
+};
+
+struct Unit {
+  ecu_channel ecu{};
+  EcuUnits units;
+  Sense shaft, current, tension;
+  double shaft_rad = 0, current_A = 0, tension_N = 0, voltage_V = 0;
+};
+
+Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const ChainQuirks& q) {
+  const erp::MotorType& motor = robot.motor_of(actuator);
+  const erp::SensorType& sensors = robot.sensors_of(actuator);
+  const SensorScale s(motor, sensors);
+  const double far = 1e9, current_end = s.current_A_per_count * s.current_counts_max;
+  Unit unit{{},
+            EcuUnits(motor, sensors, actuator.spindle),
+            {q.shaft, 0, s.shaft_rad_per_count, -far, far, motor.gear_ratio},
+            {q.current, sensors.current_noise_A, s.current_A_per_count, -current_end, current_end},
+            {q.tension, sensors.tension_noise_N, s.tension_N_per_count, 0,
+             s.tension_N_per_count * (s.tension_counts_max - s.tension_zero_counts)}};
+  ecu_init(&unit.ecu);
+  const auto gains = design_parameters(robot, actuator, {.stuck_share = 0});
+  for (std::size_t k = 0; k < gains.size(); ++k)
+    ecu_parameter(&unit.ecu, static_cast<std::uint8_t>(k), gains[k], k + 1 == gains.size());
+  ecu_command(&unit.ecu, ECU_REQUEST_ARM, 0);
+  return unit;
+}
+
+/// What sets out and arrives later, in order.
+template <class What>
+class Line {
+ public:
+  void send(double due_s, What what) {
+    line_.emplace_back(line_.empty() ? due_s : std::max(due_s, line_.back().first),
+                       std::move(what));
+  }
+  /// The newest that has arrived; null: nothing new.
+  const What* arrived(double now_s) {
+    bool any = false;
+    while (!line_.empty() && line_.front().first <= now_s + 1e-9)
+      last_ = std::move(line_.front().second), line_.pop_front(), any = true;
+    return any ? &last_ : nullptr;
+  }
+  const What& last() const { return last_; }
+
+ private:
+  std::deque<std::pair<double, What>> line_;
+  What last_;
+};
+
+class Run {
+ public:
+  Run(const erp::Robot& nominal, const Case& blind, std::uint64_t seed)
+      : nominal_(nominal),
+        quirks_(blind.quirks),
+        plant_(blind.built.drawn.empty() ? nominal : blind.built.robot, blind.quirks),
+        random_(seed) {
+    for (std::size_t a = 0; a < nominal.actuators.size(); ++a)
+      units_.push_back(make_unit(nominal, nominal.actuators[a], quirks_.chains[a]));
+    const auto joints = nominal.joints();
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      double noise = 5e-4, step = 2 * std::numbers::pi / (1 << 14);
+      for (const erp::JointSensor& s : nominal.joint_sensors)
+        if (s.joint == joints[j].name)
+          noise = s.noise_rad, step = 2 * std::numbers::pi / std::exp2(s.bits_per_rev);
+      angles_.emplace_back(quirks_.joints[j].angle, noise, step, -10, 10);
+      types_.push_back(joints[j].type);
+    }
+    name_columns();
+  }
+
+  recording::Table go(const Excitation& excitation) {
+    measure();
+    for (std::size_t row = 0; row < excitation.reference.size(); ++row) {
+      const double now_s = static_cast<double>(row) * period_s;
+      const double delay = quirks_.command_delay_s + quirks_.jitter_s * even_(random_);
+      if (!(even_(random_) < quirks_.loss))
+        commands_.send(now_s + delay, excitation.reference[row]);
+      if (const auto* wanted = commands_.arrived(now_s)) heard_ = *wanted;
+      obey(excitation.mode);
+      step();
+      frames_.send(now_s + period_s + quirks_.frame_delay_s, said());
+      frames_.arrived(now_s + period_s);
+      put(now_s, excitation, row);
+    }
+    return table_;
+  }
+
+ private:
+  void name_columns() {
+    table_.columns.push_back({"time_s", {}});
+    for (std::string& name : recording::columns_of(nominal_))
+      table_.columns.push_back({std::move(name), {}});
+  }
+  void obey(erp::Mode mode) {
+    for (std::size_t a = 0; a < units_.size(); ++a)
+      if (heard_.empty()) ecu_command(&units_[a].ecu, ECU_REQUEST_ARM, 0);
+      else
+        ecu_command(&units_[a].ecu, EcuUnits::request(mode),
+                    units_[a].units.setpoint(mode, heard_[a]));
+  }
+  void measure() {
+    const double now_s = plant_.time_s();
+    for (std::size_t a = 0; a < units_.size(); ++a) {
+      Unit& u = units_[a];
+      u.shaft_rad = u.shaft.read(plant_.shaft_rad(a), now_s, random_);
+      u.current_A = u.current.read(plant_.current_A(a), now_s, random_);
+      u.tension_N = u.tension.read(plant_.tension_N(a), now_s, random_);
+    }
+  }
+  void step() {
+    std::vector<double> before, volts;
+    for (Unit& u : units_) {
+      before.push_back(u.voltage_V);
+      const ecu_inputs inputs{
+          static_cast<std::int32_t>(std::lround(u.shaft_rad / u.units.shaft_rad_per_count)),
+          static_cast<std::int16_t>(std::lround(u.current_A / u.units.current_A_per_count)),
+          static_cast<std::uint16_t>(u.units.tension_zero_counts +
+                                     std::lround(u.tension_N / u.units.tension_N_per_count))};
+      u.voltage_V = u.units.voltage_V(ecu_tick(&u.ecu, &inputs));
+      volts.push_back(u.voltage_V);
+    }
+    gust_ += period_s / 0.15 * -gust_ + std::sqrt(2 * period_s / 0.15) * normal_(random_);
+    drive(before, volts);
+    measure();
+  }
+  /// Over a period, in which late drivers still apply the voltage before.
+  void drive(std::vector<double> volts, const std::vector<double>& now) {
+    double done_s = 0;
+    const auto until = [&](double end_s) {
+      if (end_s > done_s && !plant_.run(volts, end_s - done_s, gust_))
+        throw NotFinite("the motion of a blind case is not finite: take other seeds");
+      done_s = std::max(done_s, end_s);
+    };
+    std::vector<std::size_t> order(now.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto late_s = [&](std::size_t a) { return quirks_.chains[a].driver_late_s; };
+    std::ranges::sort(order, {}, late_s);
+    for (const std::size_t a : order) until(late_s(a)), volts[a] = now[a];
+    until(period_s);
+  }
+  std::vector<double> said() {
+    std::vector<double> all;
+    for (const Unit& u : units_)
+      all.insert(all.end(), {u.voltage_V, u.current_A, u.shaft_rad, u.tension_N});
+    for (std::size_t j = 0; j < types_.size(); ++j) {
+      if (types_[j] == erp::JointType::revolute)
+        all.push_back(angles_[j].read(plant_.angle_rad(j), plant_.time_s(), random_));
+      if (types_[j] == erp::JointType::spherical)
+        for (const double q : plant_.quaternion(j))
+          all.push_back(q + tracking_noise * normal_(random_));
+    }
+    return all;
+  }
+  void put(double now_s, const Excitation& excitation, std::size_t row) {
+    const auto& frame = frames_.last();
+    if (frame.empty()) return;
+    std::size_t column = 0, from = 0;
+    const auto add = [&](double value) { table_.columns[column++].values.push_back(value); };
+    add(now_s);
+    for (std::size_t a = 0; a < units_.size(); ++a) {
+      add(static_cast<double>(excitation.mode)), add(excitation.reference[row][a]);
+      for (int k = 0; k < 4; ++k) add(frame[from++]);
+    }
+    while (from < frame.size()) add(frame[from++]);
+  }
+
+  const erp::Robot& nominal_;
+  Quirks quirks_;
+  Plant plant_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> even_{0, 1};
+  std::vector<Unit> units_;
+  std::vector<Sense> angles_;
+  std::vector<erp::JointType> types_;
+  Line<std::vector<double>> commands_, frames_;
+  std::vector<double> heard_;
+  double gust_ = 0;
+  recording::Table table_;
+};
+
+}  // namespace
+
+recording::Table record(const erp::Robot& nominal, const Case& blind, const Excitation& excitation,
+                        std::uint64_t seed) {
+  return Run(nominal, blind, seed).go(excitation);
+}
+
+}  // namespace sim::blind

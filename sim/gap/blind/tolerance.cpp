@@ -1,0 +1,123 @@
+#include "sim/gap/blind/tolerance.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <ranges>
+
+#include "interfaces/robot/mass.hpp"
+
+namespace sim::blind {
+namespace {
+
+/// What the next number is multiplied by.
+using Factor = std::function<double()>;
+
+class Draw {
+ public:
+  Draw(Factor factor, std::vector<Drawn>& drawn) : factor_(std::move(factor)), drawn_(drawn) {}
+
+  double factor() { return factor_(); }
+  void number(const std::string& on, const char* name, double& value) {
+    if (value == 0) return;
+    value *= factor();
+    add(on, name, value);
+  }
+  void add(const std::string& on, const char* name, double value) {
+    drawn_.push_back({on, name, value});
+  }
+
+ private:
+  Factor factor_;
+  std::vector<Drawn>& drawn_;
+};
+
+void off(erp::MotorType& m, const std::string& on, Draw& draw) {
+  draw.number(on, "resistance_ohm", m.resistance_ohm);
+  draw.number(on, "inductance_H", m.inductance_H);
+  const double magnet = draw.factor();
+  m.back_emf_V_s_per_rad *= magnet, m.torque_Nm_per_A *= magnet;
+  draw.add(on, "back_emf_V_s_per_rad", m.back_emf_V_s_per_rad);
+  draw.add(on, "torque_Nm_per_A", m.torque_Nm_per_A);
+  draw.number(on, "gear_efficiency", m.gear_efficiency);
+  m.gear_efficiency = std::min(m.gear_efficiency, 1.0);
+  draw.number(on, "rotor_inertia_kg_m2", m.rotor_inertia_kg_m2);
+  draw.number(on, "rotor_viscous_Nm_s_per_rad", m.rotor_viscous_Nm_s_per_rad);
+  draw.number(on, "gear_viscous_Nm_s_per_rad", m.gear_viscous_Nm_s_per_rad);
+  draw.number(on, "rotor_coulomb_Nm", m.rotor_coulomb_Nm);
+  draw.number(on, "gear_coulomb_Nm", m.gear_coulomb_Nm);
+}
+
+void off(erp::Body& body, Draw& draw) {
+  const erp::Mass was = erp::mass_of(body);
+  if (!(was.mass_kg > 0)) return;
+  const double mass = draw.factor(), com = draw.factor(), inertia = draw.factor();
+  const auto& i = was.inertia_kg_m2;
+  body.mass_kg = mass * was.mass_kg;
+  body.com_m = {com * was.com_m[0], com * was.com_m[1], com * was.com_m[2]};
+  const double moments = mass * inertia;
+  body.inertia_kg_m2 = {moments * i[0], moments * i[1], moments * i[2]};
+  body.products_kg_m2 = {moments * i[3], moments * i[4], moments * i[5]};
+  body.density_kg_per_m3.reset();
+  std::erase_if(body.parts,
+                [](const erp::Part& part) { return std::holds_alternative<erp::Weight>(part); });
+  draw.add(body.name, "mass", mass), draw.add(body.name, "com", com);
+  draw.add(body.name, "inertia", inertia);
+}
+
+AsBuilt multiplied(const erp::Robot& nominal, Factor factor, Quirks& quirks) {
+  AsBuilt built{nominal, {}};
+  Draw draw(std::move(factor), built.drawn);
+  for (std::size_t a = 0; a < built.robot.actuators.size(); ++a) {
+    erp::Actuator& actuator = built.robot.actuators[a];
+    erp::MotorType motor = built.robot.motor_of(actuator);
+    motor.name = actuator.name + "_motor";
+    off(motor, actuator.name, draw);
+    built.robot.motor_types.push_back(motor);
+    actuator.motor = motor.name;
+    draw.number(actuator.name, "radius_m", actuator.spindle.radius_m);
+    draw.number(actuator.name, "stiffness_N_per_m", actuator.tendon.stiffness_N_per_m);
+    draw.number(actuator.name, "damping_N_s_per_m", actuator.tendon.damping_N_s_per_m);
+    const double arm = draw.factor();
+    quirks.chains[a].arm += arm - 1;
+    draw.add(actuator.name, "moment_arm", arm);
+  }
+  for (erp::Skeleton& part : built.robot.skeletons) {
+    for (erp::Joint& joint : part.joints) {
+      draw.number(joint.name, "viscous_Nm_s_per_rad", joint.viscous_Nm_s_per_rad);
+      draw.number(joint.name, "coulomb_Nm", joint.coulomb_Nm);
+    }
+    for (erp::Body& body : part.bodies) off(body, draw);
+  }
+  return built;
+}
+
+}  // namespace
+
+AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed, Quirks& quirks) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> by(0, relative);
+  return multiplied(
+      nominal, [&] { return 1 + by(random); }, quirks);
+}
+
+AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, Quirks& quirks) {
+  std::vector<double> factors;
+  Quirks unused = quirks;
+  multiplied(
+      nominal, [&] { return factors.emplace_back(1); }, unused);
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<std::size_t> count(8, 12);
+  std::uniform_real_distribution<double> size(0.02, 0.10);
+  std::bernoulli_distribution less;
+  std::vector<std::size_t> chosen(factors.size());
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  std::ranges::shuffle(chosen, random);
+  for (const std::size_t k : chosen | std::views::take(count(random)))
+    factors[k] += (less(random) ? -1 : 1) * size(random);
+  return multiplied(
+      nominal, [next = factors.begin()]() mutable { return *next++; }, quirks);
+}
+
+}  // namespace sim::blind

@@ -1,0 +1,204 @@
+#include "sim/gap/checks/dead_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sim/gap/residuals/drives.hpp"
+
+namespace sim::checks {
+namespace {
+
+constexpr double long_s = 2;  // chosen, as the shares below
+constexpr double of_supply = 0.1, of_range = 0.1, of_noise = 20;
+constexpr double of_noise_all_along = 5;  // where it says the same for a whole recording
+constexpr double way_m = 0.005, way_without_tension_m = 0.015;
+
+struct Run {
+  std::size_t from = 0, until = 0;
+  std::size_t rows() const { return until - from; }
+};
+
+/// The longest stretch over which it says the same; a sample that was not taken says nothing else.
+Run longest_run(const Signal& signal) {
+  Run longest, run;
+  double value = recording::not_taken;
+  for (std::size_t k = 0; k < signal.size(); ++k) {
+    if (std::isnan(signal[k])) continue;
+    if (signal[k] != value) value = signal[k], run.from = k;
+    run.until = k + 1;
+    if (run.rows() > longest.rows()) longest = run;
+  }
+  return longest;
+}
+
+double spread_of(Signal signal) {
+  std::erase_if(signal, [](double x) { return !std::isfinite(x); });
+  if (signal.size() < 20) return 0;
+  std::ranges::sort(signal);
+  return signal[signal.size() * 19 / 20] - signal[signal.size() / 20];
+}
+
+const Signal& signal_of(const Episode& e, const Column& c) {
+  if (c.quantity == Quantity::angle) return e.joints[c.of].angle_rad;
+  const residuals::ActuatorSignals& s = e.actuators[c.of];
+  const std::array all{&s.voltage_V, &s.current_A, &s.shaft_rad, &s.tension_N};
+  return *all[static_cast<std::size_t>(c.quantity)];
+}
+
+/// What says that a column should move while it stands still, by the laws of these rows; empty: it
+/// may stand.
+class Movers {
+ public:
+  Movers(const erp::Robot& robot, const Laws& laws, const Means& means, bool all_along)
+      : robot_(robot), laws_(laws), means_(means), all_along_(all_along) {}
+
+  std::vector<Column> of(const Column& c) const {
+    const bool of_motor = c.quantity == Quantity::voltage || c.quantity == Quantity::current;
+    if (of_motor && residuals::drive_of(robot_, actuator(c.of).name)) return of_control(c.of);
+    switch (c.quantity) {
+      case Quantity::voltage:
+        return of_voltage(c.of);
+      case Quantity::current:
+        return of_current(c.of);
+      case Quantity::shaft:
+        return of_shaft(c.of);
+      case Quantity::tension:
+        return of_tension(c.of);
+      case Quantity::angle:
+        break;
+    }
+    return of_angle(c.of);
+  }
+
+ private:
+  const Signal& said(Quantity quantity, std::size_t a) const { return means_[{quantity, a}]; }
+  const erp::Actuator& actuator(std::size_t a) const { return robot_.actuators[a]; }
+  const erp::MotorType& motor(std::size_t a) const { return robot_.motor_of(actuator(a)); }
+
+  /// i against V − K_E N ω, each times its factor; V.
+  Signal volts(std::size_t a, const Signal& part, double times, double of_speed) const {
+    Signal sum = part;
+    const Signal& speed = means_.actuators[a].speed_rad_per_s;
+    const double back_emf = motor(a).back_emf_V_s_per_rad * motor(a).gear_ratio;
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      sum[k] = times * sum[k] + of_speed * back_emf * (speed.empty() ? 0 : speed[k]);
+    return sum;
+  }
+  /// The model of a drive has neither spring nor weight: nothing but its control turns it back.
+  std::vector<Column> of_control(std::size_t a) const {
+    constexpr double fast = 0.2;  // of the fastest; chosen
+    const Signal& speed = means_.actuators[a].speed_rad_per_s;
+    double top = 0, last = 0;
+    for (const double w : speed)
+      if (std::isfinite(w)) top = std::fmax(top, std::abs(w));
+    int turns = 0;
+    for (const double w : speed)
+      if (std::abs(w) > fast * top) turns += last * w < 0, last = w;
+    if (!all_along_ || turns < 2) return {};
+    return {{Quantity::shaft, a}};
+  }
+  std::vector<Column> of_voltage(std::size_t a) const {
+    const Signal& current = said(Quantity::current, a);
+    const double needed = spread_of(volts(a, current, motor(a).resistance_ohm, 1));
+    if (spread_of(current) == 0 || !(needed > of_supply * motor(a).supply_V)) return {};
+    return {{Quantity::current, a}, {Quantity::shaft, a}};
+  }
+  std::vector<Column> of_current(std::size_t a) const {
+    const Signal& voltage = said(Quantity::voltage, a);
+    const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
+    const double step_A = 2 * sensors.current_range_A / std::exp2(sensors.current_bits);
+    const double drop_A = spread_of(volts(a, voltage, 1, -1)) / motor(a).resistance_ohm;
+    const double times = all_along_ ? of_noise_all_along : of_noise;
+    if (spread_of(voltage) == 0 || !(drop_A > times * (step_A + sensors.current_noise_A)))
+      return {};
+    return {{Quantity::voltage, a}, {Quantity::shaft, a}};
+  }
+  /// A shaft that is really stuck makes a spring of its tendon, whose law then holds.
+  std::vector<Column> of_shaft(std::size_t a) const {
+    if (!spring_holds(a) && spread_of(means_.paths[a].length_m) > way_m) return laws_.crossed_by(a);
+    const bool drive = actuator(a).tendon.path.empty();  // nothing else holds a shaft for so long
+    for (const Quantity control : {Quantity::voltage, Quantity::current})
+      if (drive && spread_of(said(control, a)) > 0) return {{control, a}};
+    return {};
+  }
+  /// A slack tendon is foretold a pull neither by its stretch nor by its motor.
+  std::vector<Column> of_tension(std::size_t a) const {
+    const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
+    const double slack_N = of_range * sensors.tension_range_N,
+                 step_N = sensors.tension_range_N / std::exp2(sensors.tension_bits);
+    const Signal& tension = said(Quantity::tension, a);
+    const bool may_be_slack = tension.empty() || !(tension[0] > slack_N);
+    const double least = may_be_slack ? slack_N : of_noise * (step_N + sensors.tension_noise_N);
+    std::vector<Column> told_by;
+    for (const Law& law : laws_.held_against(means_, a))
+      if (law.kind == Law::Kind::spring && spread_of(law.foretold) > least)
+        told_by.assign(law.columns.begin(), law.columns.end() - 1);
+    const Signal& current = said(Quantity::current, a);
+    const double pull_N_per_A =
+        motor(a).gear_ratio * motor(a).torque_Nm_per_A / actuator(a).spindle.radius_m;
+    if (!current.empty() && !(pull_N_per_A * spread_of(current) > least)) return {};
+    return told_by;
+  }
+  /// Tendons that are drawn against each other hold a joint still, and their springs' laws then hold.
+  std::vector<Column> of_angle(std::size_t j) const {
+    std::vector<Column> told_by;
+    for (std::size_t a = 0; a < means_.actuators.size(); ++a) {
+      if (!std::ranges::count(laws_.crossed_by(a), Column{Quantity::angle, j})) continue;
+      const bool weighed = !said(Quantity::tension, a).empty();
+      if (weighed && spring_holds(a)) return {};
+      const double way = actuator(a).spindle.radius_m * spread_of(said(Quantity::shaft, a));
+      if (way > (weighed ? way_m : way_without_tension_m)) told_by.push_back({Quantity::shaft, a});
+    }
+    return told_by;
+  }
+  bool spring_holds(std::size_t a) const {
+    for (const Law& law : laws_.held_against(means_, a))
+      if (law.kind == Law::Kind::spring) return law.good();
+    return false;
+  }
+
+  const erp::Robot& robot_;
+  const Laws& laws_;
+  const Means& means_;
+  const bool all_along_;
+};
+
+}  // namespace
+
+bool nothing_changes(const Episode& episode) {
+  return std::ranges::all_of(
+      residuals::all_columns(episode.actuators.size(), episode.joints.size()),
+      [&](const Column& column) {
+        double said = recording::not_taken;
+        for (const double x : signal_of(episode, column)) {
+          if (std::isnan(said)) said = x;
+          if (!std::isnan(x) && x != said) return false;
+        }
+        return true;
+      });
+}
+
+std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws) {
+  std::vector<DeadColumn> dead;
+  std::optional<Means> whole;
+  for (const Column& column :
+       residuals::all_columns(episode.actuators.size(), episode.joints.size())) {
+    const Signal& signal = signal_of(episode, column);
+    const Run run = longest_run(signal);
+    const auto taken = std::ranges::count_if(signal, [](double x) { return !std::isnan(x); });
+    const bool all_along =
+        run.rows() > 0 && taken > 0 && std::ranges::all_of(signal, [&](double x) {
+          return std::isnan(x) || x == signal[run.from];
+        });
+    if (!all_along && double(run.rows()) * episode.period_s < long_s) continue;
+    if (all_along && !whole) whole = laws.means(episode, 0, episode.rows);
+    const Means part = all_along ? Means{} : laws.means(episode, run.from, run.until);
+    const auto told_by = Movers(robot, laws, all_along ? *whole : part, all_along).of(column);
+    if (!told_by.empty())
+      dead.push_back({column, signal[run.from], run.from, run.until, all_along, told_by});
+  }
+  return dead;
+}
+
+}  // namespace sim::checks

@@ -1,0 +1,142 @@
+#include "sim/gap/closed_loop/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "interfaces/parallel/in_parallel.hpp"
+#include "sim/gap/closed_loop/rehearse.hpp"
+
+namespace sim::closed_loop {
+namespace {
+
+using diagnosis::Trials;
+using effects::Placed;
+
+erp::Robot with(const erp::Robot& robot, const Placed& placed) {
+  erp::Robot changed = robot;
+  changed.effects.push_back(effects::written(placed));
+  return changed;
+}
+
+/// The share of the time for which a motor gets all the voltage that there is.
+double saturated(const recording::Table& table, const erp::Robot& robot,
+                 const erp::Actuator& actuator) {
+  const auto& volts = table.find(actuator.name + ".voltage_V")->values;
+  const double most_V = 0.99 * robot.motor_of(actuator).supply_V;
+  const auto at_most =
+      std::ranges::count_if(volts, [&](double v) { return std::abs(v) >= most_V; });
+  return volts.empty() ? 0 : double(at_most) / double(volts.size());
+}
+
+Extremes extremes_of(const recording::Table& table, const erp::Robot& robot) {
+  Extremes e;
+  e.to_stop_rad = std::numeric_limits<double>::infinity();
+  for (const erp::Actuator& actuator : robot.actuators)
+    for (const double tension : table.find(actuator.name + ".tension_N")->values)
+      if (const double share = tension / actuator.max_tension_N; share > e.of_max_tension)
+        e.of_max_tension = share, e.tightest = actuator.name;
+  for (const erp::Actuator& actuator : robot.actuators)
+    if (const double share = saturated(table, robot, actuator); share > e.saturated)
+      e.saturated = share, e.slowest = actuator.name;
+  for (const erp::Joint& joint : robot.joints())
+    if (const auto* angle = table.find(joint.name + ".angle_rad"))
+      for (const double q : angle->values)
+        if (const double left = std::min(q - joint.min_rad, joint.max_rad - q);
+            left < e.to_stop_rad)
+          e.to_stop_rad = left, e.nearest = joint.name;
+  return e;
+}
+
+void worse_of(const Extremes& a, Extremes& into) {
+  if (a.of_max_tension > into.of_max_tension)
+    into.of_max_tension = a.of_max_tension, into.tightest = a.tightest;
+  if (a.saturated > into.saturated) into.saturated = a.saturated, into.slowest = a.slowest;
+  if (a.to_stop_rad < into.to_stop_rad) into.to_stop_rad = a.to_stop_rad, into.nearest = a.nearest;
+}
+
+std::string danger(const Extremes& e, const ExperimentOptions& options) {
+  if (e.of_max_tension > options.of_max_tension)
+    return fmt::format("{} comes to {:.0f} % of its limit", e.tightest, 100 * e.of_max_tension);
+  if (e.to_stop_rad <= 0) return e.nearest + " meets its stop";
+  if (e.to_stop_rad <= options.to_stop_rad)
+    return fmt::format("{} comes within {:.3f} rad of its stop", e.nearest, e.to_stop_rad);
+  return "";
+}
+
+/// Σ z² of a suspect at its best on what was rehearsed.
+double square_of(const Trials& trials, const Placed& suspect) {
+  const std::size_t only[] = {0};
+  return diagnosis::fit(trials, trials.bare(), suspect, only).square;
+}
+
+/// An excitation that begins where the robot rests: at pretension, with no line taken in.
+Excitation from_rest(const erp::Robot& robot, int kind, double duration_s, std::uint64_t seed) {
+  constexpr double ramp_s = 1;
+  Excitation all = excitation(robot, kind, duration_s, seed);
+  const auto rows = std::min(all.reference.size(), std::size_t(ramp_s / all.period_s));
+  for (std::size_t k = 0; k < rows; ++k)
+    for (std::size_t a = 0; a < all.reference[k].size(); ++a) {
+      const double rest =
+          all.mode == erp::Mode::force ? robot.actuators[a].tendon.pretension_N : 0.0;
+      double& reference = all.reference[k][a];
+      reference = std::lerp(rest, reference, double(k) / double(rows));
+    }
+  return all;
+}
+
+double split(double other, double first) { return std::sqrt(std::max(0.0, other - first)); }
+
+Candidate try_out(const erp::Robot& robot, const std::vector<Placed>& suspects, int kind,
+                  std::uint64_t seed, const ExperimentOptions& options) {
+  Candidate candidate{kind, seed};
+  const Score score = score_of(from_rest(robot, kind, options.seconds, seed));
+  candidate.extremes = extremes_of(rehearse(robot, score, seed), robot);
+  recording::Table truth;
+  for (const Placed& suspect : suspects) {
+    const auto table = rehearse(with(robot, suspect), score, seed);
+    worse_of(extremes_of(table, robot), candidate.extremes);
+    if (&suspect == &suspects.front()) truth = table;
+  }
+  candidate.unsafe = danger(candidate.extremes, options);
+  if (!candidate.unsafe.empty()) return candidate;
+  std::vector<std::string> remarks;
+  const Trials trials(robot, {residuals::lay_out(truth, robot, "rehearsed", remarks)});
+  const std::size_t only[] = {0};
+  const double first = square_of(trials, suspects[0]);
+  for (std::size_t k = 1; k < suspects.size(); ++k)
+    candidate.split.push_back(split(square_of(trials, suspects[k]), first));
+  if (suspects.size() == 1)
+    candidate.split = {split(sum(trials.blocks(trials.bare(), only)).square, first)};
+  candidate.least = *std::ranges::min_element(candidate.split);
+  return candidate;
+}
+
+}  // namespace
+
+Experiment next_experiment(const erp::Robot& robot, const std::vector<Placed>& suspects,
+                           const ExperimentOptions& options) {
+  if (suspects.empty()) throw std::invalid_argument("no suspect to split");
+  Experiment experiment;
+  experiment.candidates.resize(static_cast<std::size_t>(options.candidates));
+  std::atomic<int> done = 0;
+  in_parallel(experiment.candidates.size(), options.threads, [&](std::size_t k) {
+    const std::uint64_t seed = options.seed + k / excitation_kinds;
+    experiment.candidates[k] =
+        try_out(robot, suspects, static_cast<int>(k % excitation_kinds), seed, options);
+    if (options.progress) options.progress(double(++done) / options.candidates);
+  });
+  std::ranges::stable_sort(experiment.candidates, [](const Candidate& a, const Candidate& b) {
+    return std::pair(!a.unsafe.empty(), -a.least) < std::pair(!b.unsafe.empty(), -b.least);
+  });
+  const Candidate& best = experiment.candidates.front();
+  if (best.unsafe.empty())
+    experiment.chosen = from_rest(robot, best.kind, options.seconds, best.seed);
+  return experiment;
+}
+
+}  // namespace sim::closed_loop

@@ -1,0 +1,192 @@
+#include "sim/gap/closed_loop/learned_ecu.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sim/control/gain_design.hpp"
+#include "sim/model/actuator/ecu_units.hpp"
+
+namespace sim::closed_loop {
+namespace {
+
+using residuals::ActuatorSignals;
+using residuals::Episode;
+using Phi = Eigen::Vector<double, Regressors::count>;
+
+constexpr double tick_s = residuals::tick_s;
+constexpr std::size_t most_lag = 3, least_rows = 500;   // chosen
+constexpr std::size_t oldest = 30, most_rows = 10'000;  // a command's age, a recording's rows; chosen
+constexpr double of_older = 0.1;  // of `enough`: one of many ages is always somewhat near; chosen
+constexpr double clipped = 0.98;                       // of the supply; chosen
+
+std::optional<Known> known_at(const ActuatorSignals& s, std::size_t row, std::size_t asked) {
+  if (asked >= s.reference.size() || s.shaft_rad.empty()) return {};
+  const auto of = [&](const residuals::Signal& signal) { return signal.empty() ? 0 : signal[row]; };
+  const Known known{s.reference[asked], s.shaft_rad[row], of(s.current_A), of(s.tension_N)};
+  const bool told =
+      !std::isnan(known.reference + known.shaft_rad + known.current_A + known.tension_N);
+  return told ? std::optional(known) : std::nullopt;
+}
+
+/// Rows of one actuator in one mode.
+struct Rows {
+  std::vector<Phi> phi;
+  std::vector<std::array<double, most_lag + 1>> volts;  ///< that many rows later; NaN: not usable
+};
+
+bool in_mode(const ActuatorSignals& s, std::size_t row, erp::Mode mode) {
+  return row < s.mode.size() && !std::isnan(s.mode[row]) &&
+         std::lround(s.mode[row]) == std::lround(double(mode));
+}
+
+/// `newest`: references and modes are those of the row after the sensors'.
+void add_rows(const Episode& e, std::size_t a, erp::Mode mode, bool newest, double radius_m,
+              double supply_V, Rows& rows) {
+  const ActuatorSignals& s = e.actuators[a];
+  if (s.mode.empty() || s.voltage_V.empty()) return;
+  std::optional<Regressors> law;
+  for (std::size_t k = 0; k < e.rows; ++k) {
+    const std::size_t asked = newest ? k + 1 : k;
+    const auto known = known_at(s, k, asked);
+    if (!in_mode(s, asked, mode) || !known) {
+      law.reset();
+      continue;
+    }
+    if (!law) law.emplace(mode, radius_m);
+    rows.phi.push_back(law->next(*known));
+    auto& volts = rows.volts.emplace_back();
+    for (std::size_t lag = 0; lag <= most_lag; ++lag) {
+      const bool usable = k + lag < e.rows && in_mode(s, k + lag, mode) &&
+                          std::abs(s.voltage_V[k + lag]) < clipped * supply_V;
+      volts[lag] = usable ? s.voltage_V[k + lag] : std::nan("");
+    }
+  }
+}
+
+LearnedLaw fit(const Rows& rows, std::size_t lag) {
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(Regressors::count, Regressors::count);
+  Phi right = Phi::Zero(), scale = Phi::Zero();
+  double sum = 0, square = 0, count = 0;
+  for (std::size_t k = 0; k < rows.phi.size(); ++k) {
+    const double v = rows.volts[k][lag];
+    if (std::isnan(v)) continue;
+    normal += rows.phi[k] * rows.phi[k].transpose(), right += rows.phi[k] * v;
+    sum += v, square += v * v, ++count;
+  }
+  LearnedLaw law{Phi::Zero(), lag, true, 1};
+  const double variance = square - sum * sum / std::max(1.0, count);
+  if (count < double(least_rows) || !(variance > 0)) return law;
+  scale = normal.diagonal().cwiseMax(1e-12).cwiseSqrt();
+  const Phi inverse = scale.cwiseInverse();
+  Eigen::MatrixXd scaled = inverse.asDiagonal() * normal * inverse.asDiagonal();
+  scaled.diagonal().array() += 1e-8;  // columns that are one
+  law.weights =
+      inverse.asDiagonal() * Eigen::VectorXd(scaled.ldlt().solve(inverse.asDiagonal() * right));
+  law.unexplained =
+      std::max(0.0, square - 2 * law.weights.dot(right) + law.weights.dot(normal * law.weights)) /
+      variance;
+  return law;
+}
+
+}  // namespace
+
+Phi Regressors::next(const Known& known) {
+  const double y = mode_ == erp::Mode::current ? known.current_A
+                   : mode_ == erp::Mode::force ? known.tension_N
+                                               : -radius_m_ * known.shaft_rad;
+  const Known& before = begun_ ? last_ : known;
+  Phi phi;
+  phi << 1, known.reference, (known.reference - before.reference) / tick_s, y,
+      begun_ ? (y - last_y_) / tick_s : 0, integral_, (known.shaft_rad - before.shaft_rad) / tick_s,
+      known.current_A, known.tension_N;
+  integral_ += (known.reference - y) * tick_s;
+  last_ = known, last_y_ = y, begun_ = true;
+  return phi;
+}
+
+LearnedEcu learn(std::span<const Episode> recordings, const erp::Robot& robot) {
+  LearnedEcu ecu;
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a)
+    for (const erp::Mode mode :
+         {erp::Mode::voltage, erp::Mode::length, erp::Mode::current, erp::Mode::force}) {
+      LearnedLaw best;
+      for (const bool newest : {true, false}) {
+        Rows rows;
+        for (const Episode& e : recordings)
+          add_rows(e, a, mode, newest, robot.actuators[a].spindle.radius_m,
+                   robot.motor_of(robot.actuators[a]).supply_V, rows);
+        for (std::size_t lag = 1; lag <= most_lag; ++lag)
+          if (LearnedLaw law = fit(rows, lag); law.unexplained < best.unexplained)
+            best = law, best.newest = newest;
+      }
+      if (best.unexplained < 1) ecu[{a, mode}] = best;
+    }
+  return ecu;
+}
+
+namespace {
+
+ecu_channel configured(const erp::Robot& robot, const erp::Actuator& actuator) {
+  ecu_channel ecu{};
+  ecu_init(&ecu);
+  const auto gains = design_parameters(robot, actuator, {.stuck_share = 0});
+  for (std::size_t k = 0; k < gains.size(); ++k)
+    ecu_parameter(&ecu, std::uint8_t(k), gains[k], k + 1 == gains.size());
+  ecu_command(&ecu, ECU_REQUEST_ARM, 0);
+  return ecu;
+}
+
+struct Misfit {
+  double square = 0, sum = 0, of = 0, rows = 0;
+};
+
+/// Of a firmware that follows commands `age` rows old.
+void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, std::size_t age,
+                Misfit& misfit) {
+  const ActuatorSignals& s = e.actuators[a];
+  if (s.mode.empty() || s.voltage_V.empty()) return;
+  const erp::Actuator& actuator = robot.actuators[a];
+  const EcuUnits units(robot.motor_of(actuator), robot.sensors_of(actuator), actuator.spindle);
+  ecu_channel ecu = configured(robot, actuator);
+  for (std::size_t k = age; k + 1 < std::min(e.rows, most_rows); ++k) {
+    const std::size_t asked = k + 1 - age;
+    const auto known = known_at(s, k, asked);
+    if (!known || std::isnan(s.mode[asked])) continue;
+    const auto mode = static_cast<erp::Mode>(std::lround(s.mode[asked]));
+    if (mode == erp::Mode::off) ecu_command(&ecu, ECU_REQUEST_ARM, 0);
+    else ecu_command(&ecu, EcuUnits::request(mode), units.setpoint(mode, known->reference));
+    const ecu_inputs inputs{
+        std::int32_t(std::lround(known->shaft_rad / units.shaft_rad_per_count)),
+        std::int16_t(std::lround(known->current_A / units.current_A_per_count)),
+        std::uint16_t(units.tension_zero_counts +
+                      std::lround(known->tension_N / units.tension_N_per_count))};
+    const double foretold = units.voltage_V(ecu_tick(&ecu, &inputs)), v = s.voltage_V[k + 1];
+    if (std::isnan(v) || mode == erp::Mode::off) continue;
+    misfit.square += (v - foretold) * (v - foretold);
+    misfit.sum += v, misfit.of += v * v, ++misfit.rows;
+  }
+}
+
+double unexplained_at(std::span<const Episode> recordings, const erp::Robot& robot,
+                      std::size_t age) {
+  Misfit misfit;
+  for (const Episode& e : recordings)
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a) add_misfit(e, robot, a, age, misfit);
+  const double variance = misfit.of - misfit.sum * misfit.sum / std::max(1.0, misfit.rows);
+  return misfit.rows < double(least_rows) || !(variance > 0) ? 1 : misfit.square / variance;
+}
+
+}  // namespace
+
+double unexplained_by_firmware(std::span<const Episode> recordings, const erp::Robot& robot,
+                               double enough) {
+  const double newest = unexplained_at(recordings, robot, 0);
+  for (std::size_t age = 1; age <= oldest && newest > enough; ++age)
+    if (const double older = unexplained_at(recordings, robot, age); older < of_older * enough)
+      return older;
+  return newest;
+}
+
+}  // namespace sim::closed_loop

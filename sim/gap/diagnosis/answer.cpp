@@ -1,0 +1,82 @@
+#include "sim/gap/diagnosis/answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim::diagnosis {
+namespace {
+constexpr double of_method = 0.02;  // what the method's own approximations may shift a value by
+}
+
+Named named(const effects::Placed& placed) {
+  const effects::About& about = effects::about(placed.effect);
+  Named n{std::string(about.type), placed.on, about.stage, {}, {}, {}, {}, 0, {}, false, placed};
+  effects::AnyEffect copy = placed.effect;
+  for (const effects::Parameter& p : effects::parameters(copy))
+    if (p.fitted)
+      n.names.emplace_back(p.name), n.values.push_back(*p.value), n.bounds.push_back(p.bounds);
+  n.intervals.resize(n.values.size());
+  return n;
+}
+
+Named named(const Ranked& ranked, double least_gain) {
+  Named n = named(ranked.fit.placed);
+  for (std::size_t k = 0; k < n.values.size(); ++k) {
+    const double half = 1.96 * ranked.fit.sigmas[k] + of_method * std::abs(n.values[k]);
+    n.intervals[k] = {std::max(n.values[k] - half, n.bounds[k].low),
+                      std::min(n.values[k] + half, n.bounds[k].high)};
+  }
+  n.gain = ranked.gain, n.gain_interval = ranked.gain_interval;
+  n.supported = ranked.gain_interval.low > least_gain && ranked.relieves();
+  return n;
+}
+
+Named named(const BusFit& fit) {
+  Named n = named(fit.placed);
+  const double of_ticks = of_method * std::abs(fit.value);  // ages are whole ticks
+  n.intervals[0] = {fit.low - of_ticks, fit.high + of_ticks};
+  n.gain = fit.gain, n.gain_interval = {fit.gain, fit.gain}, n.supported = fit.supported;
+  return n;
+}
+
+std::string undetermined(const Named& effect) {
+  effects::AnyEffect neutral = *effects::neutral(effect.type);
+  bool holds_neutral = !effect.values.empty();
+  std::size_t k = 0;
+  for (const effects::Parameter& p : effects::parameters(neutral)) {
+    if (!p.fitted) continue;
+    const Interval& interval = effect.intervals[k];
+    const double value = effect.values[k];
+    if (is_at_bound(p, value)) return fmt::format("{} is at its bound, {:.3g}", p.name, value);
+    const double rounding = 1e-6 * (p.bounds.high - p.bounds.low);
+    const bool at_end = value <= p.bounds.low + rounding || value >= p.bounds.high - rounding;
+    const double beyond = at_end ? rounding : 0;  // a bound that is neutral
+    holds_neutral &= interval.low <= *p.value + beyond && *p.value - beyond <= interval.high;
+    ++k;
+  }
+  return holds_neutral ? "its interval contains the neutral value" : "";
+}
+
+bool is_at_bound(const Named& effect) {
+  effects::AnyEffect neutral = *effects::neutral(effect.type);
+  std::size_t k = 0;
+  for (const effects::Parameter& p : effects::parameters(neutral))
+    if (p.fitted && is_at_bound(p, effect.values[k++])) return true;
+  return false;
+}
+
+void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names) {
+  constexpr double rate = 0.05;
+  std::vector<std::pair<double, std::size_t>> doubts;
+  for (std::size_t k = 0; k < ranked.size(); ++k) doubts.emplace_back(ranked[k].doubt, k);
+  std::ranges::sort(doubts);
+  const auto count = static_cast<double>(doubts.size());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < doubts.size(); ++k)
+    if (doubts[k].first <= rate * static_cast<double>(k + 1) / count) kept = k + 1;
+  for (std::size_t k = kept; k < doubts.size(); ++k) names[doubts[k].second].supported = false;
+}
+
+}  // namespace sim::diagnosis

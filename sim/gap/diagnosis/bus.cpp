@@ -1,0 +1,219 @@
+#include "sim/gap/diagnosis/bus.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <random>
+
+#include "firmware/core/ecu.h"
+#include "interfaces/values.hpp"
+#include "sim/control/gain_design.hpp"
+#include "sim/model/actuator/sensors.hpp"
+#include "sim/model/effects/acting.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+constexpr std::size_t oldest = 60;  // ticks; chosen
+constexpr double least_told = 0.6;  // chosen: below, the ECU has another law
+
+/// One actuator's law as an offset and what a command adds: V = gain · reference + rest.
+struct Law {
+  double gain = 0;
+  std::vector<double> rest_V;  ///< NaN: not to be told
+};
+
+/// What the voltage would be without a command, from the row before; by mode.
+Law law_of(const residuals::ActuatorSignals& s, const erp::Robot& robot,
+           const erp::Actuator& actuator, double period_s) {
+  Law law;
+  if (s.mode.empty() || s.reference.empty() || s.voltage_V.empty() || s.shaft_rad.empty())
+    return law;
+  const auto first = std::ranges::find_if(s.mode, [](double m) { return !std::isnan(m); });
+  if (first == s.mode.end()) return law;
+  const auto mode = static_cast<erp::Mode>(std::lround(*first));
+  const bool length = mode == erp::Mode::length;
+  const bool force = mode == erp::Mode::force && !s.current_A.empty() && !s.tension_N.empty();
+  if (!length && !force) return law;
+  const auto gains = design_parameters(robot, actuator, {});
+  const auto gain = [&](ecu_parameter_index k) {
+    return static_cast<double>(gains[static_cast<std::size_t>(k)]);
+  };
+  law.gain = length ? -gain(ECU_PARAMETER_LENGTH_KP) / actuator.spindle.radius_m
+                    : gain(ECU_PARAMETER_FORCE_PREFILTER);
+  law.rest_V.assign(s.voltage_V.size(), recording::not_taken);
+  for (std::size_t k = 2; k < s.voltage_V.size(); ++k) {
+    if (s.mode[k] != *first) continue;
+    const double speed = (s.shaft_rad[k - 1] - s.shaft_rad[k - 2]) / period_s;
+    const double back = gain(ECU_PARAMETER_BACK_EMF) * speed;
+    const double reach = gain(ECU_PARAMETER_RESISTANCE) * gain(ECU_PARAMETER_CURRENT_LIMIT);
+    const bool free = std::abs(s.voltage_V[k] - back) < 0.97 * reach &&
+                      std::abs(s.voltage_V[k]) < 0.97 * gain(ECU_PARAMETER_SUPPLY);
+    if (!free) continue;
+    law.rest_V[k] = length ? -gain(ECU_PARAMETER_LENGTH_KP) * s.shaft_rad[k - 1]
+                           : -(gain(ECU_PARAMETER_FORCE_K_CURRENT) * s.current_A[k - 1] +
+                               gain(ECU_PARAMETER_FORCE_K_SPEED) * speed +
+                               gain(ECU_PARAMETER_FORCE_K_TENSION) * s.tension_N[k - 1]);
+  }
+  return law;
+}
+
+void add_ages(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
+              const Law& law, double tolerance_V, Ages& ages) {
+  for (std::size_t k = oldest; k < law.rest_V.size(); ++k) {
+    if (std::isnan(law.rest_V[k]) || !episode.judged(k)) continue;
+    const auto said_V = [&](std::size_t age) {
+      return law.gain * s.reference[k - age] + law.rest_V[k];
+    };
+    if (!(std::abs(said_V(0) - said_V(1)) > 3 * tolerance_V)) continue;  // too alike
+    ++ages.tried;
+    for (std::size_t age = 0; age < oldest; ++age)
+      if (std::abs(said_V(age) - s.voltage_V[k]) < tolerance_V) {
+        ++ages.ticks[age], ++ages.told;
+        break;
+      }
+  }
+}
+
+/// By what it says itself: it follows the one command with that set-point.
+void add_ages_said(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
+                   Ages& ages) {
+  for (std::size_t k = oldest; k < s.sent.size(); ++k) {
+    if (!episode.judged(k) || !(std::abs(s.sent[k] - s.sent[k - 1]) > 0)) continue;  // too alike
+    std::vector<std::size_t> may_be;
+    for (std::size_t age = 0; age < oldest; ++age)
+      if (s.sent[k - age] == s.followed[k]) may_be.push_back(age);
+    if (may_be.size() > 1) continue;  // the same was sent more than once
+    ++ages.tried;
+    if (may_be.size() == 1) ++ages.ticks[may_be[0]], ++ages.told;
+  }
+}
+
+/// How often each age comes under an effect: commands sent every tick, heard in their order.
+std::vector<double> foretold(const effects::Placed& placed, double period_s) {
+  constexpr int ticks = 4000;
+  effects::Acting acting(std::span(&placed, 1), placed.on, effects::Seat::robot);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> even(0, 1);
+  const auto draw = [&] { return even(random); };
+  std::deque<std::pair<double, int>> line;
+  std::vector<double> share(oldest, 0.0);
+  int heard = 0;
+  for (int k = 0; k < ticks; ++k) {
+    const double now_s = k * period_s;
+    const double late_s = acting.command_delay_s(draw) + acting.frame_delay_s(draw);
+    if (!acting.loses_command(draw)) {
+      const double due_s = now_s + late_s;
+      line.emplace_back(line.empty() ? due_s : std::max(due_s, line.back().first), k);
+    }
+    while (!line.empty() && line.front().first <= now_s + 1e-9)
+      heard = line.front().second, line.pop_front();
+    if (k > 200) share[std::min<std::size_t>(oldest - 1, std::size_t(k - heard))] += 1;
+  }
+  constexpr double stray = 0.002;  // of ages read wrongly
+  for (double& s : share) s = (1 - stray) * s / (ticks - 201) + stray / oldest;
+  return share;
+}
+
+double likelihood(std::span<const Ages> ages, const std::vector<double>& share) {
+  double sum = 0;
+  for (const Ages& one : ages)
+    for (std::size_t a = 0; a < oldest; ++a)
+      sum += static_cast<double>(one.ticks[a]) * std::log(share[a]);
+  return sum;
+}
+
+std::vector<double> own_shares(std::span<const Ages> ages) {
+  std::vector<double> share(oldest, 1e-9);
+  double whole = oldest * 1e-9;
+  for (const Ages& one : ages)
+    for (std::size_t a = 0; a < oldest; ++a)
+      share[a] += static_cast<double>(one.ticks[a]), whole += static_cast<double>(one.ticks[a]);
+  for (double& s : share) s /= whole;
+  return share;
+}
+
+/// The most likely value of the effect's one parameter, and those that are as likely but for a
+/// factor of e².
+BusFit fit_one(effects::Placed placed, std::span<const Ages> train) {
+  const double period_s = train[0].period_s;
+  BusFit best{placed, 0, 0, 0, 0, false};
+  const effects::Parameter parameter = effects::parameters(placed.effect)[0];
+  std::vector<std::pair<double, double>> tried;
+  constexpr int steps = 120;
+  for (int n = 1; n <= steps; ++n) {
+    *parameter.value = parameter.bounds.high * n / steps;
+    tried.emplace_back(likelihood(train, foretold(placed, period_s)), *parameter.value);
+  }
+  const auto top = *std::ranges::max_element(tried);
+  best.low = best.high = top.second;
+  double middle = 0, count = 0;
+  for (const auto& [likely, value] : tried)
+    if (likely > top.first - 2)
+      best.low = std::min(best.low, value), best.high = std::max(best.high, value), middle += value,
+      ++count;
+  const double half_step = parameter.bounds.high / steps / 2;
+  best.value = middle / count, best.low -= half_step, best.high += half_step;
+  *parameter.value = best.value;
+  best.placed = placed;
+  return best;
+}
+
+}  // namespace
+
+Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot) {
+  Ages ages{episode.period_s, std::vector<std::size_t>(oldest, 0), 0, 0};
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const residuals::ActuatorSignals& s = episode.actuators[a];
+    if (!s.sent.empty()) {
+      add_ages_said(episode, s, ages);
+      continue;
+    }
+    const Law law = law_of(s, robot, robot.actuators[a], episode.period_s);
+    const double count_V = robot.motor_of(robot.actuators[a]).supply_V / ECU_DUTY_MAX;
+    add_ages(episode, s, law, count_V, ages);
+  }
+  return ages;
+}
+
+bool told(std::span<const Ages> ages) {
+  std::size_t told = 0, tried = 0;
+  for (const Ages& one : ages) told += one.told, tried += one.tried;
+  return tried > 100 && static_cast<double>(told) > least_told * static_cast<double>(tried);
+}
+
+double late_share(std::span<const Ages> ages) {
+  if (!told(ages)) return 0;
+  const auto share = own_shares(ages);
+  return 1 - share[0];
+}
+
+double mean_age_s(std::span<const Ages> ages) {
+  double sum_s = 0, count = 0;
+  for (const Ages& one : ages)
+    for (std::size_t a = 0; a < oldest; ++a)
+      sum_s += double(one.ticks[a]) * double(a) * one.period_s, count += double(one.ticks[a]);
+  return count > 0 ? sum_s / count : 0;
+}
+
+std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
+                            const erp::Robot& robot, const std::vector<std::string>& withhold) {
+  std::vector<BusFit> fits;
+  if (!told(train) || !told(held_out) || late_share(held_out) < practical_late) return fits;
+  effects::Placed none{robot.name, *effects::neutral("bus_command_delay")};
+  const double before = likelihood(held_out, foretold(none, train[0].period_s));
+  const double most = likelihood(held_out, own_shares(held_out));
+  for (const effects::AnyEffect& effect : effects::library()) {
+    const effects::About& about = effects::about(effect);
+    if (about.stage != effects::Stage::bus || std::ranges::count(withhold, about.type)) continue;
+    BusFit fit = fit_one({robot.name, effect}, train);
+    fit.gain = (likelihood(held_out, foretold(fit.placed, train[0].period_s)) - before) /
+               std::max(most - before, 1e-9);
+    fit.supported = fit.gain > 0.965;  // chosen: two on the bus at once look like jitter with 0.956
+    fits.push_back(std::move(fit));
+  }
+  std::ranges::stable_sort(fits, std::greater(), &BusFit::gain);
+  return fits;
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,43 @@
+#include "sim/gap/diagnosis/identifiability.hpp"
+
+#include <fmt/format.h>
+
+#include "sim/gap/diagnosis/sampling.hpp"
+
+namespace sim::diagnosis {
+
+void drop_alternatives_at_bounds(std::vector<Named>& answer) {
+  for (Named& n : answer)
+    std::erase_if(n.alternatives, [](const Named& other) { return is_at_bound(other); });
+}
+
+void require_determined(Diagnosis& d) {
+  if (d.verdict != Verdict::supported) return;
+  for (const Named& n : d.answer) {
+    const auto why = undetermined(n);
+    if (why.empty()) continue;
+    d.verdict = Verdict::not_identifiable;
+    d.warnings.push_back(
+        fmt::format("{} on {}: {}; record motions that show more of it", n.type, n.on, why));
+  }
+}
+
+void require_sampling(const Trials& plain, Diagnosis& d) {
+  if (d.verdict != Verdict::supported && d.verdict != Verdict::none_of_the_known) return;
+  const auto why = rows_too_far_apart(plain);
+  if (!why) return;
+  d.verdict = Verdict::not_identifiable;
+  d.warnings.push_back(*why);
+}
+
+void warn_unjudged(const Evidence& evidence, const Observed& observed, Diagnosis& d) {
+  d.not_judged = not_judged(evidence.robot, d.stages);
+  const bool without_bus = evidence.robot.drives.empty() && !observed.bus_told;
+  if (without_bus) d.not_judged.emplace_back("the bus");
+  if (d.not_judged.empty()) return;
+  d.warnings.push_back(
+      fmt::format("not judged, for lack of data: {}{}", fmt::join(d.not_judged, ", "),
+                  without_bus ? fmt::format("; to judge the bus, record {}", bus_is_told_by) : ""));
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,86 @@
+#include "sim/gap/diagnosis/isolation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/gap/diagnosis/promise.hpp"
+#include "sim/gap/diagnosis/tries.hpp"
+#include "interfaces/parallel/in_parallel.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+using effects::Placed;
+
+// Laws are not linear, so what a nudge does is grown with some tolerance; all chosen.
+constexpr double part_of_it = 0.05;  // of the widest stage's excess: less may be another cause's
+constexpr double short_of = 10;      // an open stage may get this much less than it has
+constexpr double keeps_closed = 10;  // excess that a closed stage may get
+
+/// Mean Δz² by stage.
+std::vector<double> signature(const Trials& trials, const Placed& nudged, std::size_t episode) {
+  const std::size_t only[] = {episode};
+  const Trial with = trials.with(trials.bare(), nudged, only);
+  const auto before = trials.whitened(trials.bare(), episode),
+             after = trials.whitened(with, episode);
+  std::vector<double> means;
+  std::size_t at = 0;
+  for (const residuals::Residual& r : trials.bare().of_episode[episode].residuals) {
+    double square = 0, windows = 0;
+    for (std::size_t k = 0; k < r.value.size(); ++k, ++at)
+      if (!std::isnan(before[at])) square += std::pow(after[at] - before[at], 2), ++windows;
+    means.push_back(windows > 0 ? square / windows : 0);
+  }
+  return means;
+}
+
+/// The gap in the same order.
+std::vector<StageGap> gap_of(const Trials& trials, std::size_t episode, const Evidence& evidence) {
+  const std::size_t only[] = {episode};
+  const auto gaps = where(trials, trials.bare(), only, evidence.where_options());
+  std::vector<StageGap> ordered;
+  for (const residuals::Residual& r : trials.bare().of_episode[episode].residuals)
+    ordered.push_back(*find_stage(gaps, r.stage, r.on));
+  return ordered;
+}
+
+bool could_leave(const std::vector<StageGap>& gap, const std::vector<double>& signature) {
+  const auto widest = std::ranges::max_element(gap, {}, &StageGap::share);
+  const double there = signature[std::size_t(widest - gap.begin())];
+  if (!(there > 0) || !widest->open) return false;
+  const double grown = widest->excess / there;
+  for (std::size_t r = 0; r < gap.size(); ++r) {
+    const double gets = grown * signature[r];
+    if (gap[r].open && gap[r].excess > part_of_it * widest->excess &&
+        gets * short_of < gap[r].excess)
+      return false;
+    if (gap[r].judged && !gap[r].open && gets > keeps_closed) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Part> isolate(const Evidence& evidence, const Trials& trials) {
+  const std::size_t episode = loudest(trials, trials.bare(), evidence.sets.train);
+  const auto gap = gap_of(trials, episode, evidence);
+  const auto all = candidates(trials, evidence.options.withhold);
+  std::vector<char> could(all.size());
+  in_parallel(all.size(), evidence.options.threads, [&](std::size_t k) {
+    const std::size_t only[] = {episode};
+    auto ways = nudges(all[k]);
+    const auto more = tries(trials, all[k], only);
+    ways.insert(ways.end(), more.begin(), more.end());
+    could[k] = std::ranges::any_of(ways, [&](const Placed& nudged) {
+      return could_leave(gap, signature(trials, nudged, episode));
+    });
+  });
+  std::vector<Part> parts;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (const auto stage = effects::about(all[k].effect).stage;
+        could[k] && find_stage(parts, stage, all[k].on) == parts.end())
+      parts.push_back({stage, all[k].on});
+  return parts;
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,186 @@
+#include "sim/gap/diagnosis/split.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sim::diagnosis {
+namespace {
+
+/// How far the signals of a recording reach: of each kind the 5 % and 95 % marks of its size.
+std::vector<std::pair<double, double>> reach(const residuals::Episode& episode) {
+  std::vector<std::pair<double, double>> all;
+  const auto add = [&](const residuals::Signal& signal, bool rate) {
+    std::vector<double> values;
+    for (std::size_t k = 1; k < signal.size(); ++k)
+      if (const double v = rate ? signal[k] - signal[k - 1] : signal[k]; !std::isnan(v))
+        values.push_back(v);
+    std::ranges::sort(values);
+    if (values.empty()) all.emplace_back(0, 0);
+    else all.emplace_back(values[values.size() / 20], values[values.size() * 19 / 20]);
+  };
+  for (const residuals::ActuatorSignals& a : episode.actuators)
+    add(a.tension_N, false), add(a.current_A, false), add(a.shaft_rad, false),
+        add(a.shaft_rad, true);
+  for (const residuals::JointSignals& j : episode.joints)
+    add(j.angle_rad, false), add(j.angle_rad, true);
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Sets::all() const {
+  std::vector<std::size_t> all = train;
+  all.insert(all.end(), held_out.begin(), held_out.end());
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
+}
+
+Sets split(std::span<const residuals::Episode> episodes) {
+  const std::size_t count = episodes.size();
+  std::vector<std::vector<std::pair<double, double>>> reaches;
+  for (const residuals::Episode& episode : episodes) reaches.push_back(reach(episode));
+  std::vector<std::pair<double, std::size_t>> beyond;
+  for (std::size_t e = 0; e < count; ++e) {
+    double sum = 0;
+    for (std::size_t s = 0; s < reaches[e].size(); ++s) {
+      double low = 1e300, high = -1e300;
+      for (std::size_t other = 0; other < count; ++other)
+        if (other != e)
+          low = std::min(low, reaches[other][s].first),
+          high = std::max(high, reaches[other][s].second);
+      const double width = std::max(high - low, 1e-12);
+      sum += std::max(0.0, low - reaches[e][s].first) / width +
+             std::max(0.0, reaches[e][s].second - high) / width;
+    }
+    beyond.emplace_back(-sum, e);
+  }
+  std::ranges::sort(beyond);
+  const std::size_t held = count < 2 ? 0 : std::max<std::size_t>(1, count / 3);
+  Sets sets;
+  for (std::size_t k = 0; k < count; ++k)
+    (k < held ? sets.held_out : sets.train).push_back(beyond[k].second);
+  std::ranges::sort(sets.train), std::ranges::sort(sets.held_out);
+  return sets;
+}
+
+namespace {
+
+/// Which recordings show that a stage is open.
+class Showing {
+ public:
+  Showing(const Sets& sets, const Trials& plain, const WhereOptions& options) {
+    for (const std::size_t e : sets.all()) {
+      const std::size_t only[] = {e};
+      gaps_[e] = where(plain, plain.bare(), only, options);
+    }
+  }
+
+  /// The best last.
+  std::vector<std::size_t> of(const StageGap& stage) const {
+    std::vector<std::pair<double, std::size_t>> shows;
+    for (const auto& [e, gaps] : gaps_)
+      if (const auto gap = find_stage(gaps, stage.stage, stage.on); gap != gaps.end() && gap->open)
+        shows.emplace_back(gap->excess, e);
+    std::ranges::sort(shows);
+    std::vector<std::size_t> episodes;
+    for (const auto& [excess, e] : shows) episodes.push_back(e);
+    return episodes;
+  }
+
+  bool on_both_sides(const StageGap& stage, const Sets& sets) const {
+    const auto shows = of(stage);
+    const auto among = [&](const std::vector<std::size_t>& side) {
+      return std::ranges::any_of(shows, [&](auto e) { return std::ranges::count(side, e) > 0; });
+    };
+    return among(sets.train) && among(sets.held_out);
+  }
+
+ private:
+  std::map<std::size_t, std::vector<StageGap>> gaps_;
+};
+
+/// The open stages, the loudest first.
+std::vector<StageGap> open_stages(const Sets& sets, const Trials& plain,
+                                  const WhereOptions& options) {
+  auto gaps = where(plain, plain.bare(), sets.all(), options);
+  std::erase_if(gaps, [](const StageGap& gap) { return !gap.open; });
+  return gaps;
+}
+
+/// The row by which half of a stage's excess, Σ (z² − 1), has passed.
+std::size_t middle_row(const Trials& plain, std::size_t episode, const StageGap& stage) {
+  const residuals::Explanation& e = plain.bare().of_episode[episode];
+  const auto z = plain.whitened(plain.bare(), episode);
+  const std::size_t windows = e.rows.size();
+  std::vector<double> passed{0};
+  for (std::size_t k = 0; k < windows; ++k) {
+    double here = 0;
+    for (std::size_t r = 0; r < e.residuals.size(); ++r)
+      if (same_stage(e.residuals[r], stage.stage, stage.on) && !std::isnan(z[r * windows + k]))
+        here += z[r * windows + k] * z[r * windows + k] - 1;
+    passed.push_back(passed.back() + here);
+  }
+  const double half = passed.back() / 2;
+  std::size_t k = 1;
+  while (k + 1 < windows && passed[k] < half) ++k;
+  return e.rows[k];
+}
+
+std::pair<residuals::Episode, residuals::Episode> parts_of(const residuals::Episode& whole,
+                                                           std::size_t row) {
+  std::pair<residuals::Episode, residuals::Episode> parts{whole, whole};
+  parts.first.judged_until = parts.second.judged_from = row;
+  return parts;
+}
+
+/// Each part alone shows that the stage is open.
+bool both_show(const Cut& cut, const Trials& plain, const WhereOptions& options) {
+  const auto [first, second] = parts_of(plain.episodes()[cut.episode], cut.row);
+  for (const residuals::Episode& part : {first, second}) {
+    const auto gaps = where(plain.nominal(), std::span(&part, 1), options);
+    const auto gap = find_stage(gaps, cut.stage, cut.on);
+    if (gap == gaps.end() || !gap->open) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Sets hold_out_what_shows(Sets sets, const Trials& plain, const WhereOptions& options) {
+  const auto open = open_stages(sets, plain, options);
+  const Showing showing(sets, plain, options);
+  if (open.empty() || showing.on_both_sides(open[0], sets)) return sets;
+  const auto shows = showing.of(open[0]);
+  if (shows.size() < 2) return sets;
+  const auto all = sets.all();
+  sets.held_out = {shows[shows.size() - 2]};  // the very best is to learn from
+  sets.train = all;
+  std::erase(sets.train, sets.held_out[0]);
+  return sets;
+}
+
+std::vector<Cut> cuts(const Sets& sets, const Trials& plain, const WhereOptions& options) {
+  constexpr double worth = 0.05;  // of the gap: for less no recording is cut; chosen
+  const Showing showing(sets, plain, options);
+  std::vector<Cut> cuts;
+  for (const StageGap& stage : open_stages(sets, plain, options)) {
+    const auto shows = showing.of(stage);
+    if (stage.share < worth || shows.empty() || showing.on_both_sides(stage, sets)) continue;
+    const Cut cut{shows.back(), middle_row(plain, shows.back(), stage), stage.stage, stage.on};
+    if (std::ranges::count(cuts, cut.episode, &Cut::episode) == 0 && both_show(cut, plain, options))
+      cuts.push_back(cut);
+  }
+  return cuts;
+}
+
+void cut_in_two(const Cut& cut, std::vector<residuals::Episode>& episodes, Sets& sets) {
+  auto [first, second] = parts_of(episodes[cut.episode], cut.row);
+  episodes[cut.episode] = std::move(first);
+  episodes.push_back(std::move(second));
+  std::erase(sets.train, cut.episode), std::erase(sets.held_out, cut.episode);
+  sets.train.push_back(cut.episode), sets.held_out.push_back(episodes.size() - 1);
+}
+
+}  // namespace sim::diagnosis

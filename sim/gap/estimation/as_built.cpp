@@ -1,0 +1,203 @@
+#include "sim/gap/estimation/as_built.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "sim/gap/estimation/beyond.hpp"
+#include "sim/gap/estimation/settle.hpp"
+
+namespace sim::estimation {
+namespace {
+
+using effects::Placed;
+
+/// More than three stages and a fifth of them keep more than noise: no few effects do that; chosen.
+bool is_widespread(const Found& found) {
+  const std::size_t open = stages_kept(found);
+  return open > 3 && 5 * open > found.tolerated.size();
+}
+
+/// −2 log of its evidence, by Laplace's approximation: constants that recordings determine had room before.
+double evidence_cost(const AsBuilt& built) {
+  const Eigen::Index n = Eigen::Index(built.uncertain.constants.size());
+  const Eigen::MatrixXd of_constants = built.estimate.covariance.topLeftCorner(n, n);
+  return built.cost - of_constants.ldlt().vectorD().array().log().sum();
+}
+
+/// The one stage that keeps more than noise; of a drive, whose laws all act at one, none.
+std::optional<std::size_t> only_open_stage(const Evidence& evidence, const Found& found) {
+  const auto open = open_stages(found);
+  if (!evidence.nominal.drives.empty() || stages_kept(found) != 1) return std::nullopt;
+  return std::size_t(std::ranges::find(open, true) - open.begin());
+}
+
+/// The effect that was added last, and those that came near it.
+std::vector<Placed> hints_of(const Found& found) {
+  std::vector<Placed> hints{found.train.point.effects.back()};
+  for (const Sized& rival : found.rivals.back().all) hints.push_back(rival.effect);
+  return hints;
+}
+
+/// A robot all as described but for effects, and for what is never certain.
+class AsDescribed {
+ public:
+  explicit AsDescribed(const Evidence& evidence)
+      : evidence_(evidence),
+        built_{.uncertain = uncertain_of(evidence.nominal, options().search.withhold, true),
+               .exact = true},
+        search_(evidence.train, evidence.held_out, built_.uncertain, options().search),
+        found_(search_.with({})) {
+    if (const auto stage = only_open_stage(evidence_, found_)) describe_unknown_law(*stage);
+  }
+  AsDescribed(const AsDescribed&) = delete;
+
+  /// With one effect if any relieves it, and those that would explain most as `hints`.
+  void find_first() {
+    if (!explains())
+      if (auto first = search_.best_beside(found_)) {
+        hints = hints_of(*first);
+        if (relieves(*first, found_)) found_ = std::move(*first);
+      }
+    if (explains()) compare_suggested();
+  }
+  void find_others() {
+    if (!is_widespread(found_))
+      found_ = search_.run(std::move(found_), options().search.most_effects);
+    compare_suggested();
+  }
+  bool explains() const { return !keeps(found_); }
+  AsBuilt answer() const {
+    AsBuilt built = built_;
+    take(built, found_);
+    built.cost = found_.cost;
+    list_uncertain(built);
+    return built;
+  }
+
+  /// One law that the library lacks, at the only stage that shows a gap; none where several do.
+  std::optional<AsBuilt> unknown_law;
+  std::vector<Placed> hints;
+
+ private:
+  /// That stage counts as explained.
+  void describe_unknown_law(std::size_t stage) {
+    constexpr double price = 30;  // −2 log of the odds of such a law; chosen
+    unknown_law = answer();
+    unknown_law->unknown_law = true;
+    unknown_law->cost += price - misfit(found_.on_train, evidence_.train.residuals(), stage) -
+                         misfit(found_.held_out, evidence_.held_out, stage);
+  }
+  const AsBuiltOptions& options() const { return evidence_.options; }
+  void compare_suggested() {
+    const auto& suggested = options().suggested;
+    if (suggested.empty() || are_same(found_.train.point.effects, suggested)) return;
+    if (Found other = search_.with(suggested); other.cost < found_.cost) found_ = std::move(other);
+  }
+
+  const Evidence& evidence_;
+  AsBuilt built_;
+  Search search_;
+  Found found_;
+};
+
+/// All constants uncertain.
+class WithTolerances {
+ public:
+  explicit WithTolerances(const Evidence& evidence)
+      : evidence_(evidence),
+        built_{.uncertain =
+                   uncertain_of(evidence.nominal, evidence.options.search.withhold, false)},
+        search_(evidence.train, evidence.held_out, built_.uncertain, evidence.options.search),
+        found_(settle(search_, search_.with({}), evidence_, built_)) {}
+  WithTolerances(const WithTolerances&) = delete;
+
+  /// The constants alone explain, and so many parts of the robot are clearly off that no few effects
+  /// could be instead.
+  bool explain_plainly() const {
+    constexpr double clear = 3;  // standard deviations; chosen
+    std::set<std::pair<std::string, effects::Stage>> places;
+    for (std::size_t k = 0; k < built_.uncertain.constants.size(); ++k) {
+      const Constant& c = built_.uncertain.constants[k];
+      if (!is_never_certain(c) && determined(built_, k) > well_determined &&
+          std::abs(built_.estimate.point.x[k]) > clear * built_.estimate.sigma(k))
+        places.emplace(c.on, c.stage);
+    }
+    return !built_.keeps && places.size() > evidence_.options.search.most_effects;
+  }
+  /// With effects where constants alone leave more than noise, or where one could stand for constants
+  /// that are far off.
+  AsBuilt answer(const std::vector<Placed>& hints) {
+    if (built_.keeps)
+      settle(search_, search_.run(std::move(found_), evidence_.options.search.most_effects),
+             evidence_, built_);
+    return or_effect(evidence_, built_, hints);
+  }
+
+ private:
+  const Evidence& evidence_;
+  AsBuilt built_;
+  Search search_;
+  Found found_;
+};
+
+/// Of the two hypotheses the one with more evidence. All constants are tried only where one effect on the robot as described leaves more
+/// than noise; more effects on that only where the constants do not plainly explain.
+AsBuilt likelier(const Evidence& evidence, AsDescribed& described) {
+  described.find_first();
+  if (described.explains()) return described.answer();
+  WithTolerances with(evidence);
+  if (with.explain_plainly()) return with.answer(described.hints);
+  described.find_others();
+  AsBuilt one = described.answer();
+  if (!one.keeps) return one;
+  AsBuilt other = with.answer(described.hints);
+  return evidence_cost(other) < evidence_cost(one) ? other : one;
+}
+
+/// That, or a law that the library lacks, if the answer has several causes beside estimated constants and less evidence.
+AsBuilt likeliest(const Evidence& evidence) {
+  constexpr std::size_t few = 2;  // causes; chosen
+  AsDescribed described(evidence);
+  AsBuilt best = likelier(evidence, described);
+  const auto& unknown = described.unknown_law;
+  const std::size_t causes = best.beyond.size() + best.estimate.point.effects.size();
+  const bool is_unknown = unknown && !best.exact && !best.keeps && causes > few &&
+                          evidence_cost(*unknown) < evidence_cost(best);
+  return is_unknown ? *unknown : best;
+}
+
+}  // namespace
+
+double determined(const AsBuilt& built, std::size_t constant) {
+  return std::max(0.0, 1 - std::pow(built.estimate.sigma(constant), 2));
+}
+
+AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                   const EstimateOptions& options) {
+  const Estimator estimator(nominal, train, options);
+  AsBuilt built{.uncertain = uncertain_of(nominal, {}, false)};
+  built.estimate = estimator.run(built.uncertain, {});
+  settle_far_off(estimator, built);
+  built.robot = robot_at(built.uncertain, built.estimate.point);
+  return built;
+}
+
+Sized estimated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                const effects::Placed& effect, const EstimateOptions& options) {
+  const Estimator estimator(nominal, train, options);
+  return sized(estimator.run(uncertain_of(nominal, {}, true), {{}, {effect}})).front();
+}
+
+AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> train,
+                 std::span<const residuals::Episode> held_out, const AsBuiltOptions& options) {
+  const Estimator estimator(nominal, train, options.estimate);
+  const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
+  AsBuilt built = likeliest({nominal, estimator, judged, options});
+  built.robot = robot_at(built.uncertain, built.estimate.point);
+  return built;
+}
+
+}  // namespace sim::estimation

@@ -1,0 +1,174 @@
+#include "sim/gap/estimation/far_off.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sim::estimation {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Set = std::vector<std::size_t>;
+
+/// The minimum of the linear model for one set of constants that are far off; cost: −2 log of its evidence.
+struct Minimum {
+  VectorXd x;
+  MatrixXd covariance;
+  double cost = 0;
+};
+
+class LinearModel {
+ public:
+  LinearModel(const Uncertain& uncertain, const Estimate& e)
+      : uncertain_(uncertain), from_(VectorXd::Zero(e.jacobian.cols())) {
+    const auto weighted = e.weight.asDiagonal() * e.jacobian;
+    hessian_ = MatrixXd(e.jacobian.transpose() * weighted);
+    gradient_ = e.jacobian.transpose() * e.weight.cwiseProduct(e.z);
+    for (std::size_t k = 0; k < constants(); ++k) from_[Index(k)] = e.point.x[k];
+  }
+
+  std::size_t constants() const { return uncertain_.constants.size(); }
+
+  Minimum minimum(const Set& far) const {
+    VectorXd prior = VectorXd::Zero(hessian_.rows());
+    for (Index k = 0; k < prior.size(); ++k)
+      prior[k] = std::size_t(k) < constants() ? 1 : 1e-9 * hessian_(k, k) + 1e-12;
+    Minimum m;
+    for (const std::size_t k : far)
+      prior[Index(k)] = far_precision(of(k)), m.cost += far_price(of(k));
+    MatrixXd whole = hessian_;
+    whole.diagonal() += prior;
+    const auto factors = whole.ldlt();
+    m.covariance = factors.solve(MatrixXd::Identity(whole.rows(), whole.cols()));
+    m.cost += factors.vectorD().array().log().sum();
+    m.x = m.covariance * (hessian_ * from_ - gradient_);
+    const VectorXd moved = m.x - from_;
+    m.cost += moved.dot(hessian_ * moved + 2 * gradient_) + m.x.dot(prior.cwiseProduct(m.x));
+    return m;
+  }
+
+  /// Cost with a constant in the set as well. Of a quadratic form less δ x_k² the minimum is lower by
+  /// δ x_k²/(1 − δ C_kk), the determinant (1 − δ C_kk) times as large: Sherman and Morrison.
+  double with(const Minimum& m, std::size_t k) const {
+    const double less = 1 - far_precision(of(k)), x = m.x[Index(k)];
+    const double left = 1 - less * m.covariance(Index(k), Index(k));
+    return m.cost + far_price(of(k)) + std::log(left) - less * x * x / left;
+  }
+
+  /// Not beyond what makes sense of it.
+  bool may_be_far(const Minimum& m, std::size_t k) const {
+    const double left = 1 - (1 - far_precision(of(k))) * m.covariance(Index(k), Index(k));
+    return of(k).nominal + of(k).tolerance * m.x[Index(k)] / left > of(k).lowest;
+  }
+
+ private:
+  const Constant& of(std::size_t k) const { return uncertain_.constants[k]; }
+
+  const Uncertain& uncertain_;
+  VectorXd from_, gradient_;
+  MatrixXd hessian_;
+};
+
+/// The constant that makes the set cheapest, and that cost; none: infinite.
+std::pair<std::size_t, double> cheapest(const LinearModel& model, const Minimum& m,
+                                        const Set& far) {
+  std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < model.constants(); ++k)
+    if (std::ranges::count(far, k) == 0 && model.may_be_far(m, k))
+      if (const double cost = model.with(m, k); cost < best.second) best = {k, cost};
+  return best;
+}
+
+Set without(Set far, std::size_t k) {
+  std::erase(far, k);
+  return far;
+}
+
+/// One that costs more than it saves, beside those that came after it, goes.
+bool drop(const LinearModel& model, Set& far, Minimum& m) {
+  for (const std::size_t k : far) {
+    const Set others = without(far, k);
+    Minimum less = model.minimum(others);
+    if (!(less.cost < m.cost - 1e-9)) continue;
+    far = others, m = std::move(less);
+    return true;
+  }
+  return false;
+}
+
+/// Each gives way to another that costs less in its place.
+bool exchange(const LinearModel& model, Set& far, Minimum& m) {
+  for (std::size_t& k : far) {
+    const Set others = without(far, k);
+    const auto [other, cost] = cheapest(model, model.minimum(others), others);
+    if (other == k || !(cost < m.cost - 1e-9)) continue;
+    k = other, m = model.minimum(far);
+    return true;
+  }
+  return false;
+}
+
+Deviation deviation(const Minimum& m, std::size_t k) {
+  return {k, m.x[Index(k)], std::sqrt(m.covariance(Index(k), Index(k)))};
+}
+
+std::vector<Deviation> instead_of(const LinearModel& model, const Set& far, double cost,
+                                  std::size_t k) {
+  constexpr double margin = 4;  // of the cost; chosen
+  const Set others = without(far, k);
+  const Minimum m = model.minimum(others);
+  std::vector<std::pair<double, Deviation>> near;
+  for (std::size_t other = 0; other < model.constants(); ++other) {
+    if (other == k || std::ranges::count(far, other) || !model.may_be_far(m, other)) continue;
+    if (const double with = model.with(m, other); with < cost + margin) {
+      Set set = others;
+      set.push_back(other);
+      near.emplace_back(with, deviation(model.minimum(set), other));
+    }
+  }
+  std::ranges::sort(near, {}, [](const auto& n) { return n.first; });
+  std::vector<Deviation> all;
+  for (const auto& [with, other] : near) all.push_back(other);
+  return all;
+}
+
+}  // namespace
+
+Sized as_effect(const Constant& c, const Deviation& d) {
+  effects::Placed placed{c.on, *effects::neutral(c.effect)};
+  const effects::Parameter p = effects::parameters(placed.effect)[0];
+  *p.value = std::clamp(c.effect_scale * (c.value(d.x) - c.nominal), p.bounds.low, p.bounds.high);
+  Sized sized{placed, {std::abs(c.effect_scale) * c.tolerance * d.sigma}};
+  for (const effects::Parameter& other : effects::parameters(placed.effect))
+    if (estimation::is_estimated(other) && other.value != p.value) sized.sigma.push_back(0);
+  return sized;
+}
+
+bool is_worth_far(const Constant& c, double x) {
+  return x * x * (1 - far_precision(c)) > far_price(c) - 2 * std::log(c.far);
+}
+
+FarOff far_off(const Uncertain& uncertain, const Estimate& estimate) {
+  const LinearModel model(uncertain, estimate);
+  Set far;
+  Minimum m = model.minimum(far);
+  while (far.size() < model.constants()) {
+    const auto [k, cost] = cheapest(model, m, far);
+    if (!(cost < m.cost)) break;
+    far.push_back(k), m = model.minimum(far);
+    while (drop(model, far, m) || exchange(model, far, m)) {
+    }
+  }
+  std::ranges::sort(far, std::greater(), [&](std::size_t k) { return std::abs(m.x[Index(k)]); });
+  FarOff found;
+  for (const std::size_t k : far) {
+    found.all.push_back(deviation(m, k));
+    found.instead.push_back(instead_of(model, far, m.cost, k));
+  }
+  return found;
+}
+
+}  // namespace sim::estimation

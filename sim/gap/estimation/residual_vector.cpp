@@ -1,0 +1,225 @@
+#include "sim/gap/estimation/residual_vector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <ranges>
+
+#include "interfaces/parallel/in_parallel.hpp"
+#include "sim/gap/residuals/band.hpp"
+#include "sim/gap/residuals/floor.hpp"
+
+namespace sim::estimation {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// What other noise changes in a stage, over as many windows as both have.
+struct Changes {
+  std::vector<double> squares = {};
+
+  double rms() const { return root_of_mean(squares.end()); }
+  /// Without the hundredth that changes most: one window that comes to be judged is no noise.
+  double usual() {
+    constexpr double part = 0.99;  // chosen
+    const auto end = squares.begin() + std::ptrdiff_t(part * double(squares.size()));
+    if (end != squares.end()) std::ranges::nth_element(squares, end);
+    return root_of_mean(end);
+  }
+  void add(const residuals::Residual& real, const residuals::Residual& disturbed) {
+    for (std::size_t k = 0; k < disturbed.value.size(); ++k)
+      if (const double change = disturbed.value[k] - real.value[k];
+          !std::isnan(change) && !residuals::banded(real, k) && !residuals::banded(disturbed, k))
+        squares.push_back(change * change);
+  }
+
+ private:
+  double root_of_mean(std::vector<double>::const_iterator end) const {
+    const auto count = double(end - squares.begin());
+    return count > 0 ? std::sqrt(std::accumulate(squares.begin(), end, 0.0) / count) : 0;
+  }
+};
+
+std::vector<Changes> changes_by_stage(const Explained& explained) {
+  std::vector<Changes> all(explained.real.front().residuals.size());
+  for (std::size_t e = 0; e < explained.real.size(); ++e)
+    for (std::size_t s = 0; s < all.size(); ++s)
+      all[s].add(explained.real[e].residuals[s], explained.disturbed[e].residuals[s]);
+  return all;
+}
+
+/// The first rows of an episode.
+void cut(residuals::Episode& e, std::size_t rows) {
+  const auto cut = [&](residuals::Signal& s) { s.resize(std::min(s.size(), rows)); };
+  for (residuals::ActuatorSignals& s : e.actuators)
+    for (residuals::Signal* each : {&s.mode, &s.reference, &s.voltage_V, &s.current_A, &s.shaft_rad,
+                                    &s.tension_N, &s.sent, &s.followed})
+      cut(*each);
+  for (residuals::JointSignals& j : e.joints) {
+    cut(j.angle_rad);
+    for (residuals::Signal& part : j.quaternion) cut(part);
+  }
+  e.rows = std::min(e.rows, rows);
+}
+
+}  // namespace
+
+ResidualVector::ResidualVector(const erp::Robot& nominal,
+                               std::span<const residuals::Episode> episodes, std::uint64_t seed,
+                               int threads)
+    : episodes_(episodes) {
+  for (const residuals::Episode& episode : episodes)
+    disturbed_.push_back(residuals::said_again(episode, nominal, seed));
+  Explained bare = explain(nominal, threads);
+  bare_ = bare.real;
+  for (const residuals::Explanation& e : bare_) {
+    stages_ = e.residuals.size();
+    for (std::size_t r = 0; r < stages_; ++r) {
+      blocks_.push_back({r, size_, Index(e.residuals[r].value.size())});
+      size_ += blocks_.back().count;
+    }
+  }
+  floors_ = floors(bare);
+  count_independent(bare);
+  cut_disturbed(nominal, bare);
+}
+
+void ResidualVector::count_independent(const Explained& nominal) {
+  independent_.assign(stages_, 0);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t e = b / stages_, r = b % stages_;
+    const auto &real = nominal.real[e].residuals[r].value,
+               &disturbed = nominal.disturbed[e].residuals[r].value;
+    std::vector<double> noise;
+    for (std::size_t k = 0; k < real.size(); ++k)
+      if (const double change = disturbed[k] - real[k]; !std::isnan(change))
+        noise.push_back(change);
+    independent_[r] += double(noise.size()) / correlated(noise);
+  }
+}
+
+/// Of a whole episode, what other noise changes in each stage.
+std::vector<double> ResidualVector::floors(const Explained& explained) const {
+  std::vector<double> all;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    Changes changes;
+    changes.add(explained.real[b / stages_].residuals[b % stages_],
+                explained.disturbed[b / stages_].residuals[b % stages_]);
+    all.push_back(changes.rms());
+  }
+  return all;
+}
+
+/// Where every stage has enough windows in them, first parts stand for whole episodes.
+void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nominal) {
+  constexpr double part = 1 / 3.0, enough = part / 2;  // of rows, and of windows; chosen
+  const std::vector<Changes> whole = changes_by_stage(nominal);
+  std::vector<residuals::Episode> first = disturbed_;
+  Explained cut_nominal{nominal.real, {}};
+  for (std::size_t e = 0; e < first.size(); ++e) {
+    const std::size_t from = first[e].judged_from,
+                      until = std::min(first[e].judged_until, first[e].rows);
+    cut(first[e], from + std::size_t(part * double(until - std::min(from, until))));
+    cut_nominal.disturbed.push_back(residuals::Stages(robot).explain(first[e]));
+  }
+  std::vector<Changes> of_first = changes_by_stage(cut_nominal);
+  const auto is_seen = [&](std::size_t s) {
+    return double(of_first[s].squares.size()) >= enough * double(whole[s].squares.size());
+  };
+  if (std::ranges::all_of(std::views::iota(std::size_t(0), stages_), is_seen))
+    disturbed_ = std::move(first);
+  else of_first = whole;
+  for (Changes& c : of_first) first_floors_.push_back(c.usual());
+}
+
+std::vector<double> ResidualVector::raised(const Explained& explained) const {
+  std::vector<double> all(stages_, 1.0);
+  std::vector<Changes> changes = changes_by_stage(explained);
+  for (std::size_t s = 0; s < stages_; ++s)
+    if (first_floors_[s] > 0) all[s] = changes[s].usual() / first_floors_[s];
+  return all;
+}
+
+Explained ResidualVector::explain(const erp::Robot& robot, int threads) const {
+  const std::size_t count = episodes_.size();
+  Explained all{std::vector<residuals::Explanation>(count),
+                std::vector<residuals::Explanation>(count)};
+  in_parallel(2 * count, threads, [&](std::size_t n) {
+    const std::size_t e = n / 2;
+    if (n % 2) all.disturbed[e] = residuals::Stages(robot).explain(disturbed_[e]);
+    else all.real[e] = residuals::Stages(robot).explain(episodes_[e]);
+  });
+  return all;
+}
+
+Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base,
+                                  const residuals::Reach& reach) const {
+  residuals::Stages stages(robot);
+  Explained all;
+  for (std::size_t e = 0; e < episodes_.size(); ++e) {
+    all.real.push_back(stages.explain(episodes_[e], base.real[e], reach));
+    all.disturbed.push_back(stages.explain(disturbed_[e], base.disturbed[e], reach));
+  }
+  return all;
+}
+
+namespace {
+
+/// A residual in units of its noise. Where friction has a band the sign is that of the nominal robot's residual: within
+/// a band a residual has none, and a sign that changed between robots would be a jump.
+double with_fixed_sign(const residuals::Residual& nominal, const residuals::Residual& r,
+                std::size_t window, double floor) {
+  const double z = residuals::in_noise(r, window, floor), was = nominal.value[window];
+  if (!residuals::banded(nominal, window) && !residuals::banded(r, window)) return z;
+  return std::copysign(z, was != 0 ? was : window % 2 ? -1 : 1);
+}
+
+}  // namespace
+
+VectorXd ResidualVector::z(const Explained& explained) const {
+  VectorXd z = VectorXd::Zero(size_);
+  const auto raised = this->raised(explained);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t e = b / stages_, r = b % stages_;
+    const auto &was = bare_[e].residuals[r], &is = explained.real[e].residuals[r];
+    const double floor = floors_[b] * raised[r];
+    for (std::size_t k = 0; k < was.value.size() && floor > 0; ++k) {
+      if (std::isnan(was.value[k])) continue;
+      const auto& taken = std::isnan(is.value[k]) ? was : is;
+      z[blocks_[b].first + Index(k)] = with_fixed_sign(was, taken, k, floor);
+    }
+  }
+  return z;
+}
+
+double correlated(std::span<const double> series) {
+  constexpr std::size_t furthest = 50;  // windows: a second
+  constexpr double small = 0.05;        // a correlation; chosen
+  double square = 0;
+  for (const double x : series) square += x * x;
+  double sum = 1;
+  for (std::size_t lag = 1; lag < std::min(furthest, series.size()) && square > 0; ++lag) {
+    double product = 0;
+    for (std::size_t k = lag; k < series.size(); ++k) product += series[k] * series[k - lag];
+    if (product < small * square) break;
+    sum += 2 * product / square;
+  }
+  return sum;
+}
+
+VectorXd tiny_change(const VectorXd& after, const VectorXd& before) {
+  constexpr double most = 20, usual = 0.99;  // times the size that so many stay below; chosen
+  VectorXd change = after - before;
+  std::vector<double> sizes;
+  for (const double c : change)
+    if (c != 0) sizes.push_back(std::abs(c));
+  if (sizes.empty()) return change;
+  const auto at = sizes.begin() + std::ptrdiff_t(usual * double(sizes.size() - 1));
+  std::ranges::nth_element(sizes, at);
+  const double jump = most * *at;
+  return change.unaryExpr([&](double c) { return std::abs(c) > jump ? 0.0 : c; });
+}
+
+}  // namespace sim::estimation

@@ -1,0 +1,107 @@
+#include "sim/gap/estimation/row_timing.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "interfaces/recording/table.hpp"
+
+namespace sim::estimation {
+namespace {
+
+using residuals::ActuatorSignals;
+using residuals::Signal;
+
+constexpr std::size_t most_rows = 20;        // chosen
+constexpr std::size_t fewest_samples = 500;  // chosen
+constexpr double clear = 1.0 / 3;            // of the variance without a lag; chosen
+
+/// The normal equations of V on i, ω, di/dt and 1 for one lag.
+struct Regression {
+  Eigen::Matrix4d xx = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d xy = Eigen::Vector4d::Zero();
+  double yy = 0, count = 0;
+
+  void add(const Eigen::Vector4d& x, double y) {
+    xx += x * x.transpose(), xy += x * y, yy += y * y, ++count;
+  }
+  double variance() const {
+    return count > 0 ? std::max(0.0, yy - xy.dot(xx.ldlt().solve(xy))) / count : 0;
+  }
+};
+
+bool says(const ActuatorSignals& s) {
+  return !s.voltage_V.empty() && !s.current_A.empty() && !s.shaft_rad.empty() && !s.current_around;
+}
+
+void add(const ActuatorSignals& s, double period_s, std::vector<Regression>& lags) {
+  const std::size_t rows = s.shaft_rad.size();
+  for (std::size_t k = most_rows; k + 1 < rows; ++k) {
+    const double rate = (s.current_A[k] - s.current_A[k - 1]) / period_s;
+    const Eigen::Vector4d x(s.current_A[k], residuals::rate_of(s.shaft_rad, k, period_s), rate, 1);
+    bool taken = x.allFinite();
+    for (std::size_t lag = 0; lag <= most_rows && taken; ++lag)
+      taken = std::isfinite(s.voltage_V[k - lag]);
+    for (std::size_t lag = 0; lag <= most_rows && taken; ++lag)
+      lags[lag].add(x, s.voltage_V[k - lag]);
+  }
+}
+
+/// The lag of one actuator in all recordings; nothing: too little to see.
+std::optional<std::size_t> lag_of(std::span<const residuals::Episode> episodes, std::size_t a) {
+  std::vector<Regression> lags(most_rows + 1);
+  for (const residuals::Episode& e : episodes)
+    if (says(e.actuators[a])) add(e.actuators[a], e.period_s, lags);
+  if (lags[0].count < fewest_samples) return std::nullopt;
+  std::size_t best = 0;
+  for (std::size_t lag = 1; lag <= most_rows; ++lag)
+    if (lags[lag].variance() < lags[best].variance()) best = lag;
+  return lags[best].variance() < clear * lags[0].variance() ? best : 0;
+}
+
+Signal moved(const Signal& signal, std::size_t rows) {
+  Signal later(signal.size(), recording::not_taken);
+  for (std::size_t k = rows; k < signal.size(); ++k) later[k] = signal[k - rows];
+  return later;
+}
+
+}  // namespace
+
+RowTiming row_timing(std::span<const residuals::Episode> episodes) {
+  RowTiming timing{0, episodes.empty() ? 0 : episodes[0].period_s};
+  std::optional<std::size_t> common;
+  std::size_t actuators = 0;
+  for (std::size_t a = 0; !episodes.empty() && a < episodes[0].actuators.size(); ++a) {
+    const auto lag = lag_of(episodes, a);
+    if (!lag) continue;
+    if (common && *common != *lag) return timing;
+    common = lag, ++actuators;
+  }
+  if (common && (actuators > 1 || episodes[0].actuators.size() == 1)) timing.rows = *common;
+  return timing;
+}
+
+void undo(const RowTiming& timing, std::vector<residuals::Episode>& episodes,
+          std::vector<std::string>& remarks) {
+  if (timing.rows == 0) return;
+  for (residuals::Episode& e : episodes) {
+    for (ActuatorSignals& s : e.actuators) {
+      s.voltage_V = moved(s.voltage_V, timing.rows);
+      if (timing.from_row()) s.mode = moved(s.mode, 1), s.reference = moved(s.reference, 1);
+    }
+    if (timing.late()) e.voltage_late_s = timing.delay_s();
+  }
+  remarks.push_back(
+      timing.from_row()
+          ? "voltage, mode and reference hold from their row to the next, by the motors' law: "
+            "shifted by one row"
+          : fmt::format(
+                "voltages act {:.3g} ms after the row that gives them, or all sensors lag by "
+                "that time, by the motors' law: undone",
+                1e3 * timing.delay_s()));
+}
+
+}  // namespace sim::estimation

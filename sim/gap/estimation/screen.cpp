@@ -1,0 +1,242 @@
+#include "sim/gap/estimation/screen.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <tuple>
+
+#include "sim/gap/estimation/can_show.hpp"
+#include "sim/gap/estimation/directions.hpp"
+#include "sim/gap/estimation/initial_guesses.hpp"
+#include "sim/gap/estimation/periods.hpp"
+
+namespace sim::estimation {
+
+using effects::Placed;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// How far each size may be moved.
+struct StepBounds {
+  std::vector<double> low = {}, high = {};
+
+  bool leaves(const VectorXd& step, Index n) const {
+    return step[n] < low[std::size_t(n)] || step[n] > high[std::size_t(n)];
+  }
+  bool leaves(const VectorXd& step) const {
+    for (Index n = 0; n < step.size(); ++n)
+      if (leaves(step, n)) return true;
+    return false;
+  }
+};
+
+/// What an effect is added to.
+struct Beginning {
+  const Estimate& estimate;
+  const std::vector<bool>& open;
+  Left left;
+  VectorXd moved;   ///< of the unknowns, by a last step without it
+  double cost = 0;  ///< after that step
+};
+
+namespace {
+
+/// Whether it changes a stage that is open, or none is.
+bool changes(const ResidualVector& residuals, const MatrixXd& change,
+             const std::vector<bool>& open) {
+  constexpr double share = 1e-3;  // of the whole change; chosen
+  if (std::ranges::count(open, true) == 0) return true;
+  double of_open = 0;
+  for (const Block& b : residuals.blocks())
+    if (open[b.stage]) of_open += change.middleRows(b.first, b.count).squaredNorm();
+  return of_open > share * share * change.squaredNorm();
+}
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The step of sizes to the minimum of stepᵀ own step/2 − slopeᵀ step. One that is but a copy of what is
+/// estimated already, or that would leave its bounds, stays where it is. `whole`: as `own`, without what is
+/// estimated already.
+VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd& slope,
+                     const StepBounds& bounds) {
+  constexpr double copy = 1e-8, ridge = 1e-6;  // of its square; chosen
+  std::vector<Index> free;
+  for (Index n = 0; n < own.rows(); ++n)
+    if (own(n, n) > copy * whole(n, n)) free.push_back(n);
+  while (!free.empty()) {
+    MatrixXd of_free = own(free, free);
+    for (Index n = 1; n < of_free.rows(); ++n) of_free(n, n) *= 1 + ridge;
+    const VectorXd solved = of_free.ldlt().solve(slope(free));
+    VectorXd step = VectorXd::Zero(own.rows());
+    step(free) = solved;
+    if (std::erase_if(free, [&](Index n) { return bounds.leaves(step, n); }) == 0) return step;
+  }
+  return VectorXd::Zero(own.rows());
+}
+
+}  // namespace
+
+/// By the linear model of `base`, where its unknowns moved, with what an effect changes in z.
+double Screen::cost_at(const Estimate& base, const Left& left, const VectorXd& changed,
+                       const VectorXd& moved) const {
+  Point after = base.point;
+  for (std::size_t k = 0; k < after.x.size(); ++k) after.x[k] += moved[Index(k)];
+  const ResidualVector& residuals = train_.residuals();
+  const VectorXd z = base.z + changed + base.jacobian * moved;
+  return misfit(left_by(residuals, left, z), residuals) + prior_cost(uncertain_, after);
+}
+
+/// The best of 1, 2, 4 and 8 times a step, and what it gains: the quadratic model weighs windows that the cost cuts off.
+std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const Directions& all,
+                                                  const MatrixXd& shared, const VectorXd& step,
+                                                  const StepBounds& bounds) const {
+  constexpr int doublings = 3;  // chosen
+  std::pair best{0.0, step};
+  for (int n = 0; n <= doublings; ++n) {
+    const VectorXd by = std::exp2(n) * step;
+    if (n > 0 && bounds.leaves(by)) break;
+    const double gain =
+        begin.cost - cost_at(begin.estimate, begin.left, all.d * by, begin.moved - shared * by);
+    if (n > 0 && !(gain > best.first)) break;
+    best = {gain, by};
+  }
+  return best;
+}
+
+/// Of one shape: the values that would explain most, and what they would explain.
+Candidate Screen::score(const Beginning& begin, const Directions& all) const {
+  const Estimate& base = begin.estimate;
+  const MatrixXd wd = base.weight.asDiagonal() * all.d;
+  const MatrixXd shared = base.covariance * (base.jacobian.transpose() * wd);
+  MatrixXd own = all.d.transpose() * wd;
+  const MatrixXd whole = own;
+  own -= wd.transpose() * base.jacobian * shared;
+  Candidate candidate{all.shape, 0};
+  const auto values = effects::parameters(candidate.start.effect);
+  StepBounds bounds;
+  bool places = false;
+  for (std::size_t n = 0; n < all.sizes.size(); ++n) {
+    const effects::Parameter& p = values[all.sizes[n]];
+    const bool like = is_like(p, values[all.sizes[0]]);
+    places |= !like;
+    bounds.low.push_back(like ? (p.bounds.low - *p.value) / all.nudge[n] : -unlimited);
+    bounds.high.push_back(like ? (p.bounds.high - *p.value) / all.nudge[n] : unlimited);
+  }
+  VectorXd step = step_within(
+      own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), bounds);
+  if (step.isZero(0) || (places && step[0] == 0)) return candidate;
+  std::tie(candidate.score, step) = best_multiple(begin, all, shared, step, bounds);
+  candidate.others = begin.moved - shared * step;
+  for (std::size_t n = 0; n < all.sizes.size(); ++n) {
+    const effects::Parameter& p = values[all.sizes[n]];
+    const bool place = !is_like(p, values[all.sizes[0]]);
+    const double by = place ? step[Index(n)] / step[0] : step[Index(n)];
+    *p.value = std::clamp(*p.value + by * all.nudge[n], p.bounds.low, p.bounds.high);
+  }
+  return candidate;
+}
+
+/// Score of an initial guess at its values, without a step; the unknowns respond linearly.
+Candidate Screen::score_guess(const Beginning& begin, const Placed& guess,
+                              const VectorXd& changed) const {
+  const Estimate& base = begin.estimate;
+  const VectorXd others = begin.moved - base.covariance * (base.jacobian.transpose() *
+                                                           base.weight.cwiseProduct(changed));
+  return {guess, begin.cost - cost_at(base, begin.left, changed, others), others};
+}
+
+Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) const {
+  const Estimate& base = begin.estimate;
+  const erp::Robot robot = robot_at(uncertain_, base.point);
+  const residuals::Reach reach = residuals::Stages(robot).reach(neutral);
+  const ChangedBy z_with = [&](const Placed& placed) -> VectorXd {
+    erp::Robot with = robot;
+    with.effects.push_back(effects::written(placed));
+    return train_.residuals().z(train_.residuals().explain(with, base.explained, reach));
+  };
+  const ChangedBy changed_by = [&](const Placed& placed) {
+    return tiny_change(z_with(placed), base.z);
+  };
+  Candidate best{neutral, 0};
+  std::vector<const residuals::Episode*> recordings;
+  for (const residuals::Episode& e : train_.residuals().episodes()) recordings.push_back(&e);
+  for (const Placed& guess : initial_guesses(neutral, uncertain_.nominal, recordings)) {
+    const VectorXd change = z_with(guess) - base.z;
+    if (!changes(train_.residuals(), change, begin.open)) continue;
+    if (Candidate one = score_guess(begin, guess, change); one.score > best.score)
+      best = std::move(one);
+  }
+  const auto sizes = sizes_of(neutral);
+  std::vector<double> by = first_nudges(neutral, sizes);
+  for (const Placed& shape :
+       shaped(neutral, periods_of(neutral, robot, train_.residuals(), base))) {
+    std::vector<Directions> tried = secants(shape, sizes, changed_by);
+    tried.push_back(directions(shape, sizes, by, changed_by));
+    std::erase_if(tried, [&](const Directions& all) {
+      return !changes(train_.residuals(), all.d, begin.open);
+    });
+    if (tried.empty()) break;
+    for (const Directions& all : tried)
+      if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
+  }
+  return best;
+}
+
+bool Screen::is_searched(const effects::About& about) const {
+  if (about.stage == effects::Stage::bus || about.type.ends_with("_quantisation")) return false;
+  if (std::ranges::count(withhold_, about.type)) return false;
+  return std::ranges::none_of(uncertain_.constants,
+                              [&](const Constant& c) { return about.type == c.effect; });
+}
+
+namespace {
+
+/// Its score, the value of each parameter, then the others.
+Pool::Numbers numbers_of(Candidate candidate) {
+  Pool::Numbers numbers{candidate.score};
+  for (const effects::Parameter& p : effects::parameters(candidate.start.effect))
+    numbers.push_back(*p.value);
+  numbers.insert(numbers.end(), candidate.others.begin(), candidate.others.end());
+  return numbers;
+}
+
+Candidate candidate_of(Placed effect, const Pool::Numbers& numbers) {
+  const auto parameters = effects::parameters(effect.effect);
+  for (std::size_t n = 0; n < parameters.size(); ++n) *parameters[n].value = numbers[n + 1];
+  const std::size_t before = parameters.size() + 1;
+  return {std::move(effect), numbers[0],
+          VectorXd::Map(numbers.data() + before, Index(numbers.size() - before))};
+}
+
+}  // namespace
+
+std::vector<Candidate> Screen::candidates(const Estimate& base,
+                                          const std::vector<bool>& open) const {
+  Beginning begin{base, open, left_by(train_.residuals(), base.explained, base.z),
+                  -(base.covariance * base.gradient)};
+  begin.cost = cost_at(base, begin.left, VectorXd::Zero(base.z.size()), begin.moved);
+  std::vector<Placed> all;
+  for (const effects::AnyEffect& effect : effects::library()) {
+    const effects::About& about = effects::about(effect);
+    if (!is_searched(about)) continue;
+    for (const std::string& on : effects::places(uncertain_.nominal, about.seat))
+      if (can_show({on, effect}, uncertain_.nominal, train_.residuals().episodes()) &&
+          std::ranges::none_of(base.point.effects, [&](const Placed& p) {
+            return p.on == on && p.effect.index() == effect.index();
+          }))
+        all.push_back({on, effect});
+  }
+  const EstimateOptions& options = train_.options();
+  const auto found = map(options.pool, options.threads, all.size(),
+                         [&](std::size_t k) { return numbers_of(best_shape(begin, all[k])); });
+  std::vector<Candidate> screened;
+  for (std::size_t k = 0; k < all.size(); ++k) screened.push_back(candidate_of(all[k], found[k]));
+  std::erase_if(screened, [](const Candidate& c) { return !(c.score > 0); });
+  std::ranges::stable_sort(screened, std::greater(), &Candidate::score);
+  return screened;
+}
+
+}  // namespace sim::estimation

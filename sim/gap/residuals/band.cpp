@@ -1,0 +1,26 @@
+#include "sim/gap/residuals/band.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace sim::residuals {
+
+double left_of_noise(double band) {
+  constexpr double little = 1e-3, wide = 1e3;
+  if (band < little) return 1;
+  if (band > wide) return 0;
+  const auto third = [](double x) {
+    const double phi = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi);
+    return ((x * x * x + 3 * x) * std::erfc(-x / std::numbers::sqrt2) / 2 + (x * x + 2) * phi) / 3;
+  };
+  return (third(0) - third(-2 * band)) / band;
+}
+
+double in_noise(const Residual& residual, std::size_t window, double floor) {
+  const double z = residual.value[window] / floor;
+  if (!banded(residual, window)) return z;
+  const double hidden = 1 - left_of_noise(residual.band[window] / floor);
+  return std::copysign(std::sqrt(hidden + z * z), z);
+}
+
+}  // namespace sim::residuals

@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+
+#include "sim/gap/residuals/explanation.hpp"
+
+namespace sim::residuals {
+
+/// The residuals of an actuator's stages, motor, gearbox and tendon, that its signals allow; see
+/// stages.hpp.
+std::vector<Residual> chain_residuals(const ChainTrace& chain, const erp::Actuator& actuator,
+                                      const erp::MotorType& motor, const Episode& episode,
+                                      const Bump& bump, std::span<const std::size_t> rows);
+
+}  // namespace sim::residuals

@@ -1,0 +1,291 @@
+#include "sim/gap/residuals/chain_trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/gap/residuals/held_voltage.hpp"
+#include "sim/gap/residuals/signal_noise.hpp"
+
+namespace sim::residuals {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double resting_rad_per_s = 0.02;  // chosen: an encoder step in a few rows
+
+using effects::Sloped;
+
+/// The rows of one chain, one after the other.
+class Tracer {
+ public:
+  Tracer(ChainModel model, const ActuatorSignals& measured, const PathTrace& path, double period_s,
+         double speed_half_width_s, const ChainTrace* near)
+      : m_(std::move(model)),
+        in_(measured),
+        path_(path),
+        near_(near),
+        period_s_(period_s),
+        bump_(speed_half_width_s, period_s),
+        law_{Spring::of(m_.actuator.tendon), m_.actuator.tendon.damping_N_s_per_m,
+             m_.actuator.spindle.radius_m, 0} {
+    law_.rest_m = m_.start_m - law_.spring.stretch_m(m_.actuator.tendon.pretension_N);
+  }
+
+  ChainTrace run() {
+    undo_sensors();
+    out_.tension_measured = !in_.tension_N.empty(), out_.current_measured = !in_.current_A.empty();
+    if (!out_.current_measured) out_.current_averaged = 1;
+    rows_ = std::max({out_.shaft_rad.size(), in_.voltage_V.size(), in_.tension_N.size()});
+    out_.speed_rad_per_s = speeds();
+    const bool turning = !out_.shaft_rad.empty();
+    if (turning && !path_.length_m.empty())
+      out_.spring_N.assign(rows_, nan), out_.path_slope.assign(rows_, 1);
+    if (turning && !in_.voltage_V.empty())
+      out_.terminal_V.assign(rows_, nan), out_.resistance_ohm.assign(rows_, nan);
+    find_driver_delay();
+    samples_.reserve(rows_), wound_slope_.reserve(rows_), aged_Nm_.reserve(rows_);
+    for (std::size_t k = 0; k < rows_; ++k) take(k);
+    if (!out_.tension_measured) out_.tension_N = out_.spring_N;
+    find_drive();
+    return std::move(out_);
+  }
+
+ private:
+  void undo_sensors() {
+    const auto undone = [&](effects::Sense sense, const Signal& said) {
+      Signal value = said;
+      if (m_.effects.reaches(sense))
+        for (std::size_t k = 0; k < said.size(); ++k)
+          value[k] = m_.effects.undo(
+              sense, said[k],
+              {period_s_ * double(k), period_s_, m_.motor.gear_ratio, rate_of(said, k, period_s_)});
+      return value;
+    };
+    out_.current_averaged =
+        in_.current_around
+            ? 1
+            : m_.effects.averaged(effects::Sense::current, {0, period_s_, m_.motor.gear_ratio, 0});
+    out_.shaft_rad = undone(effects::Sense::shaft, in_.shaft_rad);
+    out_.current_A = undone(effects::Sense::current, in_.current_A);
+    out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
+  }
+
+  /// Whole periods of a late driver, and the rest.
+  void find_driver_delay() {
+    const double late_s = m_.effects.driver_delay_s();
+    late_rows_ = static_cast<std::size_t>(late_s / period_s_);
+    out_.driver_late_s = late_s - static_cast<double>(late_rows_) * period_s_;
+    around_ = two_periods(m_.motor, period_s_, out_.driver_late_s);
+  }
+
+  Signal speeds() const {
+    const bool same = near_ && std::ranges::equal(near_->shaft_rad, out_.shaft_rad);
+    return same ? near_->speed_rad_per_s : bump_.rates(out_.shaft_rad);
+  }
+
+  effects::ChainSample first() const {
+    effects::ChainSample s;
+    s.path_m = m_.start_m;
+    return s;
+  }
+  /// What was not taken is as it was before: effects that remember know of no gap.
+  effects::ChainSample& sample(std::size_t k) {
+    samples_.push_back(samples_.empty() ? first() : samples_.back());
+    effects::ChainSample& s = samples_.back();
+    const auto renew = [&](double& held, const Signal& signal, std::size_t row) {
+      if (!signal.empty() && !std::isnan(signal[row])) held = signal[row];
+    };
+    s.dt_s = period_s_;
+    s.supply_V = m_.motor.supply_V, s.gear_ratio = m_.motor.gear_ratio;
+    renew(s.voltage_V, in_.voltage_V, k), renew(s.current_A, out_.current_A, k);
+    renew(s.shaft_rad, out_.shaft_rad, k), renew(s.speed_rad_per_s, out_.speed_rad_per_s, k);
+    if (out_.tension_measured) renew(s.tension_N, out_.tension_N, k);
+    else if (k > 0) renew(s.tension_N, out_.spring_N, k - 1);
+    renew(s.path_m, path_.length_m, k), renew(s.wrap_rad, path_.wrap_rad, k);
+    if (const double square = square_A2(k); !std::isnan(square)) s.current_square_A2 = square;
+    s.radius_m = law_.radius_m;
+    s.load_Nm = s.radius_m * s.tension_N;
+    s.path_change_m = s.path_m - m_.start_m;
+    s.stretch_m = s.stiffness_N_per_m = s.line_speed_m_per_s = 0;  // not yet known
+    s.pushes = pushes_;
+    return s;
+  }
+  /// ⟨i²⟩ over the period that ends at a row: within it the current falls evenly as the motor
+  /// speeds up, i = i_k + (K_E N/R)(ω_k − ω).
+  double square_A2(std::size_t k) const {
+    if (k == 0 || out_.current_A.empty() || out_.speed_rad_per_s.empty()) return 0;
+    const double fall_A = m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio /
+                          m_.motor.resistance_ohm *
+                          (out_.speed_rad_per_s[k] - out_.speed_rad_per_s[k - 1]);
+    const double mean_A = out_.current_A[k] + fall_A / 2;
+    return mean_A * mean_A + fall_A * fall_A / 12;
+  }
+
+  void take(std::size_t k) {
+    effects::ChainSample& s = sample(k);
+    Sloped wound{s.radius_m * s.shaft_rad, s.radius_m}, path{s.path_m, 1}, pull;
+    if (!m_.effects.empty()) {
+      path = m_.effects.path(s, path);
+      const bool calmed = k < path_.calm_m.size() && !std::isnan(path_.calm_m[k]);
+      const double calm_m = calmed ? path.slope * (path_.calm_m[k] - s.path_m) : 0.0;
+      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
+      s.stiffness_N_per_m =
+          law_.spring.slope_N_per_m(pushes_ ? std::abs(s.stretch_m) : s.stretch_m);
+      wound = m_.effects.wound(s, wound);
+      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
+      pull = m_.effects.pull(s);
+    }
+    s.stretch_m = path.value - law_.rest_m + wound.value;
+    s.line_speed_m_per_s = wound.slope * s.speed_rad_per_s;
+    if (!out_.spring_N.empty()) stretch(k, s, path, wound, pull);
+    if (!out_.terminal_V.empty()) {
+      const double applied_V = k >= late_rows_ ? in_.voltage_V[k - late_rows_] : nan;
+      out_.terminal_V[k] = m_.effects.voltage_V(applied_V, s);
+      out_.resistance_ohm[k] = m_.effects.resistance_ohm(m_.motor.resistance_ohm, s);
+    }
+    wound_slope_.push_back(wound.slope);
+    aged_Nm_.push_back(m_.effects.aged_Nm(s));
+  }
+
+  void stretch(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
+               Sloped pull) {
+    const bool in_play = pushes_ && wound.slope == 0;  // neither end draws the other
+    const double rate =
+        in_play ? 0 : path.slope * path_.rate_m_per_s[k] + wound.slope * out_.speed_rad_per_s[k];
+    const double drawn_m = pushes_ ? std::abs(s.stretch_m) : std::max(0.0, s.stretch_m);
+    const double force = std::copysign(law_.spring.force_N(drawn_m), s.stretch_m) +
+                         law_.damping_N_s_per_m * rate + pull.value;
+    out_.spring_N[k] = pushes_ ? force : taut(s.stretch_m, rate) * std::max(0.0, force);
+    out_.path_slope[k] = path.slope;
+  }
+  /// The share of the period around a sample over which a line is taut. Without it the damping force of a line that
+  /// comes taut would jump from one sample to the next, and with it the derivative by a constant.
+  double taut(double stretch_m, double rate_m_per_s) const {
+    const double changes_m = std::abs(rate_m_per_s) * period_s_;
+    if (std::isnan(rate_m_per_s)) return nan;
+    return changes_m > 0 ? std::clamp(0.5 + stretch_m / changes_m, 0.0, 1.0) : stretch_m > 0;
+  }
+
+  /// i as measured; or, as the motor's law has it, its mean around the row, late by L/R.
+  double current_A(std::size_t k) const {
+    if (out_.current_measured) return out_.current_A[k];
+    if (k + 1 >= rows_) return nan;
+    const double late_s = m_.motor.inductance_H / out_.resistance_ohm[k] + out_.driver_late_s;
+    const double next_V = out_.terminal_V[k + 1], now_V = out_.terminal_V[k];
+    const double mean_V = (now_V + next_V) / 2 - late_s * (next_V - now_V) / period_s_;
+    const double answered =
+        out_.speed_rad_per_s[k] - late_s * rate_of(out_.speed_rad_per_s, k, period_s_);
+    return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * answered) /
+           out_.resistance_ohm[k];
+  }
+  /// ī over the two periods around row k, so weighed that it drives the change of their mean speeds;
+  /// a current that is a mean itself stays as it is.
+  double around_A(std::size_t k) const {
+    const double a = out_.current_averaged;
+    const auto& share = around_.drives;
+    double weighed = 0;
+    for (std::size_t j = 0; j < share.size(); ++j) weighed += share[j] * current_A(k - 1 + j);
+    const double late = around_.drives_per_V;  // 0: no driver is late
+    if (late != 0 && !out_.terminal_V.empty())
+      weighed += late * out_.terminal_V[k - 1] +
+                 around_.drives_per_speed * rate_of(out_.shaft_rad, k, period_s_);
+    return (1 - a) * weighed + a * current_A(k);
+  }
+
+  void find_drive() {
+    const bool driven = out_.current_measured || !out_.terminal_V.empty();
+    if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
+    out_.drive_Nm.assign(rows_, nan), out_.motor_Nm.assign(rows_, nan);
+    out_.unsure_Nm.assign(rows_, 0);
+    direction_ = directions();
+    for (std::size_t k = 1; k + 1 < rows_; ++k) {
+      out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * around_A(k);
+      const double omega = out_.speed_rad_per_s[k];
+      if (!(std::abs(omega) > resting_rad_per_s)) continue;
+      const double before = direction_[k], after = direction_[k + 1];
+      const double way = (before + after) / 2;
+      if (std::abs(way) == 1) {
+        out_.drive_Nm[k] = drive_Nm(k, way > 0 ? 1 : -1);
+        continue;
+      }
+      const double forwards = drive_Nm(k, 1), backwards = drive_Nm(k, -1);
+      out_.drive_Nm[k] = ((1 + way) * forwards + (1 - way) * backwards) / 2;
+      out_.unsure_Nm[k] =
+          (2 - std::abs(before) - std::abs(after)) / 4 * std::abs(forwards - backwards);
+    }
+  }
+
+  /// In which direction the shaft turned over the period that ends at each row, −1 … 1 in the mean. Its
+  /// speed changes evenly within a period, from what the periods beside have:
+  ///
+  ///   v = Δθ/T,  Δv = √(((v₊ − v₋)/2)² + (step/T)²),  s = 2 v/Δv within ±1
+  ///
+  /// step: what the encoder leaves unsure; where that is too much, v is the smoothed speed.
+  std::vector<double> directions() const {
+    const Signal& theta = out_.shaft_rad;
+    constexpr double little = 0.02;  // of the usual speed; chosen
+    const double unsure = unsure_rad() / period_s_;
+    const bool fine = unsure < std::max(resting_rad_per_s, little * rms(out_.speed_rad_per_s));
+    const auto speed = [&](std::size_t k) {
+      return fine ? (theta[k] - theta[k - 1]) / period_s_
+                  : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;
+    };
+    const double square_unsure = fine ? unsure * unsure : 0;
+    std::vector<double> all(rows_, nan);
+    for (std::size_t k = 2; k + 1 < rows_; ++k) {
+      const double v = speed(k), turned = (speed(k + 1) - speed(k - 1)) / 2,
+                   change = std::sqrt(turned * turned + square_unsure);
+      all[k] = change > 0 ? std::clamp(2 * v / change, -1.0, 1.0) : v > 0 ? 1 : -1;
+    }
+    return all;
+  }
+  /// The encoder's specified step, or the smallest in the recording if that is larger; not specified: noise.
+  double unsure_rad() const {
+    if (!(m_.shaft_step_rad > 0)) return noise_of(out_.shaft_rad);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < rows_; ++k)
+      if (const double turned = std::abs(out_.shaft_rad[k] - out_.shaft_rad[k - 1]);
+          turned > 0.5 * m_.shaft_step_rad)
+        least = std::min(least, turned);
+    return std::isfinite(least) ? std::max(m_.shaft_step_rad, least) : m_.shaft_step_rad;
+  }
+
+  double drive_Nm(std::size_t k, int way) {
+    const erp::MotorType& m = m_.motor;
+    const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
+    effects::ChainSample& s = samples_[k];
+    s.tension_N = out_.tension_N[k];
+    const double near_N =
+        m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
+    s.load_Nm = wound_slope_[k] * near_N;
+    const double dry =
+        std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(way, s) + aged_Nm_[k]);
+    const double load = m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm;
+    const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
+    return out_.motor_Nm[k] - n * (way * m.rotor_coulomb_Nm + m_.effects.rotor_Nm(s)) - load / e;
+  }
+
+  ChainModel m_;
+  const ActuatorSignals& in_;
+  const PathTrace& path_;
+  const ChainTrace* near_;
+  double period_s_;
+  TwoPeriods around_{};
+  Bump bump_;
+  TendonLaw law_;
+  bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission
+  std::size_t rows_ = 0, late_rows_ = 0;
+  Signal wound_slope_, aged_Nm_;
+  std::vector<effects::ChainSample> samples_;
+  std::vector<double> direction_;  ///< of each period
+  ChainTrace out_;
+};
+
+}  // namespace
+
+ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
+                 double period_s, double speed_half_width_s, const ChainTrace* near) {
+  return Tracer(std::move(model), measured, path, period_s, speed_half_width_s, near).run();
+}
+
+}  // namespace sim::residuals

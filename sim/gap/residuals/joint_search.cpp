@@ -1,0 +1,139 @@
+// Where joints were that a recording leaves out, or that a loose sensor tells too late.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/gap/residuals/indices.hpp"
+#include "sim/gap/residuals/pose_from_tendons.hpp"
+#include "sim/gap/residuals/stages.hpp"
+
+namespace sim::residuals {
+namespace {
+
+/// Without what the motors do: it is of no matter here.
+Episode lines_alone(const Episode& episode) {
+  Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
+  for (const ActuatorSignals& s : episode.actuators)
+    lines.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
+  return lines;
+}
+
+/// The most D/κ of some lines.
+double slowest_damper_s(const erp::Robot& robot, std::span<const std::size_t> lines) {
+  double slowest_s = 0;
+  for (const std::size_t a : lines) {
+    const erp::Tendon& tendon = robot.actuators[a].tendon;
+    slowest_s =
+        std::max(slowest_s, tendon.damping_N_s_per_m / Spring::of(tendon).slope_N_per_m(0));
+  }
+  return slowest_s;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
+  const auto& joints = bones_.joint_list();
+  std::vector<std::size_t> missing;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (std::ranges::count(recorded_joints_, joints[j].name) &&
+        joints[j].type != erp::JointType::free && !was_measured(trace.signals[j], joints[j].type))
+      missing.push_back(j);
+  return missing;
+}
+
+std::vector<std::size_t> Stages::telling_lines(const Episode& episode, const JointTrace& trace,
+                                               std::span<const std::size_t> missing) const {
+  const auto& joints = bones_.joint_list();
+  std::vector<std::size_t> lines;
+  for (std::size_t a = 0; a < episode.actuators.size(); ++a) {
+    const ActuatorSignals& s = episode.actuators[a];
+    const auto crossed = bones_.crossed_by(a);
+    const bool known = std::ranges::all_of(crossed, [&](std::size_t j) {
+      return std::ranges::count(missing, j) || was_measured(trace.signals[j], joints[j].type);
+    });
+    if (known && !equipped_.robot.actuators[a].tendon.path.empty() && !s.shaft_rad.empty() &&
+        !s.tension_N.empty())
+      lines.push_back(a);
+  }
+  return lines;
+}
+
+std::vector<ChainTrace> Stages::chains_of(const Episode& episode,
+                                          std::span<const std::size_t> lines,
+                                          const JointTrace& joints) {
+  const auto paths = this->paths(episode, joints, lines);
+  std::vector<ChainTrace> all;
+  for (std::size_t n = 0; n < lines.size(); ++n) all.push_back(chain(episode, lines[n], paths[n]));
+  return all;
+}
+
+void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
+  const auto missing = missing_joints(trace), lines = telling_lines(episode, trace, missing);
+  if (missing.empty() || lines.empty()) return;
+  const bool near = guess && guess->estimated;
+  if (near) trace.nearby = guess->nearby;
+  const Episode pulled = lines_alone(episode);
+  const auto chains = [&](const std::vector<JointSignals>& signals) {
+    return chains_of(pulled, lines, {.signals = signals, .nearby = trace.nearby});
+  };
+  const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s,
+                          slowest_damper_s(equipped_.robot, lines));
+  if (lines.size() < search.unknowns()) return;
+  constexpr int from_afar = 6, from_near = 2;  // steps, chosen
+  if (near)
+    for (const std::size_t j : missing) trace.signals[j] = guess->signals[j];
+  else search.start(trace.signals, episode.rows);
+  search.better(trace.signals, near ? from_near : from_afar, near ? from_near : 1);
+  trace.estimated = trace.by_lines = true;
+  if (!trace.nearby) trace.nearby = nearby(episode, trace, missing);
+}
+
+void Stages::find_crossings(const Episode& episode, JointTrace& trace,
+                            std::span<const LooseJoint> loose) {
+  const auto lines = telling_lines(episode, trace, {});
+  if (loose.empty() || lines.empty() || trace.estimated) return;
+  std::vector<std::size_t> joints;
+  for (const LooseJoint& l : loose) joints.push_back(l.joint);
+  const Episode pulled = lines_alone(episode);
+  const auto chains = [&](const std::vector<JointSignals>& signals) {
+    return chains_of(pulled, lines, {.signals = signals});
+  };
+  const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s,
+                          slowest_damper_s(equipped_.robot, lines));
+  if (lines.size() < search.unknowns()) return;
+  trace.by_lines = true;
+  auto told = trace.signals;
+  constexpr int steps = 2;  // chosen
+  search.better(told, steps, steps);
+  for (const LooseJoint& l : loose) {
+    const Signal& at = told[l.joint].angle_rad;
+    const auto may = may_cross(l.said_rad, episode.period_s);
+    for (std::size_t k = 0; k < may.size(); ++k)
+      if (may[k] && !std::isnan(at[k]))
+        trace.signals[l.joint].angle_rad[k] =
+            std::clamp(at[k], l.said_rad[k] - l.width_rad / 2, l.said_rad[k] + l.width_rad / 2);
+  }
+}
+
+std::shared_ptr<const PathsNearby> Stages::nearby(const Episode& episode, const JointTrace& trace,
+                                                  std::span<const std::size_t> missing) {
+  constexpr double nudge_rad = 1e-3;
+  const auto all = each(episode.actuators.size());
+  PathsNearby near{trace.signals, bones_.paths(trace.signals, episode.rows, all), {}, {}};
+  near.slope_m.resize(all.size());
+  for (const std::size_t j : missing) {
+    if (bones_.joint_list()[j].type == erp::JointType::fixed) continue;
+    if (bones_.joint_list()[j].type != erp::JointType::revolute) return nullptr;
+    auto nudged = trace.signals;
+    for (double& angle : nudged[j].angle_rad) angle += nudge_rad;
+    auto moved = bones_.paths(nudged, episode.rows, all);
+    for (const std::size_t a : all) {
+      Signal& slope = near.slope_m[a].emplace_back(std::move(moved[a].length_m));
+      for (std::size_t k = 0; k < slope.size(); ++k)
+        slope[k] = (slope[k] - near.paths[a].length_m[k]) / nudge_rad;
+    }
+    near.hinges.push_back(j);
+  }
+  return std::make_shared<const PathsNearby>(std::move(near));
+}
+
+}  // namespace sim::residuals

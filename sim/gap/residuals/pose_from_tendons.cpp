@@ -1,0 +1,156 @@
+#include "sim/gap/residuals/pose_from_tendons.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/gap/residuals/bump.hpp"
+
+namespace sim::residuals {
+namespace {
+
+constexpr double smooth_s = 0.006;  // half width of the pose's window; chosen
+constexpr double edge_s = 0.03;     // around rows that are not told, the pose is not either; chosen
+constexpr double slack_N = 0.3;     // measured as less, a tendon may be slack; chosen
+constexpr double nudge_rad = 1e-4;  // of the slopes
+constexpr double farthest_rad = 1;  // that a step goes
+constexpr double least_N_per_rad = 5;  // held less firmly, a pose is not told; chosen
+
+void smooth(Signal& signal, double period_s) {
+  const Bump bump(smooth_s, period_s);
+  const Signal rough = signal;
+  for (std::size_t k = bump.reach(); k + bump.reach() < rough.size(); ++k)
+    signal[k] = bump.mean(rough, k);
+}
+
+void fill_forward(Signal& signal) {
+  for (std::size_t k = 1; k < signal.size(); ++k)
+    if (std::isnan(signal[k])) signal[k] = signal[k - 1];
+  for (std::size_t k = signal.size(); k-- > 1;)
+    if (std::isnan(signal[k - 1])) signal[k - 1] = signal[k];
+}
+
+/// The step of the unknowns at one row, from how the pulls answer to them, N/rad: lines × unknowns;
+/// empty: the tendons do not hold the pose there.
+Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& here,
+                        const Eigen::Ref<const Eigen::MatrixXd>& slope) {
+  Eigen::VectorXd left(slope.rows());
+  for (Eigen::Index a = 0; a < left.size(); ++a) {
+    const ChainTrace& line = here[std::size_t(a)];
+    left[a] = line.tension_N[row] - line.spring_N[row];
+    if (!std::isfinite(left[a])) left[a] = 0;
+  }
+  const Eigen::MatrixXd held = slope.transpose() * slope;
+  const Eigen::VectorXd pushed = slope.transpose() * left;
+  Eigen::VectorXd step(pushed.size());
+  if (step.size() == 1) {
+    if (held(0, 0) < least_N_per_rad * least_N_per_rad) return {};
+    step = pushed / held(0, 0);
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(held);
+    if (modes.eigenvalues()[0] < least_N_per_rad * least_N_per_rad) return {};
+    step = modes.eigenvectors() *
+           (modes.eigenvectors().transpose() * pushed).cwiseQuotient(modes.eigenvalues());
+  }
+  return step.cwiseMax(-farthest_rad).cwiseMin(farthest_rad);
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const std::vector<erp::Joint>& joints, std::vector<std::size_t> missing,
+                       Chains chains, double period_s, double damper_s)
+    : joints_(joints),
+      missing_(std::move(missing)),
+      chains_(std::move(chains)),
+      period_s_(period_s),
+      damper_s_(damper_s) {
+  for (const std::size_t j : missing_)
+    for (int axis = 0; axis < coordinates_of(joints_[j].type); ++axis)
+      unknown_.push_back({j, axis});
+}
+
+void PoseSearch::turn(std::vector<JointSignals>& signals, const Unknown& unknown, std::size_t row,
+                      double rad) const {
+  JointSignals& joint = signals[unknown.joint];
+  if (joints_[unknown.joint].type == erp::JointType::revolute) {
+    joint.angle_rad[row] += rad;
+    return;
+  }
+  auto& q = joint.quaternion;
+  const Eigen::Quaterniond was(q[0][row], q[1][row], q[2][row], q[3][row]);
+  const Eigen::Quaterniond is = was.normalized() * Eigen::Quaterniond(Eigen::AngleAxisd(
+                                                       rad, Eigen::Vector3d::Unit(unknown.axis)));
+  q[0][row] = is.w(), q[1][row] = is.x(), q[2][row] = is.y(), q[3][row] = is.z();
+}
+
+template <class Change>
+void PoseSearch::change(std::vector<JointSignals>& signals, Change each) const {
+  for (const std::size_t j : missing_) {
+    each(signals[j].angle_rad);
+    for (Signal& part : signals[j].quaternion) each(part);
+  }
+}
+
+void PoseSearch::start(std::vector<JointSignals>& signals, std::size_t rows) const {
+  for (const std::size_t j : missing_) {
+    const JointReading start = start_of(joints_[j]);
+    if (joints_[j].type == erp::JointType::revolute)
+      signals[j].angle_rad.assign(rows, start.position[0]);
+    if (joints_[j].type == erp::JointType::spherical)
+      for (std::size_t k = 0; k < 4; ++k) signals[j].quaternion[k].assign(rows, start.position[k]);
+  }
+}
+
+Eigen::MatrixXd PoseSearch::slopes(const std::vector<JointSignals>& signals,
+                                   const std::vector<ChainTrace>& here) const {
+  const std::size_t rows = here.at(0).spring_N.size(), lines = here.size();
+  Eigen::MatrixXd slopes =
+      Eigen::MatrixXd::Zero(Eigen::Index(lines * unknown_.size()), Eigen::Index(rows));
+  for (std::size_t c = 0; c < unknown_.size(); ++c) {
+    auto nudged = signals;
+    for (std::size_t k = 0; k < rows; ++k) turn(nudged, unknown_[c], k, nudge_rad);
+    const auto moved = chains_(nudged);
+    for (std::size_t k = 0; k < rows; ++k)
+      for (std::size_t a = 0; a < lines; ++a) {
+        const double slope = (moved[a].spring_N[k] - here[a].spring_N[k]) / nudge_rad;
+        if (std::isfinite(slope) && here[a].tension_N[k] > slack_N)
+          slopes(Eigen::Index(c * lines + a), Eigen::Index(k)) = slope;
+      }
+  }
+  return slopes;
+}
+
+void PoseSearch::better(std::vector<JointSignals>& signals, int steps, int slopes_every) const {
+  change(signals, fill_forward);
+  std::vector<char> told;
+  Eigen::MatrixXd slope;
+  for (int n = 0; n < steps; ++n) {
+    const auto here = chains_(signals);
+    if (n % slopes_every == 0) slope = slopes(signals, here);
+    told.assign(std::size_t(slope.cols()), 0);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(Eigen::Index(unknown_.size()));
+    const double kept = damper_s_ / (damper_s_ + period_s_);
+    for (std::size_t k = 0; k < told.size(); ++k) {
+      const Eigen::Map<const Eigen::MatrixXd> at(slope.col(Eigen::Index(k)).data(),
+                                                 Eigen::Index(here.size()),
+                                                 Eigen::Index(unknown_.size()));
+      const Eigen::VectorXd of_springs = step_at(k, here, at);
+      told[k] = of_springs.size() > 0;
+      if (told[k]) step = kept * step + (1 - kept) * of_springs;
+      else step.setZero();
+      for (Eigen::Index c = 0; c < step.size(); ++c)
+        turn(signals, unknown_[std::size_t(c)], k, step[c]);
+    }
+    change(signals, [&](Signal& signal) { smooth(signal, period_s_); });
+  }
+  const auto around = static_cast<std::size_t>(edge_s / period_s_);
+  change(signals, [&](Signal& signal) {
+    for (std::size_t k = 0; k < signal.size(); ++k)
+      if (!told[k])
+        for (std::size_t n = k < around ? 0 : k - around;
+             n < std::min(signal.size(), k + around + 1); ++n)
+          signal[n] = recording::not_taken;
+  });
+}
+
+}  // namespace sim::residuals

@@ -1,0 +1,149 @@
+#include "sim/gap/residuals/stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/model/actuator/sensors.hpp"
+#include "sim/gap/residuals/chain_residuals.hpp"
+#include "sim/gap/residuals/indices.hpp"
+
+namespace sim::residuals {
+namespace {
+
+using Eigen::MatrixXd;
+
+template <class T>
+std::shared_ptr<const T> keep(T value) {
+  return std::make_shared<const T>(std::move(value));
+}
+
+/// Of its encoder; 0: not specified.
+double shaft_step_rad(const erp::Robot& robot, const erp::Actuator& actuator) {
+  const erp::SensorType& sensors = robot.sensors_of(actuator);
+  if (!(sensors.encoder_counts_per_rev > 0)) return 0;
+  return SensorScale(robot.motor_of(actuator), sensors).shaft_rad_per_count;
+}
+
+/// For a robot whose tendons run otherwise.
+std::shared_ptr<const JointTrace> without_nearby(const JointTrace& joints) {
+  JointTrace copy = joints;
+  copy.nearby = nullptr;
+  return keep(std::move(copy));
+}
+
+}  // namespace
+
+Stages::Stages(const erp::Robot& robot, const Windows& windows)
+    : equipped_(effects::equip(robot)), windows_(windows), bones_(equipped_.robot) {
+  for (const erp::Joint& joint : robot.joints()) recorded_joints_.push_back(joint.name);
+}
+
+Reach Stages::reach(const effects::Placed& placed) const {
+  const effects::About& about = effects::about(placed.effect);
+  const bool senses = about.stage == effects::Stage::sensor || about.type == "joint_play";
+  if (about.type == "skeleton_link_flexibility") return {.joints = true, .bones = true};
+  if (about.stage == effects::Stage::bus) return {};
+  if (about.seat != effects::Seat::actuator)
+    return {.joints = about.seat == effects::Seat::joint && senses, .bones = true};
+  const auto& all = equipped_.robot.actuators;
+  const auto actuator = static_cast<std::size_t>(
+      std::ranges::find(all, placed.on, &erp::Actuator::name) - all.begin());
+  Reach reach{.line = about.stage != effects::Stage::motor, .chain = actuator};
+  if (about.stage == effects::Stage::routing) reach.path = actuator;
+  return reach;
+}
+
+std::vector<std::size_t> windows_of(const Episode& episode, const Windows& windows) {
+  const std::size_t reach = 2 * Bump(windows.half_width_s, episode.period_s).reach() + 1;
+  const auto stride =
+      static_cast<std::size_t>(std::max<long>(1, std::lround(windows.stride_s / episode.period_s)));
+  std::vector<std::size_t> rows;
+  for (std::size_t k = reach; k + reach < episode.rows; k += stride)
+    if (episode.judged(k)) rows.push_back(k);
+  return rows;
+}
+
+Explanation Stages::explain(const Episode& episode) { return explain(episode, nullptr); }
+
+Explanation Stages::explain(const Episode& episode, std::shared_ptr<const JointTrace> guess) {
+  const std::size_t count = equipped_.robot.actuators.size();
+  Explanation fresh;
+  fresh.joints = std::move(guess);
+  fresh.rows = windows_of(episode, windows_);
+  fresh.paths.resize(count), fresh.gradients.resize(count);
+  fresh.chains.resize(count), fresh.of_chain.resize(count);
+  return renew(episode, std::move(fresh), {true, true, each(count), each(count)});
+}
+
+Explanation Stages::explain(const Episode& episode, const Explanation& base, const Reach& reach) {
+  const JointTrace& joints = *base.joints;
+  if (reach.line && joints.estimated)
+    return explain(episode, reach.path ? without_nearby(joints) : base.joints);
+  if (reach.joints || (reach.line && joints.by_lines) || (reach.bones && joints.by_bones))
+    return explain(episode);
+  Touched touched{false, reach.bones, {}, {}};
+  if (reach.path) touched.paths = {*reach.path};
+  if (reach.chain) touched.chains = {*reach.chain};
+  return renew(episode, base, touched);
+}
+
+ChainTrace Stages::chain(const Episode& episode, std::size_t a, const PathTrace& path,
+                         const ChainTrace* near) const {
+  const erp::Actuator& actuator = equipped_.robot.actuators[a];
+  return trace({equipped_.robot.motor_of(actuator), actuator,
+                effects::Acting(equipped_.acting, actuator.name, effects::Seat::actuator),
+                bones_.start_m(a), shaft_step_rad(equipped_.robot, actuator)},
+               episode.actuators[a], path, episode.period_s, windows_.speed_half_width_s, near);
+}
+
+std::vector<PathTrace> Stages::paths(const Episode& episode, const JointTrace& joints,
+                                     std::span<const std::size_t> actuators) {
+  std::vector<PathTrace> all = joints.nearby
+                                   ? paths_nearby(joints, actuators)
+                                   : bones_.paths(joints.signals, episode.rows, actuators);
+  for (PathTrace& path : all) path.smooth(episode.period_s, windows_.speed_half_width_s);
+  return all;
+}
+
+std::vector<PathTrace> Stages::paths_nearby(const JointTrace& joints,
+                                            std::span<const std::size_t> actuators) const {
+  const PathsNearby& near = *joints.nearby;
+  std::vector<PathTrace> paths;
+  for (const std::size_t a : actuators) {
+    PathTrace& path = paths.emplace_back(near.paths[a]);
+    for (std::size_t h = 0; h < near.hinges.size() && !path.length_m.empty(); ++h) {
+      const Signal& is = joints.signals[near.hinges[h]].angle_rad;
+      const Signal& was = near.pose[near.hinges[h]].angle_rad;
+      for (std::size_t k = 0; k < path.length_m.size(); ++k)
+        path.length_m[k] += near.slope_m[a][h][k] * (is[k] - was[k]);
+    }
+  }
+  return paths;
+}
+
+Explanation Stages::renew(const Episode& episode, Explanation e, const Touched& touched) {
+  if (touched.joints) e.joints = keep(joint_trace(episode, e.rows, e.joints.get()));
+  auto paths = this->paths(episode, *e.joints, touched.paths);
+  auto gradients = bones_.gradients(e.joints->motions, touched.paths);
+  for (std::size_t n = 0; n < touched.paths.size(); ++n) {
+    e.paths[touched.paths[n]] = keep(std::move(paths[n]));
+    e.gradients[touched.paths[n]] = keep(std::move(gradients[n]));
+  }
+  const erp::Robot& robot = equipped_.robot;
+  for (const std::size_t a : touched.chains) {
+    const erp::Actuator& actuator = robot.actuators[a];
+    e.chains[a] = keep(chain(episode, a, *e.paths[a], e.chains[a].get()));
+    const Bump bump(windows_.half_width_s, episode.period_s);
+    e.of_chain[a] = keep(
+        chain_residuals(*e.chains[a], actuator, robot.motor_of(actuator), episode, bump, e.rows));
+  }
+  if (touched.bones) e.bones = keep(bones(episode, *e.joints, e.rows));
+  e.residuals.clear();
+  for (const auto& residuals : e.of_chain)
+    e.residuals.insert(e.residuals.end(), residuals->begin(), residuals->end());
+  add_joints(episode, e);
+  return e;
+}
+
+}  // namespace sim::residuals

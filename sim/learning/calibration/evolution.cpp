@@ -1,0 +1,59 @@
+#include "sim/learning/calibration/evolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/learning/training_loop/dice.hpp"
+
+namespace sim::calibration {
+namespace {
+
+/// Folded back into ± bound as by mirrors.
+double reflected(double x, double bound) {
+  const double turn = 4 * bound, t = std::fmod(std::fmod(x + bound, turn) + turn, turn);
+  return (t <= 2 * bound ? t : turn - t) - bound;
+}
+
+}  // namespace
+
+Evolution::Evolution(const Eigen::VectorXd& first, const EvolutionOptions& options)
+    : Evolution(std::vector<Individual>(
+                    static_cast<std::size_t>(options.parents),
+                    {first, Eigen::VectorXd::Constant(first.size(), options.first_sigma)}),
+                0, options) {}
+
+Evolution::Evolution(std::vector<Individual> parents, int generation,
+                     const EvolutionOptions& options)
+    : options_(options), parents_(std::move(parents)), generation_(generation) {}
+
+std::vector<Individual> Evolution::offspring() const {
+  std::vector<Individual> all;
+  for (int k = 0; k < options_.offspring; ++k)
+    all.push_back(mutated(static_cast<std::uint64_t>(k)));
+  return all;
+}
+
+Individual Evolution::mutated(std::uint64_t number) const {
+  auto dice = training_loop::dice(options_.seed, static_cast<std::uint64_t>(generation_), number);
+  std::normal_distribution<double> normal;
+  std::uniform_int_distribution<std::size_t> any(0, parents_.size() - 1);
+  const Individual &parent = parents_[any(dice)], &other = parents_[any(dice)];
+  Individual child{(parent.x + other.x) / 2, parent.sigma};
+  const double n = static_cast<double>(child.x.size());
+  const double own = 1 / std::sqrt(2 * std::sqrt(n)), common = normal(dice) / std::sqrt(2 * n);
+  for (Eigen::Index i = 0; i < child.x.size(); ++i) {
+    child.sigma[i] = std::sqrt(parent.sigma[i] * other.sigma[i]);
+    child.sigma[i] *= std::exp(common + own * normal(dice));
+    child.x[i] = reflected(child.x[i] + child.sigma[i] * normal(dice), options_.bound);
+  }
+  return child;
+}
+
+void Evolution::select(std::vector<Individual> judged) {
+  std::ranges::stable_sort(judged, {}, &Individual::error);
+  judged.resize(parents_.size());
+  parents_ = std::move(judged);
+  ++generation_;
+}
+
+}  // namespace sim::calibration

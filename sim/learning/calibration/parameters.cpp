@@ -1,0 +1,113 @@
+#include "sim/learning/calibration/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "interfaces/xml/errors.hpp"
+#include "sim/model/effects/library.hpp"
+
+namespace sim::calibration {
+namespace {
+
+/// A tendon's first or last point.
+erp::Attach* end_of(erp::Tendon& tendon, bool last) {
+  return std::get_if<erp::Attach>(last ? &tendon.path.back() : &tendon.path.front());
+}
+
+/// By actuator; the effects are taken out of the robot.
+std::vector<double> taken_lengths_m(erp::Robot& robot) {
+  std::vector<double> longer_m(robot.actuators.size());
+  const auto all = effects::read_effects(robot);
+  robot.effects.clear();
+  for (const effects::Placed& placed : all)
+    if (const auto* offset = std::get_if<effects::TendonLengthOffset>(&placed.effect))
+      for (std::size_t a = 0; a < longer_m.size(); ++a)
+        longer_m[a] += robot.actuators[a].name == placed.on ? offset->length_m : 0;
+    else robot.effects.push_back(effects::written(placed));
+  return longer_m;
+}
+
+/// What robot.xml can say at most.
+double most_longer_m() {
+  auto effect = *effects::neutral(effects::TendonLengthOffset::about.type);
+  return effects::parameters(effect).front().bounds.high;
+}
+
+int count(Quantity what) { return what == Quantity::attachments ? 6 : 1; }
+
+bool clash(const std::vector<Parameter>& list, std::size_t actuator, Quantity what) {
+  return std::ranges::any_of(
+      list, [&](const Parameter& p) { return p.actuator == actuator && p.what == what; });
+}
+
+}  // namespace
+
+Parameters::Parameters(erp::Robot robot, const Choice& choice)
+    : robot_(std::move(robot)), longer_m_(taken_lengths_m(robot_)) {
+  for (const Vary& vary : choice.list) choose(vary);
+}
+
+void Parameters::choose(const Vary& vary) {
+  bool found = false;
+  for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
+    if (vary.on != "*" && vary.on != robot_.actuators[a].name) continue;
+    found = true;
+    if (clash(list_, a, vary.what))
+      throw xml::Errors(
+          {{vary.place, "this is chosen twice for actuator \"" + robot_.actuators[a].name + "\"",
+            "leave one <vary> of it"}});
+    for (int axis = 0; axis < count(vary.what); ++axis)
+      list_.push_back({a, vary.what, axis, vary.spread});
+  }
+  if (!found)
+    throw xml::Errors(
+        {{vary.place, "robot \"" + robot_.name + "\" has no actuator \"" + vary.on + "\"",
+          "name one of its actuators, or \"*\""}});
+}
+
+std::string Parameters::name_of(const Parameter& p) const {
+  const std::string& muscle = robot_.actuators[p.actuator].name;
+  switch (p.what) {
+    case Quantity::attachments:
+      return muscle + (p.axis < 3 ? " A " : " B ") + "xyz"[p.axis % 3];
+    case Quantity::length:
+      return muscle + " length";
+    case Quantity::stiffness:
+      return muscle + " stiffness";
+    case Quantity::radius:
+      break;
+  }
+  return muscle + " radius";
+}
+
+Candidate Parameters::at(const Eigen::VectorXd& x) const {
+  Candidate candidate{robot_, longer_m_};
+  for (std::size_t k = 0; k < list_.size(); ++k) {
+    const Parameter& p = list_[k];
+    const double off = p.spread * x[static_cast<Eigen::Index>(k)];
+    erp::Actuator& actuator = candidate.robot.actuators[p.actuator];
+    if (p.what == Quantity::length) candidate.longer_m[p.actuator] += off;
+    if (p.what == Quantity::stiffness) actuator.tendon.stiffness_N_per_m *= std::exp(off);
+    if (p.what == Quantity::radius) actuator.spindle.radius_m *= std::exp(off);
+    if (p.what == Quantity::attachments)
+      end_of(actuator.tendon, p.axis >= 3)->at_m[static_cast<std::size_t>(p.axis % 3)] += off;
+  }
+  static const double most_m = most_longer_m();
+  for (std::size_t a = 0; a < candidate.longer_m.size(); ++a)
+    if (std::abs(candidate.longer_m[a]) > most_m)
+      throw std::invalid_argument("actuator \"" + robot_.actuators[a].name +
+                                  "\": its line would be off by more than robot.xml can say");
+  return candidate;
+}
+
+erp::Robot Parameters::robot_at(const Eigen::VectorXd& x) const {
+  Candidate candidate = at(x);
+  for (std::size_t a = 0; a < candidate.longer_m.size(); ++a)
+    if (candidate.longer_m[a] != 0)
+      candidate.robot.effects.push_back(effects::written(
+          {candidate.robot.actuators[a].name, effects::TendonLengthOffset{candidate.longer_m[a]}}));
+  return candidate.robot;
+}
+
+}  // namespace sim::calibration

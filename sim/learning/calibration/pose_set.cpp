@@ -1,0 +1,137 @@
+#include "sim/learning/calibration/pose_set.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "sim/model/actuator/recorded_joints.hpp"
+
+namespace sim::calibration {
+namespace {
+
+using Joints = std::vector<JointReading>;
+
+double apart_rad(erp::JointType type, const std::array<double, 4>& a,
+                 const std::array<double, 4>& b) {
+  const auto way = way_between(type, a, b);
+  return std::hypot(way[0], way[1], way[2]);
+}
+
+double most_apart_rad(const Joints& a, const Pose& b) {
+  double most = 0;
+  for (std::size_t j = 0; j < a.size(); ++j)
+    most = std::max(most, apart_rad(a[j].type, a[j].position, b[j]));
+  return most;
+}
+
+/// The rows of one stay, and the sum of how they lie beside its first.
+class Stay {
+ public:
+  Stay(double time_s, const Joints& joints, std::size_t actuators)
+      : begin_s_(time_s), first_(joints), off_(joints.size()), shaft_(actuators) {}
+
+  bool holds(const Joints& joints, double turns_rad) const {
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (apart_rad(joints[j].type, first_[j].position, joints[j].position) > turns_rad)
+        return false;
+    return true;
+  }
+  void add(double time_s, const Joints& joints, const std::vector<double>& shaft_rad) {
+    end_s_ = time_s, ++rows_;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const auto way = way_between(joints[j].type, first_[j].position, joints[j].position);
+      for (std::size_t d = 0; d < 3; ++d) off_[j][d] += way[d];
+    }
+    for (std::size_t a = 0; a < shaft_.size(); ++a) shaft_[a] += shaft_rad[a];
+  }
+  double lasted_s() const { return end_s_ - begin_s_; }
+  StillPose mean() const {
+    StillPose still{begin_s_, shaft_, {}};
+    for (double& angle : still.shaft_rad) angle /= rows_;
+    for (std::size_t j = 0; j < first_.size(); ++j) {
+      auto way = off_[j];
+      for (double& turn : way) turn /= rows_;
+      still.pose.push_back(gone(first_[j].type, first_[j].position, way));
+    }
+    return still;
+  }
+
+ private:
+  double begin_s_, end_s_ = begin_s_, rows_ = 0;
+  Joints first_;
+  std::vector<std::array<double, 3>> off_;
+  std::vector<double> shaft_;
+};
+
+}  // namespace
+
+std::vector<StillPose> still_poses(const recording::Table& table, const erp::Robot& robot,
+                                   const StillOptions& options) {
+  const RecordedJoints recorded(robot, table);
+  std::vector<const recording::Column*> shafts;
+  for (const erp::Actuator& actuator : robot.actuators)
+    shafts.push_back(&column_of(table, actuator.name + ".shaft_rad"));
+  const auto& time_s = column_of(table, "time_s").values;
+
+  std::vector<StillPose> poses;
+  std::optional<Stay> stay;
+  Joints joints;
+  std::vector<double> shaft_rad(shafts.size());
+  const auto end = [&] {
+    if (!stay || stay->lasted_s() < options.still_s) return;
+    const StillPose still = stay->mean();
+    Joints there = joints;
+    for (std::size_t j = 0; j < there.size(); ++j) there[j].position = still.pose[j];
+    if (poses.empty() || most_apart_rad(there, poses.back().pose) > options.apart_rad)
+      poses.push_back(still);
+  };
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (std::size_t a = 0; a < shafts.size(); ++a) shaft_rad[a] = shafts[a]->values[row];
+    const bool known = !std::isnan(std::accumulate(shaft_rad.begin(), shaft_rad.end(), 0.0));
+    if (!recorded.read(row, joints) || !known) continue;
+    if (!stay || !stay->holds(joints, options.turns_rad)) {
+      end();
+      stay.emplace(time_s[row], joints, shafts.size());
+    }
+    stay->add(time_s[row], joints, shaft_rad);
+  }
+  end();
+  if (poses.empty())
+    throw std::invalid_argument("the robot of this recording never stands still for " +
+                                std::to_string(options.still_s) + " s");
+  return poses;
+}
+
+PoseSet split(std::vector<StillPose> poses) {
+  PoseSet set;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    (k % 2 ? set.check : set.learn).push_back(std::move(poses[k]));
+  return set;
+}
+
+PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> poses,
+                          std::span<const Pose> there) {
+  PoseErrors errors;
+  const auto joints = robot.joints();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (coordinates_of(joints[j].type) == 0) continue;
+    double sum_rad = 0;
+    for (std::size_t k = 0; k < poses.size(); ++k)
+      sum_rad += apart_rad(joints[j].type, there[k][j], poses[k].pose[j]);
+    errors.mean_rad.push_back(sum_rad / static_cast<double>(poses.size()));
+    errors.mean_of_all_rad += errors.mean_rad.back();
+  }
+  errors.mean_of_all_rad /= static_cast<double>(errors.mean_rad.size());
+  return errors;
+}
+
+PoseErrors pose_errors(const Candidate& candidate, std::span<const StillPose> poses) {
+  Equilibrium equilibrium(candidate.robot, candidate.longer_m);
+  std::vector<Pose> rests;
+  for (const StillPose& still : poses)
+    rests.push_back(equilibrium.find(still.shaft_rad, still.pose).pose);
+  return errors_between(candidate.robot, poses, rests);
+}
+
+}  // namespace sim::calibration

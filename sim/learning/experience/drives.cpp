@@ -1,0 +1,34 @@
+#include "sim/learning/experience/drives.hpp"
+
+#include "sim/model/actuator/musculoskeletal.hpp"
+
+namespace sim::experience {
+namespace {
+
+Drive drive(const std::string& name, const Eigen::VectorXd& shortening) {
+  const double most = shortening.cwiseAbs().maxCoeff();
+  Drive drive{.name = name, .shares = {shortening.begin(), shortening.end()}};
+  if (most > 0)
+    for (double& share : drive.shares) share = share == 0 ? 0 : share / most;
+  return drive;
+}
+
+}  // namespace
+
+std::vector<Drive> drives_of(const erp::Robot& robot) {
+  Musculoskeletal model(robot);
+  std::vector<JointReading> start;
+  for (const erp::Joint& joint : model.tree().joints) start.push_back(start_of(joint));
+  model.place(start);
+  std::vector<Drive> drives;
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    const int count = coordinates_of(start[j].type), first = model.skeleton().first_of(int(j));
+    for (int k = 0; k < count && first >= 0; ++k)
+      drives.push_back(
+          drive(model.tree().joints[j].name + (count > 1 ? std::string(".") + "xyzuvw"[k] : ""),
+                -model.jacobian().col(first + k)));
+  }
+  return drives;
+}
+
+}  // namespace sim::experience

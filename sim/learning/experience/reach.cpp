@@ -1,0 +1,93 @@
+#include "sim/learning/experience/reach.hpp"
+
+#include <cmath>
+
+#include "sim/model/skeleton/joint_path.hpp"
+
+namespace sim::experience {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+Reach::Reach(Patterns patterns, Eigen::MatrixXd drives, const ReachTimes& times, Plan plan)
+    : patterns_(std::move(patterns)),
+      drives_(std::move(drives)),
+      times_(times),
+      plan_(std::move(plan)) {}
+
+double Reach::length_s() const {
+  switch (phase_) {
+    case Phase::way:
+      return times_.way_s + times_.still_s;
+    case Phase::pattern:
+      return patterns_.end_s() + times_.settle_s;
+    case Phase::correct:
+      return plan_.feedback ? times_.correct_s : 0;
+    case Phase::rest:
+      break;
+  }
+  return HUGE_VAL;
+}
+
+/// The place at the end of a phase is the mean of its last moments; a tremor in it is thus evened out.
+void Reach::watch(double time_s, const std::optional<Vector3d>& hand_m) {
+  constexpr double smooth_s = 0.1;  // of the rate; chosen
+  if (!hand_m) return hand_m_.reset(), rate_m_per_s_.setZero(), void();
+  const double dt_s = time_s - last_s_;
+  if (hand_m_ && dt_s > 0)
+    rate_m_per_s_ += -std::expm1(-dt_s / smooth_s) * ((*hand_m - *hand_m_) / dt_s - rate_m_per_s_);
+  hand_m_ = hand_m;
+  if (time_s < begin_s_ + length_s() - times_.mean_s) return;
+  sum_m_ += *hand_m, ++count_;
+}
+
+void Reach::next() {
+  std::optional<Vector3d> mean_m;
+  if (count_ > 0) mean_m = sum_m_ / count_;
+  sum_m_.setZero(), count_ = 0;
+  begin_s_ += length_s();
+  switch (phase_) {
+    case Phase::way:
+      began_ = mean_m, phase_ = Phase::pattern;
+      break;
+    case Phase::pattern:
+      settled_ = mean_m, phase_ = Phase::correct;
+      break;
+    default:
+      corrected_ = mean_m, phase_ = Phase::rest;
+  }
+}
+
+Wanted Reach::lead(double into_s) const {
+  const double done = least_jerk(into_s / times_.way_s).done;
+  return {true, from_line_m_ + done * (plan_.start_line_m - from_line_m_)};
+}
+
+/// Where the hand is not known, nothing is asked.
+Wanted Reach::correct() {
+  if (!hand_m_) return {false, VectorXd::Zero(drives_.rows())};
+  VectorXd drives_V = plan_.feedback->drives_V(plan_.target_m - *hand_m_, -rate_m_per_s_);
+  const double most_V = drives_V.cwiseAbs().maxCoeff();
+  if (most_V > times_.feedback_V) drives_V *= times_.feedback_V / most_V, limited_ = true;
+  return {false, drives_ * drives_V};
+}
+
+Wanted Reach::step(double time_s, const VectorXd& line_m, const std::optional<Vector3d>& hand_m) {
+  if (!begun_) begun_ = true, begin_s_ = last_s_ = time_s, from_line_m_ = line_m;
+  watch(time_s, hand_m);
+  last_s_ = time_s;
+  while (phase_ != Phase::rest && time_s >= begin_s_ + length_s()) next();
+  switch (phase_) {
+    case Phase::way:
+      return lead(time_s - begin_s_);
+    case Phase::pattern:
+      return {false, voltages_V(patterns_, drives_, plan_.scales_Vs, time_s - begin_s_)};
+    case Phase::correct:
+      return correct();
+    case Phase::rest:
+      break;
+  }
+  return {false, VectorXd::Zero(drives_.rows())};
+}
+
+}  // namespace sim::experience

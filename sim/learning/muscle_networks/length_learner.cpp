@@ -1,0 +1,67 @@
+#include "sim/learning/muscle_networks/length_learner.hpp"
+
+namespace sim::muscle_networks {
+namespace {
+
+/// P before anything was heard. The constant may be any: its entry is not held.
+Eigen::MatrixXd first_p(const LengthLearner::Options& options) {
+  constexpr double any_m = 1;
+  Eigen::VectorXd expected_m = Eigen::VectorXd::Constant(options.units + 1, options.weight_m);
+  expected_m[options.units] = any_m;
+  return (expected_m / options.noise_m).cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+LengthLearner::LengthLearner(const PostureInputs& inputs, Index muscles, const Options& options)
+    : inputs_(inputs),
+      options_(options),
+      weights_(Perceptron::drawn(inputs.size(), options.units, options.seed).hidden),
+      p_(first_p(options)),
+      c_(MatrixXd::Zero(options.units + 1, muscles)),
+      x_(VectorXd::Zero(inputs.size())),
+      last_x_(VectorXd::Constant(inputs.size(), 1e9)),
+      phi_(VectorXd::Zero(options.units + 1)),
+      gain_(phi_),
+      left_m_(VectorXd::Zero(muscles)),
+      slopes_(MatrixXd::Zero(inputs.size(), inputs.coordinates())),
+      bends_(MatrixXd::Zero(options.units, inputs.coordinates())),
+      jacobian_(MatrixXd::Zero(muscles, inputs.coordinates())) {}
+
+void LengthLearner::bend(std::span<const JointReading> joints) {
+  inputs_.read(joints, x_);
+  const Index n = inputs_.size();
+  phi_.head(options_.units).noalias() = weights_.leftCols(n) * x_;
+  phi_.head(options_.units) = (phi_.head(options_.units) + weights_.col(n)).array().tanh();
+  phi_[options_.units] = 1;
+}
+
+bool LengthLearner::hear(std::span<const JointReading> joints, const VectorXd& beside_base_m) {
+  bend(joints);
+  if ((x_ - last_x_).lpNorm<Eigen::Infinity>() < options_.move) return false;
+  last_x_ = x_;
+  gain_.noalias() = p_.selfadjointView<Eigen::Lower>() * phi_;
+  const double scale = options_.forgetting + phi_.dot(gain_);
+  left_m_ = beside_base_m;
+  left_m_.noalias() -= c_.transpose() * phi_;
+  c_.noalias() += gain_ * (left_m_.transpose() / scale);
+  p_.selfadjointView<Eigen::Lower>().rankUpdate(gain_, -1 / scale);
+  if (options_.forgetting < 1) p_ /= options_.forgetting;
+  ++samples_;
+  return true;
+}
+
+const MatrixXd& LengthLearner::jacobian(std::span<const JointReading> joints) {
+  bend(joints);
+  inputs_.slopes(x_, slopes_);
+  bends_.noalias() = weights_.leftCols(inputs_.size()) * slopes_;
+  for (Index k = 0; k < options_.units; ++k) bends_.row(k) *= 1 - phi_[k] * phi_[k];
+  jacobian_.noalias() = c_.topRows(options_.units).transpose() * bends_;
+  return jacobian_;
+}
+
+}  // namespace sim::muscle_networks

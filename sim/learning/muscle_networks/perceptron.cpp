@@ -1,0 +1,117 @@
+#include "sim/learning/muscle_networks/perceptron.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <random>
+#include <unsupported/Eigen/LevenbergMarquardt>
+
+namespace sim::muscle_networks {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double Perceptron::value(const VectorXd& x) const {
+  double y = output[units()];
+  for (Index k = 0; k < units(); ++k)
+    y += output[k] * std::tanh(hidden.row(k).head(inputs()).dot(x) + hidden(k, inputs()));
+  return y;
+}
+
+void Perceptron::gradient(const VectorXd& x, VectorXd& dy_dx) const {
+  dy_dx.setZero(inputs());
+  for (Index k = 0; k < units(); ++k) {
+    const double t = std::tanh(hidden.row(k).head(inputs()).dot(x) + hidden(k, inputs()));
+    dy_dx += output[k] * (1 - t * t) * hidden.row(k).head(inputs()).transpose();
+  }
+}
+
+Perceptron Perceptron::drawn(Index inputs, Index units, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> place(-1, 1);
+  Perceptron net{MatrixXd(units, inputs + 1), VectorXd::Zero(units + 1)};
+  for (Index k = 0; k < units; ++k) {
+    VectorXd at(inputs);
+    for (Index i = 0; i < inputs; ++i) net.hidden(k, i) = normal(random), at[i] = place(random);
+    net.hidden(k, inputs) = -net.hidden.row(k).head(inputs).dot(at);  // it bends there
+  }
+  return net;
+}
+
+namespace {
+
+/// Residuals and their derivatives by all weights: hidden row by row, then the output's.
+struct Residuals : Eigen::DenseFunctor<double> {
+  const MatrixXd& x;
+  const VectorXd& y;
+  Perceptron net;
+  double decay;
+
+  Residuals(const Perceptron& start, const MatrixXd& inputs, const VectorXd& wanted, double weight)
+      : DenseFunctor(static_cast<int>(start.hidden.size() + start.output.size()),
+                     static_cast<int>(wanted.size() + start.hidden.size() + start.output.size())),
+        x(inputs),
+        y(wanted),
+        net(start),
+        decay(std::sqrt(weight)) {}
+
+  static VectorXd packed(const Perceptron& net) {
+    VectorXd w(net.hidden.size() + net.output.size());
+    w << net.hidden.reshaped(), net.output;
+    return w;
+  }
+  void unpack(const VectorXd& w) {
+    net.hidden.reshaped() = w.head(net.hidden.size());
+    net.output = w.tail(net.output.size());
+  }
+  double share() const { return 1 / std::sqrt(static_cast<double>(y.size())); }
+  /// tanh(W x + b) of all samples: units × samples.
+  MatrixXd bent() const {
+    return ((net.hidden.leftCols(net.inputs()) * x).colwise() + net.hidden.col(net.inputs()))
+        .array()
+        .tanh();
+  }
+  int operator()(const VectorXd& w, VectorXd& residuals) {
+    unpack(w);
+    residuals.head(y.size()) =
+        share() * ((net.output.head(net.units()).transpose() * bent()).transpose() - y +
+                   VectorXd::Constant(y.size(), net.output[net.units()]));
+    residuals.tail(w.size()) = decay * w;
+    return 0;
+  }
+  int df(const VectorXd& w, MatrixXd& slopes) {
+    unpack(w);
+    const MatrixXd t = bent();
+    const Index n = y.size(), units = net.units(), inputs = net.inputs();
+    slopes.setZero(n + w.size(), w.size());
+    for (Index k = 0; k < units; ++k) {
+      const VectorXd bend =
+          share() * net.output[k] * (1 - t.row(k).array().square()).matrix().transpose();
+      for (Index i = 0; i < inputs; ++i)
+        slopes.col(i * units + k).head(n) = bend.cwiseProduct(x.row(i).transpose());
+      slopes.col(inputs * units + k).head(n) = bend;
+      slopes.col((inputs + 1) * units + k).head(n) = share() * t.row(k).transpose();
+    }
+    slopes.col(w.size() - 1).head(n).setConstant(share());
+    slopes.bottomRows(w.size()).diagonal().setConstant(decay);
+    return 0;
+  }
+};
+
+}  // namespace
+
+double fit(Perceptron& net, const MatrixXd& x, const VectorXd& y, const FitOptions& options) {
+  Residuals residuals(net, x, y, options.decay);
+  VectorXd w = Residuals::packed(net);
+  Eigen::LevenbergMarquardt<Residuals> search(residuals);
+  search.setMaxfev(options.most_steps);
+  search.minimize(w);
+  residuals.unpack(w);
+  net = residuals.net;
+  VectorXd left(residuals.values());
+  residuals(w, left);
+  return left.head(y.size()).norm();
+}
+
+}  // namespace sim::muscle_networks

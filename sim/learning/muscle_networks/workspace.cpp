@@ -1,0 +1,182 @@
+#include "sim/learning/muscle_networks/workspace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "sim/model/actuator/motor.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
+#include "sim/control/pose_plan.hpp"
+
+namespace sim::muscle_networks {
+namespace {
+
+/// Uniform in the ball of that radius.
+std::array<double, 3> turn_within(double most_rad, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> each(-most_rad, most_rad);
+  for (;;)
+    if (const std::array turn{each(random), each(random), each(random)};
+        std::hypot(turn[0], turn[1], turn[2]) <= most_rad)
+      return turn;
+}
+
+/// How long ways take that the motors can follow.
+class Pace {
+ public:
+  Pace(const erp::Robot& robot, double share) : model_(robot) {
+    for (const erp::Actuator& actuator : robot.actuators)
+      most_m_per_s_.push_back(
+          share * top_line_speed_m_per_s(robot.motor_of(actuator), actuator.spindle.radius_m));
+  }
+
+  /// By how far each tendon's path changes over the way, as it does in its middle.
+  double takes_s(const Pose& from, const Pose& to) {
+    constexpr double least_s = 0.2, swing = 1.5;  // chosen; swing: top speed over the mean one
+    std::vector<JointReading> middle;
+    Eigen::VectorXd u(model_.coordinates());
+    const auto& joints = model_.tree().joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      auto way = way_between(joints[j].type, from[j], to[j]);
+      const int first = model_.skeleton().first_of(static_cast<int>(j));
+      for (int d = 0; d < coordinates_of(joints[j].type); ++d) {
+        u[first + d] = way[static_cast<std::size_t>(d)];
+        way[static_cast<std::size_t>(d)] /= 2;
+      }
+      middle.push_back({.type = joints[j].type, .position = gone(joints[j].type, from[j], way)});
+    }
+    model_.place(middle);
+    const Eigen::VectorXd change_m = model_.jacobian() * u;
+    double takes_s = least_s;
+    for (std::size_t a = 0; a < most_m_per_s_.size(); ++a)
+      takes_s = std::max(
+          takes_s, swing * std::abs(change_m[static_cast<Eigen::Index>(a)]) / most_m_per_s_[a]);
+    return takes_s;
+  }
+
+ private:
+  Musculoskeletal model_;
+  std::vector<double> most_m_per_s_;
+};
+
+/// Poses one after the other, each where nobody has been yet.
+class Tour {
+ public:
+  Tour(const erp::Robot& robot, const JointMotionOptions& options)
+      : joints_(robot.joints()),
+        options_(options),
+        workspace_(robot, options.workspace),
+        pace_(robot, options.share),
+        poses_{{0, starting_pose(robot)}} {}
+
+  bool done() const { return poses_.back().time_s >= options_.duration_s; }
+  const std::vector<TimedPose>& poses() const { return poses_; }
+
+  /// Of some drawn poses to which the way keeps within the joints' range, the one that is farthest
+  /// from all that has been passed, for the time it takes to get there.
+  void go_on() {
+    constexpr int candidates = 60;  // chosen
+    std::optional<TimedPose> best;
+    double best_rad_per_s = 0;
+    for (int k = 0; k < candidates; ++k) {
+      const Pose pose = workspace_.draw();
+      const double takes_s = pace_.takes_s(poses_.back().pose, pose);
+      const TimedPose next{poses_.back().time_s + takes_s, pose};
+      const double new_rad_per_s = apart_from_passed_rad(pose) / takes_s;
+      if (new_rad_per_s > best_rad_per_s && in_range(next))
+        best = next, best_rad_per_s = new_rad_per_s;
+    }
+    constexpr double halt_s = 0.1;  // chosen; from a halt every way is straight
+    poses_.push_back(best ? *best : TimedPose{poses_.back().time_s + halt_s, poses_.back().pose});
+  }
+
+ private:
+  double apart_from_passed_rad(const Pose& pose) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const TimedPose& passed : poses_) {
+      double square = 0;
+      for (std::size_t j = 0; j < joints_.size(); ++j)
+        for (const double d : way_between(joints_[j].type, passed.pose[j], pose[j]))
+          square += d * d;
+      nearest = std::min(nearest, std::sqrt(square));
+    }
+    return nearest;
+  }
+  /// The way's end, on which a further pose has no great influence before.
+  bool in_range(const TimedPose& next) const {
+    constexpr std::size_t counts = 5;  // chosen
+    std::vector<TimedPose> end(poses_.end() - std::ptrdiff_t(std::min(poses_.size(), counts)),
+                               poses_.end());
+    end.push_back(next);
+    return !leaves_range(JointPath(joints_, end, Via::through), joints_);
+  }
+
+  std::vector<erp::Joint> joints_;
+  JointMotionOptions options_;
+  Workspace workspace_;
+  Pace pace_;
+  std::vector<TimedPose> poses_;
+};
+
+}  // namespace
+
+Workspace::Workspace(const erp::Robot& robot, const WorkspaceOptions& options)
+    : robot_(robot),
+      options_(options),
+      joints_(robot.joints()),
+      start_(starting_pose(robot)),
+      holder_(robot),
+      random_(options.seed) {}
+
+Pose Workspace::draw() {
+  for (int tries = 0; tries < 1000; ++tries)
+    if (const Pose pose = anywhere(); held(pose)) return pose;
+  throw std::runtime_error(
+      "of a thousand postures of robot \"" + robot_.name +
+      "\" its muscles can hold none: `erp model balance` says what is missing");
+}
+
+Pose Workspace::anywhere() {
+  Pose pose = start_;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const erp::Joint& joint = joints_[j];
+    if (joint.type == erp::JointType::revolute) {
+      const double middle = (joint.min_rad + joint.max_rad) / 2;
+      const double reach = std::max(0.0, joint.max_rad - middle - options_.margin_rad);
+      pose[j][0] = std::uniform_real_distribution(middle - reach, middle + reach)(random_);
+    }
+    if (joint.type == erp::JointType::spherical)
+      pose[j] = gone(joint.type, start_[j], turn_within(options_.ball_rad, random_));
+  }
+  return pose;
+}
+
+bool Workspace::held(const Pose& pose) {
+  const Holding holding = holder_.hold(pose);
+  if (!(holding.unbalanced_Nm <= options_.left_Nm)) return false;
+  for (std::size_t a = 0; a < robot_.actuators.size(); ++a)
+    if (holding.tension_N[a] > options_.share * robot_.actuators[a].max_tension_N) return false;
+  return true;
+}
+
+std::vector<std::vector<JointReading>> postures(const erp::Robot& robot, std::size_t count,
+                                                const WorkspaceOptions& options) {
+  Workspace workspace(robot, options);
+  const auto joints = robot.joints();
+  std::vector<std::vector<JointReading>> drawn(count);
+  for (auto& posture : drawn) {
+    const Pose pose = workspace.draw();
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      posture.push_back({.type = joints[j].type, .position = pose[j]});
+  }
+  return drawn;
+}
+
+recording::Table joint_motion(const erp::Robot& robot, const JointMotionOptions& options) {
+  Tour tour(robot, options);
+  while (!tour.done()) tour.go_on();
+  return table_of(tour.poses(), robot);
+}
+
+}  // namespace sim::muscle_networks

@@ -1,0 +1,66 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "interfaces/xml/fields.hpp"
+#include "sim/learning/sensorimotor/session.hpp"
+
+/// An experiment as a file: `<sensorimotor view="view.xml"> <grid …/> </sensorimotor>`.
+namespace sim::sensorimotor {
+
+/// `<grid columns="5" rows="5" half_width="0.25" half_height="0.25"/>`: goals about the middle of
+/// one camera's image, equally far apart.
+struct Grid {
+  static constexpr auto element = "grid";
+  xml::Place place;
+  int columns = 5, rows = 5;
+  double half_width = 0, half_height = 0;  ///< in senses
+  void visit(auto& v) {
+    v("columns", columns, xml::Range{1, 100});
+    v("rows", rows, xml::Range{1, 100});
+    v.required("half_width", half_width, xml::positive);
+    v.required("half_height", half_height, xml::positive);
+  }
+};
+
+/// `<goal at="0.1 -0.2"/>`: in senses, two a camera.
+struct GoalAt {
+  static constexpr auto element = "goal";
+  xml::Place place;
+  std::vector<double> at;
+  void visit(auto& v) { v.required("at", at); }
+};
+
+struct Experiment {
+  static constexpr auto element = "sensorimotor";
+  xml::Place place;
+  std::string view;       ///< who looks on, beside this file
+  double noise_px = 0.1;  ///< of a marker's place in the simulator's images
+  int seed = 1;
+  SessionOptions session;
+  std::vector<Grid> grids;
+  std::vector<GoalAt> goals;
+  void visit(auto& v) {
+    v.required("view", view);
+    v("noise_px", noise_px, xml::at_least_zero);
+    v("seed", seed, xml::Range{0, 1e9});
+    v("twitches", session.twitches, xml::Range{0, 1e5});
+    v("tries", session.tries, xml::Range{0, 1e5});
+    v("twitch_N", session.twitch_N, xml::positive);
+    v("twitch_s", session.twitch_s, xml::positive);
+    v("pause_s", session.pause_s, xml::positive);
+    v("relax_s", session.relax_s, xml::positive);
+    v("reach_s", session.reach_s, xml::positive);
+    v("mean_s", session.mean_s, xml::positive);
+    v("most_N", session.most_N, xml::positive);
+    v("rate", session.reach.rate, xml::Range{0, 2});
+    v("little", session.reach.little, xml::positive);
+    v.list(grids), v.list(goals);
+  }
+};
+
+/// Grids first, row by row from the upper left. Throws std::invalid_argument: a goal that has not as
+/// many senses as there are.
+std::vector<Goal> goals_of(const Experiment& experiment, Eigen::Index senses);
+
+}  // namespace sim::sensorimotor

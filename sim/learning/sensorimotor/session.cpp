@@ -1,0 +1,93 @@
+#include "sim/learning/sensorimotor/session.hpp"
+
+#include <random>
+
+#include "sim/learning/training_loop/dice.hpp"
+
+namespace sim::sensorimotor {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+Session::Session(const SessionOptions& options, Learnt learnt, std::vector<Goal> goals)
+    : options_(options), learnt_(std::move(learnt)), goals_(std::move(goals)) {
+  motors_ = VectorXd::Zero(learnt_.hebb().cols());
+}
+
+void Session::see(double time_s, const VectorXd& senses) {
+  if (last_.size() == senses.size() && (phase_ == Phase::twitch || phase_ == Phase::pause))
+    learnt_.tie(motors_, senses - last_);
+  last_ = senses;
+  if (time_s < end_s_ - options_.mean_s || phase_ == Phase::done) return;
+  sum_ = count_++ ? VectorXd(sum_ + senses) : senses;
+}
+
+const VectorXd& Session::motors_N(double time_s) {
+  if (!begun_) begun_ = true, begin(options_.twitches > 0 ? Phase::pause : Phase::relax, time_s);
+  while (phase_ != Phase::done && time_s >= end_s_) next(end_s_);
+  return motors_;
+}
+
+void Session::begin(Phase phase, double time_s) {
+  phase_ = phase, count_ = 0;
+  if (phase != Phase::twitch && phase != Phase::reach) motors_.setZero();
+  end_s_ = time_s + (phase == Phase::twitch  ? options_.twitch_s
+                     : phase == Phase::pause ? options_.pause_s
+                     : phase == Phase::relax ? options_.relax_s
+                                             : options_.reach_s);
+}
+
+void Session::next(double time_s) {
+  switch (phase_) {
+    case Phase::twitch:
+      learnt_.twitched(motors_);
+      return begin(Phase::pause, time_s);
+    case Phase::pause:
+      if (twitches_ < options_.twitches) return begin_twitch(time_s);
+      return begin(options_.tries > 0 && !goals_.empty() ? Phase::relax : Phase::done, time_s);
+    case Phase::relax:
+      return end_relaxing(time_s);
+    case Phase::reach:
+      return end_reaching(time_s);
+    case Phase::done:
+      break;
+  }
+}
+
+void Session::begin_twitch(double time_s) {
+  auto dice = training_loop::dice(options_.seed, static_cast<std::uint64_t>(twitches_++));
+  std::uniform_int_distribution<Index> any(0, motors_.size() - 1);
+  std::uniform_real_distribution<double> share(0.5, 1);
+  const Index muscle = any(dice);
+  motors_[muscle] = share(dice) * options_.twitch_N;
+  begin(Phase::twitch, time_s);
+}
+
+/// Nothing was seen when it mattered: the try begins anew.
+bool Session::all_seen(double time_s) {
+  if (count_ > 0) return true;
+  ++blind_;
+  begin(Phase::relax, time_s);
+  return false;
+}
+
+void Session::end_relaxing(double time_s) {
+  if (!all_seen(time_s)) return;
+  start_ = sum_ / count_;
+  wanted_ = goals_[goal_].target - start_;
+  motors_ = learnt_.motors_N(goals_[goal_].alpha, wanted_);
+  if (motors_.maxCoeff() > options_.most_N) {
+    motors_ *= options_.most_N / motors_.maxCoeff();
+    ++limited_;
+  }
+  begin(Phase::reach, time_s);
+}
+
+void Session::end_reaching(double time_s) {
+  if (!all_seen(time_s)) return;
+  learn(goals_[goal_], wanted_, sum_ / count_ - start_, options_.reach);
+  if (++tries_ == options_.tries) tries_ = 0, ++goal_;
+  begin(goal_ < goals_.size() ? Phase::relax : Phase::done, time_s);
+}
+
+}  // namespace sim::sensorimotor

@@ -1,0 +1,132 @@
+#include "sim/learning/synergy/bank.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sim::synergy {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+namespace {
+
+double distance_m(const MotorPlan& plan, const Vector3d& at_m) { return (plan.at_m - at_m).norm(); }
+
+/// Of the fourth nearest.
+double fourth_m(const std::vector<MotorPlan>& plans, const Vector3d& at_m) {
+  std::vector<double> off;
+  for (const MotorPlan& plan : plans) off.push_back(distance_m(plan, at_m));
+  const auto k = std::min<std::size_t>(3, off.size() - 1);
+  std::ranges::nth_element(off, off.begin() + static_cast<std::ptrdiff_t>(k));
+  return off[k];
+}
+
+/// β.
+std::vector<double> credits_of(const std::vector<MotorPlan>& plans, const Vector3d& target_m,
+                               double basis_m) {
+  std::vector<double> credits;
+  double sum = 0;
+  for (const MotorPlan& plan : plans) {
+    const double off = distance_m(plan, target_m) / basis_m;
+    sum += credits.emplace_back(plan.value * plan.value * std::exp(-0.5 * off * off));
+  }
+  const double none = sum > 0 ? 0 : 1;  // all are worthless, or far: each as good as any other
+  for (double& credit : credits)
+    credit = (credit + none) / (sum + none * static_cast<double>(plans.size()));
+  return credits;
+}
+
+/// γ.
+std::vector<double> evened_out(const std::vector<double>& credits,
+                               const std::vector<MotorPlan>& plans, const Vector3d& target_m,
+                               double basis_m, double most_m) {
+  constexpr double epsilon = 0.1;  // chosen
+  Vector3d mean_m = Vector3d::Zero();
+  for (std::size_t k = 0; k < plans.size(); ++k) mean_m += credits[k] * plans[k].at_m;
+  Eigen::Matrix3d scatter = epsilon * basis_m * basis_m * Eigen::Matrix3d::Identity();
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    const Vector3d off_m = plans[k].at_m - mean_m;
+    scatter += credits[k] * off_m * off_m.transpose();
+  }
+  const Vector3d wanted_m = target_m - mean_m;
+  const double share = std::min(1.0, most_m / std::max(wanted_m.norm(), 1e-9));
+  const Vector3d lean = scatter.ldlt().solve(share * wanted_m);
+  std::vector<double> shares = credits;
+  for (std::size_t k = 0; k < plans.size(); ++k) shares[k] *= 1 + lean.dot(plans[k].at_m - mean_m);
+  return shares;
+}
+
+/// The less valuable of the two plans that lead nearest to each other.
+std::size_t least_missed(const std::vector<MotorPlan>& plans) {
+  double least_m = HUGE_VAL;
+  std::size_t found = 0;
+  for (std::size_t a = 0; a < plans.size(); ++a)
+    for (std::size_t b = a + 1; b < plans.size(); ++b)
+      if (const double off_m = distance_m(plans[a], plans[b].at_m); off_m < least_m)
+        least_m = off_m, found = plans[a].value < plans[b].value ? a : b;
+  return found;
+}
+
+}  // namespace
+
+Blend Bank::blend(const Vector3d& target_m) const {
+  if (plans_.empty()) throw std::invalid_argument("a bank without plans");
+  const double basis_m = std::max(options_.basis_m, fourth_m(plans_, target_m));
+  Blend blend{.plan = {.weights_m = Eigen::VectorXd::Zero(plans_.front().weights_m.size()),
+                       .signal = {0, 0},
+                       .at_m = target_m,
+                       .value = 0},
+              .credits = credits_of(plans_, target_m, basis_m)};
+  const auto shares = evened_out(blend.credits, plans_, target_m, basis_m, options_.lean_m);
+  for (std::size_t k = 0; k < plans_.size(); ++k) {
+    blend.plan.weights_m += shares[k] * plans_[k].weights_m;
+    blend.plan.signal.rise_s += blend.credits[k] * plans_[k].signal.rise_s;
+    blend.plan.signal.beyond += blend.credits[k] * plans_[k].signal.beyond;
+    blend.plan.value += blend.credits[k] * plans_[k].value;
+  }
+  return blend;
+}
+
+void Bank::credit(const std::vector<double>& credits, double reward) {
+  for (std::size_t k = 0; k < credits.size(); ++k)
+    plans_[k].value += options_.rate * credits[k] * (reward - plans_[k].value);
+}
+
+void Bank::add(MotorPlan plan) { plans_.push_back(std::move(plan)); }
+
+void Bank::cut(std::size_t count) {
+  while (plans_.size() > std::max<std::size_t>(1, count))
+    plans_.erase(plans_.begin() + static_cast<std::ptrdiff_t>(least_missed(plans_)));
+}
+
+MotorPlan varied(MotorPlan plan, const Exploring& by, std::mt19937_64& dice) {
+  constexpr double least_s = 0.3, most_s = 1.6, most_beyond = 0.4;  // chosen
+  std::normal_distribution<double> normal;
+  const double all = 1 + by.weights * normal(dice);
+  for (double& weight : plan.weights_m)
+    weight = weight * all * (1 + by.weights * normal(dice)) + by.weights_m * normal(dice);
+  plan.signal.rise_s =
+      std::clamp(plan.signal.rise_s * std::exp(by.rise * normal(dice)), least_s, most_s);
+  plan.signal.beyond =
+      std::clamp(plan.signal.beyond + by.beyond * normal(dice), -most_beyond, most_beyond);
+  return plan;
+}
+
+int components(const Bank& bank, double share) {
+  const auto& plans = bank.plans();
+  if (plans.empty()) return 0;
+  Eigen::MatrixXd weights(plans.front().weights_m.size(), std::ssize(plans));
+  for (Index k = 0; k < weights.cols(); ++k)
+    weights.col(k) = plans[static_cast<std::size_t>(k)].weights_m;
+  const Eigen::VectorXd squares =
+      Eigen::JacobiSVD<Eigen::MatrixXd>(weights).singularValues().cwiseAbs2();
+  double sum = 0;
+  for (Index k = 0; k < squares.size(); ++k)
+    if ((sum += squares[k]) >= share * squares.sum()) return static_cast<int>(k) + 1;
+  return static_cast<int>(squares.size());
+}
+
+}  // namespace sim::synergy

@@ -1,0 +1,58 @@
+#include "sim/learning/synergy/trial.hpp"
+
+#include <cmath>
+
+#include "sim/learning/training_loop/dice.hpp"
+
+namespace sim::synergy {
+
+using Eigen::VectorXd;
+
+Trial::Trial(MotorPlan plan, const TrialTimes& times, double noise, std::uint64_t seed)
+    : plan_(std::move(plan)), times_(times), noise_(noise), dice_(training_loop::dice(seed)) {
+  line_m_ = noises_ = VectorXd::Zero(plan_.weights_m.size());
+}
+
+void Trial::add_noise(double dt_s) {
+  constexpr double correlated_s = 0.1;  // chosen
+  const double kept = std::exp(-dt_s / correlated_s);
+  const double fresh = noise_ * std::sqrt(1 - kept * kept);
+  for (double& n : noises_) n = kept * n + fresh * normal_(dice_);
+}
+
+const VectorXd& Trial::step(double time_s) {
+  if (!begun_) begun_ = true, begin_s_ = last_s_ = time_s;
+  if (!way_ && into_s(time_s) > end_s() + times_.watch_s) way_.emplace(times_, time_s, line_m_);
+  if (way_) {
+    done_ = way_->done(time_s);
+    return line_m_ = way_->at(time_s);
+  }
+  add_noise(time_s - last_s_);
+  last_s_ = time_s;
+  return line_m_ = -plan_.signal.at(into_s(time_s)) *
+                   plan_.weights_m.cwiseProduct(VectorXd::Ones(noises_.size()) + noises_);
+}
+
+void Trial::see(double time_s, const Eigen::Vector3d& hand_m) {
+  last_m_ = hand_m;
+  if (!begun_ || way_ || into_s(time_s) < path_.sample_s * static_cast<double>(path_.at_m.size()))
+    return;
+  path_.at_m.push_back(hand_m);
+}
+
+Taught taught_by(const Trial& trial, const BottleConfig& bottle, const Eigen::Vector3d& rest_m,
+                 const Eigen::Vector3d& target_m) {
+  Taught taught{.outcome = judge(bottle, target_m, trial.path(), trial.end_s()),
+                .off_m = (trial.last_m() - rest_m).norm()};
+  taught.came_back = taught.off_m <= back_m;
+  if (!taught.came_back) return taught;
+  taught.credit = taught.outcome.reward;
+  MotorPlan& plan = taught.plan.emplace(trial.plan());
+  plan.at_m = rest_of(trial.path());
+  const double missed = (plan.at_m - target_m).norm() / bottle.zone_m;
+  plan.value =
+      std::exp(-2 * missed * missed) * judge(bottle, plan.at_m, trial.path(), trial.end_s()).reward;
+  return taught;
+}
+
+}  // namespace sim::synergy

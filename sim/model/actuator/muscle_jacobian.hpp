@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+#include "sim/model/actuator/routing.hpp"
+#include "sim/model/skeleton/skeleton_model.hpp"
+
+namespace sim {
+
+/// The joints a tendon acts on: those that move some of its points and pulleys, but not all.
+struct Levers {
+  std::vector<int> coordinates;              ///< of the model, rising
+  std::vector<std::vector<int>> of_element;  ///< of those, the ones that move each element
+};
+
+Levers levers_of(const Routing& routing, const SkeletonModel& model);
+
+/// ∂L/∂q of a path (paper, eq. 7), one entry a coordinate of the model, which must stand in the
+/// posture the shape was solved at: J v is dL/dt and −F Jᵀ the torques of tension F.
+/// Analytic: by virtual work, from the pulls at the path's points and pulleys. Zero, exactly, where
+/// the tendon has no lever.
+inline void length_gradient(const PathShape& shape, const Levers& levers,
+                            const SkeletonModel& model, Eigen::VectorXd& row) {
+  row.setZero(model.coordinates());
+  for (std::size_t k = 0; k < levers.of_element.size(); ++k) {
+    const PathPull& pull = shape.pulls[k];
+    if (pull.direction.isZero(0) && pull.moment_m.isZero(0)) continue;
+    Vec6 given = wrench(pull.at_m, -pull.direction);
+    given.head<3>() -= pull.moment_m;
+    for (const int d : levers.of_element[k]) row[d] += model.axis(d).dot(given);
+  }
+}
+
+}  // namespace sim

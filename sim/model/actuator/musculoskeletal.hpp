@@ -1,0 +1,43 @@
+#pragma once
+#include <vector>
+
+#include "sim/model/actuator/muscle_jacobian.hpp"
+
+/// A robot's bones and tendons in one posture, without a physics engine: the internal model of
+/// controllers and of statics.
+///
+///   l(q)             lengths of the tendons' paths, m
+///   L(q) = ∂l/∂q     how they change with the joints (paper, eq. 7); actuators × coordinates
+///   H, C, τ_G        by `skeleton()` (eq. 6)
+///
+/// Turns around pulleys are counted from posture to posture, the first from where the robot starts.
+namespace sim {
+
+class Musculoskeletal {
+ public:
+  /// Throws std::invalid_argument as RobotTree does, and with the actuator's name as Routing does or
+  /// for a point that lies inside its pulley where the robot starts.
+  explicit Musculoskeletal(const erp::Robot& robot);
+
+  /// Moves the bones there: by joint of `tree()`. No heap.
+  void place(std::span<const JointReading> joints);
+
+  const Eigen::VectorXd& length_m() const { return length_m_; }
+  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+  SkeletonModel& skeleton() { return skeleton_; }
+  const SkeletonModel& skeleton() const { return skeleton_; }
+  const RobotTree& tree() const { return tree_; }
+  int coordinates() const { return skeleton_.coordinates(); }
+  const std::vector<PathShape>& shapes() const { return shapes_; }
+
+ private:
+  RobotTree tree_;
+  SkeletonModel skeleton_;
+  std::vector<Routing> routings_;
+  std::vector<Levers> levers_;
+  std::vector<PathShape> shapes_;
+  Eigen::VectorXd length_m_, row_;
+  Eigen::MatrixXd jacobian_;
+};
+
+}  // namespace sim

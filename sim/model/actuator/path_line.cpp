@@ -1,0 +1,48 @@
+#include "sim/model/actuator/path_line.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+namespace {
+
+/// Turned about the way's axis from where the line comes in; along a cylinder as far as it has
+/// turned.
+void add_arc(std::vector<Vec3>& line, const PathShape& shape, std::size_t k, double step_rad) {
+  const Vec3 &center = shape.pulls[k].at_m, &axis = shape.about[k];
+  const Vec3 in = shape.entry_m[k] - center;
+  const Vec3 along = axis.dot(in) * axis;
+  const Vec3 rise = axis.dot(shape.exit_m[k] - shape.entry_m[k]) * axis;
+  const int steps = 1 + static_cast<int>(shape.wrapped_rad[k] / step_rad);
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const Eigen::AngleAxisd turn(share * shape.wrapped_rad[k], axis);
+    line.push_back(center + along + turn * (in - along) + share * rise);
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3> path_line(const Routing& routing, const PathShape& shape, double arc_step_rad) {
+  std::vector<Vec3> line;
+  for (std::size_t k = 0; k < routing.elements().size(); ++k) {
+    if (routing.elements()[k].radius_m == 0) line.push_back(shape.entry_m[k]);
+    else if (shape.touches[k]) add_arc(line, shape, k, arc_step_rad);
+  }
+  return line;
+}
+
+Vec3 along_line(std::span<const Vec3> line, double share) {
+  double length = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+  double left = share * length;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const double step = (line[i] - line[i - 1]).norm();
+    if (left <= step && step > 0) return line[i - 1] + left / step * (line[i] - line[i - 1]);
+    left -= step;
+  }
+  return line.back();
+}
+
+}  // namespace sim

@@ -1,0 +1,112 @@
+#include "sim/model/actuator/pulley_wrap.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sim {
+
+namespace {
+
+/// One end, seen from the centre: its direction, and the tangent from it to the sphere.
+struct End {
+  Vec3 direction;
+  double tangent_m;  ///< √(a² − r²)
+  double angle_rad;  ///< α
+  bool inside;
+};
+
+End look_at(const Vec3& point, double r) {
+  const double distance = point.norm(), above = std::max(distance - r, 0.0);
+  const double tangent = std::sqrt(above * (above + 2 * r));
+  const Vec3 direction = distance > 0 ? Vec3(point / distance) : Vec3::UnitZ();
+  return {direction, tangent, std::atan2(tangent, r), distance < r};
+}
+
+/// The way from A to B: the angle, and the axis about which it is positive.
+struct Way {
+  Vec3 axis;
+  double angle_rad;
+};
+
+Way choose_way(const Vec3& a, const Vec3& b, const Vec3& side) {
+  const Vec3 cross = a.cross(b);
+  const double sine = cross.norm();
+  const double angle = std::atan2(sine, a.dot(b));
+  if (sine < 1e-12) {  // in line with the centre: the side, or any direction, gives the plane
+    const Vec3 across = a.cross(side);
+    const bool long_way = a.dot(b) > 0 && side.dot(a) < 0;
+    return {across.norm() > 1e-9 ? across.normalized() : a.unitOrthogonal(),
+            long_way ? 2 * std::numbers::pi : angle};
+  }
+  if (side.dot(a + b) < 0) return {-cross / sine, 2 * std::numbers::pi - angle};
+  return {cross / sine, angle};
+}
+
+/// The one right-handed about an axis, its turns those of the last.
+Way way_about(const Vec3& a, const Vec3& b, const Vec3& axis, double last_rad) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const Vec3 cross = a.cross(b);
+  const double sine = cross.norm(), angle = std::atan2(sine, a.dot(b));
+  const bool forward = sine < 1e-12 || cross.dot(axis) >= 0;
+  const Vec3 normal = sine < 1e-12 ? axis : Vec3((forward ? 1 : -1) / sine * cross);
+  const double once = forward ? angle : turn - angle;
+  return {normal, once + turn * std::ceil((last_rad - once) / turn - 0.5)};  // a tie: the fewer
+}
+
+/// The point of the sphere at `angle` from `direction`, turning about `axis`.
+Vec3 on_sphere(double r, const Vec3& direction, const Vec3& axis, double angle) {
+  return r * (std::cos(angle) * direction + std::sin(angle) * axis.cross(direction));
+}
+
+/// Around the sphere, or the circle, that way.
+Wrap wrap_around(const Vec3& a, const Vec3& b, double r, const End& from, const End& to,
+                 const Way& way) {
+  const double angle = way.angle_rad - from.angle_rad - to.angle_rad;
+  Wrap result;
+  result.around_rad = way.angle_rad;
+  result.about = way.axis;
+  result.inside = from.inside || to.inside;
+  if (result.inside || !(angle > 0)) {
+    result.length_m = (b - a).norm();
+    return result;
+  }
+  result.touches = true;
+  result.wrapped_rad = angle;
+  result.wrapped_m = r * angle;
+  result.length_m = from.tangent_m + to.tangent_m + result.wrapped_m;
+  result.entry_m = on_sphere(r, from.direction, way.axis, from.angle_rad);
+  result.exit_m = on_sphere(r, to.direction, way.axis, -to.angle_rad);
+  return result;
+}
+
+}  // namespace
+
+Wrap wrap_sphere(const Vec3& a, const Vec3& b, double r, const Vec3& side) {
+  const End from = look_at(a, r), to = look_at(b, r);
+  return wrap_around(a, b, r, from, to, choose_way(from.direction, to.direction, side));
+}
+
+Wrap wrap_sphere_about(const Vec3& a, const Vec3& b, double r, const Vec3& axis, double last_rad) {
+  const End from = look_at(a, r), to = look_at(b, r);
+  return wrap_around(a, b, r, from, to, way_about(from.direction, to.direction, axis, last_rad));
+}
+
+Wrap wrap_cylinder(const Vec3& a, const Vec3& b, double r, const Vec3& axis, double last_rad) {
+  const double start = a.dot(axis), rise = b.dot(axis) - start;
+  const Vec3 across_a = a - start * axis, across_b = b - (start + rise) * axis;
+  const End from = look_at(across_a, r), to = look_at(across_b, r);
+  Wrap wrap = wrap_around(across_a, across_b, r, from, to,
+                          way_about(from.direction, to.direction, axis, last_rad));
+  if (wrap.touches) {  // as far along the axis as along the unrolled line
+    const double slope = rise / wrap.length_m;
+    wrap.entry_m += (start + slope * from.tangent_m) * axis;
+    wrap.exit_m += (start + rise - slope * to.tangent_m) * axis;
+    wrap.wrapped_m *= std::sqrt(1 + slope * slope);
+  }
+  wrap.length_m = std::hypot(wrap.length_m, rise);
+  return wrap;
+}
+
+}  // namespace sim

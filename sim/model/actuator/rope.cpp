@@ -1,0 +1,245 @@
+#include "sim/model/actuator/rope.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/model/actuator/path_line.hpp"
+
+namespace sim {
+namespace {
+
+constexpr int most_turns = 60;           // chosen
+constexpr int turns_to_leave = 20;       // chosen: later, a node that touches stays
+constexpr double at_rest_m = 1e-9;       // chosen: a node that moves less rests
+constexpr double good_enough_m = 1e-5;   // chosen: beyond it a step has not found the answer
+constexpr double fastest_m_per_s = 100;  // chosen: no rope of a robot moves so fast
+constexpr double longest_step_m = 0.02;  // chosen: of a node in one of Newton's steps
+constexpr int most_nodes = 200;
+
+}  // namespace
+
+Rope::Rope(const erp::Rope& rope, const TendonLaw& law, const Routing& routing,
+           std::vector<Solid> solids)
+    : ends_{routing.elements().front(), routing.elements().back()},
+      law_(law),
+      node_kg_(rope.mass_kg / rope.nodes),
+      radius_m_(rope.radius_m),
+      friction_(rope.friction) {
+  if (!(rope.mass_kg > 0)) throw std::invalid_argument("a rope needs mass_kg");
+  if (rope.nodes < 2 || rope.nodes > most_nodes)
+    throw std::invalid_argument("a rope has 2 to 200 nodes, got " + std::to_string(rope.nodes));
+  for (const PathElement& pulley : routing.elements())
+    if (pulley.radius_m > 0)
+      solids.push_back({pulley.body, pulley.at_m, pulley.at_m, pulley.radius_m});
+  for (const Solid& solid : solids)
+    if (std::ranges::none_of(ends_, [&](const PathElement& end) {
+          return end.body == solid.body && clearance(solid, end.at_m).distance_m < radius_m_;
+        }))
+      solids_.push_back(solid);
+  const auto n = static_cast<std::size_t>(rope.nodes);
+  for (auto* points : {&state_.nodes_m, &state_.velocities_m_per_s, &start_m_})
+    points->assign(n + 1, Vec3::Zero());
+  nodes_.resize(n + 1);
+  segments_.resize(n);
+  state_.tension_N.assign(n, 0.0);
+  state_.forces.reserve(3 * n + 2);
+  state_.line_m = law_.rest_m;
+}
+
+Vec3 Rope::point(const PathElement& end, std::span<const BodyPose> poses) const {
+  const BodyPose& pose = poses[static_cast<std::size_t>(end.body)];
+  return pose.position_m + pose.rotation * end.at_m;
+}
+
+void Rope::require_fine(double length_m) const {
+  double smallest_m = length_m;
+  for (const Solid& solid : solids_)
+    smallest_m =
+        std::min(smallest_m,
+                 radius_m_ + (solid.half_m.isZero(0) ? solid.radius_m : solid.half_m.minCoeff()));
+  if (length_m / static_cast<double>(segments()) <= smallest_m) return;
+  throw std::invalid_argument(
+      "a rope of " + std::to_string(length_m) + " m and nodes=" + std::to_string(segments()) +
+      " could step over a solid of half its size, " + std::to_string(smallest_m) +
+      " m; give nodes=" + std::to_string(static_cast<int>(std::ceil(length_m / smallest_m))));
+}
+
+void Rope::lay(std::span<const Vec3> line, double shaft_rad) {
+  const auto n = segments();
+  for (std::size_t i = 0; i <= n; ++i)
+    state_.nodes_m[i] = along_line(line, static_cast<double>(i) / static_cast<double>(n));
+  std::ranges::fill(state_.velocities_m_per_s, Vec3::Zero());
+  state_.rest_m = state_.line_m - law_.radius_m * shaft_rad;
+  const double tension_N = law_.spring.force_N(length_m() - state_.rest_m);
+  std::ranges::fill(state_.tension_N, tension_N);
+  for (Node& node : nodes_) node = {};
+  balance(0);
+}
+
+void Rope::settle(std::span<const BodyPose> poses, double shaft_rad,
+                  std::optional<double> pretension_N) {
+  constexpr int most_steps = 500;  // chosen
+  constexpr double step_s = 0.001;
+  const std::vector<BodyTwist> still(poses.size());
+  for (int k = 0; k < most_steps; ++k) {
+    step({poses, still, Vec3::Zero()}, shaft_rad, step_s);
+    if (pretension_N)
+      state_.line_m = length_m() - law_.spring.stretch_m(*pretension_N) + law_.radius_m * shaft_rad;
+  }
+  std::ranges::fill(state_.velocities_m_per_s, Vec3::Zero());
+  state_.troubles = 0;  // of falling into place
+}
+
+void Rope::restore(const RopeState& state) {
+  if (state.nodes_m.size() != state_.nodes_m.size() ||
+      state.velocities_m_per_s.size() != state_.velocities_m_per_s.size() ||
+      state.tension_N.size() != state_.tension_N.size())
+    throw std::invalid_argument("this state is of a rope with another number of nodes");
+  state_ = state;
+}
+
+double Rope::length_m() const {
+  double length = 0;
+  for (std::size_t i = 0; i < segments(); ++i)
+    length += (state_.nodes_m[i + 1] - state_.nodes_m[i]).norm();
+  return length;
+}
+
+void Rope::step(const Surroundings& around, double shaft_rad, double dt_s) {
+  begin(around, shaft_rad, dt_s);
+  double moved_m = 0;
+  bool rests = false;
+  for (int turn = 0; turn < most_turns && !rests; ++turn) {
+    touch(around, dt_s, turn == 0);
+    stretch();
+    stiffen(dt_s);
+    solve();
+    moved_m = go();
+    rests = moved_m < at_rest_m;
+    stretch();
+    rests = !rub(dt_s, turn < turns_to_leave) && rests;
+  }
+  end(around, moved_m < good_enough_m, dt_s);
+}
+
+/// Where nodes would go, and the law of each segment.
+void Rope::begin(const Surroundings& around, double shaft_rad, double dt_s) {
+  auto& x = state_.nodes_m;
+  const auto n = segments();
+  const double parts = static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double stretch = (x[i + 1] - x[i]).norm() - state_.rest_m / parts;
+    const double whole = parts * stretch;  // if all segments were stretched like this one
+    const double slope = law_.spring.slope_N_per_m(whole);
+    const double force = whole > 0 ? law_.spring.force_N(whole) : slope * whole;
+    segments_[i].give_m_per_N = 1 / (parts * (slope + law_.damping_N_s_per_m / dt_s));
+    segments_[i].kept_m = stretch - segments_[i].give_m_per_N * force;
+  }
+  state_.rest_m = state_.line_m - law_.radius_m * shaft_rad;
+  start_m_ = x;
+  for (std::size_t i = 1; i < n; ++i) {
+    nodes_[i].on = 0, nodes_[i].drag_kg_per_s = 0;
+    nodes_[i].free_m = x[i] + dt_s * state_.velocities_m_per_s[i] + dt_s * dt_s * around.gravity;
+  }
+  x.front() = point(ends_[0], around.poses), x.back() = point(ends_[1], around.poses);
+}
+
+/// The tensions of this shape.
+void Rope::stretch() {
+  const auto& x = state_.nodes_m;
+  const double rest = state_.rest_m / static_cast<double>(segments());
+  for (std::size_t i = 0; i < segments(); ++i) {
+    Segment& s = segments_[i];
+    const Vec3 span = x[i + 1] - x[i];
+    const double length = span.norm();
+    s.along = length > 0 ? Vec3(span / length) : Vec3::UnitZ();
+    state_.tension_N[i] = std::max(0.0, (length - rest - s.kept_m) / s.give_m_per_N);
+    s.stiffness.setZero();
+    if (state_.tension_N[i] == 0) continue;
+    const Eigen::Matrix3d own = s.along * s.along.transpose();
+    s.stiffness = own / s.give_m_per_N + state_.tension_N[i] / std::max(length, at_rest_m) *
+                                             (Eigen::Matrix3d::Identity() - own);
+  }
+}
+
+/// Newton's system. A node on solids moves to their surfaces and along them.
+void Rope::stiffen(double dt_s) {
+  const auto& x = state_.nodes_m;
+  const double inertia = node_kg_ / (dt_s * dt_s);
+  for (std::size_t i = 1; i < segments(); ++i) {
+    Node& node = nodes_[i];
+    node.own = segments_[i - 1].stiffness + segments_[i].stiffness;
+    node.own.diagonal().array() += inertia + node.drag_kg_per_s / dt_s;
+    node.after = -segments_[i].stiffness;
+    node.right = pull_on(i) - inertia * (x[i] - node.free_m) -
+                 node.drag_kg_per_s / dt_s * (x[i] - node.carried_m);
+    stay_outside(node);
+  }
+  for (std::size_t i = 1; i < segments(); ++i) {
+    Node& node = nodes_[i];
+    node.right -= node.own * node.step;
+    if (i > 1) node.right += segments_[i - 1].stiffness * nodes_[i - 1].step;
+    if (i + 1 < segments()) node.right += segments_[i].stiffness * nodes_[i + 1].step;
+  }
+  for (std::size_t i = 1; i < segments(); ++i) {
+    Node& node = nodes_[i];
+    const Eigen::Matrix3d& p = node.across;
+    node.right = p * node.right;
+    node.own = p * node.own * p + inertia * (Eigen::Matrix3d::Identity() - p);
+    if (i + 1 < segments()) node.after = p * node.after * nodes_[i + 1].across;
+  }
+}
+
+/// Of three block diagonals, symmetric.
+void Rope::solve() {
+  const auto n = segments();
+  for (std::size_t i = 1; i < n; ++i) {
+    Node& node = nodes_[i];
+    if (i > 1) {
+      const Node& before = nodes_[i - 1];
+      const Eigen::Matrix3d share = before.after.transpose() * before.own;  // its inverse by now
+      node.right -= share * before.right;
+      node.own -= share * before.after;
+    }
+    node.own = node.own.inverse().eval();
+  }
+  Vec3 next = Vec3::Zero();
+  for (std::size_t i = n - 1; i >= 1; --i) {
+    Node& node = nodes_[i];
+    next = node.own * (node.right - (i + 1 < n ? Vec3(node.after * next) : Vec3(Vec3::Zero())));
+    node.step += next;
+  }
+}
+
+Vec3 Rope::pull_on(std::size_t node) const {
+  return state_.tension_N[node] * segments_[node].along -
+         state_.tension_N[node - 1] * segments_[node - 1].along;
+}
+
+/// Goes the step, all of it a share if one node's is very long; how far the farthest went.
+double Rope::go() {
+  double farthest = 0;
+  for (std::size_t i = 1; i < segments(); ++i)
+    farthest = std::max(farthest, nodes_[i].step.lpNorm<Eigen::Infinity>());
+  const double share = std::min(1.0, longest_step_m / std::max(farthest, at_rest_m));
+  for (std::size_t i = 1; i < segments(); ++i) state_.nodes_m[i] += share * nodes_[i].step;
+  return farthest;
+}
+
+void Rope::end(const Surroundings& around, bool rests, double dt_s) {
+  double fastest = 0;
+  for (std::size_t i = 0; i <= segments(); ++i) {
+    state_.velocities_m_per_s[i] = (state_.nodes_m[i] - start_m_[i]) / dt_s;
+    fastest = std::max(fastest, state_.velocities_m_per_s[i].norm());
+    if (!state_.nodes_m[i].allFinite()) fastest = 2 * fastest_m_per_s;
+  }
+  const bool ran_away = fastest > fastest_m_per_s;
+  if (!rests || ran_away) ++state_.troubles;
+  if (!ran_away) return balance(dt_s);
+  const std::array<Vec3, 2> straight{point(ends_[0], around.poses), point(ends_[1], around.poses)};
+  lay(straight, (state_.line_m - state_.rest_m) / law_.radius_m);
+}
+
+}  // namespace sim

@@ -1,0 +1,64 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "interfaces/xml/fields.hpp"
+#include "sim/model/skeleton/pose.hpp"
+
+/// A pinhole camera with radial distortion.
+///
+///   x = X/Z, y = Y/Z in its frame: X to the right of the image, Y down, Z ahead
+///   (u, v) = f (1 + k₁ ρ² + k₂ ρ⁴) (x, y) + (c_u, c_v),    ρ² = x² + y²
+///
+/// Source: Brown 1966; the names of OpenCV's calib3d, so that its calibration can be written down.
+namespace sim::cameras {
+
+using Pixel = Eigen::Vector2d;
+
+/// `<camera name="left" at_m="…" looks_at_m="…"/>`
+struct CameraConfig {
+  static constexpr auto element = "camera";
+  xml::Place place;
+  std::string name;
+  xml::Vec3 at_m{0, 0, 0}, looks_at_m{0, 0, 0};  ///< in the world
+  xml::Vec3 up{0, 0, 1};  ///< where the image's upper edge is, as near as can be
+  double focal_px = 800;
+  int width_px = 640, height_px = 480;
+  double centre_u_px = 0, centre_v_px = 0;  ///< of the optical axis, from the image's middle
+  double k1 = 0, k2 = 0;
+  void visit(auto& v) {
+    v.required("name", name);
+    v.required("at_m", at_m), v.required("looks_at_m", looks_at_m);
+    v("up", up);
+    v("focal_px", focal_px, xml::positive);
+    v("width_px", width_px, xml::Range{16, 8192});
+    v("height_px", height_px, xml::Range{16, 8192});
+    v("centre_u_px", centre_u_px), v("centre_v_px", centre_v_px);
+    v("k1", k1), v("k2", k2);
+  }
+};
+
+class Camera {
+ public:
+  /// Throws std::invalid_argument for a camera that looks straight along `up`, or at itself.
+  explicit Camera(const CameraConfig& config);
+
+  /// Nothing: behind the camera. May lie outside the image.
+  std::optional<Pixel> project(const Vec3& world_m) const;
+  /// The direction that a pixel sees, in the world, of length 1; at_m() + t ray is what it may be.
+  Vec3 ray(const Pixel& pixel) const;
+  const Vec3& at_m() const { return at_m_; }
+  const CameraConfig& config() const { return config_; }
+  bool sees(const Pixel& pixel) const {
+    return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= config_.width_px - 1 &&
+           pixel.y() <= config_.height_px - 1;
+  }
+
+ private:
+  CameraConfig config_;
+  Vec3 at_m_;
+  Eigen::Matrix3d axes_;  ///< of the camera in the world, by column
+  Pixel centre_;
+};
+
+}  // namespace sim::cameras

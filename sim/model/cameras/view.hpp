@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/model/cameras/camera.hpp"
+
+/// What looks on, and at what.
+namespace sim::cameras {
+
+/// `<marker body="forearm" at_m="0.05 0 -0.1"/>`: a ball's centre, in the body's frame.
+struct MarkerConfig {
+  static constexpr auto element = "marker";
+  xml::Place place;
+  std::string body;
+  xml::Vec3 at_m{0, 0, 0};
+  void visit(auto& v) { v.required("body", body), v.required("at_m", at_m); }
+};
+
+/// `<camera_view>`, a file: for the component that sees, and for those who want to know beforehand what it
+/// will see.
+struct ViewConfig {
+  static constexpr auto element = "camera_view";
+  xml::Place place;
+  std::vector<CameraConfig> cameras;
+  std::vector<MarkerConfig> markers;
+  void visit(auto& v) { v.list(cameras), v.list(markers); }
+};
+
+}  // namespace sim::cameras

@@ -1,0 +1,21 @@
+#pragma once
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// Commands arrive later by a time that is drawn anew for each.
+///
+///   t_heard = t_sent + T u,   u uniform in 0 … 1
+///
+/// Source: Nilsson, Real-Time Control Systems with Delays, Lund 1998.
+struct Jitter {
+  static constexpr About about{"bus_jitter", Stage::bus, Seat::robot,
+                               "references that change fast"};
+
+  double spread_s = 0;  // T
+
+  void visit(auto& v) { v("spread_s", spread_s, Bounds{0, 0.1}); }
+  double command_delay_s(double uniform) const { return spread_s * uniform; }
+};
+
+}  // namespace sim::effects

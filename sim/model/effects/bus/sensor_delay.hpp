@@ -1,0 +1,21 @@
+#pragma once
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// What the ECUs measured reaches the controllers later; the ECUs' own loops see it at once.
+///
+///   t_heard = t_measured + T
+///
+/// Source: Nilsson, Real-Time Control Systems with Delays, Lund 1998.
+struct SensorDelay {
+  static constexpr About about{"bus_sensor_delay", Stage::bus, Seat::robot,
+                               "references that change fast"};
+
+  double delay_s = 0;  // T
+
+  void visit(auto& v) { v("delay_s", delay_s, Bounds{0, 0.1}); }
+  double frame_delay_s(double) const { return delay_s; }
+};
+
+}  // namespace sim::effects

@@ -1,0 +1,21 @@
+#pragma once
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The rotor's inertia, with what turns with it, is another one.
+///
+///   J_M' = (1 + a) J_M
+///
+/// Source: paper, eq. 3.
+struct GearboxInertia {
+  static constexpr About about{"gearbox_inertia", Stage::gearbox, Seat::actuator,
+                               "fast reversals under a small load"};
+
+  double relative = 0;  // a
+
+  void visit(auto& v) { v("relative", relative, Bounds{-0.8, 4}); }
+  void change_motor(auto& motor) const { motor.rotor_inertia_kg_m2 *= 1 + relative; }
+};
+
+}  // namespace sim::effects

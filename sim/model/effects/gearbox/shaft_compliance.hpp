@@ -1,0 +1,26 @@
+#pragma once
+#include "sim/model/effects/effect.hpp"
+#include "sim/model/effects/softer_line.hpp"
+
+namespace sim::effects {
+
+/// The shaft between the gearbox, where the angle is measured, and the spindle twists.
+///
+///   θ_s = θ − c r F,   which is a line softer by  r² c
+///
+/// The same as an elastic line and, of a plain spring, nearly as a softer spring.
+/// Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
+struct GearboxShaftCompliance {
+  static constexpr About about{"gearbox_shaft_compliance", Stage::gearbox, Seat::actuator,
+                               "several tensions at several stretches"};
+
+  double rad_per_Nm = 0;  // c
+
+  void visit(auto& v) { v("rad_per_Nm", rad_per_Nm, Bounds{0, 20}); }
+  void change_actuator(auto& actuator) const {
+    const double r = actuator.spindle.radius_m;
+    soften_line(actuator.tendon, r * r * rad_per_Nm);
+  }
+};
+
+}  // namespace sim::effects

@@ -1,0 +1,24 @@
+#pragma once
+#include <algorithm>
+
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// More friction in a joint that grows with speed, or less.
+///
+///   µ' = max(0, µ + a)
+///
+/// Source: Stokes 1851, of lubricated bearings.
+struct JointViscous {
+  static constexpr About about{"joint_viscous", Stage::joint, Seat::joint, "several speeds"};
+
+  double extra_Nm_s_per_rad = 0;  // a
+
+  void visit(auto& v) { v("extra_Nm_s_per_rad", extra_Nm_s_per_rad, Bounds{-1, 5}); }
+  void change_joint(auto& joint) const {
+    joint.viscous_Nm_s_per_rad = std::max(0.0, joint.viscous_Nm_s_per_rad + extra_Nm_s_per_rad);
+  }
+};
+
+}  // namespace sim::effects

@@ -1,0 +1,72 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The motor's driver applies a voltage later than its controller reports it.
+///
+///   V'(t) = V(t − T)            its mean over a step
+///
+/// Up to three changes of the voltage wait, so the bound is three periods of a controller at 500 Hz. Ignores: with a
+/// faster controller a fourth change may come earlier; the oldest acts then.
+/// Source: dead time and PWM update delay, Holtz, Proc. IEEE 82, 1994.
+struct MotorDriverDelay {
+  static constexpr About about{"motor_driver_delay", Stage::motor, Seat::actuator,
+                               "voltages that change from row to row"};
+
+  double delay_s = 0;  // T
+
+  void visit(auto& v) { v("delay_s", delay_s, Bounds{0, 0.006}); }
+
+  double driver_delay_s() const { return delay_s; }
+  double late_voltage_V(double applied_V, const ChainSample& s, Memory& memory) const {
+    Waiting w(memory);
+    if (!w.begun()) w.begin(applied_V);
+    for (std::size_t n = 0; n < w.count(); ++n) w.age_s(n) += s.dt_s;
+    if (applied_V != w.newest_V()) w.add(applied_V, s.dt_s);
+    double mean_V = w.acting_V(), before_V = mean_V;
+    std::size_t done = 0;
+    for (std::size_t n = 0; n < w.count(); ++n) {
+      const double share = std::clamp((w.age_s(n) - delay_s) / s.dt_s, 0.0, 1.0);
+      if (share > 0) mean_V += share * (w.volts(n) - before_V);
+      before_V = w.volts(n);
+      done += share == 1;
+    }
+    while (done-- > 0) w.act();
+    return mean_V;
+  }
+
+ private:
+  /// Changes of the voltage that do not act yet, the oldest first: how old they are at the end of a step.
+  class Waiting {
+   public:
+    static constexpr std::size_t most = 3;
+
+    explicit Waiting(Memory& memory) : m_(memory) {}
+    bool begun() const { return m_[1] > 0; }
+    void begin(double volts) { m_[0] = volts, m_[1] = 1; }
+    std::size_t count() const { return static_cast<std::size_t>(m_[1]) - 1; }
+    double acting_V() const { return m_[0]; }
+    double& volts(std::size_t n) { return m_[2 + 2 * n]; }
+    double& age_s(std::size_t n) { return m_[3 + 2 * n]; }
+    double newest_V() { return count() > 0 ? volts(count() - 1) : m_[0]; }
+    void add(double volts_V, double age) {
+      if (count() == most) act();
+      volts(count()) = volts_V, age_s(count()) = age, m_[1] += 1;
+    }
+    /// The oldest acts from now on.
+    void act() {
+      m_[0] = m_[2], m_[1] -= 1;
+      std::ranges::copy(std::span(m_).subspan(4, 2 * (most - 1)), m_.begin() + 2);
+    }
+
+   private:
+    Memory& m_;  // acting voltage, 1 + count, then volts and age of each
+  };
+};
+
+}  // namespace sim::effects

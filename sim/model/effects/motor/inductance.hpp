@@ -1,0 +1,21 @@
+#pragma once
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The winding's inductance is another one.
+///
+///   L' = (1 + a) L
+///
+/// Source: paper, eq. 3.
+struct MotorInductance {
+  static constexpr About about{"motor_inductance", Stage::motor, Seat::actuator,
+                               "steps of voltage, current sampled within L/R"};
+
+  double relative = 0;  // a
+
+  void visit(auto& v) { v("relative", relative, Bounds{-0.8, 30}); }
+  void change_motor(auto& motor) const { motor.inductance_H *= 1 + relative; }
+};
+
+}  // namespace sim::effects

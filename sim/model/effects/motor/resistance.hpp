@@ -1,0 +1,21 @@
+#pragma once
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The circuit's resistance is another one: winding, brushes, leads.
+///
+///   R' = (1 + a) R
+///
+/// Source: data sheets give ±10 % and more.
+struct MotorResistance {
+  static constexpr About about{"motor_resistance", Stage::motor, Seat::actuator,
+                               "high current and high speed, apart"};
+
+  double relative = 0;  // a
+
+  void visit(auto& v) { v("relative", relative, Bounds{-0.6, 2}); }
+  void change_motor(auto& motor) const { motor.resistance_ohm *= 1 + relative; }
+};
+
+}  // namespace sim::effects

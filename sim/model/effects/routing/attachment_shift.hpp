@@ -1,0 +1,34 @@
+#pragma once
+#include <cmath>
+#include <variant>
+
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The far end is fixed to the bone elsewhere: farther from the bone's joint by d.
+///
+///   p' = p (1 + d / |p|)
+///
+/// Source: paper, 4.4 (attachment points are calibrated).
+struct RoutingAttachmentShift {
+  static constexpr About about{"routing_attachment_shift", Stage::routing, Seat::actuator,
+                               "the joint's whole range"};
+
+  double outwards_m = 0;  // d
+
+  void visit(auto& v) { v("outwards_m", outwards_m, Bounds{-0.05, 0.05}); }
+  void change_actuator(auto& actuator) const {
+    const auto shift = [this](auto& end) {
+      if constexpr (requires { end.at_m; }) {
+        auto& [x, y, z] = end.at_m;
+        const double far = std::hypot(x, y, z);
+        if (far == 0) return;
+        for (double* c : {&x, &y, &z}) *c *= 1 + outwards_m / far;
+      }
+    };
+    if (!actuator.tendon.path.empty()) std::visit(shift, actuator.tendon.path.back());
+  }
+};
+
+}  // namespace sim::effects

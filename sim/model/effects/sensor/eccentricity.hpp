@@ -1,0 +1,52 @@
+#pragma once
+#include <cmath>
+#include <complex>
+
+#include "sim/model/effects/sensor/sense.hpp"
+
+namespace sim::effects {
+
+/// The disc of an angle sensor does not turn about its centre. Seen from the disc, the head runs on
+/// a circle about c, the axis, as a share of the head's distance from it:
+///
+///   said = −arg(e^{−i n θ} − c)/n + const, 0 at θ = 0      c = a + i b
+///        ≈ θ + (a sin n θ + b cos n θ − b)/n               n: turns of the disc a turn of θ
+///
+/// Source: plane geometry of one reading head; data sheets of encoders give the approximation.
+template <Sense kind>
+struct SensorEccentricity {
+  static constexpr Sense sense = kind;
+  static constexpr About about{
+      word_of<kind>("sensor_shaft_eccentricity", "", "", "sensor_joint_eccentricity"),
+      Stage::sensor, seat_of<kind>, "slow motion over a turn of the disc"};
+
+  double sine_rad = 0, cosine_rad = 0;  // a, b
+
+  void visit(auto& v) {
+    v("sine_rad", sine_rad, Bounds{-0.3, 0.3});
+    v("cosine_rad", cosine_rad, Bounds{-0.3, 0.3});
+  }
+  double read(double value, const SensorSample& s, Memory&) const {
+    const double n = s.turns_per_turn;
+    return value + (ahead_rad(n * value) - ahead_rad(0)) / n;
+  }
+  double undo(double said, const SensorSample& s, Memory&) const {
+    const double n = s.turns_per_turn;
+    return said - (behind_rad(n * said + ahead_rad(0)) - ahead_rad(0)) / n;
+  }
+
+ private:
+  std::complex<double> centre() const { return {sine_rad, cosine_rad}; }
+  /// How far the disc is ahead of its axis at this angle of the axis.
+  double ahead_rad(double angle) const {
+    return -std::arg(1.0 - centre() * std::polar(1.0, angle));
+  }
+  /// The same at this angle of the disc: where its ray from c meets the head's circle.
+  double behind_rad(double disc) const {
+    const auto off = centre() * std::polar(1.0, disc);
+    const double along = std::sqrt(1 - off.imag() * off.imag()) - off.real();
+    return std::arg(off + along);
+  }
+};
+
+}  // namespace sim::effects

@@ -1,0 +1,45 @@
+#pragma once
+#include <cmath>
+
+#include "sim/model/effects/sensor/sense.hpp"
+
+namespace sim::effects {
+
+/// A sensor's amplifier is slow.
+///
+///   T d said/dt = value − said
+///
+/// Source: JCGM 200:2012 (VIM), 4.23, step response time; first order.
+template <Sense kind>
+struct SensorLowPass {
+  static constexpr Sense sense = kind;
+  static constexpr About about{word_of<kind>("sensor_shaft_low_pass", "sensor_current_low_pass",
+                                             "sensor_tension_low_pass", "sensor_joint_low_pass"),
+                               Stage::sensor, seat_of<kind>, "fast changes"};
+
+  double time_constant_s = 0;  // T
+
+  void visit(auto& v) { v("time_constant_s", time_constant_s, Bounds{0, 0.2}); }
+  /// Exact for a value that changes evenly between two readings.
+  double read(double value, const SensorSample& s, Memory& memory) const {
+    double &said = memory[0], &last = memory[1], &began = memory[2];
+    if (began == 0) said = last = value, began = 1;
+    if (time_constant_s > 0 && s.dt_s > 0) {
+      const double left = std::exp(-s.dt_s / time_constant_s);
+      const double behind_s = time_constant_s * (1 - left) / s.dt_s;
+      said = left * said + value - left * last - behind_s * (value - last);
+    } else {
+      said = value;
+    }
+    last = value;
+    return said;
+  }
+  double undo(double said, const SensorSample& s, Memory&) const {
+    return said + time_constant_s * s.said_rate;
+  }
+  double averaged(const SensorSample& s) const {
+    return -std::expm1(-2 * time_constant_s / s.dt_s);
+  }
+};
+
+}  // namespace sim::effects

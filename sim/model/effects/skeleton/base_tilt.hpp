@@ -1,0 +1,40 @@
+#pragma once
+#include <cmath>
+
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The robot does not stand upright: gravity comes from elsewhere.
+///
+///   g' = R_x(−α) R_y(−β) g,   α, β: the base turned about x and y
+///
+/// Source: a floor is seldom level to a degree.
+struct BaseTilt {
+  static constexpr About about{"skeleton_base_tilt", Stage::skeleton, Seat::robot,
+                               "still postures over the whole range"};
+
+  double about_x_rad = 0, about_y_rad = 0;  // α, β
+
+  void visit(auto& v) {
+    v("about_x_rad", about_x_rad, Bounds{-0.6, 0.6});
+    v("about_y_rad", about_y_rad, Bounds{-0.6, 0.6});
+  }
+  void change_robot(auto& robot, const auto&) const {
+    for (auto& part : robot.skeletons) {
+      if (!part.gravity_m_per_s2) continue;
+      auto& [x, y, z] = *part.gravity_m_per_s2;
+      turn(z, x, -about_y_rad);
+      turn(y, z, -about_x_rad);
+    }
+  }
+
+ private:
+  /// The plane vector (a, b) by an angle from a to b.
+  static void turn(double& a, double& b, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle), old = a;
+    a = c * old - s * b, b = s * old + c * b;
+  }
+};
+
+}  // namespace sim::effects

@@ -1,0 +1,28 @@
+#pragma once
+#include <cmath>
+
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// A body's centre of mass lies elsewhere: farther from its joint, or nearer.
+///
+///   c' = c + d c/|c|
+///
+/// Source: CAD leaves out cables, screws and glue.
+struct SkeletonCom {
+  static constexpr About about{"skeleton_com", Stage::skeleton, Seat::body,
+                               "still postures and fast motion"};
+
+  double outwards_m = 0;  // d
+
+  void visit(auto& v) { v("outwards_m", outwards_m, Bounds{-0.3, 0.3}); }
+  void change_body(auto& body) const {
+    auto& [x, y, z] = body.com_m;
+    const double far = std::hypot(x, y, z);
+    if (far == 0) return;
+    for (double* c : {&x, &y, &z}) *c *= 1 + outwards_m / far;
+  }
+};
+
+}  // namespace sim::effects

@@ -1,0 +1,44 @@
+#pragma once
+#include <cmath>
+
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// A body carries a weight, on the line from its joint through its centre of mass.
+///
+///   m' = m + m_p,  c' = (m c + m_p p)/m',  I' about c' by Steiner's theorem;  p = d c/|c|
+///
+/// Source: paper, Fig. 7b (a grasped mass).
+struct SkeletonPayload {
+  static constexpr About about{"skeleton_payload", Stage::skeleton, Seat::body,
+                               "still postures and fast motion"};
+
+  double mass_kg = 0;        // m_p
+  double distance_m = 0.25;  // d
+
+  void visit(auto& v) {
+    v("mass_kg", mass_kg, Bounds{0, 10});
+    v.shape("distance_m", distance_m, Bounds{0, 2});
+  }
+  void change_body(auto& body) const {
+    auto& c = body.com_m;
+    const double far = std::hypot(c[0], c[1], c[2]);
+    if (far == 0 || body.mass_kg + mass_kg == 0) return;
+    const double reduced = body.mass_kg * mass_kg / (body.mass_kg + mass_kg);
+    const double share = mass_kg / (body.mass_kg + mass_kg);
+    double s[3];  // from the old centre to the weight
+    for (std::size_t i = 0; i < 3; ++i) s[i] = c[i] * (distance_m / far - 1);
+    const double square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+    for (std::size_t i = 0; i < 3; ++i) {
+      body.inertia_kg_m2[i] += reduced * (square - s[i] * s[i]);
+      c[i] += share * s[i];
+    }
+    body.products_kg_m2[0] -= reduced * s[0] * s[1];
+    body.products_kg_m2[1] -= reduced * s[0] * s[2];
+    body.products_kg_m2[2] -= reduced * s[1] * s[2];
+    body.mass_kg += mass_kg;
+  }
+};
+
+}  // namespace sim::effects

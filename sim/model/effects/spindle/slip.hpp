@@ -1,0 +1,30 @@
+#pragma once
+#include <cmath>
+
+#include "sim/model/effects/effect.hpp"
+
+namespace sim::effects {
+
+/// The line creeps on the spindle as it is wound and unwound under load, and what has crept is
+/// gone.
+///
+///   dl = s F |dw|,   w the line on the spindle;   L_K' = L_K + l
+///
+/// Source: ours, after the creep of belts (Johnson, Contact Mechanics, 1985, ch. 8).
+struct SpindleSlip {
+  static constexpr About about{"spindle_slip", Stage::spindle, Seat::actuator,
+                               "many windings to and fro under load"};
+
+  double per_N = 0;  // s
+
+  void visit(auto& v) { v("per_N", per_N, Bounds{0, 0.001}); }
+  Sloped wound(const ChainSample& s, Sloped line, Memory& memory) const {
+    double &lost_m = memory[0], &last_m = memory[1], &began = memory[2];
+    if (began == 0) last_m = line.value, began = 1;
+    lost_m += per_N * s.tension_N * std::abs(line.value - last_m);
+    last_m = line.value;
+    return {line.value - lost_m, line.slope};
+  }
+};
+
+}  // namespace sim::effects

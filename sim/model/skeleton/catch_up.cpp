@@ -1,0 +1,54 @@
+#include "sim/model/skeleton/catch_up.hpp"
+
+#include <Eigen/Geometry>
+
+#include "sim/model/skeleton/rotation_vector.hpp"
+
+namespace sim {
+namespace {
+
+using erp::JointType;
+
+/// What turns a vector of the way's frame into that of the joint, u off it: Eᵀ.
+Eigen::Matrix3d into_own(JointType type, const Vec3& u) {
+  const double angle = u.norm();
+  if (type != JointType::spherical || angle < 1e-12) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(-angle, u / angle).toRotationMatrix();
+}
+
+}  // namespace
+
+CatchUp::CatchUp(std::span<const JointReading> now, std::span<const JointMotion> wanted,
+                 double duration_s)
+    : duration_s_(duration_s) {
+  for (std::size_t j = 0; j < now.size(); ++j) {
+    const JointType type = now[j].type;
+    starts_.push_back(way_between(type, wanted[j].now.position, now[j].position));
+    const Vec3 u = vec(starts_.back()), none = Vec3::Zero();
+    const Vec3 apart =
+        vec(now[j].velocity_rad_per_s) - into_own(type, u) * vec(wanted[j].now.velocity_rad_per_s);
+    const Vec3 rate = type == JointType::spherical ? RotationVector(u).rate(apart) : apart;
+    ways_.push_back(QuinticWay::between(-u, duration_s * rate, none, none, none));
+  }
+}
+
+void CatchUp::add(double time_s, std::span<JointMotion> wanted) const {
+  if (time_s >= duration_s_) return;
+  for (std::size_t j = 0; j < ways_.size(); ++j) {
+    auto& [now, acceleration] = wanted[j];
+    auto p = ways_[j].at(time_s / duration_s_);
+    p.u += vec(starts_[j]), p.rate /= duration_s_, p.rate_of_rate /= duration_s_ * duration_s_;
+    const bool ball = now.type == JointType::spherical;
+    const RotationVector turn(p.u);
+    const Vec3 own = ball ? turn.speed(p.rate) : p.rate;
+    const Eigen::Matrix3d into = into_own(now.type, p.u);
+    const Vec3 carried = into * vec(now.velocity_rad_per_s);
+    const Vec3 changes = ball ? turn.acceleration(p.rate, p.rate_of_rate) : p.rate_of_rate;
+    const Vec3 turned = ball ? own.cross(carried) : Vec3::Zero();
+    acceleration = numbers(into * vec(acceleration) - turned + changes);
+    now.velocity_rad_per_s = numbers(carried + own);
+    now.position = gone(now.type, now.position, numbers(p.u));
+  }
+}
+
+}  // namespace sim

@@ -1,4 +1,0 @@
-#include "components/node/run.hpp"
-#include "sim/world/sim_node.hpp"
-
-int main(int argc, char** argv) { return node::run<sim::SimNode>(argc, argv); }

@@ -1,0 +1,220 @@
+#include "launch/erp/gap/blind.hpp"
+
+#include <unistd.h>
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "launch/erp/gap/truth.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("erp_blind_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+const std::string robot_file = rigs::config("hinge_rig/robot.xml");
+
+}  // namespace
+
+TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds") {
+  const Folder folder;
+  const std::string cases = folder.path / "cases", truth = folder.path / "sealed/truth.json";
+  std::ostringstream out, remarks;
+  launch::gap::BlindMakeOptions make{.robot = robot_file, .out = cases, .truth = truth};
+  make.cases = 2, make.recordings = 3, make.seconds = 5, make.seed = 14;
+  REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
+  const std::string before = out.str();
+  REQUIRE(launch::gap::blind_run({cases, 2}, out, remarks) == 0);
+  out.str("");
+  REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("stage and place") && Catch::Contains("(2 of 2)"));
+
+  const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
+  for (const char* name :
+       {"verdict", "where", "effects", "confusable", "gap", "recordings", "warnings"})
+    CHECK(d.contains(name));
+  for (const char* name :
+       {"type", "on", "parameters", "intervals", "gain", "gain_interval", "supported"})
+    CHECK(d["effects"][0].contains(name));
+  for (const char* name : {"before", "floor", "after", "closed", "closed_interval"})
+    CHECK(d["gap"].contains(name));
+
+  fs::remove(cases + "/case_0002/diagnosis.json");
+  out.str("");
+  CHECK(launch::gap::blind_score(cases, truth, out) == 5);
+  CHECK_THAT(out.str(), Catch::Contains("1 of 2 cases not diagnosed: erp gap blind run "));
+
+  CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks),
+                    Catch::Contains("holds cases already"));
+  std::ofstream(truth, std::ios::app) << " ";
+  CHECK_THROWS_WITH(launch::gap::blind_score(cases, truth, out), Catch::Contains("hash"));
+}
+
+TEST_CASE("no cases of a robot that cannot have them, and none that would cost or tell a truth") {
+  const Folder folder;
+  std::ostringstream out, remarks;
+  launch::gap::BlindMakeOptions make{
+      .robot = robot_file, .out = folder.path / "cases", .truth = folder.path / "cases/truth.json"};
+  const auto refused = [&](const char* why) {
+    CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks), Catch::Contains(why));
+    CHECK_FALSE(fs::exists(folder.path / "cases"));
+  };
+  refused("lies among the cases");
+  make.truth = folder.path / "truth.json";
+  std::ofstream(make.truth) << "[]";
+  refused("seals other cases");
+  make.truth = folder.path / "another.json";
+  make.robot = rigs::config("drive/robot.xml");
+  refused("has no actuator");
+  erp::Robot rubs = erp::read_robot(robot_file);
+  rubs.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
+  make.robot = folder.path / "rubs.xml";
+  std::ofstream(make.robot) << erp::write_robot(rubs);
+  refused("has effects");
+}
+
+TEST_CASE("a robot that begins beyond its stops is recorded") {
+  const Folder folder;
+  std::string robot = erp::write_robot(erp::read_robot(robot_file));
+  const std::string wide = R"(min_rad="-1.2" max_rad="1.6")";
+  REQUIRE(robot.find(wide) != robot.npos);
+  robot.replace(robot.find(wide), wide.size(), R"(min_rad="-0.01" max_rad="0.01")");
+  std::ofstream(folder.path / "robot.xml") << robot;
+  std::ostringstream out, remarks;
+  launch::gap::BlindMakeOptions make{.robot = folder.path / "robot.xml",
+                                     .out = folder.path / "cases",
+                                     .truth = folder.path / "truth.json"};
+  make.cases = 1, make.recordings = 1, make.seconds = 2, make.seed = 2;
+  make.only = {"joint_early_stop"};
+  REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
+  CHECK(fs::exists(folder.path / "cases/case_0001/1.csv"));
+}
+
+/// Seals those truths beside the diagnoses of a folder, and scores them.
+std::string score_of(const Folder& folder, const nlohmann::json& truths) {
+  const std::string truth = folder.path / "truth.json";
+  std::ofstream(truth) << truths.dump();
+  std::ofstream(folder.path / "cases.json")
+      << nlohmann::json{{"truth_sha256", launch::gap::sha256(truths.dump())}};
+  std::ostringstream out;
+  REQUIRE(launch::gap::blind_score(folder.path, truth, out) == 0);
+  return out.str();
+}
+
+TEST_CASE("pairs: both found, and F1 of all that was named") {
+  const Folder folder;
+  const auto effect = [](const char* type) {
+    return nlohmann::json{{"type", type}, {"on", "flexor"}, {"supported", true}};
+  };
+  const auto hidden = [](const char* type) {
+    return nlohmann::json{{"type", type},
+                          {"on", "flexor"},
+                          {"stage", "motor"},
+                          {"parameters", nlohmann::json::object()}};
+  };
+  nlohmann::json truths;
+  const auto diagnosed = [&](const char* name, const nlohmann::json& effects,
+                             const nlohmann::json& confusable) {
+    truths.push_back({{"case", name}, {"kind", "pair"}, {"hidden", {hidden("a"), hidden("b")}}});
+    fs::create_directories(folder.path / name);
+    std::ofstream(folder.path / name / "diagnosis.json")
+        << nlohmann::json{{"verdict", "supported"},
+                          {"where", nlohmann::json::array()},
+                          {"effects", effects},
+                          {"confusable", confusable}};
+  };
+  const auto none = nlohmann::json::array();
+  diagnosed("both", {effect("a"), effect("b")}, none);
+  diagnosed("one_of_three", {effect("a"), effect("c"), effect("d")}, none);
+  auto one = effect("a"), other = effect("twin_of_b"), same = effect("b");
+  other["set"] = same["set"] = 1;
+  diagnosed("by_its_twin", {one, other}, {other, same});
+  const std::string score = score_of(folder, truths);
+  INFO(score);
+  CHECK_THAT(score, Catch::Contains("(2 of 3)"));
+  CHECK_THAT(score, Catch::Contains("0.805"));  // of means 7/9 and 5/6
+  CHECK_THAT(score, Catch::Contains("one_of_three: a on flexor + b on flexor | supported"));
+}
+
+TEST_CASE("many numbers off: those that can be seen are named, and few others") {
+  const Folder folder;
+  const auto number = [](const char* name, double value) {
+    return nlohmann::json{{"on", "flexor"}, {"name", name}, {"value", value}};
+  };
+  const auto constant = [](const char* name, double value, double half, bool differs) {
+    return nlohmann::json{{"on", "flexor"},
+                          {"name", name},
+                          {"nominal", 1},
+                          {"value", value},
+                          {"interval", {value - half, value + half}},
+                          {"determined", 0.9},
+                          {"differs", differs}};
+  };
+  const nlohmann::json truths{{{"case", "one"},
+                               {"kind", "many"},
+                               {"hidden", nlohmann::json::array()},
+                               {"numbers",
+                                {number("named", 1.05), number("missed", 1.06),
+                                 number("too_little_to_see", 1.02), number("exact", 1)}}}};
+  fs::create_directories(folder.path / "one");
+  std::ofstream(folder.path / "one/diagnosis.json") << nlohmann::json{
+      {"verdict", "supported"},
+      {"where", nlohmann::json::array()},
+      {"effects", nlohmann::json::array()},
+      {"gap", {{"closed", 0.99}, {"free_running", {{"before", 9}, {"floor", 1}, {"closed", 0.8}}}}},
+      {"constants",
+       {constant("named", 1.05, 0.01, true), constant("missed", 1.01, 0.01, false),
+        constant("too_little_to_see", 1.01, 0.02, false), constant("exact", 1.04, 0.01, true)}}};
+  fs::copy(robot_file, folder.path / "robot.xml");
+  const std::string score = score_of(folder, truths);
+  INFO(score);
+  CHECK_THAT(score, Catch::Contains("named, of errors seen          50.0 %  (1 of 2)") &&
+                        Catch::Contains("falsely, of those named        50.0 %  (1 of 2)") &&
+                        Catch::Contains("90 % of the free run            0.0 %  (0 of 1)") &&
+                        Catch::Contains("interval holds the number      50.0 %  (2 of 4)"));
+}
+
+TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored by its own rows") {
+  const Folder folder;
+  const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
+  std::ostringstream out, remarks;
+  launch::gap::BlindMakeOptions make{
+      .robot = robot_file, .out = cases, .truth = truth, .kind = "null"};
+  make.cases = 1, make.recordings = 3, make.seconds = 8, make.seed = 3, make.tolerance = 0.03;
+  make.kind = "many";
+  CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks),
+                    Catch::Contains("--tolerance 0.03"));
+  make.kind = "null";
+  REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
+  const auto hidden = nlohmann::json::parse(std::ifstream(truth));
+  CHECK(hidden[0]["hidden"].empty());
+  double most = 0;
+  int seen = 0;
+  for (const auto& number : hidden[0]["numbers"])
+    if (number["name"] == "resistance_ohm") {
+      const double off = number["value"].get<double>() / 0.516 - 1;
+      CHECK(off != 0);
+      ++seen;
+      most = std::max(most, std::abs(off));
+    }
+  CHECK(seen == 2);  // of two motors
+  CHECK(most < 0.15);
+  REQUIRE(launch::gap::blind_run({cases, 2, true}, out, remarks) == 0);
+  out.str("");
+  REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("null, as built") &&
+                            Catch::Contains("explained by constants alone  100.0 %") &&
+                            Catch::Contains("90 % of the free run          100.0 %"));
+  const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
+  CHECK_FALSE(d["constants"].empty());
+  CHECK_FALSE(d["where"].empty());
+}

@@ -1,0 +1,146 @@
+#include "launch/erp/gap/gap.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "sim/gap/diagnosis/where.hpp"
+#include "sim/gap/closed_loop/rehearse.hpp"
+#include "sim/gap/checks/odd_table.hpp"
+#include "sim/gap/checks/units.hpp"
+#include "tests/sim/gap/residuals/rig_recording.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+const std::string robot_file = rigs::config("hinge_rig/robot.xml");
+
+/// A recording of the rig with these effects, as a CSV file.
+std::string recorded(const std::string& name, const std::vector<erp::Effect>& effects) {
+  erp::Robot robot = erp::read_robot(robot_file);
+  robot.effects = effects;
+  const auto file = (std::filesystem::temp_directory_path() / name).string();
+  std::ofstream out(file);
+  recording::write_csv(rig_recording::table_of_run(robot, {.seconds = 8}), out);
+  return file;
+}
+
+std::string said_of(const std::vector<std::string>& files) {
+  std::ostringstream out, remarks;
+  CHECK(launch::gap::where(robot_file, files, out, remarks) == 0);
+  CHECK(remarks.str().empty());
+  return out.str();
+}
+
+void check_sound(const erp::Robot& robot, const sim::closed_loop::Score& score) {
+  const auto table = sim::closed_loop::rehearse(robot, score);
+  std::vector<std::string> mended;
+  auto episode = sim::residuals::lay_out(table, robot, "run", mended);
+  CHECK(sim::checks::odd_table(table, robot, "run") == std::vector<std::string>{});
+  CHECK(sim::checks::odd_units(episode, robot) == std::vector<std::string>{});
+  CHECK_FALSE(sim::diagnosis::where(robot, std::vector{episode}).empty());
+  for (auto& signals : episode.actuators) signals.tension_N.clear();
+  CHECK(sim::checks::odd_units(episode, robot) == std::vector<std::string>{});
+}
+
+/// Each to and fro at its own pace.
+sim::closed_loop::Score every_line_by_2_mm(const erp::Robot& robot, double seconds) {
+  sim::closed_loop::Score score(static_cast<std::size_t>(500 * seconds));
+  for (std::size_t k = 0; k < score.size(); ++k)
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a)
+      score[k].push_back(
+          {erp::Mode::length, 0.002 * std::sin(0.002 * double(k) * (4 + 0.1 * double(a)))});
+  return score;
+}
+
+}  // namespace
+
+TEST_CASE("recordings of the robot as modelled show no gap, an effect shows its stage") {
+  const auto plain = recorded("erp_gap_plain.csv", {});
+  const auto rubs = recorded("erp_gap_rubs.csv",
+                             {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}});
+  CHECK_THAT(said_of({plain}), Catch::Contains("no gap"));
+  CHECK_THAT(said_of({rubs}), Catch::Contains("the gap is in: gearbox of extensor\n"));
+  std::filesystem::remove(plain), std::filesystem::remove(rubs);
+}
+
+TEST_CASE("a stage without its signals is named, not passed over") {
+  const auto file = recorded("erp_gap_less.csv", {});
+  recording::Table table = recording::read_table(file);
+  std::erase_if(table.columns, [](const auto& c) { return c.name == "flexor.shaft_rad"; });
+  std::ofstream out(file);
+  recording::write_csv(table, out);
+  out.close();
+  CHECK_THAT(said_of({file}),
+             Catch::Contains("motor of flexor, gearbox of flexor, tendon of flexor") &&
+                 Catch::Contains("no gap in the others"));
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("where nothing can be judged, the exit code says so as well") {
+  const auto file = recorded("erp_gap_nothing.csv", {});
+  recording::Table table = recording::read_table(file);
+  for (auto& column : table.columns) column.values.resize(15);  // shorter than any window
+  std::ofstream out(file);
+  recording::write_csv(table, out);
+  out.close();
+  std::ostringstream said, remarks;
+  CHECK(launch::gap::where(robot_file, {file}, said, remarks) == 5);
+  CHECK_THAT(said.str(), Catch::Contains("nothing could be judged"));
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("a recording of any prototype as modelled can be judged, and nothing is odd about it") {
+  for (const char* name : {"hinge_rig", "twin_joint", "arm", "seven_dof"}) {
+    const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
+    for (int kind = 0; kind < sim::excitation_kinds; ++kind) {
+      INFO(name << ", " << sim::excitation_word(robot, kind));
+      check_sound(robot, sim::closed_loop::score_of(sim::excitation(robot, kind, 4, 1)));
+    }
+  }
+  for (const char* name : {"ecce1", "ecce2", "ecce3", "ecce4"}) {
+    INFO(name);
+    const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
+    check_sound(robot, every_line_by_2_mm(robot, 3));
+  }
+}
+
+TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {
+  std::ostringstream out, remarks, less;
+  launch::gap::TwinsOptions options{.robot = robot_file, .seconds = 4};
+  CHECK(launch::gap::twins(options, out, remarks) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("routing_pulley_radius on flexor"));
+  options.without = {"tension"};
+  CHECK(launch::gap::twins(options, less, remarks) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("tendon_kite_line"));
+  CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // does not show
+}
+
+TEST_CASE("what several effects do together for one is told, and of what types is checked") {
+  std::ostringstream out, remarks;
+  launch::gap::TwinsOptions options{.robot = robot_file, .seconds = 4, .together = 2};
+  CHECK(launch::gap::twins(options, out, remarks) == 0);
+  CHECK_THAT(out.str(),
+             Catch::Matches("[^]*sensor_joint_offset on elbow [^\n]* on [^\n]* \\+ [^]*"));
+  options.withhold = {"sensor_joint_ofset"};
+  CHECK_THROWS_WITH(launch::gap::twins(options, out, remarks),
+                    Catch::Contains("did you mean \"sensor_joint_offset\""));
+}
+
+TEST_CASE("a recording in which nothing changes is refused: place, what it holds, and what to do") {
+  const auto file = recorded("erp_gap_dead.csv", {});
+  recording::Table table = recording::read_table(file);
+  for (auto& column : table.columns)
+    if (column.name != "time_s" && !column.name.ends_with(".mode"))
+      std::ranges::fill(column.values, 0.0);
+  std::ofstream out(file);
+  recording::write_csv(table, out);
+  out.close();
+  std::ostringstream said, remarks;
+  CHECK_THROWS_WITH(launch::gap::where(robot_file, {file}, said, remarks),
+                    Catch::Contains("nothing changes in it") && Catch::Contains("while it moves"));
+  std::filesystem::remove(file);
+}

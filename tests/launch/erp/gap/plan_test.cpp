@@ -1,0 +1,193 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "interfaces/graph/graph.hpp"
+#include "interfaces/recording/table.hpp"
+#include "launch/erp/gap/gap.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Planned {
+  int code;
+  std::string said;
+};
+
+/// What is planned after a diagnosis that could not tell two effects apart, of which it is sure
+/// beside `sure`.
+Planned plan(const fs::path& folder, const std::string& one, const std::string& other,
+             const std::string& sure = "",
+             const std::string& robot = rigs::config("hinge_rig/robot.xml")) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "diagnosis.json")
+      << R"({"robot": "hinge_rig", "verdict": "supported", "effects": [)" << one << ", " << other
+      << (sure.empty() ? "" : ", ") << sure << R"(], "confusable": [)" << one << ", " << other
+      << "]}";
+  std::ostringstream out, remarks;
+  const int code = launch::gap::plan({.robot = robot,
+                                      .diagnosis = (folder / "diagnosis.json").string(),
+                                      .out = (folder / "next").string(),
+                                      .seconds = 4,
+                                      .candidates = 3},
+                                     out, remarks);
+  return {code, out.str()};
+}
+
+std::string effect(const std::string& type, const std::string& parameter, double value) {
+  return R"({"type": ")" + type + R"(", "on": "flexor", "supported": true, "parameters": {")" +
+         parameter + R"(": )" + std::to_string(value) + "}}";
+}
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / "erp_gap_plan_test";
+  Folder() { fs::remove_all(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+}  // namespace
+
+TEST_CASE("two frictions are split by a motion, which is written as a graph to launch") {
+  const Folder folder;
+  const Planned planned = plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
+                               effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02));
+  INFO(planned.said);
+  REQUIRE(planned.code == 0);
+  const auto graph = erp::read_graph((folder.path / "next/graph.xml").string());
+  CHECK(graph.components.size() == 2);
+  const auto table = recording::read_table((folder.path / "next/trajectory.csv").string());
+  CHECK(table.find("time_s")->values.back() == Approx(4).margin(0.1));
+  CHECK(table.find("extensor.reference") != nullptr);
+  CHECK_THAT(planned.said, Catch::Contains("erp launch"));
+}
+
+TEST_CASE("of two sets that cannot be told apart one is split, and the other is said to be left") {
+  const Folder folder;
+  const auto of_set = [](const std::string& effect, int set) {
+    return effect.substr(0, effect.size() - 1) + R"(, "set": )" + std::to_string(set) + "}";
+  };
+  const Planned planned = plan(folder.path, of_set(effect("gearbox_coulomb", "extra_Nm", 0.05), 0),
+                               of_set(effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02), 0) +
+                                   ", " + of_set(effect("motor_resistance", "relative", 0.2), 1));
+  INFO(planned.said);
+  CHECK(planned.code == 0);
+  CHECK_THAT(planned.said, Catch::Contains("1 more set cannot be told apart"));
+}
+
+TEST_CASE("what else is known of the robot is in it when the next motion is rehearsed") {
+  const Folder folder;
+  const auto coulomb = effect("gearbox_coulomb", "extra_Nm", 0.05),
+             viscous = effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02);
+  const Planned alone = plan(folder.path, coulomb, viscous);
+  const Planned beside =
+      plan(folder.path, coulomb, viscous, effect("motor_resistance", "relative", 0.3));
+  REQUIRE(beside.code == 0);
+  CHECK_THAT(beside.said, !Catch::Contains("motor_resistance"));  // not to be split
+  CHECK(beside.said != alone.said);                               // but felt
+}
+
+TEST_CASE("planned on the robot.xml of the diagnosis, no effect acts twice") {
+  const Folder folder;
+  const auto coulomb = effect("gearbox_coulomb", "extra_Nm", 0.05),
+             viscous = effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02),
+             resistance = effect("motor_resistance", "relative", 0.3);
+  auto corrected = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+  corrected.effects = {{{}, "gearbox_coulomb", "flexor", {{{}, "extra_Nm", "0.050001"}}},
+                       {{}, "motor_resistance", "flexor", {{{}, "relative", "0.3"}}}};
+  fs::create_directories(folder.path);
+  const auto file = (folder.path / "robot.xml").string();
+  std::ofstream(file) << erp::write_robot(corrected);
+  const Planned described = plan(folder.path, coulomb, viscous, resistance);
+  const Planned found = plan(folder.path, coulomb, viscous, resistance, file);
+  REQUIRE(described.code == 0);
+  CHECK(found.said == described.said);
+}
+
+TEST_CASE("twins are split by no motion: which they are is said, and no graph is left") {
+  const Folder folder;
+  fs::create_directories(folder.path / "next");
+  std::ofstream(folder.path / "next/graph.xml") << "<!-- By erp gap plan. -->";
+  const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
+                               effect("sensor_shaft_offset", "offset_rad", -0.0889));
+  INFO(planned.said);
+  CHECK(planned.code == 5);
+  CHECK_THAT(planned.said, Catch::Contains("tells tendon_length_offset on flexor from "
+                                           "sensor_shaft_offset on flexor: that needs"));
+  CHECK_FALSE(fs::exists(folder.path / "next/graph.xml"));
+}
+
+TEST_CASE("a graph that no plan wrote is not written over") {
+  const Folder folder;
+  fs::create_directories(folder.path / "next");
+  std::ofstream(folder.path / "next/graph.xml") << "<graph/>";
+  CHECK_THROWS_WITH(plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
+                         effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02)),
+                    Catch::Contains("holds a graph.xml that no plan wrote"));
+  CHECK(fs::exists(folder.path / "next/graph.xml"));
+}
+
+TEST_CASE("beside twins, what can be split is") {
+  const Folder folder;
+  const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
+                               effect("sensor_shaft_offset", "offset_rad", -0.0889) + ", " +
+                                   effect("gearbox_coulomb", "extra_Nm", 0.05));
+  INFO(planned.said);
+  CHECK(planned.code == 0);
+  CHECK_THAT(planned.said, Catch::Contains("from sensor_shaft_offset on flexor: that needs") &&
+                               Catch::Contains("to split    tendon_length_offset on flexor, "
+                                               "gearbox_coulomb on flexor"));
+  CHECK(fs::exists(folder.path / "next/graph.xml"));
+}
+
+TEST_CASE("a diagnosis of another robot is refused with the place that this one has not") {
+  const Folder folder;
+  auto other = effect("gearbox_coulomb", "extra_Nm", 0.05);
+  other.replace(other.find("flexor"), 6, "biceps");
+  CHECK_THROWS_WITH(plan(folder.path, other, other),
+                    Catch::Contains("gearbox_coulomb on biceps") &&
+                        Catch::Contains("give the robot that was diagnosed"));
+}
+
+TEST_CASE("what is no diagnosis is refused with what it lacks") {
+  const Folder folder;
+  CHECK_THROWS_WITH(plan(folder.path, R"({"type": "gearbox_coulomb", "on": "flexor"})", "{}"),
+                    Catch::Contains("diagnosis.json: is no diagnosis.json") &&
+                        Catch::Contains("'type' not found"));
+}
+
+TEST_CASE("a plan is for the robot that was diagnosed, though another has places of these names") {
+  const Folder folder;
+  fs::create_directories(folder.path);
+  std::ofstream(folder.path / "diagnosis.json")
+      << R"({"robot": "hinge_rig", "verdict": "supported", "confusable": [], "effects": [{"type":
+          "sensor_joint_gain", "on": "elbow", "supported": true, "parameters": {}}]})";
+  std::ostringstream out, remarks;
+  CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("arm/robot.xml"),
+                                       .diagnosis = folder.path / "diagnosis.json",
+                                       .out = folder.path / "next"},
+                                      out, remarks),
+                    Catch::Contains("hinge_rig") && Catch::Contains("\"arm\""));
+}
+
+TEST_CASE("a plan without a diagnosis says which file it misses") {
+  const Folder folder;
+  std::ostringstream out, remarks;
+  CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("hinge_rig/robot.xml"),
+                                       .diagnosis = (folder.path / "diagnosis.json").string(),
+                                       .out = folder.path.string()},
+                                      out, remarks),
+                    Catch::Contains("diagnosis.json"));
+}
+
+TEST_CASE("a plan into a file is refused before anything is rehearsed, and the file stays") {
+  const Folder folder;
+  fs::create_directories(folder.path);
+  std::ofstream(folder.path / "next") << "mine";
+  CHECK_THROWS_WITH(plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
+                         effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02)),
+                    Catch::Contains("next: this folder cannot be made"));
+  CHECK(fs::is_regular_file(folder.path / "next"));
+}

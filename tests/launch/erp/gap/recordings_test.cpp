@@ -1,0 +1,72 @@
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "launch/erp/gap/gap.hpp"
+#include "tests/launch/erp/gap/recorded.hpp"
+
+namespace fs = std::filesystem;
+
+TEST_CASE(
+    "a recording too short to judge by is named, counts for nothing and changes nothing else") {
+  const RecordedRig folder;
+  const auto short_one = folder.recorded("short.csv", true, 3, 0.12);
+  std::ostringstream out, remarks;
+  launch::gap::DiagnoseOptions options{.robot = rig_file};
+  options.recordings = {folder.recorded("one.csv", true, 1), folder.recorded("two.csv", true, 2),
+                        short_one};
+  options.free_run = false, options.out = folder.path / "found";
+  CHECK(launch::gap::diagnose(options, out, remarks) == 0);
+  CHECK_THAT(out.str(), Catch::Contains("gearbox_coulomb on extensor"));
+  CHECK_THAT(remarks.str(),
+             Catch::Contains("short.csv: 0.12 s are too short to judge anything by"));
+
+  const launch::gap::CalibrateOptions both{
+      .robot = rig_file, .out = "", .recordings = {options.recordings[0], short_one}};
+  CHECK(launch::gap::calibrate(both, out, remarks) == 0);
+}
+
+TEST_CASE("where no recording is long enough, neither constants nor twins are listed") {
+  const RecordedRig folder;
+  const auto short_one = folder.recorded("short.csv", true, 3, 0.12);
+  std::ostringstream out, remarks;
+  CHECK(launch::gap::calibrate({.robot = rig_file, .out = "", .recordings = {short_one}}, out,
+                               remarks) == 5);
+  launch::gap::TwinsOptions twins;
+  twins.robot = rig_file, twins.recordings = {short_one};
+  CHECK(launch::gap::twins(twins, out, remarks) == 5);
+  CHECK_THAT(out.str(), Catch::Contains("nothing could be judged") &&
+                            !Catch::Contains("can be told from every other"));
+}
+
+TEST_CASE("a copy of a recording is refused: it could not judge what was fitted to the other") {
+  const RecordedRig folder;
+  const auto one = folder.recorded("one.csv", false, 1);
+  const auto copy = (folder.path / "copy.csv").string();
+  fs::copy_file(one, copy);
+  const erp::Robot robot = erp::read_robot(rig_file);
+  CHECK_THROWS_WITH(launch::gap::read_episodes(robot, {one, copy}),
+                    Catch::Contains("copy.csv: holds the same values as ") &&
+                        Catch::Contains("one.csv") && Catch::Contains("leave it out"));
+  CHECK(launch::gap::read_episodes(robot, {one, folder.recorded("two.csv", false, 2)})
+            .episodes.size() == 2);
+}
+
+TEST_CASE("a tension column that is wrong does not make the bus late") {
+  const RecordedRig folder;
+  const auto file = folder.recorded("one.csv", false, 1, 8);
+  scale_column(file, "flexor.tension_N", 1.1);
+  std::ostringstream out, remarks;
+  launch::gap::where(rig_file, {file}, out, remarks);
+  CHECK_THAT(out.str(), !Catch::Contains("the bus is late") && Catch::Contains("the gap is in: ") &&
+                            Catch::Contains("tendon of flexor"));
+}
+
+TEST_CASE("rows by another clock are to be mended first") {
+  const RecordedRig folder;
+  const auto file = folder.recorded("one.csv", false, 1);
+  scale_column(file, "time_s", 1.05);
+  const auto odd = launch::gap::read_episodes(erp::read_robot(rig_file), {file}).odd;
+  REQUIRE(odd.size() == 1);
+  CHECK_THAT(odd[0], Catch::Contains("a row each 2.1 ms, the ECUs' period is 2 ms") &&
+                         Catch::Contains("5 % too fast"));
+}

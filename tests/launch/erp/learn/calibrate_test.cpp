@@ -1,0 +1,148 @@
+#include "launch/erp/learn/calibrate.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "interfaces/recording/csv.hpp"
+#include "tests/sim/learning/calibration/arm_poses.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator(in), {}};
+}
+
+/// A folder with a recording of the arm's still poses, and what a calibration leaves there.
+struct Desk {
+  fs::path path = fs::temp_directory_path() / "erp_calibrate_test";
+  std::ostringstream out, remarks;
+
+  Desk() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+    const auto arm = arm_poses::arm();
+    std::ofstream csv(path / "still.csv");
+    recording::write_csv(arm_poses::recorded(arm, arm_poses::held(arm, 8)), csv);
+  }
+  ~Desk() { fs::remove_all(path); }
+
+  std::string file(const char* name) const { return (path / name).string(); }
+  launch::PoseFiles poses() const { return {{file("still.csv")}, {}}; }
+  void perturb() {
+    launch::calibrate_perturb({.robot = rigs::config("arm/robot.xml"),
+                               .choice = rigs::config("arm/calibration.xml"),
+                               .out = file("off.xml"),
+                               .poses = poses(),
+                               .off_deg = {{"shoulder", 20}, {"elbow", 15}},
+                               .seed = 2},
+                              out);
+  }
+  launch::CalibrateOptions options(const char* folder, int rounds) const {
+    return {.robot = file("off.xml"),
+            .choice = rigs::config("arm/calibration.xml"),
+            .poses = poses(),
+            .how = {},
+            .course = {.folder = file(folder), .rounds = rounds}};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a model made wrong is brought nearer, and what is written is a robot that simulates") {
+  Desk desk;
+  desk.perturb();
+  CHECK_THAT(desk.out.str(), Catch::Contains("perturbed"));
+  auto options = desk.options("found", 40);
+  options.how.strategy = sim::calibration::Strategy::newton;
+  REQUIRE(launch::calibrate_run(options, desk.out, desk.remarks) == 0);
+  CHECK_THAT(desk.out.str(), Catch::Contains("identified") && Catch::Contains("shoulder, checked"));
+  CHECK(text_of(desk.path / "found/parameters.csv").starts_with("parameter,changed,unit,left\n"));
+  CHECK(fs::file_size(desk.path / "found/curve.svg") > 1000);
+
+  const auto errors = [&](const std::string& robot) {
+    const auto poses = desk.poses();
+    const auto arm = erp::read_robot(robot);
+    const sim::calibration::Parameters none(arm, {});
+    return pose_errors(none.start(), sim::calibration::still_poses(
+                                         recording::read_table(poses.learn.front()), arm))
+        .mean_of_all_rad;
+  };
+  CHECK(errors(desk.file("found/robot.xml")) < 0.1 * errors(desk.file("off.xml")));
+}
+
+TEST_CASE("interrupted, a calibration says how to go on, and goes on to the same robot") {
+  Desk desk;
+  desk.perturb();
+  REQUIRE(launch::calibrate_run(desk.options("whole", 3), desk.out, desk.remarks) == 0);
+  auto options = desk.options("parts", 3);
+  options.course.interrupted = [] { return true; };
+  CHECK(launch::calibrate_run(options, desk.out, desk.remarks) == 1);
+  CHECK_THAT(desk.remarks.str(),
+             Catch::Contains("after round 1 of 3") && Catch::Contains("--resume"));
+  options.course.interrupted = [] { return false; };
+  options.course.resume = true;
+  CHECK(launch::calibrate_run(options, desk.out, desk.remarks) == 0);
+  for (const char* file : {"robot.xml", "curve.csv", "state.xml"})
+    CHECK(text_of(desk.path / "parts" / file) == text_of(desk.path / "whole" / file));
+}
+
+TEST_CASE("under mpirun, two processes find what one finds") {
+  Desk desk;
+  desk.perturb();
+  REQUIRE(launch::calibrate_run(desk.options("one", 3), desk.out, desk.remarks) == 0);
+  const std::string run =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 60 mpirun --oversubscribe "
+      "-n 2 " ERP_BIN_DIR "/erp calibrate run --robot " +
+      desk.file("off.xml") + " --vary " + rigs::config("arm/calibration.xml") + " --real " +
+      desk.file("still.csv") + " --generations 3 --threads 1 --out " + desk.file("two") + " > " +
+      desk.file("said") + " 2>&1";
+  const int code = std::system(run.c_str());
+  INFO(text_of(desk.path / "said"));
+  REQUIRE(code == 0);
+  CHECK(text_of(desk.path / "two/state.xml") == text_of(desk.path / "one/state.xml"));
+  CHECK(text_of(desk.path / "two/robot.xml") == text_of(desk.path / "one/robot.xml"));
+  const std::string said = text_of(desk.path / "said");
+  CHECK(said.find("identified") == said.rfind("identified: "));  // the first one speaks alone
+}
+
+TEST_CASE(
+    "what cannot be is said: a joint that there is not, a recording that never stands still") {
+  Desk desk;
+  CHECK_THROWS_WITH(launch::calibrate_perturb({.robot = rigs::config("arm/robot.xml"),
+                                               .choice = rigs::config("arm/calibration.xml"),
+                                               .out = desk.file("off.xml"),
+                                               .poses = desk.poses(),
+                                               .off_deg = {{"knee", 20}}},
+                                              desk.out),
+                    Catch::Contains("no joint \"knee\""));
+  auto moving = recording::read_table(desk.file("still.csv"));
+  for (std::size_t k = 0; k < moving.rows(); ++k)
+    moving.columns.back().values[k] = 0.1 + 0.01 * double(k);
+  std::ofstream(desk.path / "moving.csv") << [&] {
+    std::ostringstream text;
+    recording::write_csv(moving, text);
+    return text.str();
+  }();
+  CHECK_THROWS_WITH(launch::calibrate_check(rigs::config("arm/robot.xml"),
+                                            {{desk.file("moving.csv")}, {}}, desk.out),
+                    Catch::Contains("moving.csv") && Catch::Contains("never stands still"));
+}
+
+TEST_CASE("a tour holds each pose and midway between neighbours, as long as asked") {
+  std::ostringstream out;
+  REQUIRE(launch::calibrate_tour({rigs::config("arm/lengths.csv"), 3, 1}, out) == 0);
+  const auto tour = recording::parse_csv("tour", out.str());
+  REQUIRE(tour.rows() == 1 + 2 * 30);
+  const auto& biceps = tour.find("biceps.reference")->values;
+  CHECK(biceps[3] == Approx((biceps[1] + biceps[5]) / 2).margin(1e-9));
+  CHECK(biceps[1] == biceps[2]);
+  const auto& time_s = tour.find("time_s")->values;
+  CHECK(time_s[2] - time_s[1] == Approx(3));
+  CHECK(time_s[3] - time_s[2] == Approx(1));
+}

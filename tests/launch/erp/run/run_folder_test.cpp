@@ -1,0 +1,68 @@
+#include "launch/erp/run/run_folder.hpp"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+using Strings = std::vector<std::string>;
+
+namespace {
+
+/// A current folder of its own for a test.
+struct Inside {
+  fs::path before = fs::current_path(), path;
+  Inside() {
+    std::string name = (fs::temp_directory_path() / "erp_folder_XXXXXX").string();
+    path = mkdtemp(name.data());
+    fs::current_path(path);
+  }
+  ~Inside() {
+    fs::current_path(before);
+    fs::remove_all(path);
+  }
+};
+
+constexpr std::int64_t new_year_ns = 1'735'689'600'000'000'000;  // 2025-01-01T00:00:00Z
+
+}  // namespace
+
+TEST_CASE("a run's folder is named after its graph and the time it began") {
+  const Inside here;
+  CHECK(launch::make_run_folder("", "rig", new_year_ns) ==
+        fs::canonical(here.path) / "erp_runs/rig/2025-01-01T00-00-00Z");
+}
+
+TEST_CASE("two runs in one second do not share a folder") {
+  const Inside here;
+  launch::make_run_folder("", "rig", new_year_ns);
+  CHECK(fs::path(launch::make_run_folder("", "rig", new_year_ns)).filename() ==
+        "2025-01-01T00-00-00Z-2");
+}
+
+TEST_CASE("a folder that cannot be made is refused with the way out") {
+  const Inside here;
+  std::ofstream("file") << "";
+  CHECK_THROWS_WITH(launch::make_run_folder("file/run", "rig", 0),
+                    Catch::Matchers::Contains("--out DIR"));
+}
+
+TEST_CASE("a folder has one run at a time") {
+  const Inside folder;
+  {
+    const launch::FolderClaim claim(folder.path.string());
+    CHECK_THROWS_WITH(launch::FolderClaim(folder.path.string()), Catch::Contains("another run"));
+  }
+  CHECK_NOTHROW(launch::FolderClaim(folder.path.string()));
+}
+
+TEST_CASE("the end of a log is its last lines, or all of a short one") {
+  const Inside here;
+  std::ofstream("log") << "a\nb\nc\n";
+  CHECK(launch::last_lines("log", 2) == Strings{"b", "c"});
+  CHECK(launch::last_lines("log", 9) == Strings{"a", "b", "c"});
+  CHECK(launch::last_lines("nowhere", 9).empty());
+}

@@ -1,0 +1,15 @@
+#include "launch/erp/text/columns.hpp"
+
+#include <catch2/catch.hpp>
+
+using Strings = std::vector<std::string>;
+
+TEST_CASE("columns are aligned by characters, not bytes") {
+  CHECK(launch::align({{"a", "µs"}, {"long", "1 m"}}, {false, true}) ==
+        Strings{"a      µs", "long  1 m"});
+}
+
+TEST_CASE("a line is clipped between characters") {
+  CHECK(launch::clipped("µµµ", 2) == "µµ");
+  CHECK(launch::clipped("abc", 5) == "abc");
+}

@@ -1,0 +1,108 @@
+#include "sim/control/box_qp.hpp"
+
+#include <Eigen/Cholesky>
+#include <catch2/catch.hpp>
+#include <random>
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Problem {
+  MatrixXd h;
+  VectorXd c, low, high;
+};
+
+/// Of condition up to 10^`decades`; a quarter of the bounds are on one value.
+Problem random_problem(std::mt19937& random, int n, double decades) {
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(random); };
+  const MatrixXd a = MatrixXd::NullaryExpr(n, n, draw);
+  VectorXd scale = VectorXd::NullaryExpr(n, draw);
+  scale = (scale.array() * decades / 4).unaryExpr([](double x) { return std::pow(10, x); });
+  Problem p{scale.asDiagonal() * (a * a.transpose()) * scale.asDiagonal(),
+            VectorXd::NullaryExpr(n, draw),
+            VectorXd::NullaryExpr(n, draw),
+            {}};
+  p.h.diagonal().array() += 1e-3;
+  p.c = scale.cwiseProduct(p.c) * n;
+  p.high = p.low + VectorXd::NullaryExpr(n, draw).cwiseMax(0);
+  return p;
+}
+
+/// The conditions of Karush, Kuhn and Tucker: x within the bounds, the slope zero where it is free
+/// and against the bound where it is not.
+void check_best(const Problem& p, const VectorXd& x) {
+  const VectorXd slope = p.h * x - p.c;
+  const double small = 1e-7 * (p.h.cwiseAbs() * x.cwiseAbs() + p.c.cwiseAbs()).maxCoeff();
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    INFO("unknown " << k << " at " << x[k] << " in " << p.low[k] << " … " << p.high[k]);
+    REQUIRE(x[k] >= p.low[k]);
+    REQUIRE(x[k] <= p.high[k]);
+    if (x[k] > p.low[k]) REQUIRE(slope[k] < small);
+    if (x[k] < p.high[k]) REQUIRE(slope[k] > -small);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("of two unknowns, one is held at its bound and the other goes where that leaves it") {
+  // min ½ (2 x² + 2 x y + 2 y²) − 4 x − 2 y,  x ≤ 1: at the bound y = (2 − x) / 2
+  sim::BoxQp qp(2);
+  const MatrixXd h = (MatrixXd(2, 2) << 2, 1, 1, 2).finished();
+  const VectorXd x =
+      qp.solve(h, Eigen::Vector2d(4, 2), Eigen::Vector2d(-9, -9), Eigen::Vector2d(1, 9));
+  CHECK(x[0] == 1);
+  CHECK(x[1] == Approx(0.5));
+  CHECK(qp.multipliers()[0] == Approx(-1.5));  // 2·1 + 0.5 − 4
+  CHECK(qp.multipliers()[1] == Approx(0).margin(1e-15));
+}
+
+TEST_CASE("without bounds in the way it is a linear system") {
+  std::mt19937 random(1);
+  Problem p = random_problem(random, 20, 2);
+  p.low.setConstant(-1e9), p.high.setConstant(1e9);
+  sim::BoxQp qp(20);
+  CHECK((qp.solve(p.h, p.c, p.low, p.high) - p.h.llt().solve(p.c)).norm() < 1e-9 * p.c.norm());
+  CHECK(qp.changes() == 0);
+}
+
+TEST_CASE("what it finds is the best, for any number of unknowns, cold or from another's bounds") {
+  std::mt19937 random(2);
+  for (const int n : {1, 2, 5, 11, 54}) {
+    sim::BoxQp qp(n);
+    for (int k = 0; k < 60; ++k) {
+      const Problem p = random_problem(random, n, k % 4);
+      if (k % 3 == 0) qp.start_cold();
+      const VectorXd x = qp.solve(p.h, p.c, p.low, p.high);
+      CHECK(qp.settled());
+      check_best(p, x);
+    }
+  }
+}
+
+TEST_CASE("near its last solution it changes few bounds, and finds what a cold start finds") {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  Problem p = random_problem(random, 54, 1);
+  sim::BoxQp warm(54), cold(54);
+  warm.solve(p.h, p.c, p.low, p.high);
+  int warm_changes = 0, cold_changes = 0;
+  for (int k = 0; k < 50; ++k) {
+    p.c += 0.003 * p.c.norm() / 7 * VectorXd::NullaryExpr(54, [&] { return normal(random); });
+    cold.start_cold();
+    const VectorXd x = warm.solve(p.h, p.c, p.low, p.high);
+    CHECK((cold.solve(p.h, p.c, p.low, p.high) - x).norm() < 1e-8 * (1 + x.norm()));
+    warm_changes += warm.changes(), cold_changes += cold.changes();
+  }
+  CHECK(warm_changes < cold_changes / 5);
+}
+
+TEST_CASE("bounds that contradict each other and a saddle are refused") {
+  sim::BoxQp qp(2);
+  const MatrixXd one = MatrixXd::Identity(2, 2);
+  const VectorXd zero = VectorXd::Zero(2), up = VectorXd::Ones(2);
+  CHECK_THROWS_AS(qp.solve(one, zero, up, zero), std::invalid_argument);
+  CHECK_THROWS_AS(qp.solve(-one, zero, zero, up), std::invalid_argument);
+}

@@ -1,0 +1,113 @@
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "sim/control/loop_shaping/joint_loops.hpp"
+#include "sim/control/loop_shaping/riccati.hpp"
+
+using namespace sim::loop_shaping;
+using Eigen::MatrixXd;
+
+namespace {
+
+MatrixXd one(double value) { return MatrixXd::Constant(1, 1, value); }
+
+MatrixXd drawn(std::mt19937& random, int rows, int columns) {
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+}
+
+/// 1/s²
+StateSpace double_integrator() { return in_series(first_order(0, 1, 0), first_order(0, 1, 0)); }
+
+sim::Musculoskeletal model_of(const std::string& name) {
+  return sim::Musculoskeletal(erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml"));
+}
+
+}  // namespace
+
+TEST_CASE("the Riccati equation of one state has its closed form") {
+  // 2 a x − g x² + q = 0, the root at which a − g x < 0
+  for (const double a : {-3.0, 0.0, 2.0}) {
+    const double g = 0.5, q = 4;
+    CHECK(riccati(one(a), one(g), one(q))(0, 0) ==
+          Approx((a + std::sqrt(a * a + g * q)) / g).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("solutions of random Riccati equations stabilise and leave nothing") {
+  std::mt19937 random(1);
+  for (const int n : {2, 7, 40}) {
+    const MatrixXd a = drawn(random, n, n), b = drawn(random, n, n / 2 + 1),
+                   c = drawn(random, n / 2 + 1, n);
+    const MatrixXd g = b * b.transpose(), q = c.transpose() * c, x = riccati(a, g, q);
+    CHECK((a.transpose() * x + x * a - x * g * x + q).norm() < 1e-8 * (1 + x.norm()));
+    const auto poles = Eigen::EigenSolver<MatrixXd>(a - g * x, false).eigenvalues().real().eval();
+    CHECK(poles.maxCoeff() < 0);
+  }
+}
+
+TEST_CASE("what nothing reaches cannot be stabilised, and that is said") {
+  CHECK_THROWS_AS(riccati(one(1), one(0), one(1)), std::domain_error);
+}
+
+TEST_CASE("a double integrator's greatest margin is 1/sqrt(4 + 2 sqrt 2)") {
+  const RobustLoop loop = stabilised(double_integrator());
+  CHECK(loop.greatest_margin == Approx(1 / std::sqrt(4 + 2 * std::sqrt(2.0))).epsilon(1e-9));
+  CHECK(loop.margin == Approx(loop.greatest_margin / 1.1));
+}
+
+TEST_CASE("the controller gives the margin it promises, measured over frequency") {
+  const StateSpace plant = double_integrator();
+  const RobustLoop loop = stabilised(plant, 1.05);
+  CHECK(slowest_pole_per_s(closed(plant, loop.controller)) < 0);
+  const double measured = margin_of(plant, loop.controller, 1e-3, 1e3);
+  CHECK(measured >= loop.margin * (1 - 1e-6));
+  CHECK(measured <= loop.greatest_margin * (1 + 1e-6));
+}
+
+TEST_CASE("a sampled system answers as the continuous one, slow against its period") {
+  const StateSpace lag = in_series(first_order(0, 5, 5), first_order(1, 2, 3));
+  const double period_s = 0.002, w = 4;
+  Sampled sampled(lag, period_s);
+  double worst = 0;
+  for (int k = 0; k < 5000; ++k) {
+    const double y = sampled.step(Eigen::VectorXd::Constant(1, std::sin(w * k * period_s)))[0];
+    const auto g = response(lag, w)(0, 0);
+    const double wanted = std::abs(g) * std::sin(w * k * period_s + std::arg(g));
+    if (k > 3000) worst = std::max(worst, std::abs(y - wanted));
+  }
+  CHECK(worst < 1e-4);
+}
+
+TEST_CASE("loops around the joints of robots cross where they should and keep a margin") {
+  for (const std::string name : {"hinge_rig", "twin_joint", "seven_dof"}) {
+    INFO(name);
+    auto model = model_of(name);
+    const JointShape shape;
+    const JointLoops loops = joint_loops(model, shape);
+    const LoopCheck check = checked(loops);
+    CHECK(loops.robust.margin > 0.25);
+    CHECK(check.slowest_per_s < 0);
+    CHECK(check.margin == Approx(loops.robust.margin).epsilon(0.02));
+    for (const double hz : check.crossover_Hz) {
+      CHECK(hz > 0.3 * shape.crossover_Hz);  // K∞ and the other joints lower it
+      CHECK(hz < 1.7 * shape.crossover_Hz);
+    }
+  }
+}
+
+TEST_CASE("a plant that is far from the model loses the margin") {
+  auto model = model_of("twin_joint");
+  JointLoops loops = joint_loops(model, {});
+  loops.plant = hinge_plant(model, {.delay_s = 0.2});
+  const LoopCheck check = checked(loops);
+  CHECK(check.slowest_per_s > 0);
+}
+
+TEST_CASE("a robot with a ball joint is refused") {
+  auto model = model_of("arm");
+  CHECK_THROWS_WITH(joint_loops(model, {}), Catch::Contains("no hinge"));
+}

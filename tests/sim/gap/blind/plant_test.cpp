@@ -1,0 +1,144 @@
+#include "sim/gap/blind/plant.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/gap/blind/case.hpp"
+#include "sim/gap/blind/shows.hpp"
+#include "sim/gap/blind/strength.hpp"
+#include "sim/world/world.hpp"
+#include "tests/sim/rigs.hpp"
+
+using namespace sim::blind;
+
+namespace {
+
+erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+Quirks no_quirks(const erp::Robot& robot) { return draw_case(robot, Kind::null, 1).quirks; }
+
+}  // namespace
+
+TEST_CASE(
+    "without quirks the blind plant moves as the simulator does, by another integrator and "
+    "friction") {
+  const erp::Robot robot = hinge_rig();
+  Plant plant(robot, no_quirks(robot));
+  sim::World world(robot);
+  const int elbow = 0;
+  double worst_rad = 0, worst_N = 0, moved_rad = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 0.002 * k;
+    const double volts[] = {2 + 2 * std::sin(3 * t), 2 - 2 * std::sin(3 * t)};
+    REQUIRE(plant.run(volts, 0.002, 0));
+    world.step(volts, 0.001), world.step(volts, 0.001);
+    worst_rad =
+        std::fmax(worst_rad, std::abs(plant.angle_rad(elbow) - world.joints()[elbow].position[0]));
+    moved_rad = std::fmax(moved_rad, std::abs(world.joints()[elbow].position[0]));
+    worst_N = std::fmax(worst_N, std::abs(plant.tension_N(0) - world.actuators()[0].tension_N));
+  }
+  CHECK(worst_rad < 0.01);
+  CHECK(worst_N < 1.0);
+  CHECK(moved_rad > 0.1);
+}
+
+TEST_CASE("every tendon of every robot starts at its pretension") {
+  for (const char* name : {"hinge_rig", "leg", "arm", "seven_dof", "ecce4"}) {
+    const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
+    Plant plant(robot, no_quirks(robot));
+    REQUIRE(plant.run(std::vector<double>(robot.actuators.size()), 1e-5, 0));
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+      CAPTURE(name, robot.actuators[a].name);
+      CHECK(plant.tension_N(a) == Approx(robot.actuators[a].tendon.pretension_N).margin(0.1));
+    }
+  }
+}
+
+TEST_CASE("a quirk changes what it is named for") {
+  const erp::Robot robot = hinge_rig();
+  const auto shaft_after = [&](const Quirks& quirks) {
+    Plant plant(robot, quirks);
+    const double volts[] = {3, 0};
+    REQUIRE(plant.run(volts, 0.3, 0));
+    return plant.shaft_rad(0);
+  };
+  const double nominal = shaft_after(no_quirks(robot));
+  Quirks rubs = no_quirks(robot), torn = no_quirks(robot);
+  rubs.chains[0].dry_Nm = 1;
+  torn.chains[1].dry_Nm = 1;
+  CHECK(shaft_after(rubs) < 0.95 * nominal);
+  CHECK(shaft_after(torn) == Approx(nominal).epsilon(0.01));
+}
+
+TEST_CASE("a seed draws the same case again, another seed another") {
+  const erp::Robot robot = hinge_rig();
+  const auto one = draw_case(robot, Kind::pair, 7), same = draw_case(robot, Kind::pair, 7);
+  REQUIRE(one.hidden.size() == 2);
+  CHECK(one.hidden[0].type == same.hidden[0].type);
+  CHECK(one.hidden[1].parameters == same.hidden[1].parameters);
+  int others = 0;
+  for (std::uint64_t seed = 8; seed < 18; ++seed)
+    others += draw_case(robot, Kind::pair, seed).hidden[0].type != one.hidden[0].type;
+  CHECK(others > 5);
+  CHECK_THROWS_AS(kind_of("singles"), std::invalid_argument);
+}
+
+TEST_CASE("many: eight to twelve numbers of a robot are 2 to 10 % off, all others as described") {
+  const erp::Robot robot = hinge_rig();
+  Quirks unchanged = no_quirks(robot);
+  const AsBuilt exact = as_built(robot, 0, 1, unchanged);
+  std::vector<int> counts;
+  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+    const AsBuilt built = draw_case(robot, Kind::many, seed).built;
+    REQUIRE(built.drawn.size() == exact.drawn.size());
+    int off = 0;
+    for (std::size_t k = 0; k < exact.drawn.size(); ++k) {
+      const double error = std::abs(built.drawn[k].value / exact.drawn[k].value - 1);
+      if (error < 1e-12 || exact.drawn[k].name == "torque_Nm_per_A") continue;  // K_T goes with K_E
+      ++off;
+      CHECK(error >= 0.02 * (1 - 1e-9));
+      CHECK(error <= 0.10 * (1 + 1e-9));
+    }
+    counts.push_back(off);
+  }
+  CHECK(std::ranges::min(counts) >= 8);
+  CHECK(std::ranges::max(counts) <= 12);
+  CHECK(std::ranges::min(counts) < std::ranges::max(counts));
+}
+
+TEST_CASE("what no reading shows is drawn anew: friction of a guide on a line that runs straight") {
+  const erp::Robot robot = hinge_rig();
+  const Shows shows(robot);
+  Quirks nothing = no_quirks(robot), sag = nothing, heavy = nothing;
+  sag.chains[0].source_ohm = 1e-4;
+  heavy.bodies["forearm"].mass = 0.3;
+  CHECK_FALSE(shows(nothing));
+  CHECK_FALSE(shows(sag));
+  CHECK(shows(heavy));
+  int asked = 0;
+  const auto third = [&](const Quirks&) { return ++asked == 3; };
+  const Case drawn = draw_case(robot, Kind::single, 7, {}, third);
+  CHECK(drawn.drawn_anew == 2);
+  CHECK(drawn.hidden.size() == 1);
+}
+
+TEST_CASE("a joint is as strong as its tendons pull on their levers") {
+  CHECK(strength_Nm(hinge_rig(), 0) == Approx(2 * 150 * 0.025 / 2).epsilon(0.01));
+}
+
+TEST_CASE("a disc off its centre reads the angle of the ray from it to the head") {
+  erp::Robot robot = hinge_rig();
+  const auto angles = [&](double sine) {
+    Case blind = draw_case(robot, Kind::null, 1);
+    blind.quirks.joints[0].angle.sine_rad = sine;
+    const auto table = record(robot, blind, sim::excitation(robot, 0, 4, 1), 1);
+    return table.find("elbow.angle_rad")->values;
+  };
+  const auto plain = angles(0), off = angles(0.2);
+  double worst_rad = 0;
+  for (std::size_t k = 0; k < plain.size(); ++k) {
+    const double q = plain[k];
+    const double ray = q + std::atan2(0.2 * std::sin(q), 1 - 0.2 * std::cos(q));
+    worst_rad = std::fmax(worst_rad, std::abs(off[k] - ray));
+  }
+  CHECK(worst_rad < 0.004);  // noise, and steps of both
+}

@@ -1,0 +1,50 @@
+#include "sim/gap/diagnosis/answer.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "sim/gap/diagnosis/identifiability.hpp"
+
+using namespace sim::diagnosis;
+namespace effects = sim::effects;
+
+namespace {
+
+/// An effect with such values of its fitted parameters, each within ±half.
+Named sized(const char* type, std::vector<double> values, double half) {
+  Named n = named(effects::Placed{"flexor", *effects::neutral(type)});
+  REQUIRE(n.values.size() == values.size());
+  n.values = std::move(values);
+  for (std::size_t k = 0; k < n.values.size(); ++k)
+    n.intervals[k] = {n.values[k] - half, n.values[k] + half};
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("an effect is undetermined if its intervals hold a robot without it") {
+  CHECK(undetermined(sized("tendon_stiffness", {0.2}, 0.1)).empty());
+  CHECK_THAT(undetermined(sized("tendon_stiffness", {0.2}, 0.3)), Catch::Contains("neutral value"));
+  CHECK(undetermined(sized("motor_cogging", {0.002, 0}, 0.001)).empty());  // one phase alone
+  CHECK_THAT(undetermined(sized("motor_cogging", {0.002, 0}, 0.003)),
+             Catch::Contains("neutral value"));
+}
+
+TEST_CASE("an alternative with a value at a bound is dropped, a size or a shape") {
+  std::vector<Named> answer{sized("gearbox_coulomb", {0.03}, 0.001)};
+  Named ageing = sized("gearbox_ageing_stiction", {0.03, 1, 0.1}, 0.001);
+  answer[0].alternatives = {ageing, ageing, ageing};
+  answer[0].alternatives[0].values[1] = ageing.bounds[1].low;  // sticks at once
+  answer[0].alternatives[2].values[0] = ageing.bounds[0].high;
+  drop_alternatives_at_bounds(answer);
+  REQUIRE(answer[0].alternatives.size() == 1);
+  CHECK(answer[0].alternatives[0].values == ageing.values);
+}
+
+TEST_CASE("an effect whose value is at a bound is undetermined") {
+  Named n = sized("tendon_kite_line", {1e-4}, 1e-5);
+  CHECK(undetermined(n).empty());
+  n.values[0] = n.bounds[0].high;
+  CHECK_THAT(undetermined(n), Catch::Contains("at its bound"));
+  n.values[0] = 0, n.intervals[0] = {0, 1e-6};  // a bound that is neutral: holds neutral
+  CHECK_THAT(undetermined(n), Catch::Contains("neutral value"));
+}

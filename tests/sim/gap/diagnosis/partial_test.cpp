@@ -1,0 +1,110 @@
+#include <catch2/catch.hpp>
+
+#include "sim/gap/diagnosis/isolation.hpp"
+#include "sim/gap/residuals/common_signals.hpp"
+#include "tests/sim/gap/residuals/rig_recording.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace effects = sim::effects;
+using namespace sim::diagnosis;
+using namespace sim::residuals;
+
+namespace {
+
+erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+
+Episode recorded(const std::vector<effects::Placed>& placed, std::uint64_t seed = 7) {
+  erp::Robot real = hinge_rig();
+  for (const auto& p : placed) real.effects.push_back(effects::written(p));
+  return rig_recording::record(hinge_rig(), real, {.seconds = 12, .seed = seed});
+}
+
+void check_closed(const std::vector<Episode>& episodes) {
+  for (const StageGap& gap : where(hinge_rig(), episodes)) {
+    INFO(effects::word(gap.stage) << " " << gap.on << ": excess " << gap.excess);
+    CHECK_FALSE(gap.open);
+    CHECK(gap.rms < 1.4 * gap.floor);
+  }
+}
+
+std::vector<std::string> suspected(const std::vector<effects::Placed>& hidden,
+                                   const std::vector<std::string>& withhold = {}) {
+  const erp::Robot robot = hinge_rig();
+  Evidence evidence{robot, {recorded(hidden)}, {.withhold = withhold}, {{0}, {0}}};
+  std::vector<std::string> names;
+  for (const Part& part : isolate(evidence, Trials(robot, evidence.episodes)))
+    names.push_back(std::string(effects::word(part.stage)) + " " + part.on);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("what one recording lacks is left out of all, and told") {
+  std::vector<Episode> episodes{recorded({}), recorded({}, 8)};
+  episodes[0].name = "monday.csv", episodes[1].name = "tuesday.csv";
+  episodes[1].actuators[0].tension_N.clear();
+  std::ranges::fill(episodes[0].actuators[1].current_A, recording::not_taken);
+  std::vector<std::string> remarks;
+  keep_common(episodes, hinge_rig(), remarks);
+  REQUIRE(remarks.size() == 2);
+  CHECK_THAT(remarks[0], Catch::StartsWith("tuesday.csv: lacks flexor.tension_N"));
+  CHECK_THAT(remarks[1], Catch::StartsWith("monday.csv: lacks extensor.current_A"));
+  CHECK(episodes[0].actuators[0].tension_N.empty());
+  CHECK(episodes[1].actuators[1].current_A.empty());
+  check_closed(episodes);
+}
+
+TEST_CASE("a joint that was not measured is where its tendons say") {
+  Episode episode = recorded({});
+  const Signal truth = episode.joints[0].angle_rad;
+  episode.joints[0].angle_rad.clear();
+  const auto joints = Stages(hinge_rig()).explain(episode).joints;
+  REQUIRE(joints->estimated);
+  const Signal& found = joints->signals[0].angle_rad;
+  for (std::size_t k = 100; k + 100 < truth.size(); k += 50)
+    CHECK(found[k] == Approx(truth[k]).margin(0.003));
+  check_closed({episode});
+}
+
+TEST_CASE(
+    "without joint angles a spindle's radius still opens the tendons' stages, slack tells none") {
+  Episode episode = recorded({{"extensor", effects::SpindleRadius{0.1}}});
+  episode.joints[0].angle_rad.clear();
+  const Episode all[] = {episode};
+  CHECK(where(hinge_rig(), all)[0].stage == effects::Stage::tendon);
+  CHECK(where(hinge_rig(), all)[0].open);
+  for (auto& a : episode.actuators) std::ranges::fill(a.tension_N, 0.0);
+  const auto joints = Stages(hinge_rig()).explain(episode).joints;
+  CHECK(std::isnan(joints->signals[0].angle_rad[1000]));
+}
+
+TEST_CASE("a current that was not measured is the motor's law's, and leaves no gap of its own") {
+  Episode episode = recorded({});
+  for (auto& a : episode.actuators) a.current_A.clear();
+  check_closed({episode});
+}
+
+TEST_CASE("a gap is the fault of what could leave it there and nowhere else") {
+  using Names = std::vector<std::string>;
+  const Names rough = suspected({{"flexor", effects::GearboxCoulomb{0.1}}});
+  CHECK(std::ranges::count(rough, "gearbox flexor") == 1);
+  for (const char* not_it : {"gearbox extensor", "tendon flexor", "spindle flexor", "joint elbow"})
+    CHECK(std::ranges::count(rough, not_it) == 0);
+  const Names stiff = suspected({{"elbow", effects::JointViscous{0.2}}});
+  CHECK(std::ranges::count(stiff, "joint elbow") == 1);
+  for (const std::string& name : stiff) {
+    INFO(name);
+    CHECK((name.starts_with("joint") || name.starts_with("skeleton")));
+  }
+}
+
+TEST_CASE("parts are suspected for effects that are known, not for those withheld") {
+  std::vector<std::string> of_joints;
+  for (const auto& effect : effects::library())
+    if (effects::about(effect).stage == effects::Stage::joint)
+      of_joints.emplace_back(effects::about(effect).type);
+  for (const std::string& name : suspected({{"elbow", effects::JointViscous{0.2}}}, of_joints)) {
+    INFO(name);
+    CHECK_FALSE(name.starts_with("joint"));
+  }
+}

@@ -1,0 +1,125 @@
+#include "sim/gap/diagnosis/split.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "sim/gap/diagnosis/diagnose.hpp"
+#include "tests/sim/gap/diagnosis/blind_recording.hpp"
+
+using namespace sim::diagnosis;
+using namespace sim::residuals;
+using blind_recording::episodes;
+using blind_recording::hinge_rig;
+using blind_recording::nothing_hidden;
+
+namespace {
+
+/// Three recordings, of which those at `shows` are of a gearbox that drags.
+std::vector<Episode> dragging(const std::vector<std::size_t>& shows) {
+  auto blind = nothing_hidden();
+  auto all = episodes(blind);
+  blind.quirks.chains[1].viscous = 0.02;
+  const auto drags = episodes(blind);
+  for (const std::size_t k : shows) all[k] = drags[k];
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("held out is a whole recording, the one farthest off") {
+  auto all = episodes(nothing_hidden(), 3, 3);
+  for (double& n : all[1].actuators[0].tension_N) n += 800;
+  const Sets sets = split(all);
+  CHECK(sets.held_out == std::vector<std::size_t>{1});
+  CHECK(sets.train == std::vector<std::size_t>{0, 2});
+}
+
+TEST_CASE("of two recordings that show the gap, one teaches and one judges") {
+  for (const std::size_t silent : {0u, 1u, 2u}) {
+    std::vector<std::size_t> shows{0, 1, 2};
+    shows.erase(shows.begin() + std::ptrdiff_t(silent));
+    const Trials plain(hinge_rig(), dragging(shows));
+    Sets given;
+    given.held_out = {silent};
+    given.train = shows;
+    const Sets sets = hold_out_what_shows(given, plain, {});
+    REQUIRE(sets.held_out.size() == 1);
+    CHECK(sets.held_out[0] != silent);
+    CHECK(sets.train.size() == 2);
+    CHECK(cuts(sets, plain, {}).empty());
+  }
+}
+
+TEST_CASE("a recording cut in two has each of its windows once") {
+  auto all = dragging({0, 1, 2});
+  Sets sets{{0, 1}, {2}};
+  const std::size_t whole = Trials(hinge_rig(), all).bare().of_episode[0].rows.size();
+  const std::size_t row = all[0].rows / 3;
+  cut_in_two({0, row, sim::effects::Stage::gearbox, "extensor"}, all, sets);
+  CHECK(sets.train == std::vector<std::size_t>{1, 0});
+  CHECK(sets.held_out == std::vector<std::size_t>{2, 3});
+  const Trials trials(hinge_rig(), all);
+  const auto &first = trials.bare().of_episode[0].rows, &second = trials.bare().of_episode[3].rows;
+  CHECK(first.back() < row);
+  CHECK(second.front() >= row);
+  CHECK(first.size() + second.size() == whole);
+}
+
+TEST_CASE(
+    "a stop that one recording meets: that teaches by its first part and judges by the rest") {
+  auto blind = nothing_hidden();
+  auto all = episodes(blind, 20);
+  blind.quirks.joints[0].min_in_rad = 0.6;
+  all[0] = episodes(blind, 20)[0];
+  const Diagnosis d = diagnose(hinge_rig(), all);
+  CHECK(d.verdict == Verdict::supported);
+  REQUIRE(d.answer.size() == 1);
+  CHECK(d.answer[0].type == "joint_early_stop");
+  CHECK(d.answer[0].values[0] == Approx(0.6).margin(0.02));
+  CHECK(d.answer[0].values[1] == 0);  // nothing was met on the other side
+  CHECK(std::ranges::count(d.train, "recording 1") == 1);
+  CHECK(std::ranges::count(d.held_out, "recording 1") == 1);
+  CHECK(d.recordings.size() == 3);
+  REQUIRE(d.shared.size() == 1);
+  CHECK(d.shared[0].recording == "recording 1");
+  CHECK(d.shared[0].judged_from_s > 0);
+  REQUIRE(d.warnings.size() == 1);
+  CHECK_THAT(d.warnings[0], Catch::Contains("recording 1") && Catch::Contains("record another"));
+}
+
+TEST_CASE(
+    "a stop that the recording held out alone meets is found beside constants that are a little "
+    "off") {
+  auto blind = nothing_hidden();
+  auto all = episodes(blind, 20);
+  const std::size_t met = split(all).held_out[0];
+  blind.quirks.joints[0].min_in_rad = 0.6;
+  all[met] = episodes(blind, 20)[met];
+  erp::Robot described = hinge_rig();  // of which the recordings' robot differs
+  described.motor_types[0].resistance_ohm *= 1.03;
+  for (erp::Body& body : described.skeletons[0].bodies) body.mass_kg *= 1.04;
+  for (const std::size_t a : {0, 1}) {
+    described.actuators[a].spindle.radius_m *= a ? 0.98 : 1.02;
+    described.actuators[a].tendon.stiffness_N_per_m *= a ? 1.02 : 0.97;
+  }
+  const Diagnosis d = diagnose(described, all);
+  CHECK(d.verdict == Verdict::supported);
+  REQUIRE(d.answer.size() == 1);
+  CHECK(d.answer[0].type == "joint_early_stop");
+  CHECK(d.answer[0].intervals[0].low > 0.4);
+  CHECK(d.answer[0].intervals[0].low < 0.6);
+  CHECK(d.answer[0].intervals[0].high > 0.6);
+  CHECK(d.answer[0].intervals[0].high < 0.8);
+  const std::string name = all[met].name;
+  CHECK(std::ranges::count(d.train, name) == 1);
+  CHECK(std::ranges::count(d.held_out, name) == 1);
+}
+
+TEST_CASE("what a sensor smoothed comes back with its noise, which is no gap") {
+  auto blind = nothing_hidden();
+  blind.quirks.joints[0].angle.lag_s = 0.025;
+  const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 10));
+  CHECK(d.verdict == Verdict::supported);
+  REQUIRE(d.answer.size() == 1);
+  CHECK(d.answer[0].type == "sensor_joint_low_pass");
+}

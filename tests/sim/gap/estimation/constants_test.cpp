@@ -1,0 +1,150 @@
+#include "sim/gap/estimation/constants.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <optional>
+
+#include "interfaces/xml/errors.hpp"
+#include "sim/model/effects/library.hpp"
+#include "sim/gap/estimation/far_off.hpp"
+#include "sim/gap/residuals/stages.hpp"
+#include "tests/sim/gap/diagnosis/blind_recording.hpp"
+
+using namespace sim::estimation;
+using blind_recording::hinge_rig;
+
+namespace {
+
+erp::Tolerance relative(const char* of, const char* on, double share) {
+  erp::Tolerance given;
+  given.of = of, given.on = on, given.relative = share;
+  return given;
+}
+
+erp::Tolerance absolute(const char* of, double by) {
+  erp::Tolerance given;
+  given.of = of, given.absolute = by;
+  return given;
+}
+
+/// In the number's unit; none if it is no constant.
+std::optional<double> tolerance_of(const erp::Robot& robot, const char* on, const char* name) {
+  for (const Constant& c : constants_of(robot))
+    if (c.on == on && c.name == name) return c.tolerance;
+  return std::nullopt;
+}
+
+std::string message_of(const erp::Tolerance& given) {
+  erp::Robot robot = hinge_rig();
+  robot.tolerances = {given};
+  try {
+    constants_of(robot);
+  } catch (const xml::Errors& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// Σ over stages of |r' − r|²/|r|², windows that both judge.
+double difference(const sim::residuals::Explanation& a, const sim::residuals::Explanation& b) {
+  double sum = 0;
+  for (std::size_t s = 0; s < a.residuals.size(); ++s) {
+    double square = 0, change = 0;
+    for (std::size_t k = 0; k < a.residuals[s].value.size(); ++k) {
+      const double was = a.residuals[s].value[k], is = b.residuals[s].value[k];
+      if (std::isnan(was) || std::isnan(is)) continue;
+      square += was * was, change += (is - was) * (is - was);
+    }
+    if (square > 0) sum += change / square;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a constant that is off is the effect of the library that stands for it") {
+  const erp::Robot robot = hinge_rig();
+  const auto episode = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 1)[0];
+  const auto explain = [&](const erp::Robot& r) {
+    return sim::residuals::Stages(r).explain(episode);
+  };
+  const auto nominal = explain(robot);
+  const std::vector<Constant> constants = constants_of(robot);
+  for (std::size_t k = 0; k < constants.size(); ++k) {
+    const Constant& c = constants[k];
+    CAPTURE(c.name, c.on, c.effect);
+    std::vector<double> x(constants.size());
+    x[k] = 1;
+    erp::Robot with_effect = robot;
+    with_effect.effects.push_back(sim::effects::written(as_effect(c, {k, x[k], 0}).effect));
+    const auto by_constant = explain(with_constants(robot, constants, x));
+    const double change = difference(nominal, by_constant);
+    // A rotor's friction passes through the efficiency of the gearbox, that of the effect does not.
+    const bool before_gearbox =
+        c.name == "rotor_coulomb_Nm" || c.name == "rotor_viscous_Nm_s_per_rad";
+    CHECK(difference(by_constant, explain(with_effect)) < (before_gearbox ? 0.15 : 1e-6) * change);
+  }
+}
+
+TEST_CASE("a tolerance of robot.xml replaces the default, of one part or of all") {
+  erp::Robot robot = hinge_rig();
+  robot.tolerances = {relative("resistance_ohm", "", 0.1),
+                      relative("resistance_ohm", "flexor", 0.2), absolute("line_zero_m", 0.002)};
+  CHECK(*tolerance_of(robot, "flexor", "resistance_ohm") == Approx(0.2 * 0.516));
+  CHECK(*tolerance_of(robot, "extensor", "resistance_ohm") == Approx(0.1 * 0.516));
+  CHECK(*tolerance_of(robot, "flexor", "line_zero_m") == Approx(0.002));
+  CHECK(*tolerance_of(robot, "flexor", "radius_m") ==
+        tolerance_of(hinge_rig(), "flexor", "radius_m"));
+}
+
+TEST_CASE("a number whose tolerance is 0 is not estimated") {
+  erp::Robot robot = hinge_rig();
+  robot.tolerances = {relative("mass", "forearm", 0)};
+  CHECK_FALSE(tolerance_of(robot, "forearm", "mass"));
+  CHECK(tolerance_of(hinge_rig(), "forearm", "mass"));
+}
+
+TEST_CASE("a tolerance of a number that is not estimated is refused, with the numbers there are") {
+  CHECK(message_of(relative("resistance", "", 0.1)).find("did you mean \"resistance_ohm\"?") !=
+        std::string::npos);
+  CHECK(message_of(relative("resistance_ohm", "elbow", 0.1)).find("of elbow") != std::string::npos);
+  CHECK(message_of(relative("line_zero_m", "", 0.1)).find("give absolute") != std::string::npos);
+}
+
+TEST_CASE("a motor's torque and back-EMF constant move together") {
+  const erp::Robot robot = hinge_rig();
+  const auto all = constants_of(robot);
+  std::vector<double> x(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].name == "torque_Nm_per_A" && all[k].on == "flexor") x[k] = 1;
+  const erp::Robot built = with_constants(robot, all, x);
+  const erp::MotorType &was = robot.motor_of(robot.actuators[0]),
+                       &is = built.motor_of(built.actuators[0]);
+  CHECK(is.torque_Nm_per_A == Approx(1.04 * was.torque_Nm_per_A));
+  CHECK(is.back_emf_V_s_per_rad == Approx(1.04 * was.back_emf_V_s_per_rad));
+  CHECK(std::ranges::none_of(all,
+                             [](const Constant& c) { return c.name == "back_emf_V_s_per_rad"; }));
+}
+
+TEST_CASE("a constant stays within what the effect that stands for it can hold") {
+  const erp::Robot robot = hinge_rig();
+  const auto all = constants_of(robot);
+  for (const double x : {-1e4, 1e4})
+    CHECK_NOTHROW(
+        sim::effects::read_effects(with_constants(robot, all, std::vector<double>(all.size(), x))));
+}
+
+TEST_CASE(
+    "steps in a stiffness add to what it gives, and stay positive; steps in other numbers add") {
+  for (const Constant& c : constants_of(hinge_rig())) {
+    if (c.on != "flexor") continue;
+    if (c.name == "stiffness_N_per_m") {
+      const double from = c.value(2), by = 0.1 * from;  // in N/m
+      CHECK(1 / c.value(c.moved(2, by / c.tolerance)) == Approx(1 / from - by / (from * from)));
+      CHECK(c.value(c.moved(2, -10 * from / c.tolerance)) == Approx(from / 11));
+      CHECK(c.value(c.moved(2, 2 * from / c.tolerance)) == Approx(8 * from));
+    } else {
+      CHECK(c.moved(2, 0.5) == 2.5);
+    }
+  }
+}

@@ -1,0 +1,282 @@
+#include "sim/gap/estimation/as_built.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "sim/gap/residuals/floor.hpp"
+#include "tests/sim/gap/diagnosis/blind_recording.hpp"
+
+using namespace sim::estimation;
+using blind_recording::hinge_rig;
+
+namespace {
+
+/// Recordings, laid out for the nominal rig, of a rig with other numbers and what is hidden in it; recorded by
+/// the blind cases' own physics.
+std::vector<sim::residuals::Episode> recordings_of(
+    const erp::Robot& built, double seconds = 10,
+    const sim::blind::Case& hidden = blind_recording::nothing_hidden()) {
+  std::vector<sim::residuals::Episode> all;
+  std::vector<std::string> remarks;
+  for (int k = 0; k < 3; ++k)
+    all.push_back(sim::residuals::lay_out(
+        sim::blind::record(built, hidden, sim::excitation(built, k, seconds, 5), std::uint64_t(k)),
+        hinge_rig(), "recording " + std::to_string(k + 1), remarks));
+  return all;
+}
+
+std::size_t index_of(const AsBuilt& built, const std::string& on, const std::string& name) {
+  const auto& all = built.uncertain.constants;
+  const auto found =
+      std::ranges::find_if(all, [&](const Constant& c) { return c.on == on && c.name == name; });
+  REQUIRE(found != all.end());
+  return std::size_t(found - all.begin());
+}
+
+double value_of(const AsBuilt& built, const std::string& on, const std::string& name) {
+  const std::size_t k = index_of(built, on, name);
+  return built.uncertain.constants[k].value(built.estimate.point.x[k]);
+}
+
+void check_within(const AsBuilt& built, const std::string& on, const std::string& name,
+                  double truth) {
+  INFO(on << " " << name);
+  const std::size_t k = index_of(built, on, name);
+  const Constant& c = built.uncertain.constants[k];
+  const double half = 2.6 * built.estimate.sigma(k) * c.tolerance + 0.01 * truth;
+  CHECK(std::abs(value_of(built, on, name) - truth) < half);
+}
+
+/// Of all motors: torque and back-EMF constant.
+void change_magnet(erp::Robot& robot, double factor) {
+  erp::MotorType& motor = robot.motor_types[0];
+  motor.torque_Nm_per_A *= factor, motor.back_emf_V_s_per_rad *= factor;
+}
+
+}  // namespace
+
+TEST_CASE("constants that are 3 to 7 % off are found together, and leave each stage at its noise") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.06;
+  built.motor_types[0].rotor_inertia_kg_m2 *= 1.05;
+  for (erp::Actuator& a : built.actuators) a.spindle.radius_m *= 1.03;
+  built.skeletons[0].bodies[1].mass_kg *= 0.95;
+  const auto recordings = recordings_of(built);
+  const AsBuilt found = calibrated(hinge_rig(), recordings);
+  for (const char* on : {"flexor", "extensor"}) {
+    check_within(found, on, "resistance_ohm", 1.06 * 0.516);
+    check_within(found, on, "rotor_inertia_kg_m2", 1.05 * 14.5e-7);
+    check_within(found, on, "torque_Nm_per_A", 11.5e-3);
+    // A larger spindle under a larger moment arm, with a softer spring, looks nearly the same.
+    CHECK(value_of(found, on, "radius_m") / value_of(found, on, "moment_arm") ==
+          Approx(1.03 * 0.0045).epsilon(0.005));
+  }
+  check_within(found, "forearm", "mass", 0.95);
+  for (const double square : found.estimate.mean_square) CHECK(square < 1.3);
+  CHECK(found.beyond.empty());
+}
+
+TEST_CASE("the robot of a calibration holds the numbers that were found") {
+  erp::Robot built = hinge_rig();
+  for (erp::Actuator& a : built.actuators) a.tendon.stiffness_N_per_m *= 1.3;
+  const auto recordings = recordings_of(built);
+  const AsBuilt found = calibrated(hinge_rig(), recordings);
+  REQUIRE_FALSE(found.beyond.empty());  // six tolerances
+  CHECK(found.uncertain.constants[found.beyond[0]].name == "stiffness_N_per_m");
+  for (const erp::Actuator& a : found.robot.actuators)
+    CHECK(a.tendon.stiffness_N_per_m == Approx(value_of(found, a.name, "stiffness_N_per_m")));
+  CHECK(found.robot.actuators[0].tendon.stiffness_N_per_m == Approx(7800).epsilon(0.03));
+}
+
+TEST_CASE(
+    "what recordings say only of several constants together is left as open as their tolerances") {
+  const auto recordings = recordings_of(hinge_rig());
+  const AsBuilt found = calibrated(hinge_rig(), recordings);
+  for (const char* on : {"flexor", "extensor"}) {
+    // All torques, forces and masses 1 % larger: the same motion.
+    const std::size_t k = index_of(found, on, "current_gain");
+    CHECK(found.estimate.sigma(k) > 0.3);
+    CHECK(std::abs(found.estimate.point.x[k]) < 1);
+  }
+}
+
+TEST_CASE("a gearbox's friction of many times its nominal one is that constant, far off") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.02, built.actuators[0].spindle.radius_m *= 0.99;
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[0].viscous = 0.05;  // 100 times
+  const auto recordings = recordings_of(built, 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  CHECK(found.estimate.point.effects.empty());
+  REQUIRE(found.beyond.size() == 1);
+  CHECK(found.beyond[0] == index_of(found, "flexor", "gear_viscous_Nm_s_per_rad"));
+  check_within(found, "flexor", "gear_viscous_Nm_s_per_rad", 0.0505);
+}
+
+TEST_CASE("a forearm far too light is found, its centre of mass nearer instead is an alternative") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.02, change_magnet(built, 0.99);
+  built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.bodies["forearm"].mass = -0.4;
+  const auto recordings = recordings_of(built, 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  REQUIRE(found.beyond.size() == 1);
+  CHECK(found.beyond[0] == index_of(found, "forearm", "mass"));
+  check_within(found, "forearm", "mass", 0.6);
+  REQUIRE(found.instead[0].size() == 1);
+  CHECK(sim::effects::name_of(found.instead[0][0].effect) == "skeleton_com on forearm");
+}
+
+TEST_CASE("an effect is found beside constants that are all a little off") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.03, change_magnet(built, 0.98);
+  built.actuators[0].spindle.radius_m *= 1.02, built.actuators[1].tendon.stiffness_N_per_m *= 0.97;
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[1].creep_N_per_m = 1500, blind.quirks.chains[1].creep_s = 2;  // extensor
+  const auto recordings = recordings_of(built, 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  REQUIRE(found.estimate.point.effects.size() == 1);
+  CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_creep on extensor");
+}
+
+TEST_CASE("a joint sensor's gain is found though both moment arms could nearly stand for it") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.02, change_magnet(built, 0.99);
+  built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.joints[0].angle.gain = -0.095;
+  const auto recordings = recordings_of(built, 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  REQUIRE(found.estimate.point.effects.size() == 1);
+  CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "sensor_joint_gain on elbow");
+  CHECK(found.beyond.empty());
+}
+
+TEST_CASE(
+    "a joint's play, a sensor's lag and a line that gives are found beside constants 2 % off") {
+  struct Hidden {
+    const char* name;
+    std::function<void(sim::blind::Quirks&)> hide;
+  };
+  const Hidden each[] = {
+      {"joint_play on elbow", [](auto& q) { q.joints[0].loose_rad = 0.054; }},
+      {"sensor_current_low_pass on flexor", [](auto& q) { q.chains[0].current.lag_s = 0.0092; }},
+      {"tendon_kite_line on extensor", [](auto& q) { q.chains[1].line_m_per_N = 7e-5; }}};
+  for (const Hidden& hidden : each) {
+    INFO(hidden.name);
+    auto blind = blind_recording::nothing_hidden();
+    hidden.hide(blind.quirks);
+    blind.built = sim::blind::as_built(hinge_rig(), 0.02, 41, blind.quirks);
+    const auto recordings = blind_recording::episodes(blind, 10);
+    const std::span<const sim::residuals::Episode> all(recordings);
+    const AsBuilt found = as_built(hinge_rig(), all.first(2), all.last(1));
+    CHECK_FALSE(found.keeps);
+    REQUIRE(found.estimate.point.effects.size() == 1);
+    CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == hidden.name);
+  }
+}
+
+TEST_CASE("a robot as described but for one effect is explained by that effect alone") {
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[0].spring = 0.2;  // flexor
+  const auto recordings = recordings_of(hinge_rig(), 10, blind);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
+  CHECK(found.exact);
+  CHECK_FALSE(found.keeps);
+  REQUIRE(found.estimate.point.effects.size() == 1);
+  CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_stiffness on flexor");
+}
+
+TEST_CASE("a constant of a withheld type is not estimated") {
+  const auto recordings = recordings_of(hinge_rig(), 3);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  AsBuiltOptions options;
+  options.search.withhold = {"motor_resistance"};
+  const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1), options);
+  CHECK(std::ranges::none_of(found.uncertain.constants,
+                             [](const Constant& c) { return c.name == "resistance_ohm"; }));
+  CHECK(found.estimate.point.effects.empty());
+}
+
+TEST_CASE(
+    "an estimate that goes on where another ended, with other steps, ends at the same numbers") {
+  erp::Robot built = hinge_rig();
+  built.motor_types[0].resistance_ohm *= 1.06;
+  for (erp::Actuator& a : built.actuators) a.tendon.stiffness_N_per_m *= 0.95;
+  const auto recordings = recordings_of(built, 5);
+  const erp::Robot nominal = hinge_rig();
+  const Estimator estimator(nominal, recordings);
+  const Uncertain uncertain{nominal, constants_of(nominal)};
+  const Estimate whole = estimator.run(uncertain, {});
+  EstimateOptions few;
+  few.iterations = 1;
+  const Estimate begun = Estimator(nominal, recordings, few).run(uncertain, {});
+  const Estimate ended = estimator.continued(uncertain, begun);
+  CHECK((begun.z - whole.z).norm() > 10 * (ended.z - whole.z).norm());
+  CHECK(ended.cost == Approx(whole.cost).margin(0.3));
+  for (std::size_t k = 0; k < uncertain.constants.size(); ++k)
+    CHECK(ended.point.x[k] == Approx(whole.point.x[k]).margin(0.3));
+}
+
+TEST_CASE("effects that change none of the stages that keep more than noise are not tried") {
+  using sim::effects::Stage;
+  const auto recordings = recordings_of(hinge_rig(), 5);
+  const erp::Robot nominal = hinge_rig();
+  const Estimator estimator(nominal, recordings);
+  const Uncertain uncertain{nominal, constants_of(nominal)};
+  const std::vector<std::string> withhold;
+  const Screen screen(estimator, uncertain, withhold);
+  const Estimate at = estimator.run(uncertain, {});
+  std::vector<bool> open, none;
+  for (const auto& r : estimator.residuals().first().residuals) {
+    open.push_back(r.stage == Stage::motor && r.on == "flexor");
+    none.push_back(false);
+  }
+  const auto tried = screen.candidates(at, open), all = screen.candidates(at, none);
+  REQUIRE_FALSE(tried.empty());
+  CHECK(tried.size() < all.size());
+  for (const Candidate& c : tried) {
+    INFO(sim::effects::name_of(c.start));
+    CHECK(c.start.on == "flexor");
+    const Stage stage = sim::effects::about(c.start.effect).stage;
+    CHECK((stage == Stage::motor || stage == Stage::sensor));
+  }
+}
+
+TEST_CASE("the first third of recordings shows how much a robot raises each noise floor") {
+  const erp::Robot nominal = hinge_rig();
+  erp::Robot other = nominal;
+  other.motor_types[0].resistance_ohm *= 3;
+  for (erp::Actuator& a : other.actuators) a.tendon.stiffness_N_per_m *= 3;
+  const auto recordings = recordings_of(nominal);
+  constexpr std::uint64_t seed = 1;
+  const ResidualVector vector(nominal, recordings, seed, 2);
+  for (const double r : vector.raised(vector.explain(nominal, 2))) CHECK(r == Approx(1));
+  const auto raised = vector.raised(vector.explain(other, 2));
+  for (std::size_t s = 0; s < vector.stages(); ++s) {
+    const auto square = [&](const erp::Robot& robot) {  // of whole recordings
+      double sum = 0;
+      for (const auto& recording : recordings) {
+        sim::residuals::Stages stages(robot);
+        const auto real = stages.residuals(recording)[s],
+                   disturbed =
+                       stages.residuals(sim::residuals::said_again(recording, nominal, seed))[s];
+        for (std::size_t k = 0; k < real.value.size(); ++k)
+          if (const double change = disturbed.value[k] - real.value[k];
+              !std::isnan(change) && !banded(real, k) && !banded(disturbed, k))
+            sum += change * change;
+      }
+      return sum;
+    };
+    CHECK(raised[s] == Approx(std::sqrt(square(other) / square(nominal))).epsilon(0.1));
+  }
+  CHECK(*std::ranges::max_element(raised) > 1.2);
+}

@@ -1,0 +1,164 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/gap/estimation/limits.hpp"
+#include "sim/gap/estimation/row_timing.hpp"
+#include "sim/gap/estimation/spoilt_rows.hpp"
+#include "tests/sim/gap/diagnosis/blind_recording.hpp"
+
+using namespace sim::estimation;
+using sim::residuals::Episode;
+using sim::residuals::Signal;
+
+namespace {
+
+std::vector<Episode> recordings() {
+  return blind_recording::episodes(blind_recording::nothing_hidden(), 5, 2);
+}
+
+void make_early(Signal& signal, std::size_t rows) {
+  for (std::size_t k = 0; k + rows < signal.size(); ++k) signal[k] = signal[k + rows];
+}
+
+std::size_t missing(const Signal& signal) {
+  return std::size_t(std::ranges::count_if(signal, [](double x) { return std::isnan(x); }));
+}
+
+}  // namespace
+
+TEST_CASE("a recording whose voltage holds until its row has no lag") {
+  CHECK(row_timing(recordings()).rows == 0);
+}
+
+TEST_CASE("a voltage that holds from its row is found, and moved with mode and reference") {
+  auto all = recordings();
+  const auto as_it_was = all;
+  for (Episode& e : all)
+    for (auto& s : e.actuators)
+      make_early(s.voltage_V, 1), make_early(s.reference, 1), make_early(s.mode, 1);
+  const RowTiming timing = row_timing(all);
+  CHECK(timing.from_row());
+  std::vector<std::string> remarks;
+  undo(timing, all, remarks);
+  CHECK(remarks.size() == 1);
+  CHECK(all[0].actuators[0].voltage_V[100] == as_it_was[0].actuators[0].voltage_V[100]);
+  CHECK(all[0].actuators[0].reference[100] == as_it_was[0].actuators[0].reference[100]);
+  CHECK(all[0].voltage_late_s == 0);
+}
+
+TEST_CASE("a voltage that acts 8 ms late is a delay of 8 ms") {
+  auto all = recordings();
+  for (Episode& e : all)
+    for (auto& s : e.actuators) make_early(s.voltage_V, 4);
+  const RowTiming timing = row_timing(all);
+  CHECK(timing.delay_s() == Approx(0.008));
+  std::vector<std::string> remarks;
+  undo(timing, all, remarks);
+  CHECK(all[0].voltage_late_s == Approx(0.008));
+}
+
+TEST_CASE("a driver of one motor that is late is no lag of rows") {
+  sim::blind::Case late = blind_recording::nothing_hidden();
+  late.quirks.chains[0].driver_late_s = 0.0013;
+  CHECK(row_timing(blind_recording::episodes(late, 5, 2)).rows == 0);
+}
+
+TEST_CASE("one actuator that lags alone is no lag of rows") {
+  auto all = recordings();
+  for (Episode& e : all) make_early(e.actuators[0].voltage_V, 3);
+  CHECK(row_timing(all).rows == 0);
+}
+
+TEST_CASE("rows at which a driver holds its current limit are left out, and others stay") {
+  auto all = recordings();
+  auto& s = all[0].actuators[0];
+  for (std::size_t k = 1000; k < 1050; ++k) s.current_A[k] = 3.99, s.voltage_V[k] = 11.5;
+  const std::size_t before = missing(s.voltage_V);
+  std::vector<std::string> remarks;
+  apply_limits(blind_recording::hinge_rig(), all, remarks);
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0].find("current limit of 4 A in 50 rows") != std::string::npos);
+  CHECK(missing(s.voltage_V) - before == 52);
+  CHECK(std::isnan(s.current_A[1020]));
+  CHECK_FALSE(std::isnan(s.tension_N[1020]));
+}
+
+TEST_CASE("a voltage above the supply is the supply's, a reading at the end of its range none") {
+  auto all = recordings();
+  auto& s = all[0].actuators[1];
+  s.voltage_V[500] = -20, s.tension_N[600] = 250;
+  std::vector<std::string> remarks;
+  apply_limits(blind_recording::hinge_rig(), all, remarks);
+  CHECK(s.voltage_V[500] == -12);
+  CHECK(std::isnan(s.tension_N[600]));
+  CHECK(remarks.size() == 2);
+}
+
+namespace {
+
+/// Every `each`-th row and those after it are the row before.
+void lose_reports(Episode& e, std::size_t each, std::size_t burst) {
+  const auto repeat = [&](Signal& signal) {
+    for (std::size_t k = each; k < signal.size(); ++k)
+      if (k % each < burst) signal[k] = signal[k - 1];
+  };
+  for (auto& s : e.actuators)
+    repeat(s.voltage_V), repeat(s.current_A), repeat(s.shaft_rad), repeat(s.tension_N);
+  for (auto& j : e.joints) repeat(j.angle_rad);
+}
+
+/// Samples every row up to `most_s` after its stamp.
+void sample_late(Episode& e, double most_s) {
+  std::vector<double> late_s(e.rows);
+  std::uint32_t state = 1;
+  for (double& t : late_s) {
+    state = state * 1664525u + 1013904223u;
+    t = most_s * double(state >> 8) / double(1 << 24);
+  }
+  const auto sample = [&](Signal& signal) {
+    const Signal was = signal;
+    for (std::size_t k = 0; k + 1 < was.size(); ++k)
+      signal[k] += (was[k + 1] - was[k]) * late_s[k] / e.period_s;
+  };
+  for (auto& s : e.actuators) sample(s.current_A), sample(s.shaft_rad), sample(s.tension_N);
+  for (auto& j : e.joints) sample(j.angle_rad);
+}
+
+}  // namespace
+
+TEST_CASE("a sound recording has neither repeated rows nor jitter, nor has a robot at rest") {
+  auto all = recordings();
+  CHECK(repeated_rows(all).share == 0);
+  CHECK(row_jitter_s(all) == 0);
+  Episode still = all[0];
+  lose_reports(still, 1, 1);  // every row as the first
+  CHECK(repeated_rows(std::span(&still, 1)).share == 0);
+}
+
+TEST_CASE("reports that repeat the last one are lost ones: filled in or forgotten, and reported") {
+  auto all = recordings();
+  const auto truth = all;
+  for (Episode& e : all) lose_reports(e, 40, 4);
+  CHECK(repeated_rows(all).share == Approx(0.1).epsilon(0.1));
+  std::vector<std::string> remarks;
+  mend_spoilt_rows(all, remarks);
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0].find("reports were lost") != std::string::npos);
+  CHECK(all[0].repeated_share == Approx(0.1).epsilon(0.1));
+  const std::size_t lost = 1001;  // 1000 … 1003
+  const auto &is = all[0].actuators[0], &was = truth[0].actuators[0];
+  CHECK(std::isnan(is.voltage_V[lost]));
+  CHECK(std::isnan(is.current_A[lost]));
+  CHECK(is.shaft_rad[lost] == Approx(was.shaft_rad[lost]).margin(0.02));
+  CHECK(is.shaft_rad[lost] != is.shaft_rad[lost - 1]);
+}
+
+TEST_CASE("rows taken up to 1.5 ms late by all sensors are jitter, of one sensor noise") {
+  auto all = recordings();
+  for (Episode& e : all) sample_late(e, 0.0015);
+  CHECK(row_jitter_s(all) == Approx(0.0015).epsilon(0.15));
+  auto one = recordings();
+  for (std::size_t e = 0; e < one.size(); ++e)
+    one[e].actuators[0].shaft_rad = all[e].actuators[0].shaft_rad;
+  CHECK(row_jitter_s(one) == 0);
+}

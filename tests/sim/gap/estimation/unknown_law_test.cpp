@@ -1,0 +1,43 @@
+#include <catch2/catch.hpp>
+
+#include "sim/gap/estimation/as_built.hpp"
+#include "tests/sim/gap/diagnosis/blind_recording.hpp"
+
+using namespace sim::estimation;
+
+namespace {
+
+/// The rig as described, but for what is hidden, as one finds it without effects of some types.
+AsBuilt found_of(const sim::blind::Case& hidden, const std::vector<std::string>& withhold = {}) {
+  const auto recordings = blind_recording::episodes(hidden, 10);
+  const std::span<const sim::residuals::Episode> each(recordings);
+  AsBuiltOptions options;
+  options.search.withhold = withhold;
+  return as_built(blind_recording::hinge_rig(), each.first(2), each.last(1), options);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a stiffness that may not be named is an unknown law, not three constants that make up for "
+    "it") {
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[1].spring = 0.3;  // extensor
+  const AsBuilt found = found_of(blind, {"tendon_stiffness", "tendon_creep"});
+  CHECK(found.unknown_law);
+  CHECK(found.beyond.empty());
+}
+
+TEST_CASE("two causes at one place are named, and are no unknown law") {
+  auto blind = blind_recording::nothing_hidden();
+  blind.quirks.chains[1].rotor = 0.66;  // extensor
+  blind.quirks.chains[1].turn_sine_Nm = 0.049, blind.quirks.chains[1].turn_cosine_Nm = -0.063;
+  const AsBuilt found = found_of(blind);
+  CHECK_FALSE(found.keeps);
+  CHECK_FALSE(found.unknown_law);
+  REQUIRE(found.estimate.point.effects.size() == 1);
+  CHECK(sim::effects::name_of(found.estimate.point.effects[0]) ==
+        "gearbox_position_dependent on extensor");
+  REQUIRE(found.beyond.size() == 1);
+  CHECK(found.uncertain.constants[found.beyond[0]].on == "extensor");
+}

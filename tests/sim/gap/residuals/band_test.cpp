@@ -1,0 +1,60 @@
+#include "sim/gap/residuals/band.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace sim::residuals;
+
+namespace {
+
+constexpr int draws = 200000;
+
+double beyond(double value, double band) { return std::max(0.0, std::abs(value) - band); }
+
+/// What lies beyond a band, of values anywhere in it and noise N(0, 1).
+std::vector<double> drawn(double band) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> within(-band, band);
+  std::normal_distribution<double> noise;
+  std::vector<double> all;
+  for (int k = 0; k < draws; ++k) all.push_back(within(random) + noise(random));
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the noise beyond a band is that of many draws") {
+  for (const double band : {0.01, 0.3, 1.0, 4.0}) {
+    double square = 0;
+    for (const double value : drawn(band)) square += std::pow(beyond(value, band), 2);
+    CHECK(left_of_noise(band) == Approx(square / draws).epsilon(0.03));
+  }
+  CHECK(left_of_noise(0) == 1);
+  CHECK(left_of_noise(std::numeric_limits<double>::infinity()) == 0);
+}
+
+TEST_CASE("a wider band than there is gains nothing") {
+  const auto mean_square = [](const std::vector<double>& values, double band) {
+    double square = 0;
+    for (const double value : values) {
+      const Residual r{sim::effects::Stage::joint, "", "Nm", {2 * beyond(value, band)}, 0, {2 * band}};
+      square += std::pow(in_noise(r, 0, 2), 2);
+    }
+    return square / draws;
+  };
+  const auto noise = drawn(0.2);
+  CHECK(mean_square(noise, 0.2) == Approx(1).epsilon(0.02));
+  CHECK(mean_square(noise, 0.4) == Approx(1).epsilon(0.03));
+  double hidden_free = 0;
+  for (const double value : noise) hidden_free += std::pow(beyond(value, 0.4), 2) / draws;
+  CHECK(hidden_free < 0.7);  // what a band would gain if the noise in it were not counted
+}
+
+TEST_CASE("a window without a band counts as it is") {
+  const Residual r{sim::effects::Stage::joint, "", "Nm", {-6, 0}, 0, {0, 1}};
+  CHECK(in_noise(r, 0, 2) == -3);
+  CHECK(in_noise(r, 1, 2) > 0);
+}

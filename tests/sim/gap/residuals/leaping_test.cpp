@@ -1,0 +1,117 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "sim/model/actuator/motor.hpp"
+#include "sim/model/actuator/noise.hpp"
+#include "sim/model/actuator/sensors.hpp"
+#include "sim/gap/residuals/chain_residuals.hpp"
+#include "tests/sim/rigs.hpp"
+
+using namespace sim::residuals;
+
+namespace {
+
+constexpr double period_s = 0.002, pull_N = 10;
+constexpr int rows = 2000;
+
+/// A value for some rows, then another: what a lossy bus makes of a smooth command.
+Signal leaping(double low, double high, int count) {
+  std::mt19937_64 random(1);
+  Signal x;
+  while (int(x.size()) < count) {
+    const double value = std::uniform_real_distribution(low, high)(random);
+    x.insert(x.end(), 1 + random() % 6, value);
+  }
+  x.resize(std::size_t(count));
+  return x;
+}
+
+double rms(const std::vector<double>& x) {
+  double square = 0;
+  for (const double value : x) square += value * value;
+  return std::sqrt(square / double(x.size()));
+}
+
+/// A motor under leaping voltages and an even pull; currents at the rows, or means around them.
+ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, bool around) {
+  constexpr int parts = 40;
+  const sim::Motor motor(robot.motor_of(actuator), actuator.spindle.radius_m, period_s / parts);
+  ActuatorSignals s;
+  s.voltage_V = leaping(5, 11, rows), s.tension_N = Signal(rows, pull_N);
+  s.current_around = around;
+  sim::MotorState state;
+  Signal mean_A;
+  for (const double volts : s.voltage_V) {  // row k: volts, and what there is after them
+    mean_A.push_back(0);
+    for (int p = 0; p < parts; ++p) {
+      const double before_A = state.current_A;
+      state = sim::step(motor, state, volts, pull_N, period_s / parts);
+      mean_A.back() += (before_A + state.current_A) / 2 / parts;
+    }
+    s.current_A.push_back(state.current_A), s.shaft_rad.push_back(state.shaft_rad);
+  }
+  if (around)
+    for (std::size_t k = 0; k + 1 < rows; ++k) s.current_A[k] = (mean_A[k] + mean_A[k + 1]) / 2;
+  return s;
+}
+
+/// As its sensors might have said it another time.
+ActuatorSignals noisy(const erp::Robot& robot, const erp::Actuator& actuator, ActuatorSignals s) {
+  const erp::SensorType& sensors = robot.sensors_of(actuator);
+  const sim::SensorScale scale(robot.motor_of(actuator), sensors);
+  sim::Noise noise(1);
+  for (double& x : s.current_A)
+    x += sensors.current_noise_A * noise.normal() +
+         scale.current_A_per_count * (noise.uniform() - 0.5);
+  for (double& x : s.shaft_rad) x += scale.shaft_rad_per_count * (noise.uniform() - 0.5);
+  return s;
+}
+
+/// Of the motor, of the gearbox.
+std::vector<Residual> stages_of(const erp::Robot& robot, const erp::Actuator& actuator,
+                                const ActuatorSignals& s) {
+  const erp::MotorType& type = robot.motor_of(actuator);
+  const PathTrace no_path;
+  const ChainTrace t = trace({type, actuator, {}, 0}, s, no_path, period_s, 0.006);
+  std::vector<std::size_t> middles;
+  for (std::size_t k = 100; k + 100 < rows; k += 10) middles.push_back(k);
+  const Episode episode{"leaping", period_s, rows, {}, {}};
+  return chain_residuals(t, actuator, type, episode, Bump(0.03, period_s), middles);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "under a window a motion whose acceleration leaps from sample to sample comes out exactly") {
+  const Signal held = leaping(-300, 300, 101);
+  Signal speed{2}, x{1}, around{0};
+  for (std::size_t k = 0; k + 1 < held.size(); ++k) {
+    x.push_back(x[k] + period_s * (speed[k] + period_s / 2 * held[k]));
+    speed.push_back(speed[k] + period_s * held[k]);
+    around.push_back((held[k] + held[k + 1]) / 2);
+  }
+  const Bump bump(0.03, period_s);
+  for (const std::size_t k : {20u, 33u, 50u, 71u}) {
+    INFO(k);
+    CHECK(bump.acceleration(x, k) == Approx(bump.mean(around, k)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a motor whose voltage leaps leaves less than the noise of its sensors") {
+  const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
+  const erp::Actuator& actuator = robot.actuators[0];
+  for (const bool around : {false, true}) {
+    const ActuatorSignals said = driven(robot, actuator, around);
+    const auto left = stages_of(robot, actuator, said);
+    const auto again = stages_of(robot, actuator, noisy(robot, actuator, said));
+    REQUIRE(left.size() == 2);
+    for (std::size_t stage = 0; stage < 2; ++stage) {
+      std::vector<double> noise;
+      for (std::size_t k = 0; k < left[stage].value.size(); ++k)
+        noise.push_back(again[stage].value[k] - left[stage].value[k]);
+      INFO((stage == 0 ? "motor" : "gearbox") << (around ? ", currents averaged" : ""));
+      CHECK(rms(left[stage].value) < 0.75 * rms(noise));
+    }
+  }
+}

@@ -1,0 +1,59 @@
+#pragma once
+#include <cmath>
+#include <numbers>
+
+#include "interfaces/recording/columns.hpp"
+#include "sim/gap/residuals/episode.hpp"
+#include "tests/sim/world/limb.hpp"
+
+/// Recordings of hinge_rig, simulated: tensions or lines that swing, as a person would record them.
+namespace rig_recording {
+
+struct Plan {
+  double seconds = 10;
+  double swing_N = 18, swing_Hz = 0.4, ripple_N = 4, ripple_Hz = 1.7, both_N = 14;
+  std::uint64_t seed = 1;
+};
+
+inline recording::Table table_of_run(const erp::Robot& robot, const Plan& plan) {
+  Limb limb(robot, {}, {.seed = plan.seed});
+  recording::Table table;
+  table.columns.push_back({"time_s", {}});
+  for (std::string& name : recording::columns_of(robot))
+    table.columns.push_back({std::move(name), {}});
+  erp::EcuFrame frame;
+  const double turn = 2 * std::numbers::pi;
+  for (int k = 0; k < static_cast<int>(plan.seconds * 500); ++k) {
+    const double t = 0.002 * k;
+    const double swing = plan.swing_N * std::sin(turn * plan.swing_Hz * t) +
+                         plan.ripple_N * std::sin(turn * plan.ripple_Hz * t);
+    const double wanted[] = {std::fmax(1.0, plan.both_N + swing),
+                             std::fmax(1.0, plan.both_N - swing)};
+    limb.command(ECU_REQUEST_FORCE, {1000 * wanted[0], 1000 * wanted[1]});
+    limb.ecus.tick(limb.world);
+    limb.ecus.fill(frame);
+    std::size_t column = 0;
+    const auto put = [&](double value) { table.columns[column++].values.push_back(value); };
+    put(t);
+    for (std::size_t a = 0; a < 2; ++a) {
+      const auto& said = frame.channels._buffer[a];
+      const erp::MotorType& motor = robot.motor_of(robot.actuators[a]);
+      const sim::SensorScale scale(motor, robot.sensors_of(robot.actuators[a]));
+      put(double(erp::Mode::force)), put(wanted[a]);
+      put(motor.supply_V * said.duty_counts / ECU_DUTY_MAX);
+      put(said.current_counts * scale.current_A_per_count);
+      put(said.encoder_counts * scale.shaft_rad_per_count);
+      put(said.tension_counts * scale.tension_N_per_count);
+    }
+    put(frame.analogs._buffer[0].counts * turn / (1 << 14));
+  }
+  return table;
+}
+
+inline sim::residuals::Episode record(const erp::Robot& nominal, const erp::Robot& real,
+                                      const Plan& plan) {
+  std::vector<std::string> remarks;
+  return sim::residuals::lay_out(table_of_run(real, plan), nominal, "run", remarks);
+}
+
+}  // namespace rig_recording

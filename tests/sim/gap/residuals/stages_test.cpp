@@ -1,0 +1,193 @@
+#include "sim/gap/residuals/stages.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "tests/sim/model/effects/magnitudes.hpp"
+#include "tests/sim/gap/residuals/rig_recording.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace effects = sim::effects;
+using namespace sim::residuals;
+
+namespace {
+
+erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+
+erp::Robot with(const std::string& type) {
+  erp::Robot robot = hinge_rig();
+  const auto effect = magnitudes::visible(type);
+  robot.effects = {effects::written({magnitudes::place_in_rig(effect), effect})};
+  return robot;
+}
+
+std::map<std::string, double> rms(Stages stages, const Episode& episode) {
+  std::map<std::string, double> all;
+  for (const Residual& r : stages.residuals(episode)) {
+    double square = 0;
+    int n = 0;
+    for (const double x : r.value)
+      if (!std::isnan(x)) square += x * x, ++n;
+    all[std::string(effects::word(r.stage)) + " " + r.on] = std::sqrt(square / n);
+  }
+  return all;
+}
+
+/// As if nobody had listened for 20 ms in the middle.
+Episode with_a_hole(Episode episode) {
+  const auto cut = [&](Signal& signal) {
+    if (!signal.empty())
+      std::fill_n(signal.begin() + std::ptrdiff_t(episode.rows / 2), 10, recording::not_taken);
+  };
+  for (ActuatorSignals& s : episode.actuators)
+    for (Signal* signal : {&s.voltage_V, &s.current_A, &s.shaft_rad, &s.tension_N}) cut(*signal);
+  for (JointSignals& joint : episode.joints) cut(joint.angle_rad);
+  return episode;
+}
+
+/// An effect, and the stages at which the nominal robot's residual rises.
+struct Sign {
+  const char* type;
+  std::vector<std::string> at;
+};
+
+// Not here: what this motion does not show (stiction, inductance, backlash, an attachment that lies
+// on its pulley), what cannot be undone (quantisation), and the bus.
+const std::vector<Sign> signs{
+    {"motor_resistance", {"motor flexor", "gearbox flexor"}},
+    {"motor_torque_constant", {"motor flexor", "gearbox flexor"}},
+    {"motor_dead_band", {"motor flexor"}},
+    {"motor_supply_sag", {"motor flexor", "gearbox flexor"}},
+    {"gearbox_coulomb", {"gearbox flexor"}},
+    {"gearbox_asymmetric", {"gearbox flexor"}},
+    {"gearbox_viscous", {"gearbox flexor"}},
+    {"gearbox_load_dependent", {"gearbox flexor"}},
+    {"gearbox_inertia", {"gearbox flexor"}},
+    {"gearbox_shaft_compliance", {"tendon flexor"}},
+    {"spindle_radius", {"tendon flexor", "gearbox flexor"}},
+    {"spindle_layers", {"tendon flexor", "gearbox flexor"}},
+    {"spindle_slip", {"tendon flexor"}},
+    {"tendon_stiffness", {"tendon flexor"}},
+    {"tendon_stiffening", {"tendon flexor"}},
+    {"tendon_damping", {"tendon flexor"}},
+    {"tendon_creep", {"tendon flexor"}},
+    {"tendon_hysteresis", {"tendon flexor"}},
+    {"tendon_length_offset", {"tendon flexor"}},
+    {"tendon_kite_line", {"tendon flexor"}},
+    {"routing_capstan", {"gearbox flexor"}},
+    {"routing_pulley_radius", {"tendon flexor", "joint elbow"}},
+    {"routing_moment_arm", {"tendon flexor", "joint elbow"}},
+    {"joint_coulomb", {"joint elbow"}},
+    {"joint_viscous", {"joint elbow"}},
+    {"joint_passive_stiffness", {"joint elbow"}},
+    {"joint_play", {"tendon flexor", "tendon extensor", "joint elbow"}},
+    {"skeleton_mass", {"joint elbow"}},
+    {"skeleton_com", {"joint elbow"}},
+    {"skeleton_base_tilt", {"joint elbow"}},
+    {"sensor_current_offset", {"motor flexor", "gearbox flexor"}},
+    {"sensor_current_gain", {"motor flexor", "gearbox flexor"}},
+    {"sensor_tension_offset", {"tendon flexor", "gearbox flexor", "joint elbow"}},
+    {"sensor_tension_gain", {"tendon flexor", "gearbox flexor", "joint elbow"}},
+    {"sensor_shaft_gain", {"motor flexor", "gearbox flexor", "tendon flexor"}},
+    {"sensor_joint_offset", {"tendon flexor", "tendon extensor", "joint elbow"}},
+};
+
+}  // namespace
+
+TEST_CASE("without effects each stage is left with the noise of its sensors") {
+  const auto left = rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
+  CHECK(left.size() == 7);
+  for (const auto& [stage, value] : left) {
+    INFO(stage);
+    // V: 15 mA over 0.516 ohm; Nm: the same at the gearbox, and 0.5 mrad twice differentiated; N:
+    // 0.05 N, and 0.5 mrad by 25 mm by 6000 N/m; all over some ten samples
+    const double noise = stage.starts_with("motor")     ? 0.0077
+                         : stage.starts_with("gearbox") ? 0.022
+                         : stage.starts_with("tendon")  ? 0.09
+                                                        : 0.03;
+    CHECK(value < noise);
+    CHECK(value > noise / 10);
+  }
+}
+
+TEST_CASE("a winding whose current takes a period to settle is left with that noise as well") {
+  erp::Robot slow = hinge_rig();
+  for (auto& motor : slow.motor_types) motor.inductance_H *= 12;
+  const auto quick = rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
+  for (const auto& [stage, value] : rms(Stages(slow), rig_recording::record(slow, slow, {}))) {
+    INFO(stage);
+    CHECK(value < 1.1 * quick.at(stage));
+  }
+}
+
+TEST_CASE("an effect shows at its own stages alone, and is gone where the robot has it") {
+  const Episode plain = rig_recording::record(hinge_rig(), hinge_rig(), {});
+  const auto floor = rms(Stages(hinge_rig()), plain);
+  for (const Sign& sign : signs) {
+    const erp::Robot real = with(sign.type);
+    const Episode episode = rig_recording::record(hinge_rig(), real, {});
+    const auto nominal = rms(Stages(hinge_rig()), episode), right = rms(Stages(real), episode);
+    const auto cut = rms(Stages(real), with_a_hole(episode));
+    for (const auto& [stage, value] : nominal) {
+      INFO(sign.type << " at " << stage << ": " << value / floor.at(stage) << ", with it "
+                     << right.at(stage) / floor.at(stage) << " times the floor");
+      const bool shows = std::ranges::count(sign.at, stage) > 0;
+      if (shows) CHECK(value > 1.3 * floor.at(stage));
+      else CHECK(value < 1.25 * floor.at(stage));
+      CHECK(right.at(stage) < 1.8 * floor.at(stage));
+      CHECK(cut.at(stage) < 2.1 * floor.at(stage));  // hysteresis after a hole starts anew
+    }
+  }
+}
+
+namespace {
+
+/// What is left of the flexor's tendon with a spindle so many times as large.
+std::vector<double> left_of_flexor(const Episode& episode, double larger) {
+  erp::Robot robot = hinge_rig();
+  robot.actuators[0].spindle.radius_m *= larger;
+  Stages stages(robot);
+  for (const Residual& r : stages.residuals(episode))
+    if (r.stage == effects::Stage::tendon && r.on == "flexor") return r.value;
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("where a line comes taut its law changes evenly with the spindle's radius") {
+  const erp::Robot robot = hinge_rig();
+  Episode episode = rig_recording::record(robot, robot, {.seconds = 6});
+  const erp::Actuator& flexor = robot.actuators[0];
+  const double drawn_N = 20, slack_rad = drawn_N / flexor.tendon.stiffness_N_per_m / flexor.spindle.radius_m;
+  for (double& theta : episode.actuators[0].shaft_rad) theta -= slack_rad;
+  std::vector<double> before = left_of_flexor(episode, 1);
+  double usual = 0, most = 0;
+  for (int k = 1; k <= 200; ++k) {
+    const std::vector<double> after = left_of_flexor(episode, 1 + 2e-6 * k);
+    double step = 0;
+    for (std::size_t n = 0; n < after.size(); ++n)
+      if (!std::isnan(after[n] - before[n])) step = std::max(step, std::abs(after[n] - before[n]));
+    usual = k == 1 ? step : std::min(usual, step), most = std::max(most, step);
+    before = after;
+  }
+  CHECK(usual > 0);
+  CHECK(most < 3 * usual);
+}
+
+TEST_CASE("without tension the spring stands in, without current the motor's law") {
+  Episode episode = rig_recording::record(hinge_rig(), hinge_rig(), {});
+  const auto all = rms(Stages(hinge_rig()), episode);
+  for (auto& actuator : episode.actuators) actuator.tension_N.clear();
+  auto left = rms(Stages(hinge_rig()), episode);
+  CHECK(left.size() == 5);
+  CHECK(left.at("gearbox flexor") < 1.3 * all.at("gearbox flexor"));
+  CHECK(left.at("joint elbow") < 1.5 * all.at("joint elbow"));
+  for (auto& actuator : episode.actuators) actuator.current_A.clear();
+  left = rms(Stages(hinge_rig()), episode);
+  CHECK(left.size() == 3);
+  CHECK(left.at("gearbox flexor") < 0.022);
+  episode.joints[0].angle_rad.clear();
+  CHECK(Stages(hinge_rig()).residuals(episode).empty());
+}

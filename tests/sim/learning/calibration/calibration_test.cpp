@@ -1,0 +1,199 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "interfaces/recording/csv.hpp"
+#include "interfaces/xml/xml.hpp"
+#include "sim/learning/calibration/perturb.hpp"
+#include "sim/learning/calibration/sensitivity.hpp"
+#include "sim/learning/calibration/strategy.hpp"
+#include "sim/model/effects/library.hpp"
+#include "tests/sim/learning/calibration/arm_poses.hpp"
+
+using namespace sim::calibration;
+using arm_poses::arm, arm_poses::held;
+
+namespace {
+
+const char* const all_of_it =
+    "<calibration><vary what=\"attachments\" spread=\"0.005\"/><vary what=\"length\" "
+    "spread=\"0.005\"/><vary what=\"stiffness\" spread=\"0.2\"/><vary what=\"radius\" "
+    "spread=\"0.05\"/></calibration>";
+
+/// An arm that is not quite as robot.xml has it, in eight poses.
+Task task() {
+  Parameters parameters(arm(), xml::parse<Choice>(all_of_it, "choice"));
+  Eigen::VectorXd off(parameters.size());
+  std::mt19937 dice(5);
+  std::normal_distribution<double> normal;
+  for (double& x : off) x = normal(dice);
+  erp::Robot real = parameters.robot_at(off);
+  real.effects.clear();
+  return {std::move(parameters), split(held(real, 8))};
+}
+
+std::unique_ptr<Calibration> learner(Strategy strategy, std::uint64_t seed = 1) {
+  return make_calibration(task(), {.strategy = strategy, .seed = seed});
+}
+
+std::string folder_of(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / ("erp_calibration_" + name)).string();
+}
+/// Emptied.
+std::string folder(const std::string& name) {
+  std::filesystem::remove_all(folder_of(name));
+  return folder_of(name);
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("nine numbers a muscle, and at zero the robot is as it was") {
+  const Parameters parameters(arm(), xml::parse<Choice>(all_of_it, "choice"));
+  CHECK(parameters.size() == 99);
+  CHECK(erp::write_robot(parameters.robot_at(Eigen::VectorXd::Zero(99))) ==
+        erp::write_robot(arm()));
+  CHECK_THROWS_WITH(
+      Parameters(arm(), xml::parse<Choice>("<calibration><vary what=\"length\" spread=\"1\" "
+                                           "on=\"bicep\"/></calibration>",
+                                           "choice")),
+      Catch::Contains("no actuator \"bicep\""));
+}
+
+TEST_CASE("the robot itself makes no error in its own poses") {
+  const auto poses = held(arm(), 6);
+  const Candidate itself{arm(), {}};
+  CHECK(pose_errors(itself, poses).mean_of_all_rad < 1e-5);
+}
+
+TEST_CASE("a calibration comes nearer, the same on one thread and two, killed and resumed") {
+  const auto strategy = GENERATE(Strategy::evolution, Strategy::cma, Strategy::newton);
+  const auto one = learner(strategy), two = learner(strategy), killed = learner(strategy);
+  const double before = one->metrics()[0].value;
+  sim::training_loop::learn(*one, {.folder = folder("one"), .rounds = 4});
+  sim::training_loop::learn(*two, {.folder = folder("two"), .rounds = 4}, sim::Threads(2));
+  CHECK(one->best() == two->best());
+  CHECK(one->metrics()[0].value < before);
+  const auto there = folder("killed");
+  sim::training_loop::learn(*killed, {.folder = there, .rounds = 4, .told = [](const auto& l) {
+                                  return l.rounds() < 2;
+                                }});
+  const auto after = learner(strategy);
+  CHECK_THROWS_WITH(sim::training_loop::learn(*after, {.folder = there, .rounds = 4}),
+                    Catch::Contains("resume it"));
+  sim::training_loop::learn(*after, {.folder = there, .rounds = 4, .resume = true});
+  CHECK(after->best() == one->best());
+  CHECK(text_of(there + "/curve.csv") == text_of(folder_of("one") + "/curve.csv"));
+  for (const char* name : {"one", "two", "killed"}) folder(name);
+}
+
+TEST_CASE("a search that was another is not gone on with") {
+  const auto there = folder("other");
+  sim::training_loop::learn(*learner(Strategy::evolution), {.folder = there, .rounds = 1});
+  CHECK_THROWS_WITH(sim::training_loop::learn(*learner(Strategy::evolution, 2),
+                                        {.folder = there, .rounds = 2, .resume = true}),
+                    Catch::Contains("another seed"));
+  CHECK_THROWS(sim::training_loop::learn(*learner(Strategy::newton),
+                                   {.folder = there, .rounds = 2, .resume = true}));
+  folder("other");
+}
+
+TEST_CASE("Gauss-Newton finds a robot whose poses are those recorded") {
+  const auto newton = learner(Strategy::newton);
+  const double before = newton->best_error_rad();
+  sim::training_loop::learn(*newton, {.folder = folder("newton"), .rounds = 20});
+  CHECK(newton->done());
+  CHECK(newton->best_error_rad() < 0.05 * before);
+  folder("newton");
+}
+
+TEST_CASE("how poses turn with parameters is what happens when one changes") {
+  const Task arm_task = task();
+  const Eigen::VectorXd x = Eigen::VectorXd::Constant(99, 0.1);
+  const Residuals found = turns(arm_task.parameters, x, arm_task.poses.learn, sim::Threads());
+  REQUIRE(found.slope.rows() == 16);
+  constexpr double step = 1e-3;
+  for (Eigen::Index k = 0; k < 99; k += 7) {
+    Eigen::VectorXd up = x, down = x;
+    up[k] += step, down[k] -= step;
+    const Eigen::VectorXd slope = (turns_rad(arm_task.parameters.at(up), arm_task.poses.learn) -
+                                   turns_rad(arm_task.parameters.at(down), arm_task.poses.learn)) /
+                                  (2 * step);
+    INFO(arm_task.parameters.name_of(arm_task.parameters.list()[std::size_t(k)]));
+    CHECK((found.slope.col(k) - slope).norm() < 0.1 * slope.norm() + 1e-5);
+  }
+}
+
+TEST_CASE("what poses leave open: nothing of what turns them, all of what does not") {
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(2, 3);
+  slope(0, 0) = 1, slope(1, 1) = 1e-4;
+  const auto found = identified(slope, 1e-3);
+  CHECK(found.combinations == 1);
+  CHECK(found.left[0] == Approx(1e-3).epsilon(1e-3));
+  CHECK(found.left[1] == Approx(1 / std::sqrt(1.01)));
+  CHECK(found.left[2] == Approx(1));
+}
+
+TEST_CASE("a length that robot.xml has as an effect is where the search begins") {
+  erp::Robot robot = arm();
+  robot.effects.push_back(
+      sim::effects::written({"biceps", sim::effects::TendonLengthOffset{0.01}}));
+  const Parameters parameters(robot,
+                              xml::parse<Choice>("<calibration><vary what=\"length\" on=\"biceps\" "
+                                                 "spread=\"0.002\"/></calibration>",
+                                                 "choice"));
+  const Candidate there = parameters.at(Eigen::VectorXd::Constant(1, 2));
+  CHECK(there.longer_m[7] == Approx(0.014));
+  CHECK(there.robot.effects.empty());
+  CHECK(parameters.robot_at(Eigen::VectorXd::Zero(1)).effects.size() == 1);
+}
+
+TEST_CASE("a perturbed model is off by what was asked, joint by joint") {
+  const Parameters parameters(arm(), xml::parse<Choice>(all_of_it, "choice"));
+  const auto poses = held(arm(), 8);
+  const std::array<double, 2> off_rad{0.3, 0.2};
+  const auto x = perturbed(parameters, poses, off_rad, 3);
+  const auto off = pose_errors(parameters.at(x), poses);
+  CHECK(off.mean_rad[0] == Approx(0.3).epsilon(0.06));
+  CHECK(off.mean_rad[1] == Approx(0.2).epsilon(0.06));
+  CHECK(x != perturbed(parameters, poses, off_rad, 4));
+}
+
+TEST_CASE("a candidate with a point inside its pulley is worse than all that can be built") {
+  const Task of = task();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(of.parameters.size());
+  const double at_first = error_rad(of, x);
+  const auto& list = of.parameters.list();
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (const auto name = of.parameters.name_of(list[k]);
+        name == "triceps_long B x" || name == "triceps_long B z")
+      x[static_cast<Eigen::Index>(k)] = 0.018 / list[k].spread;  // its end, into the elbow's pulley
+  CHECK(error_rad(of, x) > 1e3 * at_first);
+}
+
+TEST_CASE("still poses of a recording are where nothing moved, each once, its mean") {
+  const erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
+  recording::Table table{{{"time_s", {}},
+                          {"flexor.shaft_rad", {}},
+                          {"extensor.shaft_rad", {}},
+                          {"elbow.angle_rad", {}}}};
+  for (int k = 0; k < 400; ++k) {
+    const double t = 0.01 * k, wave = k % 2 ? 0.001 : -0.001;
+    const double angle = t < 1 ? 0.1 : t < 2 ? 0.1 + 0.5 * (t - 1) : 0.6;
+    table.columns[0].values.push_back(t), table.columns[1].values.push_back(10 * angle);
+    table.columns[2].values.push_back(-10 * angle);
+    table.columns[3].values.push_back(angle + wave);
+  }
+  const auto poses = still_poses(table, robot);
+  REQUIRE(poses.size() == 2);
+  CHECK(poses[0].pose[0][0] == Approx(0.1).margin(2e-4));
+  CHECK(poses[1].pose[0][0] == Approx(0.6).margin(2e-3));
+  CHECK(poses[1].shaft_rad[1] == Approx(-6).margin(0.02));
+  table.columns[3].name = "knee.angle_rad";
+  CHECK_THROWS_WITH(still_poses(table, robot), Catch::Contains("elbow.angle_rad"));
+}

@@ -1,0 +1,58 @@
+#include "sim/learning/calibration/evolution.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace sim::calibration;
+
+namespace {
+
+/// Scales of 1 to 30: a strategy with one step size for all has a hard time.
+double bowl(const Eigen::VectorXd& x) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double scale = std::pow(30.0, double(i) / double(x.size() - 1));
+    sum += std::pow(scale * (x[i] - 0.5), 2);
+  }
+  return std::sqrt(sum);
+}
+
+double after(Evolution& evolution, int generations) {
+  for (int g = 0; g < generations; ++g) {
+    auto all = evolution.offspring();
+    for (auto& one : all) one.error = bowl(one.x);
+    evolution.select(std::move(all));
+  }
+  return evolution.parents().front().error;
+}
+
+}  // namespace
+
+TEST_CASE("an evolution strategy comes down a badly scaled bowl") {
+  const Eigen::VectorXd first = Eigen::VectorXd::Zero(10);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Evolution evolution(first, {.seed = seed});
+    const double before = bowl(first);
+    CHECK(after(evolution, 250) < 0.01 * before);
+  }
+}
+
+TEST_CASE("from the same parents it goes on the same way, with another seed otherwise") {
+  const Eigen::VectorXd first = Eigen::VectorXd::Zero(4);
+  Evolution whole(first, {.seed = 3}), other(first, {.seed = 4});
+  after(whole, 10);
+  Evolution resumed(whole.parents(), whole.generation(), {.seed = 3});
+  after(whole, 10), after(resumed, 10), after(other, 20);
+  CHECK(whole.parents().front().x == resumed.parents().front().x);
+  CHECK(whole.parents().front().x != other.parents().front().x);
+}
+
+TEST_CASE("nobody leaves the bounds, and no parent outlives its generation") {
+  Evolution evolution(Eigen::VectorXd::Constant(3, 0.9), {.first_sigma = 5, .bound = 1});
+  auto all = evolution.offspring();
+  REQUIRE(all.size() == 36);
+  for (const auto& one : all) CHECK(one.x.cwiseAbs().maxCoeff() <= 1);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].error = 100 + double(k);
+  evolution.select(all);
+  REQUIRE(evolution.parents().size() == 6);
+  CHECK(evolution.parents()[5].error == 105);
+}

@@ -1,0 +1,202 @@
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "sim/model/actuator/motor.hpp"
+#include "sim/control/pose_plan.hpp"
+#include "sim/learning/muscle_networks/babble.hpp"
+#include "sim/learning/muscle_networks/learnt_lengths.hpp"
+#include "sim/learning/muscle_networks/length_learner.hpp"
+#include "sim/learning/muscle_networks/torque_error.hpp"
+#include "sim/learning/muscle_networks/workspace.hpp"
+#include "sim/model/skeleton/joint_path.hpp"
+
+using namespace sim::muscle_networks;
+using Joints = std::vector<sim::JointReading>;
+
+namespace {
+
+erp::Robot arm() { return erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml"); }
+
+/// The arm somewhere: elbow over its range, shoulder turned by up to half a radian an axis.
+Joints somewhere(const erp::Robot& robot, std::mt19937& random) {
+  std::uniform_real_distribution<double> within(-1, 1);
+  Joints joints;
+  for (const erp::Joint& joint : robot.joints()) {
+    joints.push_back(sim::start_of(joint));
+    auto& position = joints.back().position;
+    if (joint.type == erp::JointType::spherical)
+      position =
+          sim::gone(joint.type, position,
+                    std::array{0.5 * within(random), 0.5 * within(random), 0.5 * within(random)});
+    else
+      position[0] =
+          0.5 * (joint.min_rad + joint.max_rad + within(random) * (joint.max_rad - joint.min_rad));
+  }
+  return joints;
+}
+
+LengthSamples samples(const erp::Robot& robot, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  sim::Musculoskeletal model(robot);
+  LengthSamples all;
+  all.length_m.resize(model.length_m().size(), count);
+  for (int k = 0; k < count; ++k) {
+    all.joints.push_back(somewhere(robot, random));
+    model.place(all.joints.back());
+    all.length_m.col(k) = model.length_m();
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("slopes of a posture's inputs are their difference quotients, a ball joint's too") {
+  const erp::Robot robot = arm();
+  const sim::Musculoskeletal model(robot);
+  const PostureInputs inputs(model.tree().joints, model.skeleton());
+  std::mt19937 random(1);
+  Eigen::VectorXd x, ahead, behind;
+  Eigen::MatrixXd slopes;
+  constexpr double step = 1e-5;
+  for (int k = 0; k < 20; ++k) {
+    const Joints joints = somewhere(robot, random);
+    inputs.read(joints, x), inputs.slopes(x, slopes);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      for (int d = 0; d < sim::coordinates_of(joints[j].type); ++d) {
+        const auto moved = [&](double by) {
+          Joints other = joints;
+          std::array<double, 3> way{};
+          way[std::size_t(d)] = by;
+          other[j].position = sim::gone(joints[j].type, joints[j].position, way);
+          return other;
+        };
+        inputs.read(moved(step), ahead), inputs.read(moved(-step), behind);
+        const int coordinate = model.skeleton().first_of(int(j)) + d;
+        CHECK(((ahead - behind) / (2 * step) - slopes.col(coordinate)).norm() < 1e-8);
+      }
+  }
+}
+
+TEST_CASE(
+    "a perceptron's gradient is its difference quotient, and a fit finds what made the data") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> within(-1, 1);
+  Perceptron maker = Perceptron::drawn(3, 4, 5);
+  maker.output << 1, -0.5, 0.3, 0.8, 0.2;
+  const Eigen::MatrixXd x = Eigen::MatrixXd::NullaryExpr(3, 400, [&] { return within(random); });
+  Eigen::VectorXd y(400), slope;
+  for (int k = 0; k < 400; ++k) y[k] = maker.value(x.col(k));
+  Perceptron net = Perceptron::drawn(3, 6, 9);
+  CHECK(fit(net, x, y, {.most_steps = 300, .decay = 1e-12}) < 1e-3);
+  for (int k = 0; k < 10; ++k) {
+    Eigen::VectorXd at = x.col(k), ahead = at;
+    net.gradient(at, slope);
+    ahead[1] += 1e-6;
+    CHECK((net.value(ahead) - net.value(at)) / 1e-6 == Approx(slope[1]).margin(1e-4));
+  }
+}
+
+TEST_CASE("from samples all over a workspace torques are learnt to a few percent") {
+  const erp::Robot robot = arm();
+  const LengthSamples learn_from = samples(robot, 1500, 3), check = samples(robot, 100, 4);
+  LearnOptions options;
+  options.units = 8, options.fit.most_steps = 60;
+  const LearntMuscles learnt = learn(robot, learn_from, options);
+  LearntLengths lengths(robot, learnt);
+  const auto slope = torque_error(
+      robot, check.joints, [&](auto q) -> auto& { return lengths.jacobian(q); });
+  const auto quotient = torque_error(
+      robot, check.joints, [&](auto q) -> auto& { return lengths.jacobian_by_difference(q); });
+  INFO(100 * slope.share << " %");
+  CHECK(slope.share < 0.06);
+  CHECK(quotient.share == Approx(slope.share).margin(0.002));
+}
+
+TEST_CASE("learnt on line, torques come nearer sample by sample") {
+  const erp::Robot robot = arm();
+  const LengthSamples from = samples(robot, 3000, 5), check = samples(robot, 100, 6);
+  const sim::Musculoskeletal model(robot);
+  LengthLearner learner({model.tree().joints, model.skeleton()}, from.length_m.rows(),
+                        {.weight_m = 0.01, .noise_m = 1e-5});  // no base, no noise
+  std::vector<double> shares;
+  for (int k = 0; k < 3000; ++k) {
+    learner.hear(from.joints[std::size_t(k)], from.length_m.col(k));
+    if (k == 200 || k == 2999)
+      shares.push_back(
+          torque_error(
+              robot, check.joints, [&](auto q) -> auto& { return learner.jacobian(q); })
+              .share);
+  }
+  INFO(100 * shares[0] << " %, " << 100 * shares[1] << " %");
+  CHECK(shares[1] < 0.1);
+  CHECK(shares[1] < shares[0] / 2);
+  CHECK_FALSE(learner.hear(from.joints.back(), from.length_m.col(2999)));  // it has not moved
+}
+
+TEST_CASE("what has been learnt of another robot, or too few samples, are refused") {
+  const erp::Robot robot = arm();
+  CHECK_THROWS_WITH(learn(robot, samples(robot, 20, 1)), Catch::Contains("too few"));
+  LearntMuscles other;
+  other.robot = "leg";
+  CHECK_THROWS_WITH(LearntLengths(robot, other), Catch::Contains("leg"));
+}
+
+TEST_CASE("babbling begins at the pretensions and keeps every tendon within its bounds") {
+  const erp::Robot robot = arm();
+  const auto table = babble(robot, {.duration_s = 20, .seed = 3});
+  for (const erp::Actuator& actuator : robot.actuators) {
+    const auto* column = table.find(actuator.name + ".reference");
+    REQUIRE(column);
+    CHECK(column->values.front() ==
+          Approx(std::max(4.0, actuator.tendon.pretension_N)).margin(0.1));
+    for (const double f : column->values) CHECK((f >= 4 && f <= actuator.max_tension_N / 2));
+  }
+  CHECK(table.rows() > 25);
+}
+
+TEST_CASE("a workspace holds only what the muscles can hold") {
+  erp::Robot robot = arm();
+  Workspace workspace(robot, {.seed = 5});
+  sim::PoseHolder holder(robot);
+  for (int k = 0; k < 50; ++k) {
+    const auto holding = holder.hold(workspace.draw());
+    CHECK(holding.unbalanced_Nm < 0.05);
+    for (std::size_t a = 0; a < robot.actuators.size(); ++a)
+      CHECK(holding.tension_N[a] <= 0.5 * robot.actuators[a].max_tension_N);
+  }
+  for (auto& actuator : robot.actuators) actuator.max_tension_N = 12;
+  Workspace none(robot, {.seed = 5});
+  CHECK_THROWS_WITH(none.draw(), Catch::Contains("can hold none"));
+}
+
+TEST_CASE("joint motion goes over the workspace no faster than motors wind") {
+  const erp::Robot robot = arm();
+  const auto poses = sim::poses_of(joint_motion(robot, {.duration_s = 60}), robot);
+  const sim::JointPath path(robot.joints(), poses, sim::Via::through);
+  CHECK(path.end_s() > 60);
+  CHECK(poses.size() > 15);
+  sim::Musculoskeletal model(robot);
+  std::vector<sim::JointMotion> at;
+  double fastest = 0;
+  for (double t_s = 0; t_s < path.end_s(); t_s += 0.02) {
+    path.at(t_s, at);
+    Joints now;
+    Eigen::VectorXd speed(model.coordinates());
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      now.push_back(at[j].now);
+      for (int d = 0; d < sim::coordinates_of(at[j].now.type); ++d)
+        speed[model.skeleton().first_of(int(j)) + d] = at[j].now.velocity_rad_per_s[std::size_t(d)];
+    }
+    CHECK((at[1].now.position[0] > -0.05 && at[1].now.position[0] < 2.4));
+    model.place(now);
+    const Eigen::VectorXd line = model.jacobian() * speed;
+    for (Eigen::Index a = 0; a < line.size(); ++a) {
+      const auto& actuator = robot.actuators[std::size_t(a)];
+      fastest = std::max(
+          fastest, std::abs(line[a]) / sim::top_line_speed_m_per_s(robot.motor_of(actuator),
+                                                                   actuator.spindle.radius_m));
+    }
+  }
+  INFO(fastest);
+  CHECK(fastest < 1);
+}

@@ -1,0 +1,293 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "sim/model/effects/acting.hpp"
+#include "sim/model/effects/all.hpp"
+#include "sim/model/effects/library.hpp"
+
+using namespace sim::effects;
+
+namespace {
+
+ChainSample at(double shaft_rad, double tension_N = 0) {
+  ChainSample s;
+  s.dt_s = 0.001, s.radius_m = 0.005, s.shaft_rad = shaft_rad, s.tension_N = tension_N;
+  s.load_Nm = s.radius_m * tension_N;
+  return s;
+}
+
+Sloped plain_line(const ChainSample& s) { return {s.radius_m * s.shaft_rad, s.radius_m}; }
+
+}  // namespace
+
+TEST_CASE("backlash is crossed in slack and closed by a load") {
+  GearboxBacklash play;
+  play.width_rad = 0.1, play.spindle_friction_Nm = 0.003;
+  Memory memory{};
+  constexpr double slack_m = -1, stiffness = 6000;
+  const auto stretched = [&](double shaft_rad, double nominal_m) {
+    ChainSample s = at(shaft_rad, 0);
+    s.stretch_m = nominal_m, s.stiffness_N_per_m = stiffness;
+    return play.wound(s, plain_line(s), memory).value;
+  };
+  const auto wound = [&](double shaft_rad, double tension_N) {
+    return stretched(shaft_rad, tension_N > 0 ? tension_N / stiffness : slack_m);
+  };
+  CHECK(wound(1.0, 20) == Approx(0.005 * 1.0));    // on the flank
+  CHECK(wound(0.96, 0) == Approx(0.005 * 1.0));    // the spindle stays
+  CHECK(wound(0.8, 0) == Approx(0.005 * 0.9));     // the other flank takes it along
+  CHECK(wound(0.85, 0) == Approx(0.005 * 0.9));    // back across the play
+  CHECK(wound(0.95, 0) == Approx(0.005 * 0.95));   // and wound up again
+  CHECK(wound(0.93, 20) == Approx(0.005 * 0.93));  // a load keeps it there
+  // across the play the line would pull 1.8 N: the spindle gives until its friction holds 0.6 N
+  CHECK(wound(0.83, 0) == Approx(0.005 * 0.93));
+  CHECK(stretched(0.83, -2e-4) == Approx(0.005 * 0.83 + 3e-4));
+}
+
+TEST_CASE("layers: the line wound is the integral of the radius") {
+  SpindleLayers layers;
+  layers.growth_m_per_rad = 1e-4;
+  Memory memory{};
+  double sum = 0;
+  for (int k = 0; k < 1000; ++k) sum += 0.01 * (0.005 + 1e-4 * (0.01 * k + 0.005));
+  const ChainSample s = at(10);
+  const Sloped line = layers.wound(s, plain_line(s), memory);
+  CHECK(line.value == Approx(sum));
+  CHECK(line.slope == Approx(0.006));
+  layers.growth_m_per_rad = -1e-3;  // a fifth of the radius is left
+  CHECK(layers.wound(s, plain_line(s), memory).slope == Approx(0.001));
+}
+
+TEST_CASE("slip loses line in proportion to load and way, both ways, wherever it begins") {
+  SpindleSlip slip;
+  slip.per_N = 1e-4;
+  Memory memory{};
+  double lost = 0;
+  for (const double shaft : {2.0, 3.0, 2.0, 3.0}) {
+    const ChainSample s = at(shaft, 50);
+    lost = plain_line(s).value - slip.wound(s, plain_line(s), memory).value;
+  }
+  CHECK(lost == Approx(3 * 0.005 * 50 * 1e-4));
+}
+
+TEST_CASE("creep decays by 1/e in its time constant") {
+  TendonCreep creep{1000, 2};
+  Memory memory{};
+  ChainSample s = at(0);
+  creep.pull(s, memory);
+  s.stretch_m = 0.01;
+  Sloped pull = creep.pull(s, memory);
+  CHECK(pull.value == Approx(10).epsilon(1e-3));
+  for (int k = 1; k < 2000; ++k) pull = creep.pull(s, memory);
+  CHECK(pull.value == Approx(10 / std::exp(1.0)).epsilon(1e-6));
+}
+
+TEST_CASE(
+    "creep and hysteresis go on from no stretch, however far the line hung slack; a shaft's do "
+    "not") {
+  const auto pull_N = [](auto law, double together_m, bool pushes) {
+    Memory memory{};
+    ChainSample s = at(0);
+    s.pushes = pushes, s.stretch_m = 0.002;
+    law.pull(s, memory);
+    for (int k = 0; k < 500; ++k) s.stretch_m = -together_m, law.pull(s, memory);
+    s.stretch_m = 0.0003;
+    return law.pull(s, memory).value;
+  };
+  const auto check = [&](auto law) {
+    CHECK(pull_N(law, 0.02, false) == pull_N(law, 0, false));
+    CHECK(pull_N(law, 0.02, true) > pull_N(law, 0, true) + 0.1);
+  };
+  check(TendonCreep{1000, 2});
+  check(TendonHysteresis{3, 5e-4});
+}
+
+TEST_CASE("hysteresis: a closed loop of stretch costs energy, whatever the steps") {
+  const auto loop_J = [](int steps) {
+    TendonHysteresis braid{3, 5e-4};
+    Memory memory{};
+    double work = 0, last_m = 0;
+    ChainSample s = at(0);
+    braid.pull(s, memory);
+    for (int k = 1; k <= 3 * steps; ++k) {
+      s.stretch_m = 0.003 * (1 - std::cos(2 * M_PI * k / steps));
+      const double force = braid.pull(s, memory).value;
+      if (k > 2 * steps) work += force * (s.stretch_m - last_m);
+      last_m = s.stretch_m;
+    }
+    return work;
+  };
+  const double fine = loop_J(20000);
+  CHECK(fine > 0.9 * 2 * 3 * 0.006 * 0.8);  // near ± F_h over the loop's two ways
+  CHECK(fine < 2 * 3 * 0.006);
+  CHECK(loop_J(500) == Approx(fine).epsilon(0.05));
+}
+
+TEST_CASE("capstan: Euler's ratio, the greater pull at the end the line runs to") {
+  RoutingCapstan rubs;
+  rubs.friction = 0.2;
+  ChainSample s = at(0, 10);
+  s.wrap_rad = 2, s.line_speed_m_per_s = 0.1;
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(0.4)));
+  s.line_speed_m_per_s = -0.1;
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.4)));
+  rubs.post = 0.1;  // whatever the bend
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.5)));
+  s.wrap_rad = 0;
+  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.1)));
+}
+
+TEST_CASE("a line that stretches gives less when much of it is wound up") {
+  constexpr double spring = 6000, c = 1e-4, stretch_m = 0.005, start_m = 0.3;
+  const TendonKiteLine line{c};
+  Memory memory{};
+  for (const double length_m : {0.2, 0.3, 0.4}) {
+    ChainSample s;
+    s.path_m = length_m, s.path_change_m = length_m - start_m, s.stretch_m = stretch_m;
+    const double at_start = 1 / (1 / spring + c);  // change_actuator has made the spring that soft
+    s.stiffness_N_per_m = at_start;
+    const double unstretched_m = length_m - stretch_m;
+    const double exact_N = stretch_m / (1 / spring + c * unstretched_m / start_m);
+    CHECK(at_start * stretch_m + line.pull(s, memory).value == Approx(exact_N));
+  }
+}
+
+TEST_CASE("the winding's warmth: steady rise of resistance, and its time") {
+  MotorThermalResistance warm{10, 5};
+  Memory memory{};
+  ChainSample s = at(0);
+  s.current_A = 2, s.current_square_A2 = 4;
+  double ohm = 0;
+  for (int k = 0; k < 100000; ++k) ohm = warm.resistance_ohm(0.5, s, memory);
+  const double rise_K = 10 * ohm * 4;  // R_th i² R
+  CHECK(ohm == Approx(0.5 * (1 + 0.00393 * rise_K)));
+}
+
+TEST_CASE("a dead band takes its volts, a supply gives way") {
+  const MotorDeadBand band{0.5};
+  ChainSample s = at(0);
+  Memory memory{};
+  CHECK(band.voltage_V(3, s) == Approx(2.5));
+  CHECK(band.voltage_V(-3, s) == Approx(-2.5));
+  CHECK(band.voltage_V(0.3, s) == 0);
+  const SupplySag sag{0.5};
+  s.supply_V = 12, s.voltage_V = 6;
+  CHECK(sag.resistance_ohm(0.4, s, memory) == Approx(0.4 + 0.25 * 0.5));
+}
+
+/// Voltages that a delayed driver applies, one a step of 1 ms.
+std::vector<double> applied_V(double delay_s, const std::vector<double>& commanded_V) {
+  const MotorDriverDelay driver{delay_s};
+  Memory memory{};
+  std::vector<double> all;
+  for (const double v : commanded_V) all.push_back(driver.late_voltage_V(v, at(0), memory));
+  return all;
+}
+
+TEST_CASE("a driver delay shifts the voltage by whole steps and averages the rest of a step") {
+  const std::vector<double> commanded_V{1, 1, 5, 5, 2, 2, 2, 7};
+  CHECK(applied_V(0, commanded_V) == commanded_V);
+  CHECK(applied_V(0.001, commanded_V) == std::vector<double>{1, 1, 1, 5, 5, 2, 2, 2});
+  const auto late = applied_V(0.00125, commanded_V);
+  CHECK(late[3] == Approx(0.25 * 1 + 0.75 * 5));
+  CHECK(late[5] == Approx(0.25 * 5 + 0.75 * 2));
+  CHECK(late[7] == Approx(2));
+}
+
+TEST_CASE("a delay longer than three changes of the voltage acts as the fourth comes") {
+  const auto late = applied_V(1, {1, 2, 3, 4, 5});
+  CHECK(late == std::vector<double>{1, 1, 1, 1, 2});
+}
+
+TEST_CASE("stiction ages towards its extra friction in rest and is lost over a way") {
+  const GearboxAgeingStiction stiction{0.2, 2, 0.1};
+  Memory memory{};
+  ChainSample s = at(0);
+  s.dt_s = 2;
+  CHECK(stiction.aged_Nm(s, memory) == Approx(0.2 * (1 - std::exp(-1))));
+  s.dt_s = 100;
+  CHECK(stiction.aged_Nm(s, memory) == Approx(0.2));
+  s.dt_s = 0.01, s.speed_rad_per_s = -10;  // 0.1 rad
+  CHECK(stiction.aged_Nm(s, memory) == Approx(0.2 * std::exp(-1)).epsilon(0.02));
+}
+
+TEST_CASE("position-dependent friction repeats as often a turn as its periods") {
+  const GearboxPositionDependent friction{0.03, 0.04, 3};
+  ChainSample s = at(0);
+  CHECK(friction.friction_Nm(1, s) == Approx(0.04));
+  s.shaft_rad = std::numbers::pi / 6;
+  CHECK(friction.friction_Nm(-1, s) == Approx(0.03));
+  s.shaft_rad += 2 * std::numbers::pi / 3;
+  CHECK(friction.friction_Nm(1, s) == Approx(0.03));
+}
+
+TEST_CASE("play in a bearing: the sensor's shaft is taken along at its edge") {
+  const JointPlay play{0.02};
+  Memory memory{};
+  CHECK(play.bearing_rad(0.005, memory) == 0);
+  CHECK(play.bearing_rad(0.05, memory) == Approx(0.04));
+  CHECK(play.bearing_rad(0.035, memory) == Approx(0.04));
+  CHECK(play.bearing_rad(0.0, memory) == Approx(0.01));
+}
+
+TEST_CASE("what a sensor's effect does, its inverse undoes") {
+  const auto round_trip = [](const auto& effect) {
+    Memory there{}, back{};
+    double worst = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const SensorSample s{0.002 * k, 0.002, 128};
+      const double value = std::sin(0.01 * k);
+      worst =
+          std::fmax(worst, std::abs(effect.undo(effect.read(value, s, there), s, back) - value));
+    }
+    return worst;
+  };
+  CHECK(round_trip(SensorOffset<Sense::tension>{2}) < 1e-12);
+  CHECK(round_trip(SensorGain<Sense::current>{0.2}) < 1e-12);
+  CHECK(round_trip(SensorDrift<Sense::joint>{0.01}) < 1e-12);
+  CHECK(round_trip(SensorEccentricity<Sense::shaft>{0.2, 0.1}) < 1e-9);
+}
+
+TEST_CASE("what several effects of one sensor do is undone whatever their order") {
+  const std::vector<AnyEffect> all{SensorOffset<Sense::joint>{0.1}, SensorGain<Sense::joint>{0.2},
+                                   SensorDrift<Sense::joint>{0.01},
+                                   SensorEccentricity<Sense::joint>{0.2, 0.1}};
+  for (const AnyEffect& one : all)
+    for (const AnyEffect& other : all) {
+      Acting there(std::vector<Placed>{{"elbow", one}, {"elbow", other}}, "elbow", Seat::joint);
+      Acting back = there;
+      const SensorSample s{3, 0.002, 1};
+      INFO(about(one).type << ", " << about(other).type);
+      CHECK(back.undo(Sense::joint, there.read(Sense::joint, 0.7, s), s) == Approx(0.7));
+    }
+}
+
+TEST_CASE("a slow sensor answers as its law does, and its rate undoes it") {
+  // of T ẏ + y = sin w t there is a closed form once the start has died away
+  constexpr double period_s = 0.002, time_constant_s = 0.02, w = 5;
+  const SensorLowPass<Sense::tension> slow{time_constant_s};
+  const double gain = 1 / std::hypot(1, w * time_constant_s), late = std::atan(w * time_constant_s);
+  Memory memory{};
+  double worst = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const double t = period_s * k;
+    const double said = slow.read(std::sin(w * t), {t, period_s, 128}, memory);
+    if (t > 1) worst = std::fmax(worst, std::abs(said - gain * std::sin(w * t - late)));
+    const double rate = gain * w * std::cos(w * t - late);
+    if (t > 1)
+      worst = std::fmax(
+          worst, std::abs(slow.undo(said, {t, period_s, 128, rate}, memory) - std::sin(w * t)));
+  }
+  CHECK(worst < 1e-4);
+}
+
+TEST_CASE("cogging is averaged over what is turned in a step") {
+  const MotorCogging teeth{1e-3, 0};
+  ChainSample s;
+  s.gear_ratio = 100, s.dt_s = 0.002, s.shaft_rad = 0.0013;
+  const double still = teeth.rotor_Nm(s);
+  CHECK(still == Approx(1e-3 * std::sin(1200 * 0.0013)));
+  s.speed_rad_per_s = 2.617993878;  // 1200 · ω · dt = 2π: all of a tooth
+  CHECK(std::abs(teeth.rotor_Nm(s)) < 1e-9);
+}

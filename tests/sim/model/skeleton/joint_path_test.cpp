@@ -1,0 +1,193 @@
+#include "sim/model/skeleton/joint_path.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "sim/model/skeleton/catch_up.hpp"
+#include "sim/model/skeleton/spatial.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace {
+
+using Eigen::Quaterniond;
+using sim::vec, sim::Vec3;
+
+/// The arm's joints: shoulder, elbow.
+const std::vector<erp::Joint>& joints() {
+  static const auto list = erp::read_robot(rigs::config("arm/robot.xml")).joints();
+  return list;
+}
+sim::Pose pose(double angle, const Vec3& axis, double elbow) {
+  const Quaterniond q(Eigen::AngleAxisd(angle, axis.normalized()));
+  return {{q.w(), q.x(), q.y(), q.z()}, {elbow}};
+}
+Quaterniond turn(const sim::JointMotion& m) {
+  const auto& p = m.now.position;
+  return {p[0], p[1], p[2], p[3]};
+}
+
+sim::JointPath three_poses(sim::Via via = sim::Via::rest) {
+  return {joints(),
+          {{1, pose(0, Vec3::UnitX(), 0.3)},
+           {3, pose(1.2, {1, 2, -1}, 1.5)},
+           {4, pose(-2.0, {0.5, -1, 0.2}, 0.3)}},
+          via};
+}
+
+/// Two poses in sequence the same: a halt on a way without halts.
+sim::JointPath with_a_halt() {
+  const auto p = pose(0.7, {0, 1, 1}, 0.9);
+  return {joints(),
+          {{0, pose(0, Vec3::UnitX(), 0.3)},
+           {1, pose(0.5, {1, 0, 1}, 1.2)},
+           {2, p},
+           {3, p},
+           {4, pose(1, {1, 1, 0}, 0.1)}},
+          sim::Via::through};
+}
+
+/// Velocity and acceleration at a time beside differences of where it is; at(t, motions).
+void check_derivatives(const auto& where, double t) {
+  std::vector<sim::JointMotion> before, at, after;
+  constexpr double h = 1e-5;
+  where(t - h, before), where(t, at), where(t + h, after);
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    const Vec3 turned =
+        vec(sim::way_between(at[j].now.type, before[j].now.position, after[j].now.position)) /
+        (2 * h);
+    CHECK((turned - vec(at[j].now.velocity_rad_per_s)).norm() < 1e-7);
+    const Vec3 faster =
+        (vec(after[j].now.velocity_rad_per_s) - vec(before[j].now.velocity_rad_per_s)) / (2 * h);
+    CHECK((faster - vec(at[j].acceleration_rad_per_s2)).norm() < 1e-5);
+  }
+}
+
+/// ∫ jerk² dt of the elbow, by differences.
+double elbow_jerk(const sim::JointPath& path) {
+  constexpr double h = 1e-3;
+  std::vector<sim::JointMotion> a, b;
+  double sum = 0;
+  for (double t = path.begin_s(); t < path.end_s(); t += h) {
+    path.at(t, a), path.at(t + h, b);
+    const double jerk = (b[1].acceleration_rad_per_s2[0] - a[1].acceleration_rad_per_s2[0]) / h;
+    sum += h * jerk * jerk;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a way passes its poses at their times, at rest, and stays in the last") {
+  const auto path = three_poses();
+  std::vector<sim::JointMotion> at;
+  for (const double t : {0.0, 1.0, 3.0, 4.0, 9.0}) {
+    path.at(t, at);
+    CHECK(vec(at[0].now.velocity_rad_per_s).norm() < 1e-12);
+    CHECK(at[1].now.velocity_rad_per_s[0] == Approx(0).margin(1e-12));
+    CHECK(at[1].now.position[0] == Approx(t == 3 ? 1.5 : 0.3));
+  }
+  const Quaterniond last(Eigen::AngleAxisd(-2.0, Vec3(0.5, -1, 0.2).normalized()));
+  CHECK(turn(at[0]).angularDistance(last) < 1e-9);
+  CHECK(path.end_s() == 4);
+}
+
+TEST_CASE("velocity and acceleration are the derivatives of where it is, ball joints included") {
+  const auto path = three_poses(GENERATE(sim::Via::rest, sim::Via::through));
+  for (double t = 1.05; t < 3.95; t += 0.1)
+    if (std::abs(t - 3) > 1e-4) check_derivatives([&](double s, auto& at) { path.at(s, at); }, t);
+}
+
+TEST_CASE("a robot that moves, somewhere else, is led onto the way without a jump") {
+  const auto path = three_poses(sim::Via::through);
+  const auto elsewhere = pose(0.6, {0, 2, 1}, 0.9);
+  std::vector<sim::JointReading> now{
+      {erp::JointType::spherical, elsewhere[0], {0.4, -0.9, 0.7}, {}, {}},
+      {erp::JointType::revolute, elsewhere[1], {-1.1}, {}, {}}};
+  std::vector<sim::JointMotion> led, wanted;
+  constexpr double begin_s = 1.7, takes_s = 0.8;
+  path.at(begin_s, led);
+  const sim::CatchUp catch_up(now, led, takes_s);
+  const auto at = [&](double time_s, auto& motions) {
+    path.at(time_s, motions), catch_up.add(time_s - begin_s, motions);
+  };
+  at(begin_s, led);
+  for (std::size_t j = 0; j < 2; ++j) {
+    CHECK(vec(sim::way_between(now[j].type, led[j].now.position, now[j].position)).norm() < 1e-9);
+    CHECK((vec(led[j].now.velocity_rad_per_s) - vec(now[j].velocity_rad_per_s)).norm() < 1e-9);
+  }
+  for (double t = begin_s + 0.05; t < begin_s + takes_s; t += 0.1) check_derivatives(at, t);
+  at(begin_s + takes_s - 1e-9, led), path.at(begin_s + takes_s - 1e-9, wanted);
+  CHECK(turn(led[0]).angularDistance(turn(wanted[0])) < 1e-8);
+  CHECK((vec(led[0].acceleration_rad_per_s2) - vec(wanted[0].acceleration_rad_per_s2)).norm() <
+        1e-5);
+  CHECK(led[1].now.position[0] == Approx(wanted[1].now.position[0]));
+}
+
+TEST_CASE("through a pose it goes without a halt, speed and acceleration continuous") {
+  const auto path = three_poses(sim::Via::through);
+  std::vector<sim::JointMotion> before, after, there;
+  constexpr double h = 1e-7;
+  path.at(3 - h, before), path.at(3 + h, after), path.at(3, there);
+  CHECK(turn(there[0]).angularDistance(
+            Quaterniond(Eigen::AngleAxisd(1.2, Vec3(1, 2, -1).normalized()))) < 1e-9);
+  CHECK(there[1].now.position[0] == Approx(1.5));
+  for (std::size_t j = 0; j < 2; ++j) {
+    const Vec3 faster =
+        vec(after[j].now.velocity_rad_per_s) - vec(before[j].now.velocity_rad_per_s);
+    const Vec3 more =
+        vec(after[j].acceleration_rad_per_s2) - vec(before[j].acceleration_rad_per_s2);
+    CHECK(faster.norm() < 1e-4);
+    CHECK(more.norm() < 1e-3);
+    CHECK(vec(there[j].now.velocity_rad_per_s).norm() > 0.3);
+  }
+  for (const double end : {1.0, 4.0}) {
+    path.at(end, there);
+    CHECK(vec(there[0].now.velocity_rad_per_s).norm() < 1e-9);
+    CHECK(there[1].now.velocity_rad_per_s[0] == Approx(0).margin(1e-9));
+  }
+}
+
+TEST_CASE("a pose twice in sequence is a halt on a way without halts") {
+  std::vector<sim::JointMotion> at;
+  for (const double t : {2.0, 2.5, 3.0}) {
+    with_a_halt().at(t, at);
+    CHECK(at[1].now.position[0] == Approx(0.9));
+    CHECK(vec(at[0].now.velocity_rad_per_s).norm() < 1e-9);
+    CHECK(vec(at[1].acceleration_rad_per_s2).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("of all ways through a point it has the least jerk") {
+  const auto p = [](double elbow) { return pose(0, Vec3::UnitX(), elbow); };
+  const sim::JointPath path(joints(), {{0, p(0)}, {1, p(1)}, {2, p(0)}}, sim::Via::through);
+  std::vector<sim::JointMotion> at;
+  path.at(1, at);
+  CHECK(at[1].now.velocity_rad_per_s[0] == Approx(0).margin(1e-9));
+  const double least = elbow_jerk(path);
+  // The same poses, and one more that the way does not pass by itself: it cannot do with less.
+  path.at(0.5, at);
+  for (const double off : {-0.02, 0.02}) {
+    const sim::JointPath other(
+        joints(), {{0, p(0)}, {0.5, p(at[1].now.position[0] + off)}, {1, p(1)}, {2, p(0)}},
+        sim::Via::through);
+    CHECK(elbow_jerk(other) > 1.0001 * least);
+  }
+  const sim::JointPath same(joints(),
+                            {{0, p(0)}, {0.5, p(at[1].now.position[0])}, {1, p(1)}, {2, p(0)}},
+                            sim::Via::through);
+  CHECK(elbow_jerk(same) == Approx(least).epsilon(0.01));
+}
+
+TEST_CASE("a ball joint takes the shorter way round") {
+  const auto far = pose(3.0, Vec3::UnitZ(), 0)[0], back = pose(-3.0, Vec3::UnitZ(), 0)[0];
+  const Vec3 way = vec(sim::way_between(erp::JointType::spherical, far, back));
+  CHECK(way.z() == Approx(2 * std::numbers::pi - 6));
+  const auto there = sim::gone(erp::JointType::spherical, far, {way.x(), way.y(), way.z()});
+  CHECK(vec(sim::way_between(erp::JointType::spherical, there, back)).norm() < 1e-12);
+}
+
+TEST_CASE("times that do not rise are refused, with the row") {
+  const auto p = pose(0, Vec3::UnitX(), 0);
+  CHECK_THROWS_WITH((sim::JointPath{joints(), {{0, p}, {1, p}, {1, p}}}), Catch::Contains("row 3"));
+  CHECK_THROWS_AS((sim::JointPath{joints(), {}}), std::invalid_argument);
+}
