@@ -11,7 +11,7 @@ constexpr double least_share = 1e-12;  // of a step that does not descend as a w
 constexpr double small_turn = 1e-4;    // Newton's error is then its square
 constexpr double level_slope = 1e-9;   // of the slope a step begins with: its end is the bottom
 // What a force or a joint does at some velocity.
-constexpr char idle = '-', acting = 'f', still = '0', up = '>', down = '<', turning = 'o',
+constexpr char idle = '-', acting = 'f', still = '0', up = '>', down = '<', rotating = 'o',
                unknown = '?';
 
 }  // namespace
@@ -83,8 +83,8 @@ void StepSolver::rub(std::size_t j, const Eigen::VectorXd& v) {
     return;
   }
   slope += bound * way.head(joint.dofs);
-  pattern = joint.dofs == 3 ? turning : way[0] > 0 ? up : down;
-  curved_ = curved_ || pattern == turning;
+  pattern = joint.dofs == 3 ? rotating : way[0] > 0 ? up : down;
+  curved_ = curved_ || pattern == rotating;
 }
 
 void StepSolver::add_friction(std::size_t j) {
@@ -96,7 +96,7 @@ void StepSolver::add_friction(std::size_t j) {
     system_.row(d).setZero(), system_.col(d).setZero();
     system_(d, d) = 1;
   }
-  if (pattern == turning)
+  if (pattern == rotating)
     system_.block<3, 3>(joint.first, joint.first) +=
         dt_s_ * joint.coulomb_Nm / joints_[j].speed *
         (Eigen::Matrix3d::Identity() - joints_[j].way * joints_[j].way.transpose());
@@ -157,7 +157,7 @@ bool StepSolver::go(double share, Eigen::VectorXd& v) const {
     const bool turns_back = start_[j].way.head(dofs).dot(own) <= 0;
     if (turns_back) own.setZero();
     whole = whole && !turns_back;
-    if (pattern == turning)
+    if (pattern == rotating)
       whole = whole && step_.segment(first, dofs).norm() <= small_turn * start_[j].speed;
   }
   return whole;
