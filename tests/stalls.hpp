@@ -97,7 +97,7 @@ class Stalls {
 };
 
 /// Says that this machine is no judge of that; `tests/run.sh` tells it again at its end.
-inline void not_judged(const std::string& what) {
+inline void not_evaluated(const std::string& what) {
   std::printf("not judged, the machine stood still each time: %s\n", what.c_str());
   std::fflush(stdout);
 }
@@ -118,7 +118,7 @@ void in_real_time(Run run) {
       CHECK(wrong == Complaints{});
       return;
     }
-    if (left == 0) return not_judged(wrong[0]);
+    if (left == 0) return not_evaluated(wrong[0]);
     std::printf("%s\nthe machine stood still for %.0f ms: once more\n", wrong[0].c_str(), still_ms);
     std::fflush(stdout);
   }

@@ -90,7 +90,7 @@ std::vector<sim::diagnosis::StageGap> Window::judge(std::string& why) const {
     std::vector<std::string> mended;
     const sim::residuals::Episode last[] = {
         sim::residuals::lay_out(table(), model_, "the last seconds", mended)};
-    return sim::diagnosis::where(model_, last, {.block_s = 0.5});
+    return sim::diagnosis::localize(model_, last, {.block_s = 0.5});
   } catch (const std::invalid_argument& failed) {
     why = failed.what();
     return {};

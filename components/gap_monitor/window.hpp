@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "interfaces/topics.hpp"
-#include "sim/gap/diagnosis/where.hpp"
+#include "sim/gap/diagnosis/localization.hpp"
 
 /// The last seconds of a running robot, held against its model.
 namespace gap_monitor {

@@ -14,7 +14,7 @@
 namespace {
 
 using sim::diagnosis::Diagnosis;
-using sim::diagnosis::Named;
+using sim::diagnosis::IdentifiedEffect;
 
 struct Case {
   const char* motion;
@@ -37,8 +37,8 @@ Result diagnosed(const Case& c) {
   for (const auto& table : tables)
     episodes.push_back(
         sim::residuals::lay_out(table, robot, std::to_string(episodes.size()), remarks));
-  const sim::diagnosis::Trials trials(robot, episodes);
-  return {sim::diagnosis::diagnose(robot, episodes), sim::diagnosis::turned_back(trials)};
+  const sim::diagnosis::Evaluator evaluator(robot, episodes);
+  return {sim::diagnosis::diagnose(robot, episodes), sim::diagnosis::turned_back(evaluator)};
 }
 
 /// What is true of each effect of the answer.
@@ -52,9 +52,9 @@ double truth(const std::string& type, const light_drive::Light& light) {
 /// Every effect has its true value within its interval, and both frictions are named.
 bool is_true(const Diagnosis& d, const light_drive::Light& light) {
   const auto has = [&](const char* type) {
-    return std::ranges::any_of(d.answer, [&](const Named& n) { return n.type == type; });
+    return std::ranges::any_of(d.answer, [&](const IdentifiedEffect& n) { return n.type == type; });
   };
-  const auto holds = [&](const Named& n) {
+  const auto holds = [&](const IdentifiedEffect& n) {
     const double is = truth(n.type, light);
     return is != 0 && n.intervals[0].low <= is && is <= n.intervals[0].high;
   };
@@ -63,7 +63,7 @@ bool is_true(const Diagnosis& d, const light_drive::Light& light) {
 
 std::string values_of(const Diagnosis& d) {
   std::string all;
-  for (const Named& n : d.answer)
+  for (const IdentifiedEffect& n : d.answer)
     all += fmt::format("{}{} {:.4g} ({:.4g} … {:.4g})", all.empty() ? "" : "; ", n.type,
                        n.values[0], n.intervals[0].low, n.intervals[0].high);
   return all;

@@ -9,9 +9,9 @@
 #include <map>
 #include <random>
 
+#include "sim/gap/checks/column_checks.hpp"
 #include "sim/gap/residuals/drives.hpp"
 #include "sim/gap/residuals/measured.hpp"
-#include "sim/gap/checks/units.hpp"
 
 namespace {
 
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
   for (int n = 2; n < argc; ++n) {
     std::vector<std::string> remarks;
     const Episode plain = lay_out(recording::read_table(argv[n]), robot, argv[n], remarks);
-    const auto false_alarms = sim::checks::odd_units(plain, robot);
+    const auto false_alarms = sim::checks::column_checks(plain, robot);
     for (const auto& sentence : false_alarms) fmt::print("falsely: {}\n", sentence);
     ++count["as it is"][false_alarms.empty() ? "nothing" : "another"];
     std::mt19937_64 random(static_cast<std::uint64_t>(n));
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
       Columns columns = measured(faulty, robot);
       const Fault fault = inject(kind, columns, random);
       if (fault.columns.empty()) continue;
-      const auto odd = sim::checks::odd_units(faulty, robot);
+      const auto odd = sim::checks::column_checks(faulty, robot);
       const std::string what = outcome(odd, fault);
       ++count[kind][what];
       if (what != "alone")

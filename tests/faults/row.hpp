@@ -72,7 +72,7 @@ class Row {
       CHECK(held);
     }
     CHECK(noticed_);
-    if (counted() == 0 && set_aside_ > 0) return tests::not_judged(fault_ + ": " + what_);
+    if (counted() == 0 && set_aside_ > 0) return tests::not_evaluated(fault_ + ": " + what_);
     CHECK(counted() > 0);
     CHECK(missed_ == 0);
     CHECK((ms_.size() < 20 || at(0.5) <= limit_ms_));

@@ -6,7 +6,7 @@
 namespace {
 
 /// Packs again what was understood; returns how many bytes.
-unsigned said_again(wire_kind kind, const wire_reader& reader, std::uint8_t* bytes) {
+unsigned resampled_noise(wire_kind kind, const wire_reader& reader, std::uint8_t* bytes) {
   const std::uint8_t ecu = wire_ecu(&reader);
   board_readings readings;
   wire_mishap mishap;
@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t i = 0; i < size; ++i) {
     const wire_kind kind = wire_take(&reader, data[i]);
     if (kind == wire_kind{}) continue;
-    const unsigned length = said_again(kind, reader, again);
+    const unsigned length = resampled_noise(kind, reader, again);
     fuzz::require(length <= i + 1 && std::memcmp(again, data + i + 1 - length, length) == 0,
                   "what was understood reads as what was said");
   }

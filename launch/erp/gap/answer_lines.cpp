@@ -6,14 +6,14 @@
 #include <cmath>
 #include <ostream>
 
-#include "launch/erp/gap/words.hpp"
+#include "launch/erp/gap/messages.hpp"
 
 namespace launch::gap {
 namespace {
 
 namespace diagnosis = sim::diagnosis;
 
-std::string described(const diagnosis::Named& n) {
+std::string described(const diagnosis::IdentifiedEffect& n) {
   std::string text = fmt::format("{} on {}", n.type, n.on);
   for (std::size_t k = 0; k < n.names.size(); ++k)
     text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", n.names[k], n.values[k],
@@ -84,13 +84,13 @@ void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
     out << fmt::format("how far     {:.3g} times the noise before, {:.3g} after: {}, on {}\n",
                        d.overall.before, d.overall.after, closed_words(d.overall), judged_on(d));
   for (const auto& c : d.channels)
-    if (c.gapes() && c.driven_by > 0 && (!d.answer.empty() || d.as_built))
+    if (c.has_gap() && c.driven_by > 0 && (!d.answer.empty() || d.as_built))
       out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
                          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
 
 /// The bus changes no residual, so no motion distinguishes its effects.
-bool plannable(const diagnosis::Named& n) {
+bool plannable(const diagnosis::IdentifiedEffect& n) {
   return sim::effects::about(n.placed.effect).stage != sim::effects::Stage::bus;
 }
 
@@ -106,11 +106,11 @@ void print_answer(const diagnosis::Diagnosis& d, const sim::closed_loop::FreeRun
         "free run    {:.3g} times what noise alone would do before, {:.3g} after: {}\n",
         free_run.all.before, free_run.all.after, closed_words(free_run.all));
   for (const std::string& warning : d.warnings) out << "warning     " << warning << "\n";
-  for (const std::string& odd : d.mend_first) out << "mend first  " << odd << "\n";
+  for (const std::string& odd : d.fix_first) out << "mend first  " << odd << "\n";
   out << "verdict     " << diagnosis::word(d.verdict);
-  if (d.verdict == diagnosis::Verdict::no_gap && !d.not_judged.empty())
+  if (d.verdict == diagnosis::Verdict::no_gap && !d.not_evaluated.empty())
     out << ", in what could be judged";
-  if (!d.mend_first.empty()) out << ", of recordings to be mended first";
+  if (!d.fix_first.empty()) out << ", of recordings to be mended first";
   out << "\n";
 }
 
@@ -121,7 +121,7 @@ void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
   const bool done = d.verdict == diagnosis::Verdict::no_gap ||
                     (d.verdict == diagnosis::Verdict::supported && told_apart);
   const bool something = std::ranges::any_of(d.ranked, plannable);
-  if (done || !something || !d.mend_first.empty() || !robot.drives.empty()) return;
+  if (done || !something || !d.fix_first.empty() || !robot.drives.empty()) return;
   out << fmt::format(
       "next        erp gap plan --robot {} --diagnosis {}/diagnosis.json --out {}/next\n",
       options.robot, options.out, options.out);

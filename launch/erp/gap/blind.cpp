@@ -10,16 +10,16 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "interfaces/parallel/in_parallel.hpp"
 #include "interfaces/recording/csv.hpp"
 #include "launch/erp/gap/files.hpp"
+#include "launch/erp/gap/free_run_lines.hpp"
 #include "launch/erp/gap/gap.hpp"
-#include "launch/erp/gap/rehearsed.hpp"
 #include "launch/erp/gap/truth.hpp"
 #include "launch/erp/text/progress.hpp"
 #include "launch/erp/text/text_files.hpp"
-#include "sim/gap/blind/shows.hpp"
+#include "sim/gap/blind/visibility.hpp"
 #include "sim/gap/diagnosis/diagnose.hpp"
-#include "interfaces/parallel/in_parallel.hpp"
 
 namespace launch::gap {
 namespace {
@@ -71,7 +71,7 @@ struct Recorded {
 
 /// Draws a case and records it; one whose motion is not finite is no robot's, and drawn anew.
 Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64_t seed,
-                     const BlindMakeOptions& options, const sim::blind::Shows& shows) {
+                     const BlindMakeOptions& options, const sim::blind::Visibility& shows) {
   constexpr std::uint64_t next_draw = 1'000'003;  // beyond the seeds of the other cases
   constexpr int most = 20;                        // chosen
   for (int draw = 0;; ++draw) {
@@ -80,8 +80,8 @@ Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64
                    {},
                    draw};
     if (options.tolerance > 0)
-      found.blind.built =
-          sim::blind::as_built(robot, options.tolerance, found.blind.seed, found.blind.quirks);
+      found.blind.built = sim::blind::as_built(robot, options.tolerance, found.blind.seed,
+                                               found.blind.hidden_effects);
     try {
       for (int r = 0; r < options.recordings; ++r) {
         const auto excitation = sim::excitation(robot, r, options.seconds, seed);
@@ -144,7 +144,7 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   write_file(options.out + "/robot.xml", erp::write_robot(robot));
   const auto count = static_cast<std::size_t>(options.cases);
   std::vector<Json> truths(count), cases(count);
-  const sim::blind::Shows shows(robot);
+  const sim::blind::Visibility shows(robot);
   std::atomic<int> drawn_anew = 0, not_finite = 0;
   std::size_t done = 0;
   std::mutex telling;

@@ -5,31 +5,32 @@
 #include <filesystem>
 #include <ostream>
 
+#include "interfaces/parallel/pool.hpp"
 #include "launch/erp/gap/gap.hpp"
 #include "launch/erp/text/text_files.hpp"
 #include "sim/gap/estimation/as_built.hpp"
-#include "interfaces/parallel/pool.hpp"
 
 namespace launch::gap {
 namespace {
 
 namespace estimation = sim::estimation;
 
-void print_row(const gap::AsBuilt& built, std::size_t k, std::ostream& out) {
-  const gap::Constant& c = built.uncertain.constants[k];
+void print_row(const estimation::AsBuilt& built, std::size_t k, std::ostream& out) {
+  const estimation::Constant& c = built.uncertain.constants[k];
   const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
   constexpr double far = 3;  // tolerances, and standard errors; chosen
   const bool beyond = std::ranges::count(built.beyond, k) > 0 ||
                       (std::abs(x) > far && std::abs(x) > far * built.estimate.sigma(k));
-  const char* remark = beyond                                             ? "beyond its tolerance"
-                       : gap::determined(built, k) < gap::well_determined ? "not determined"
-                                                                          : "";
+  const char* remark = beyond ? "beyond its tolerance"
+                       : estimation::determined(built, k) < estimation::well_determined
+                           ? "not determined"
+                           : "";
   out << fmt::format("{:<16} {:<28} {:>11.5g} {:>11.5g} {:>11.5g} … {:<11.5g} {}\n", c.on, c.name,
                      c.nominal, c.value(x), c.value(x - half), c.value(x + half), remark);
 }
 
 /// Stages that no constants bring to their noise.
-void print_left(const std::vector<std::string>& names, const gap::AsBuilt& built,
+void print_left(const std::vector<std::string>& names, const estimation::AsBuilt& built,
                 std::ostream& out) {
   for (std::size_t s = 0; s < names.size(); ++s)
     if (built.estimate.mean_square[s] > 1.5)
@@ -54,14 +55,14 @@ int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& 
     check_folder(std::filesystem::absolute(options.out).parent_path().string());
   const Reading read = read_episodes(robot, options.recordings);
   const auto pool = sim::make_pool(options.threads);
-  if (pool->first()) tell(read.mended, remarks), tell_odd(read, remarks);
+  if (pool->first()) tell(read.mended, remarks), print_suspicious(read, remarks);
   if (!can_judge(read.episodes)) {
     if (pool->first()) out << nothing_judged;
     return 5;
   }
-  gap::EstimateOptions how;
+  estimation::EstimateOptions how;
   how.threads = options.threads, how.seed = options.seed, how.pool = pool.get();
-  const gap::AsBuilt built = gap::calibrated(robot, read.episodes, how);
+  const estimation::AsBuilt built = estimation::calibrated(robot, read.episodes, how);
   if (!pool->first()) return 0;
   out << fmt::format("{:<16} {:<28} {:>11} {:>11} {:>25}\n", "on", "constant", "robot.xml", "found",
                      "95 % interval");

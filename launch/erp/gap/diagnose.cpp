@@ -8,9 +8,9 @@
 #include "interfaces/xml/words.hpp"
 #include "launch/erp/gap/answer_lines.hpp"
 #include "launch/erp/gap/files.hpp"
+#include "launch/erp/gap/free_run_lines.hpp"
 #include "launch/erp/gap/gap.hpp"
-#include "launch/erp/gap/rehearsed.hpp"
-#include "launch/erp/gap/words.hpp"
+#include "launch/erp/gap/messages.hpp"
 #include "launch/erp/text/progress.hpp"
 #include "launch/erp/text/text_files.hpp"
 
@@ -125,7 +125,7 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   check_out(options);
   const Sorted sorted = sort(options);
   const Reading read = read_episodes(robot, sorted.files);
-  if (pool->first()) tell(read.mended, remarks), tell_odd(read, remarks);
+  if (pool->first()) tell(read.mended, remarks), print_suspicious(read, remarks);
   if (!options.out.empty()) check_folder(options.out);
   std::optional<Progress> progress(std::in_place, remarks);
   diagnosis::DiagnoseOptions how{.train = sorted.train,
@@ -142,12 +142,12 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
   const auto free_run = run_freely(d, read.episodes, robot, options,
                                    [&](double share) { progress->tell("free run", share); });
   erp::Robot found = d.as_built ? *d.as_built : erp::read_robot(options.robot);
-  for (const auto& n : d.as_built ? std::vector<diagnosis::Named>{} : d.answer)
+  for (const auto& n : d.as_built ? std::vector<diagnosis::IdentifiedEffect>{} : d.answer)
     found.effects.push_back(sim::effects::written(n.placed));
   progress.reset();
   d.warnings.insert(d.warnings.end(), free_run.remarks.begin(), free_run.remarks.end());
-  d.mend_first = read.odd;
-  if (!d.mend_first.empty() && d.verdict == diagnosis::Verdict::no_gap)
+  d.fix_first = read.odd;
+  if (!d.fix_first.empty() && d.verdict == diagnosis::Verdict::no_gap)
     d.verdict = diagnosis::Verdict::not_identifiable;  // what looks wrong was not judged
   else if (!free_run.channels.empty() || d.verdict == diagnosis::Verdict::supported)
     for (const std::string& doubt : doubts(d, free_run.all, robot)) d.warnings.push_back(doubt);

@@ -28,7 +28,7 @@ inline constexpr const char* nothing_judged =
 /// Prints the corrections, a line each.
 void tell(const std::vector<std::string>& list, std::ostream& remarks);
 /// Prints the columns that look wrong; nothing else is reliable before they are mended.
-void tell_odd(const Reading& read, std::ostream& remarks);
+void print_suspicious(const Reading& read, std::ostream& remarks);
 
 /// Throws std::invalid_argument of a type that the library has not.
 void check_withheld(const std::vector<std::string>& types);
@@ -63,7 +63,7 @@ struct CalibrateOptions {
 /// Returns 0; 5: nothing could be judged.
 int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& remarks);
 
-struct TwinsOptions {
+struct IndistinguishableOptions {
   std::string robot;
   std::vector<std::string> recordings = {};  ///< none: the simulator records four
   std::vector<std::string> without = {};     ///< "tension", "current", "joint": as if not recorded
@@ -76,7 +76,7 @@ struct TwinsOptions {
 
 /// Prints which effects the robot's sensors cannot tell apart, a row a pair; of several that stand
 /// for one together, a row an effect. Throws as where, std::runtime_error. Returns 0; 5: nothing could be judged.
-int twins(const TwinsOptions& options, std::ostream& out, std::ostream& remarks);
+int twins(const IndistinguishableOptions& options, std::ostream& out, std::ostream& remarks);
 
 struct PlanOptions {
   std::string robot, diagnosis, out;  ///< diagnosis.json; out: a folder, made if need be

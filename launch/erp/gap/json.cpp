@@ -19,7 +19,7 @@ double rounded(double x) {
 
 Json pair_of(const Interval& i) { return Json::array({rounded(i.low), rounded(i.high)}); }
 
-Json json_of(const Located& place) {
+Json json_of(const Attribution& place) {
   Json when = Json::array();
   for (const Region& r : place.when)
     when.push_back({{"variable", r.variable}, {"fifth", r.fifth}, {"share", rounded(r.share)}});
@@ -30,7 +30,7 @@ Json json_of(const Located& place) {
           {"when", when}};
 }
 
-Json json_of(const Named& n) {
+Json json_of(const IdentifiedEffect& n) {
   Json parameters = Json::object(), intervals = Json::object();
   for (std::size_t k = 0; k < n.names.size(); ++k)
     parameters[n.names[k]] = rounded(n.values[k]), intervals[n.names[k]] = pair_of(n.intervals[k]);
@@ -56,7 +56,7 @@ Json channels_of(const std::vector<Closed>& channels) {
   Json all = Json::object();
   for (const Closed& c : channels) {
     Json& json = all[c.channel] = json_of(c);
-    if (!c.gapes()) json["closed"] = json["closed_interval"] = nullptr;
+    if (!c.has_gap()) json["closed"] = json["closed_interval"] = nullptr;
   }
   return all;
 }
@@ -98,9 +98,10 @@ Json list_of(const Items& items) {
 /// The answer's effects first, then the others as they fitted one by one.
 Json effects_of(const Diagnosis& d) {
   Json list = list_of(d.answer);
-  for (const Named& n : d.ranked)
-    if (std::ranges::none_of(d.answer,
-                             [&](const Named& a) { return a.type == n.type && a.on == n.on; })) {
+  for (const IdentifiedEffect& n : d.ranked)
+    if (std::ranges::none_of(d.answer, [&](const IdentifiedEffect& a) {
+          return a.type == n.type && a.on == n.on;
+        })) {
       list.push_back(json_of(n));
       list.back()["supported"] = false;
     }
@@ -111,14 +112,14 @@ Json effects_of(const Diagnosis& d) {
 Json confusable_of(const Diagnosis& d) {
   Json list = Json::array();
   int set = 0;
-  for (const Named& answer : d.answer) {
+  for (const IdentifiedEffect& answer : d.answer) {
     if (answer.alternatives.empty()) continue;
-    const auto add = [&](const Named& n) {
+    const auto add = [&](const IdentifiedEffect& n) {
       list.push_back(
           {{"type", n.type}, {"on", n.on}, {"set", set}, {"parameters", json_of(n)["parameters"]}});
     };
     add(answer);
-    for (const Named& other : answer.alternatives) add(other);
+    for (const IdentifiedEffect& other : answer.alternatives) add(other);
     ++set;
   }
   return list;
@@ -168,7 +169,7 @@ std::string diagnosis_json(const Diagnosis& d, const sim::closed_loop::FreeRun& 
                  {"train", d.train},
                  {"held_out", d.held_out},
                  {"judged_from_s", shared(d)},
-                 {"mend_first", d.mend_first},
+                 {"mend_first", d.fix_first},
                  {"warnings", d.warnings}};
   return all.dump(1) + "\n";
 }

@@ -46,7 +46,7 @@ struct Question {
   std::string robot;  ///< that was diagnosed
   std::vector<Placed> suspects, known;
   std::size_t more_sets = 0;  ///< that could not be told apart either
-  bool mend_first = false;    ///< the recordings that were diagnosed are odd
+  bool fix_first = false;     ///< the recordings that were diagnosed are odd
 };
 
 /// Of sets that could not be told apart, the first; else the answer; else what comes nearest.
@@ -127,14 +127,14 @@ std::string joined(const std::vector<Placed>& effects) {
 }
 
 closed_loop::Experiment rehearsed(const erp::Robot& robot, const std::vector<Placed>& suspects,
-                                const PlanOptions& options, std::ostream& remarks) {
+                                  const PlanOptions& options, std::ostream& remarks) {
   Progress progress(remarks);
   std::mutex telling_mutex;
   closed_loop::ExperimentOptions how{.seconds = options.seconds,
-                                   .candidates = options.candidates,
-                                   .threads = options.threads,
-                                   .seed = options.seed,
-                                   .to_stop_rad = options.to_stop_rad};
+                                     .candidates = options.candidates,
+                                     .threads = options.threads,
+                                     .seed = options.seed,
+                                     .to_stop_rad = options.to_stop_rad};
   how.progress = [&](double share) {
     const std::lock_guard lock(telling_mutex);
     progress.tell("rehearsals", share);
@@ -180,7 +180,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
     throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  auto [diagnosed, suspects, known, more_sets, mend_first] = read_question(options.diagnosis);
+  auto [diagnosed, suspects, known, more_sets, fix_first] = read_question(options.diagnosis);
   if (diagnosed != robot.name)
     throw std::invalid_argument(options.diagnosis + ": is of robot \"" + diagnosed + "\", " +
                                 options.robot + " is \"" + robot.name +
@@ -195,7 +195,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
            "are estimated without a choice, and the bus shows in no motion)\n";
     return 1;
   }
-  if (mend_first)
+  if (fix_first)
     remarks << options.diagnosis
             << ": its recordings are to be mended first, see its warnings: its answer and "
                "this plan may be wrong\n";

@@ -6,16 +6,16 @@
 #include <stdexcept>
 
 #include "launch/erp/gap/gap.hpp"
+#include "sim/gap/checks/column_checks.hpp"
+#include "sim/gap/checks/dead_columns.hpp"
+#include "sim/gap/checks/table_checks.hpp"
 #include "sim/gap/estimation/constants.hpp"
+#include "sim/gap/estimation/defective_rows.hpp"
 #include "sim/gap/estimation/limits.hpp"
 #include "sim/gap/estimation/row_timing.hpp"
-#include "sim/gap/estimation/spoilt_rows.hpp"
 #include "sim/gap/residuals/common_signals.hpp"
 #include "sim/gap/residuals/drives.hpp"
 #include "sim/gap/residuals/stages.hpp"
-#include "sim/gap/checks/dead_columns.hpp"
-#include "sim/gap/checks/odd_table.hpp"
-#include "sim/gap/checks/units.hpp"
 
 namespace launch::gap {
 namespace {
@@ -105,12 +105,12 @@ Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& r
     if (residuals::windows_of(episode, {}).empty())
       read.mended.push_back(fmt::format(
           "{}: {:.2g} s are too short to judge anything by: it counts for nothing", file, seconds));
-    odd.add(file, checks::odd_table(table, robot, file));
-    odd.add(file, checks::odd_units(episode, robot));
+    odd.add(file, checks::table_checks(table, robot, file));
+    odd.add(file, checks::column_checks(episode, robot));
   }
   read.odd = odd.take();
   residuals::keep_common(read.episodes, robot, read.mended);
-  sim::estimation::mend_spoilt_rows(read.episodes, read.mended);
+  sim::estimation::repair_defective_rows(read.episodes, read.mended);
   sim::estimation::undo(sim::estimation::row_timing(read.episodes), read.episodes, read.mended);
   sim::estimation::apply_limits(robot, read.episodes, read.mended);
   return read;
@@ -125,7 +125,7 @@ void tell(const std::vector<std::string>& list, std::ostream& remarks) {
   for (const std::string& remark : list) remarks << remark << "\n";
 }
 
-void tell_odd(const Reading& read, std::ostream& remarks) {
+void print_suspicious(const Reading& read, std::ostream& remarks) {
   for (const std::string& odd : read.odd) remarks << "mend first  " << odd << "\n";
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "launch/erp/gap/files.hpp"
+#include "launch/erp/gap/messages.hpp"
 #include "launch/erp/gap/report_parts.hpp"
 #include "launch/erp/gap/svg.hpp"
-#include "launch/erp/gap/words.hpp"
 
 namespace launch::gap {
 namespace {
@@ -33,7 +33,7 @@ std::string title_of(const Diagnosis& d) {
     case Verdict::no_gap:
       return fmt::format(
           "No gap{}: robot and model differ by no more than the noise of the sensors.",
-          d.not_judged.empty() ? "" : " in what could be judged");
+          d.not_evaluated.empty() ? "" : " in what could be judged");
     case Verdict::supported:
       return fmt::format(
           "An explanation, supported by {}{}.", judged_on(d),
@@ -41,13 +41,13 @@ std::string title_of(const Diagnosis& d) {
     case Verdict::none_of_the_known:
       return "There is a gap, and none of the known effects explains it.";
     case Verdict::not_identifiable:
-      if (!d.judged_apart() && !d.answer.empty())
+      if (!d.uses_held_out_data() && !d.answer.empty())
         return "An explanation, judged by the recording that it was found on: record another.";
   }
   return "These recordings cannot show what the gap is.";
 }
 
-std::string parameters_of(const Named& n) {
+std::string parameters_of(const IdentifiedEffect& n) {
   std::string text;
   for (std::size_t k = 0; k < n.names.size(); ++k)
     text += fmt::format("{}{} = {:.4g} ({:.4g} … {:.4g})", k ? ", " : "", n.names[k], n.values[k],
@@ -56,17 +56,17 @@ std::string parameters_of(const Named& n) {
 }
 
 /// What nothing that follows may be believed before.
-std::string mend_first(const Diagnosis& d) {
-  if (d.mend_first.empty()) return "";
+std::string fix_first(const Diagnosis& d) {
+  if (d.fix_first.empty()) return "";
   std::string html =
       "<div class=\"mend\">Mend these recordings first and diagnose again: until then nothing "
       "below is reliable.\n<ul>\n";
-  for (const std::string& odd : d.mend_first) html += "<li>" + escaped(odd) + "</li>\n";
+  for (const std::string& odd : d.fix_first) html += "<li>" + escaped(odd) + "</li>\n";
   return html + "</ul></div>\n";
 }
 
 std::string summary(const Diagnosis& d) {
-  std::string html = mend_first(d);
+  std::string html = fix_first(d);
   html += fmt::format("<div class=\"verdict\">{}</div>\n", title_of(d));
   const bool whole = d.verdict == Verdict::supported;
   if (!d.answer.empty())
@@ -74,11 +74,11 @@ std::string summary(const Diagnosis& d) {
             : d.verdict == Verdict::not_identifiable
                 ? "<p>Perhaps:</p>\n<ul>\n"
                 : "<p>A part of it goes with these, which are no answer:</p>\n<ul>\n";
-  for (const Named& n : d.answer)
+  for (const IdentifiedEffect& n : d.answer)
     html += fmt::format("<li>{0}{2}{1}: {3}</li>\n", whole ? "<b>" : "", whole ? "</b>" : "",
                         escaped(page::name_of(n)), escaped(parameters_of(n)));
   if (!d.answer.empty()) html += "</ul>\n";
-  for (const Named& n : d.answer) {
+  for (const IdentifiedEffect& n : d.answer) {
     if (n.alternatives.empty()) continue;
     html += fmt::format("<p>As good as {}, and not to be told apart by these recordings: ",
                         escaped(page::name_of(n)));

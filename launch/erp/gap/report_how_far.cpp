@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "launch/erp/gap/messages.hpp"
 #include "launch/erp/gap/report_parts.hpp"
 #include "launch/erp/gap/svg.hpp"
-#include "launch/erp/gap/words.hpp"
 
 namespace launch::gap {
 
@@ -15,7 +15,7 @@ namespace {
 
 /// How far a channel was closed, in words where a share says nothing.
 std::string closed_of(const Closed& c, bool with_interval) {
-  if (!c.gapes())
+  if (!c.has_gap())
     return c.after > 1.5 * std::max(c.before, c.floor) ? "was no gap, is one now" : "–";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
   return fmt::format("{:.1f} %{}", 100 * std::min(1.0, c.closed),  // beyond is noise

@@ -1,13 +1,13 @@
 #pragma once
 #include <string>
 
-#include "sim/gap/diagnosis/diagnose.hpp"
 #include "sim/gap/closed_loop/free_run.hpp"
+#include "sim/gap/diagnosis/diagnose.hpp"
 
 /// The parts of report.html, each a piece of the page; empty when there is nothing to say.
 namespace launch::gap::page {
 
-std::string name_of(const sim::diagnosis::Named& named);  ///< "coulomb on m.gear"
+std::string name_of(const sim::diagnosis::IdentifiedEffect& named);  ///< "coulomb on m.gear"
 
 // where
 std::string chains(const sim::diagnosis::Diagnosis& diagnosis);

@@ -13,15 +13,15 @@ using svg::escaped;
 namespace {
 
 /// How many places share as much as this one, for the sensors cannot tell them apart; it is in it.
-std::ptrdiff_t alike(const Diagnosis& d, const Located& one) {
-  return std::ranges::count_if(d.where, [&](const Located& p) { return p.share == one.share; });
+std::ptrdiff_t alike(const Diagnosis& d, const Attribution& one) {
+  return std::ranges::count_if(d.where, [&](const Attribution& p) { return p.share == one.share; });
 }
 
 /// The places that share the largest part.
 std::string alike(const Diagnosis& d) {
   std::string names;
   if (d.where.empty() || alike(d, d.where[0]) < 2) return "";
-  for (const Located& place : d.where)
+  for (const Attribution& place : d.where)
     if (place.share == d.where[0].share)
       names += fmt::format("{}{} of {}", names.empty() ? "" : ", ", sim::effects::word(place.stage),
                            escaped(place.on));
@@ -32,7 +32,7 @@ std::string alike(const Diagnosis& d) {
 /// When the residual lives; once for places that are told apart by nothing.
 std::string when(const Diagnosis& d) {
   std::string html;
-  for (const Located& place : d.where) {
+  for (const Attribution& place : d.where) {
     if (place.when.empty()) continue;
     const auto told = fmt::format("{:.0f} % of the residual lives in the {} fifth of the {}.</p>\n",
                                   100 * place.when[0].share, place.when[0].fifth,
@@ -51,22 +51,22 @@ std::string page::chains(const Diagnosis& d) {
   const std::vector<std::string> names{"bus",     "motor", "gearbox",  "spindle", "tendon",
                                        "routing", "joint", "skeleton", "sensor"};
   std::vector<std::string> places;
-  for (const Located& place : d.where)
+  for (const Attribution& place : d.where)
     if (!std::ranges::count(places, place.on)) places.push_back(place.on);
   std::string html = "<h2>Where</h2>\n";
   const std::vector<double> none(names.size(), 0.0);
   const std::vector<std::string> quiet(names.size(), "–");
   if (places.empty())
-    html += svg::chain(d.not_judged.empty() ? "every stage is at its floor"
-                                            : "every stage that could be judged is at its floor",
+    html += svg::chain(d.not_evaluated.empty() ? "every stage is at its floor"
+                                               : "every stage that could be judged is at its floor",
                        names, none, quiet);
-  if (!d.not_judged.empty())
+  if (!d.not_evaluated.empty())
     html += fmt::format("<p class=\"note\">Not judged: {}.</p>\n",
-                        escaped(fmt::format("{}", fmt::join(d.not_judged, ", "))));
+                        escaped(fmt::format("{}", fmt::join(d.not_evaluated, ", "))));
   for (const std::string& on : places) {
     auto shares = none;
     auto notes = quiet;
-    for (const Located& place : d.where) {
+    for (const Attribution& place : d.where) {
       if (place.on != on || !(place.share > 0)) continue;
       const auto stage = static_cast<std::size_t>(place.stage);
       const auto count = alike(d, place);
@@ -84,7 +84,7 @@ std::string page::moments(const Diagnosis& d) {
   std::string html =
       "<h2>The worst moments</h2>\n<p class=\"note\">The green band is twice the noise; where a "
       "line breaks, a window cannot be judged, as when a shaft rests.</p>\n";
-  for (const Moment& m : d.worst)
+  for (const WorstWindow& m : d.worst)
     html += svg::plot(
         {fmt::format("{} of {}, {}", sim::effects::word(m.stage), m.on, m.recording), "time, s",
          m.unit, 860, 230, 2 * m.floor},

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "launch/erp/gap/messages.hpp"
 #include "launch/erp/gap/report_parts.hpp"
 #include "launch/erp/gap/svg.hpp"
-#include "launch/erp/gap/words.hpp"
 #include "sim/gap/estimation/as_built.hpp"
 
 namespace launch::gap {
@@ -12,7 +12,7 @@ namespace launch::gap {
 using namespace sim::diagnosis;
 using svg::escaped;
 
-std::string page::name_of(const Named& n) { return n.type + " on " + n.on; }
+std::string page::name_of(const IdentifiedEffect& n) { return n.type + " on " + n.on; }
 
 std::string page::ranking(const Diagnosis& d) {
   if (d.ranked.empty()) return "";
@@ -23,7 +23,7 @@ std::string page::ranking(const Diagnosis& d) {
   for (const StageGap& gap : d.stages)
     columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
   for (std::size_t k = 0; k < d.ranked.size() && k < most; ++k) {
-    const Named& n = d.ranked[k];
+    const IdentifiedEffect& n = d.ranked[k];
     bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
                     n.gain_interval.high, n.supported});
     if (n.signature.empty() || columns.size() > 24) continue;
@@ -48,9 +48,9 @@ std::string page::ranking(const Diagnosis& d) {
 namespace {
 
 std::string row_of(const ConstantEstimate& c) {
-  const char* remark = c.beyond                                   ? "beyond its tolerance"
+  const char* remark = c.beyond                                          ? "beyond its tolerance"
                        : c.determined < sim::estimation::well_determined ? "not determined"
-                                                                  : "";
+                                                                         : "";
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:.4g} … "
       "{:.4g}</td><td>{}</td></tr>\n",

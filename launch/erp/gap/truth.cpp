@@ -46,14 +46,14 @@ std::optional<double> closed_by_truth(const std::string& folder,
   for (std::size_t k = 0; k < episodes.size(); ++k)
     if (const auto name = d["held_out"][k].get<std::string>(); judged_from_s.contains(name))
       episodes[k].judge_from(judged_from_s[name].get<double>());
-  const diagnosis::Trials trials(robot, std::move(episodes));
+  const diagnosis::Evaluator evaluator(robot, std::move(episodes));
   std::vector<std::size_t> all(files.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   const auto rms = [](const diagnosis::ScoreBlock& b) {
     return std::sqrt(b.square / static_cast<double>(std::max<std::size_t>(1, b.windows)));
   };
-  const double before = rms(sum(trials.blocks(trials.bare(), all)));
-  const double after = rms(sum(trials.blocks(trials.with(hidden, all), all)));
+  const double before = rms(sum(evaluator.blocks(evaluator.bare(), all)));
+  const double after = rms(sum(evaluator.blocks(evaluator.with(hidden, all), all)));
   return before > 1 ? (before - after) / (before - 1) : 0;
 }
 

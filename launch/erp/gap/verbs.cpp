@@ -5,11 +5,11 @@
 #include <memory>
 #include <system_error>
 
+#include "launch/erp/gap/blind.hpp"
+#include "launch/erp/gap/gap.hpp"
 #include "launch/erp/run/program.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"
 #include "launch/erp/verbs/verbs.hpp"
-#include "launch/erp/gap/blind.hpp"
-#include "launch/erp/gap/gap.hpp"
 
 namespace launch {
 namespace {
@@ -97,7 +97,7 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
 }
 
 void add_twins(CLI::App& gap, Chosen& chosen) {
-  auto o = std::make_shared<gap::TwinsOptions>();
+  auto o = std::make_shared<gap::IndistinguishableOptions>();
   o->threads = all_cores();
   auto* twins = gap.add_subcommand(
       "twins", "Which effects the sensors of a robot cannot tell apart, before anything is wrong");

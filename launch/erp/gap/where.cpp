@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "sim/gap/diagnosis/bus.hpp"
-#include "sim/gap/diagnosis/where.hpp"
+#include "sim/gap/diagnosis/localization.hpp"
 
 namespace launch::gap {
 namespace {
@@ -56,7 +56,7 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
     if (gap.open)
       open += fmt::format("{}{} of {}", open.empty() ? "" : ", ", sim::effects::word(gap.stage),
                           gap.on);
-  auto unjudged = diagnosis::not_judged(robot, gaps);
+  auto unjudged = diagnosis::not_evaluated(robot, gaps);
   if (bus.there && !bus.told) unjudged.emplace_back("the bus");
   const bool some = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
   if (!unjudged.empty())
@@ -92,8 +92,8 @@ int where(const std::string& robot_file, const std::vector<std::string>& recordi
           std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(robot_file);
   const Reading read = read_episodes(robot, recordings);
-  tell(read.mended, remarks), tell_odd(read, remarks);
-  const auto gaps = diagnosis::where(robot, read.episodes);
+  tell(read.mended, remarks), print_suspicious(read, remarks);
+  const auto gaps = diagnosis::localize(robot, read.episodes);
   out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
                      "floor", "times", "share", "windows");
   for (const auto& gap : gaps) print_row(gap, out);

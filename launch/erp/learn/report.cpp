@@ -7,9 +7,9 @@
 #include <numbers>
 #include <ostream>
 
-#include "interfaces/recording/csv.hpp"
 #include "interfaces/parallel/in_parallel.hpp"
-#include "sim/gap/closed_loop/standing.hpp"
+#include "interfaces/recording/csv.hpp"
+#include "sim/gap/closed_loop/rest_pose.hpp"
 
 namespace launch {
 namespace {
@@ -58,7 +58,7 @@ ErrorColumn simulated_errors(const std::string& name, const erp::Robot& robot,
     std::vector<std::vector<double>> shafts_rad;
     for (const auto& still : part) shafts_rad.push_back(still.shaft_rad);
     std::vector<sim::Pose> there;
-    for (const auto& standing : sim::closed_loop::standings(robot, shafts_rad))
+    for (const auto& standing : sim::closed_loop::rest_poses(robot, shafts_rad))
       there.push_back(standing.pose);
     *parts[k].second = errors_between(robot, part, there);
   });

@@ -8,7 +8,7 @@ namespace sim::blind {
 namespace {
 
 /// Guides and ends that other radii or a shifted end move.
-erp::Tendon bent(erp::Tendon tendon, const ChainQuirks& q, const erp::Robot& robot) {
+erp::Tendon bent(erp::Tendon tendon, const ChainEffects& q, const erp::Robot& robot) {
   const auto stretch_from = [](erp::Vec3& p, const erp::Vec3& from, double factor) {
     for (std::size_t i = 0; i < 3; ++i) p[i] = from[i] + factor * (p[i] - from[i]);
   };
@@ -40,7 +40,7 @@ erp::Tendon bent(erp::Tendon tendon, const ChainQuirks& q, const erp::Robot& rob
 
 }  // namespace
 
-Plant::Chain Plant::chain_of(const erp::Robot& nominal, std::size_t a, const ChainQuirks& q) {
+Plant::Chain Plant::chain_of(const erp::Robot& nominal, std::size_t a, const ChainEffects& q) {
   const erp::Actuator& actuator = nominal.actuators[a];
   const erp::Tendon& tendon = actuator.tendon;
   const Routing routing(bent(tendon, q, nominal), tree_.names);

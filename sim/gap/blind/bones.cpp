@@ -17,7 +17,7 @@ constexpr double stop_Nm_per_rad = 300, stop_Nm_s_per_rad = 1;
 constexpr double loose_s = 2e-4;  // in which a loose shaft is taken along: twice the step
 
 /// Torque of the bearing along one of its axes; ds: of its bristle.
-double rub(const erp::Joint& joint, const JointQuirks& q, double speed, double v, double bristle,
+double rub(const erp::Joint& joint, const JointEffects& q, double speed, double v, double bristle,
            double& ds) {
   const double dry = std::max(0.0, joint.coulomb_Nm + q.dry_Nm) +
                      q.stribeck_Nm * std::exp(-speed / q.stribeck_rad_per_s);
@@ -28,7 +28,7 @@ double rub(const erp::Joint& joint, const JointQuirks& q, double speed, double v
 }
 
 /// Torque of a hinge's spring and stops.
-double hold(const erp::Joint& joint, const JointQuirks& q, double angle, double v) {
+double hold(const erp::Joint& joint, const JointEffects& q, double angle, double v) {
   double torque = -q.spring * (angle - q.rest_rad);
   const double over = angle - (joint.max_rad - q.max_in_rad);
   const double under = joint.min_rad + q.min_in_rad - angle;
@@ -38,7 +38,7 @@ double hold(const erp::Joint& joint, const JointQuirks& q, double angle, double 
 }
 
 /// What a hinge's sensor makes of its angle.
-void sense(const JointQuirks& q, const double* s, double* ds) {
+void sense(const JointEffects& q, const double* s, double* ds) {
   const double off = s[j::position] - s[j::bearing], half = q.loose_rad / 2;
   ds[j::bearing] = (std::max(0.0, off - half) + std::min(0.0, off + half)) / loose_s;
   const double seen = q.loose_rad > 0 ? s[j::bearing] : s[j::position];
@@ -66,7 +66,7 @@ void Plant::move_bones(const State& x, const Eigen::VectorXd& pulled, double gus
   for (std::size_t n = 0; n < joints_.size(); ++n) {
     const auto [first, dofs] = coordinates(n);
     if (dofs == 0) continue;
-    const JointQuirks& q = joint_quirks_[n];
+    const JointEffects& q = joint_effects_[n];
     const double* s = &x[at(n)];
     double* ds = &dx[at(n)];
     double speed = 0;

@@ -24,7 +24,7 @@ struct Case {
   std::uint64_t seed = 0;
   Kind kind = Kind::single;
   std::vector<Hidden> hidden;
-  Quirks quirks;
+  HiddenEffects hidden_effects;
   AsBuilt built;                      ///< draws nothing: as it is described
   std::vector<std::string> withhold;  ///< what the diagnosis is told to do without
   int drawn_anew = 0;                 ///< what would not have shown in any reading
@@ -35,7 +35,7 @@ struct Case {
 /// or joints, and for a type that this kind never hides.
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
                const std::vector<std::string>& only = {},
-               const std::function<bool(const Quirks&)>& shows = {});
+               const std::function<bool(const HiddenEffects&)>& shows = {});
 
 const char* word(Kind kind);
 /// Throws std::invalid_argument for an unknown word.

@@ -48,7 +48,7 @@ double Plant::spring_N(const Chain& k, double stretch_m) const {
 }
 
 Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx) const {
-  const ChainQuirks& q = k.q;
+  const ChainEffects& q = k.q;
   const double shaft = k.two_masses ? x[c::spindle] : x[c::shaft];
   const double speed = k.two_masses ? x[c::spindle_speed] : x[c::speed];
   const double wound = k.radius_m * shaft + q.growth_m_per_rad * shaft * shaft / 2 +
@@ -95,7 +95,7 @@ Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx)
 
 void Plant::turn(const Chain& k, const double* x, const Line& line, double voltage_V,
                  double* dx) const {
-  const ChainQuirks& q = k.q;
+  const ChainEffects& q = k.q;
   const erp::MotorType& m = k.motor;
   const double n = m.gear_ratio, omega = x[c::speed], s = x[c::bristle];
   const double duty = voltage_V / m.supply_V;
@@ -148,7 +148,7 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
 }
 
 void Plant::lag(const Chain& k, const double* x, const Line& line, double* dx) const {
-  const auto follow = [&](std::size_t said, double value, const SenseQuirks& sense) {
+  const auto follow = [&](std::size_t said, double value, const SensorEffects& sense) {
     dx[said] = sense.lag_s > 0 ? (value - x[said]) / sense.lag_s : 0;
   };
   follow(c::said_shaft, x[c::shaft], k.q.shaft);

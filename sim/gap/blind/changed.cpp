@@ -48,7 +48,7 @@ Solid joined(const Solid& a, const Solid& b) {
   return sum;
 }
 
-Solid quirky(Solid s, const BodyQuirks& q) {
+Solid with_hidden_effects(Solid s, const BodyEffects& q) {
   constexpr double payload_at_m = 0.25;
   const Vector3d along = s.com_m.normalized();
   s.mass_kg *= 1 + q.mass;
@@ -89,11 +89,11 @@ void bow(erp::Skeleton& part, std::size_t b) {
 
 }  // namespace
 
-erp::Robot changed(const erp::Robot& nominal, const Quirks& quirks) {
+erp::Robot changed(const erp::Robot& nominal, const HiddenEffects& hidden_effects) {
   erp::Robot robot = nominal;
   robot.effects.clear();
-  const Matrix3d back = (Eigen::AngleAxisd(quirks.tilt_y_rad, Vector3d::UnitY()) *
-                         Eigen::AngleAxisd(quirks.tilt_x_rad, Vector3d::UnitX()))
+  const Matrix3d back = (Eigen::AngleAxisd(hidden_effects.tilt_y_rad, Vector3d::UnitY()) *
+                         Eigen::AngleAxisd(hidden_effects.tilt_x_rad, Vector3d::UnitX()))
                             .toRotationMatrix()
                             .transpose();
   for (erp::Skeleton& part : robot.skeletons) {
@@ -103,9 +103,9 @@ erp::Robot changed(const erp::Robot& nominal, const Quirks& quirks) {
     }
     const std::size_t count = part.bodies.size();
     for (std::size_t b = 0; b < count; ++b) {
-      const auto found = quirks.bodies.find(part.bodies[b].name);
-      if (found == quirks.bodies.end()) continue;
-      give(part.bodies[b], quirky(solid_of(part.bodies[b]), found->second));
+      const auto found = hidden_effects.bodies.find(part.bodies[b].name);
+      if (found == hidden_effects.bodies.end()) continue;
+      give(part.bodies[b], with_hidden_effects(solid_of(part.bodies[b]), found->second));
       if (found->second.bend_rad_per_Nm > 0) bow(part, b);
     }
   }

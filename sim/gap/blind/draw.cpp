@@ -2,8 +2,8 @@
 #include <stdexcept>
 
 #include "interfaces/robot/mass.hpp"
-#include "sim/gap/blind/kinds.hpp"
-#include "sim/gap/blind/strength.hpp"
+#include "sim/gap/blind/effect_kinds.hpp"
+#include "sim/gap/blind/joint_load.hpp"
 
 namespace sim::blind {
 namespace {
@@ -26,27 +26,29 @@ std::size_t any_joint(const erp::Robot& robot, Random& random) {
   return turning[any(turning.size(), random)];
 }
 
-Hidden hide(const HiddenKind& kind, const erp::Robot& robot, Quirks& quirks, Random& random) {
+Hidden hide(const EffectKind& kind, const erp::Robot& robot, HiddenEffects& hidden_effects,
+            Random& random) {
   constexpr double hinge_rig_Nm = 3.75;
-  Place place{quirks, robot, any(robot.actuators.size(), random), any_joint(robot, random), {}};
-  place.stronger = strength_Nm(robot, place.joint) / hinge_rig_Nm;
+  Place place{
+      hidden_effects, robot, any(robot.actuators.size(), random), any_joint(robot, random), {}};
+  place.stronger = joint_load_Nm(robot, place.joint) / hinge_rig_Nm;
   std::vector<std::string> moved;
   for (const erp::Body& body : robot.bodies())
     if (erp::mass_of(body).mass_kg > 0) moved.push_back(body.name);
   place.body = moved.at(any(moved.size(), random));
-  if (kind.on == HiddenKind::link) place.body = robot.joints()[place.joint].child;
+  if (kind.on == EffectKind::link) place.body = robot.joints()[place.joint].child;
   const std::string on[] = {robot.actuators[place.chain].name, robot.joints()[place.joint].name,
                             place.body, place.body, robot.name};
   return {kind.type, kind.stage, on[kind.on], kind.draw(place, random)};
 }
 
-std::vector<const HiddenKind*> among(std::span<const HiddenKind> all,
+std::vector<const EffectKind*> among(std::span<const EffectKind> all,
                                      const std::vector<std::string>& only) {
-  std::vector<const HiddenKind*> kinds;
-  for (const HiddenKind& kind : all)
+  std::vector<const EffectKind*> kinds;
+  for (const EffectKind& kind : all)
     if (only.empty() || std::ranges::count(only, kind.type)) kinds.push_back(&kind);
   for (const std::string& type : only)
-    if (std::ranges::none_of(all, [&](const HiddenKind& kind) { return kind.type == type; }))
+    if (std::ranges::none_of(all, [&](const EffectKind& kind) { return kind.type == type; }))
       throw std::invalid_argument("\"" + type + "\" is not among what this kind of case hides");
   return kinds;
 }
@@ -66,27 +68,27 @@ Kind kind_of(const std::string& said) {
 
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
                const std::vector<std::string>& only,
-               const std::function<bool(const Quirks&)>& shows) {
+               const std::function<bool(const HiddenEffects&)>& shows) {
   if (robot.actuators.empty()) throw std::invalid_argument(robot.name + ": no actuator");
   Random random(seed * 0x9e3779b97f4a7c15u + 0x1234567u);
   Case blind{seed, kind, {}, {}, {}};
-  blind.quirks.chains.resize(robot.actuators.size());
-  blind.quirks.joints.resize(robot.joints().size());
-  const Quirks none = blind.quirks;
+  blind.hidden_effects.chains.resize(robot.actuators.size());
+  blind.hidden_effects.joints.resize(robot.joints().size());
+  const HiddenEffects none = blind.hidden_effects;
   constexpr int enough = 50;
-  const auto hide_one = [&](std::span<const HiddenKind> all) -> const HiddenKind& {
+  const auto hide_one = [&](std::span<const EffectKind> all) -> const EffectKind& {
     const auto kinds = among(all, only);
     while (true) {
-      const HiddenKind& chosen = *kinds[any(kinds.size(), random)];
+      const EffectKind& chosen = *kinds[any(kinds.size(), random)];
       const Random before = random;
-      Quirks alone = none;
+      HiddenEffects alone = none;
       const Hidden hidden = hide(chosen, robot, alone, random);
       if (shows && blind.drawn_anew < enough && !shows(alone)) {
         ++blind.drawn_anew;
         continue;
       }
       Random again = before;
-      hide(chosen, robot, blind.quirks, again);
+      hide(chosen, robot, blind.hidden_effects, again);
       blind.hidden.push_back(hidden);
       return chosen;
     }
@@ -100,9 +102,9 @@ Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
           blind.hidden[0].on == blind.hidden[1].on)
         blind.hidden.pop_back();
     }
-  if (kind == Kind::many) blind.built = many_off(robot, seed, blind.quirks);
+  if (kind == Kind::many) blind.built = many_off(robot, seed, blind.hidden_effects);
   if (kind == Kind::withheld) {
-    const HiddenKind& chosen = hide_one(in_library());
+    const EffectKind& chosen = hide_one(in_library());
     blind.withhold.emplace_back(chosen.type);
     for (const char* twin : chosen.twins) blind.withhold.emplace_back(twin);
   }

@@ -20,20 +20,20 @@ Vec3 gravity_of(const erp::Robot& robot) {
 
 }  // namespace
 
-Plant::Plant(const erp::Robot& nominal, const Quirks& quirks)
-    : tree_(changed(nominal, quirks)),
-      model_(tree_, gravity_of(changed(nominal, quirks))),
-      joint_quirks_(quirks.joints),
+Plant::Plant(const erp::Robot& nominal, const HiddenEffects& hidden_effects)
+    : tree_(changed(nominal, hidden_effects)),
+      model_(tree_, gravity_of(changed(nominal, hidden_effects))),
+      joint_effects_(hidden_effects.joints),
       most_step_s_(usual_step_s) {
-  joint_quirks_.resize(tree_.joints.size());
+  joint_effects_.resize(tree_.joints.size());
   for (std::size_t k = 0; k < tree_.joints.size(); ++k)
     if (const auto& name = tree_.joints[k].name; name.ends_with("_bows"))
-      joint_quirks_[k].spring =
-          1 / quirks.bodies.at(name.substr(0, name.size() - 5)).bend_rad_per_Nm;
+      joint_effects_[k].spring =
+          1 / hidden_effects.bodies.at(name.substr(0, name.size() - 5)).bend_rad_per_Nm;
   for (const erp::Joint& joint : tree_.joints) joints_.push_back(start_of(joint));
   model_.place(joints_);
   for (std::size_t a = 0; a < nominal.actuators.size(); ++a)
-    chains_.push_back(chain_of(nominal, a, quirks.chains[a]));
+    chains_.push_back(chain_of(nominal, a, hidden_effects.chains[a]));
   for (const Chain& k : chains_)
     most_step_s_ = std::min({most_step_s_, k.two_masses ? two_mass_step_s : usual_step_s,
                              0.9 * k.motor.inductance_H / k.motor.resistance_ohm});
@@ -121,7 +121,7 @@ double Plant::tension_N(std::size_t a) const {
 }
 double Plant::angle_rad(std::size_t n) const {
   const double* x = &x_[chains_.size() * c::count + n * j::count];
-  const JointQuirks& q = joint_quirks_[n];
+  const JointEffects& q = joint_effects_[n];
   return q.angle.lag_s > 0 ? x[j::said] : q.loose_rad > 0 ? x[j::bearing] : x[j::position];
 }
 std::array<double, 4> Plant::quaternion(std::size_t n) const { return joints_[n].position; }

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "interfaces/robot/robot.hpp"
+#include "sim/gap/blind/hidden_effects.hpp"
 #include "sim/model/actuator/muscle_jacobian.hpp"
-#include "sim/gap/blind/quirks.hpp"
 
 /// The robot of a blind case, in continuous time: ordinary differential equations, solved by the
 /// classical Runge–Kutta method of order four at a small step. Written apart from the simulator
@@ -22,7 +22,7 @@ namespace sim::blind {
 
 class Plant {
  public:
-  Plant(const erp::Robot& nominal, const Quirks& quirks);
+  Plant(const erp::Robot& nominal, const HiddenEffects& hidden_effects);
 
   /// On by `duration_s` with these voltages held. Returns false when the motion is not finite.
   bool run(std::span<const double> voltage_V, double duration_s, double gust);
@@ -41,7 +41,7 @@ class Plant {
   using State = std::vector<double>;
   struct Chain {
     erp::MotorType motor;
-    ChainQuirks q;
+    ChainEffects q;
     Routing routing;
     Levers levers;
     PathShape shape;
@@ -52,7 +52,7 @@ class Plant {
   struct Line {
     double tension_N, path_slope, motor_side_N, wound_slope, bend_rad;
   };
-  Chain chain_of(const erp::Robot& nominal, std::size_t actuator, const ChainQuirks& q);
+  Chain chain_of(const erp::Robot& nominal, std::size_t actuator, const ChainEffects& q);
   double stretch_at(const Chain& chain, double pull_N) const;
   void start(const erp::Robot& nominal);
   void derive(const State& x, std::span<const double> voltage_V, double gust, State& dx);
@@ -67,7 +67,7 @@ class Plant {
   RobotTree tree_;
   SkeletonModel model_;
   std::vector<Chain> chains_;
-  std::vector<JointQuirks> joint_quirks_;
+  std::vector<JointEffects> joint_effects_;
   std::vector<JointReading> joints_;
   State x_;
   std::vector<double> tension_N_;
@@ -77,6 +77,6 @@ class Plant {
 };
 
 /// The robot with other masses, a tilted base and bending bones: what can be told by constants.
-erp::Robot changed(const erp::Robot& nominal, const Quirks& quirks);
+erp::Robot changed(const erp::Robot& nominal, const HiddenEffects& hidden_effects);
 
 }  // namespace sim::blind

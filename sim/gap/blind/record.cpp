@@ -10,10 +10,10 @@
 
 #include "interfaces/recording/columns.hpp"
 #include "sim/control/gain_design.hpp"
+#include "sim/gap/blind/plant.hpp"
 #include "sim/model/actuator/ecu_units.hpp"
 #include "sim/model/actuator/noise.hpp"
 #include "sim/model/actuator/sensors.hpp"
-#include "sim/gap/blind/plant.hpp"
 
 namespace sim::blind {
 namespace {
@@ -23,9 +23,9 @@ constexpr double period_s = 0.002;
 /// One sensor: value to what it says.
 class Sense {
  public:
-  Sense(const SenseQuirks& quirks, double noise, double step, double low, double high,
+  Sense(const SensorEffects& hidden_effects, double noise, double step, double low, double high,
         double turns = 1)
-      : q_(quirks), noise_(noise), step_(step), low_(low), high_(high), turns_(turns) {}
+      : q_(hidden_effects), noise_(noise), step_(step), low_(low), high_(high), turns_(turns) {}
 
   double read(double value, double time_s, std::mt19937_64& random) {
     const double disc = (ray_rad(turns_ * value) - ray_rad(0)) / turns_;
@@ -43,7 +43,7 @@ class Sense {
     return std::atan2(q_.sine_rad * s + q_.cosine_rad * c, 1 - q_.sine_rad * c + q_.cosine_rad * s);
   }
 
-  SenseQuirks q_;
+  SensorEffects q_;
   double noise_, step_, low_, high_, turns_;
   std::normal_distribution<double> normal_;
 };
@@ -55,7 +55,7 @@ struct Unit {
   double shaft_rad = 0, current_A = 0, tension_N = 0, voltage_V = 0;
 };
 
-Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const ChainQuirks& q) {
+Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const ChainEffects& q) {
   const erp::MotorType& motor = robot.motor_of(actuator);
   const erp::SensorType& sensors = robot.sensors_of(actuator);
   const SensorScale s(motor, sensors);
@@ -100,18 +100,18 @@ class Run {
  public:
   Run(const erp::Robot& nominal, const Case& blind, std::uint64_t seed)
       : nominal_(nominal),
-        quirks_(blind.quirks),
-        plant_(blind.built.drawn.empty() ? nominal : blind.built.robot, blind.quirks),
+        hidden_effects_(blind.hidden_effects),
+        plant_(blind.built.drawn.empty() ? nominal : blind.built.robot, blind.hidden_effects),
         random_(seed) {
     for (std::size_t a = 0; a < nominal.actuators.size(); ++a)
-      units_.push_back(make_unit(nominal, nominal.actuators[a], quirks_.chains[a]));
+      units_.push_back(make_unit(nominal, nominal.actuators[a], hidden_effects_.chains[a]));
     const auto joints = nominal.joints();
     for (std::size_t j = 0; j < joints.size(); ++j) {
       double noise = 5e-4, step = 2 * std::numbers::pi / (1 << 14);
       for (const erp::JointSensor& s : nominal.joint_sensors)
         if (s.joint == joints[j].name)
           noise = s.noise_rad, step = 2 * std::numbers::pi / std::exp2(s.bits_per_rev);
-      angles_.emplace_back(quirks_.joints[j].angle, noise, step, -10, 10);
+      angles_.emplace_back(hidden_effects_.joints[j].angle, noise, step, -10, 10);
       types_.push_back(joints[j].type);
     }
     name_columns();
@@ -121,13 +121,14 @@ class Run {
     measure();
     for (std::size_t row = 0; row < excitation.reference.size(); ++row) {
       const double now_s = static_cast<double>(row) * period_s;
-      const double delay = quirks_.command_delay_s + quirks_.jitter_s * even_(random_);
-      if (!(even_(random_) < quirks_.loss))
+      const double delay =
+          hidden_effects_.command_delay_s + hidden_effects_.jitter_s * even_(random_);
+      if (!(even_(random_) < hidden_effects_.loss))
         commands_.send(now_s + delay, excitation.reference[row]);
       if (const auto* wanted = commands_.arrived(now_s)) heard_ = *wanted;
       obey(excitation.mode);
       step();
-      frames_.send(now_s + period_s + quirks_.frame_delay_s, said());
+      frames_.send(now_s + period_s + hidden_effects_.frame_delay_s, said());
       frames_.arrived(now_s + period_s);
       put(now_s, excitation, row);
     }
@@ -182,7 +183,7 @@ class Run {
     };
     std::vector<std::size_t> order(now.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    const auto late_s = [&](std::size_t a) { return quirks_.chains[a].driver_late_s; };
+    const auto late_s = [&](std::size_t a) { return hidden_effects_.chains[a].driver_late_s; };
     std::ranges::sort(order, {}, late_s);
     for (const std::size_t a : order) until(late_s(a)), volts[a] = now[a];
     until(period_s);
@@ -214,7 +215,7 @@ class Run {
   }
 
   const erp::Robot& nominal_;
-  Quirks quirks_;
+  HiddenEffects hidden_effects_;
   Plant plant_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;

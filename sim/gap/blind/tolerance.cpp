@@ -66,7 +66,7 @@ void off(erp::Body& body, Draw& draw) {
   draw.add(body.name, "inertia", inertia);
 }
 
-AsBuilt multiplied(const erp::Robot& nominal, Factor factor, Quirks& quirks) {
+AsBuilt multiplied(const erp::Robot& nominal, Factor factor, HiddenEffects& hidden_effects) {
   AsBuilt built{nominal, {}};
   Draw draw(std::move(factor), built.drawn);
   for (std::size_t a = 0; a < built.robot.actuators.size(); ++a) {
@@ -80,7 +80,7 @@ AsBuilt multiplied(const erp::Robot& nominal, Factor factor, Quirks& quirks) {
     draw.number(actuator.name, "stiffness_N_per_m", actuator.tendon.stiffness_N_per_m);
     draw.number(actuator.name, "damping_N_s_per_m", actuator.tendon.damping_N_s_per_m);
     const double arm = draw.factor();
-    quirks.chains[a].arm += arm - 1;
+    hidden_effects.chains[a].arm += arm - 1;
     draw.add(actuator.name, "moment_arm", arm);
   }
   for (erp::Skeleton& part : built.robot.skeletons) {
@@ -95,16 +95,17 @@ AsBuilt multiplied(const erp::Robot& nominal, Factor factor, Quirks& quirks) {
 
 }  // namespace
 
-AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed, Quirks& quirks) {
+AsBuilt as_built(const erp::Robot& nominal, double relative, std::uint64_t seed,
+                 HiddenEffects& hidden_effects) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> by(0, relative);
   return multiplied(
-      nominal, [&] { return 1 + by(random); }, quirks);
+      nominal, [&] { return 1 + by(random); }, hidden_effects);
 }
 
-AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, Quirks& quirks) {
+AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, HiddenEffects& hidden_effects) {
   std::vector<double> factors;
-  Quirks unused = quirks;
+  HiddenEffects unused = hidden_effects;
   multiplied(
       nominal, [&] { return factors.emplace_back(1); }, unused);
   std::mt19937_64 random(seed);
@@ -117,7 +118,7 @@ AsBuilt many_off(const erp::Robot& nominal, std::uint64_t seed, Quirks& quirks) 
   for (const std::size_t k : chosen | std::views::take(count(random)))
     factors[k] += (less(random) ? -1 : 1) * size(random);
   return multiplied(
-      nominal, [next = factors.begin()]() mutable { return *next++; }, quirks);
+      nominal, [next = factors.begin()]() mutable { return *next++; }, hidden_effects);
 }
 
 }  // namespace sim::blind

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "sim/model/actuator/sensors.hpp"
 #include "sim/gap/residuals/drives.hpp"
+#include "sim/model/actuator/sensors.hpp"
 
 namespace sim::checks {
 namespace {
@@ -32,10 +32,10 @@ std::vector<AtLimit> at_limit(const residuals::Episode& episode, const erp::Robo
     const erp::Actuator& actuator = robot.actuators[a];
     if (residuals::drive_of(robot, actuator.name)) continue;  // its converters are not described
     const SensorScale scale(robot.motor_of(actuator), robot.sensors_of(actuator));
-    const residuals::ActuatorSignals& said = episode.actuators[a];
-    look({Quantity::current, a}, said.current_A, scale.current_counts_max,
+    const residuals::ActuatorSignals& measured = episode.actuators[a];
+    look({Quantity::current, a}, measured.current_A, scale.current_counts_max,
          scale.current_A_per_count);
-    look({Quantity::tension, a}, said.tension_N,
+    look({Quantity::tension, a}, measured.tension_N,
          scale.tension_counts_max - scale.tension_zero_counts, scale.tension_N_per_count);
   }
   return all;

@@ -72,7 +72,7 @@ class Movers {
   }
 
  private:
-  const Signal& said(Quantity quantity, std::size_t a) const { return means_[{quantity, a}]; }
+  const Signal& measured(Quantity quantity, std::size_t a) const { return means_[{quantity, a}]; }
   const erp::Actuator& actuator(std::size_t a) const { return robot_.actuators[a]; }
   const erp::MotorType& motor(std::size_t a) const { return robot_.motor_of(actuator(a)); }
 
@@ -99,13 +99,13 @@ class Movers {
     return {{Quantity::shaft, a}};
   }
   std::vector<Column> of_voltage(std::size_t a) const {
-    const Signal& current = said(Quantity::current, a);
+    const Signal& current = measured(Quantity::current, a);
     const double needed = spread_of(volts(a, current, motor(a).resistance_ohm, 1));
     if (spread_of(current) == 0 || !(needed > of_supply * motor(a).supply_V)) return {};
     return {{Quantity::current, a}, {Quantity::shaft, a}};
   }
   std::vector<Column> of_current(std::size_t a) const {
-    const Signal& voltage = said(Quantity::voltage, a);
+    const Signal& voltage = measured(Quantity::voltage, a);
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
     const double step_A = 2 * sensors.current_range_A / std::exp2(sensors.current_bits);
     const double drop_A = spread_of(volts(a, voltage, 1, -1)) / motor(a).resistance_ohm;
@@ -119,7 +119,7 @@ class Movers {
     if (!spring_holds(a) && spread_of(means_.paths[a].length_m) > way_m) return laws_.crossed_by(a);
     const bool drive = actuator(a).tendon.path.empty();  // nothing else holds a shaft for so long
     for (const Quantity control : {Quantity::voltage, Quantity::current})
-      if (drive && spread_of(said(control, a)) > 0) return {{control, a}};
+      if (drive && spread_of(measured(control, a)) > 0) return {{control, a}};
     return {};
   }
   /// A slack tendon is foretold a pull neither by its stretch nor by its motor.
@@ -127,30 +127,30 @@ class Movers {
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
     const double slack_N = of_range * sensors.tension_range_N,
                  step_N = sensors.tension_range_N / std::exp2(sensors.tension_bits);
-    const Signal& tension = said(Quantity::tension, a);
+    const Signal& tension = measured(Quantity::tension, a);
     const bool may_be_slack = tension.empty() || !(tension[0] > slack_N);
     const double least = may_be_slack ? slack_N : of_noise * (step_N + sensors.tension_noise_N);
-    std::vector<Column> told_by;
+    std::vector<Column> evidence;
     for (const Law& law : laws_.held_against(means_, a))
       if (law.kind == Law::Kind::spring && spread_of(law.foretold) > least)
-        told_by.assign(law.columns.begin(), law.columns.end() - 1);
-    const Signal& current = said(Quantity::current, a);
+        evidence.assign(law.columns.begin(), law.columns.end() - 1);
+    const Signal& current = measured(Quantity::current, a);
     const double pull_N_per_A =
         motor(a).gear_ratio * motor(a).torque_Nm_per_A / actuator(a).spindle.radius_m;
     if (!current.empty() && !(pull_N_per_A * spread_of(current) > least)) return {};
-    return told_by;
+    return evidence;
   }
   /// Tendons that are drawn against each other hold a joint still, and their springs' laws then hold.
   std::vector<Column> of_angle(std::size_t j) const {
-    std::vector<Column> told_by;
+    std::vector<Column> evidence;
     for (std::size_t a = 0; a < means_.actuators.size(); ++a) {
       if (!std::ranges::count(laws_.crossed_by(a), Column{Quantity::angle, j})) continue;
-      const bool weighed = !said(Quantity::tension, a).empty();
+      const bool weighed = !measured(Quantity::tension, a).empty();
       if (weighed && spring_holds(a)) return {};
-      const double way = actuator(a).spindle.radius_m * spread_of(said(Quantity::shaft, a));
-      if (way > (weighed ? way_m : way_without_tension_m)) told_by.push_back({Quantity::shaft, a});
+      const double way = actuator(a).spindle.radius_m * spread_of(measured(Quantity::shaft, a));
+      if (way > (weighed ? way_m : way_without_tension_m)) evidence.push_back({Quantity::shaft, a});
     }
-    return told_by;
+    return evidence;
   }
   bool spring_holds(std::size_t a) const {
     for (const Law& law : laws_.held_against(means_, a))
@@ -170,10 +170,10 @@ bool nothing_changes(const Episode& episode) {
   return std::ranges::all_of(
       residuals::all_columns(episode.actuators.size(), episode.joints.size()),
       [&](const Column& column) {
-        double said = recording::not_taken;
+        double measured = recording::not_taken;
         for (const double x : signal_of(episode, column)) {
-          if (std::isnan(said)) said = x;
-          if (!std::isnan(x) && x != said) return false;
+          if (std::isnan(measured)) measured = x;
+          if (!std::isnan(x) && x != measured) return false;
         }
         return true;
       });
@@ -194,9 +194,9 @@ std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& r
     if (!all_along && double(run.rows()) * episode.period_s < long_s) continue;
     if (all_along && !whole) whole = laws.means(episode, 0, episode.rows);
     const Means part = all_along ? Means{} : laws.means(episode, run.from, run.until);
-    const auto told_by = Movers(robot, laws, all_along ? *whole : part, all_along).of(column);
-    if (!told_by.empty())
-      dead.push_back({column, signal[run.from], run.from, run.until, all_along, told_by});
+    const auto evidence = Movers(robot, laws, all_along ? *whole : part, all_along).of(column);
+    if (!evidence.empty())
+      dead.push_back({column, signal[run.from], run.from, run.until, all_along, evidence});
   }
   return dead;
 }

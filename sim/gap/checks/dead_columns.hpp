@@ -12,7 +12,7 @@ struct DeadColumn {
   double value;             ///< that it says
   std::size_t from, until;  ///< rows
   bool all_along;
-  std::vector<Column> told_by;  ///< what moves meanwhile
+  std::vector<Column> evidence;  ///< what moves meanwhile
 };
 
 /// Every signal says one value all along, and no sensor even makes noise: no recording of a robot.

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/model/actuator/spring.hpp"
 #include "sim/gap/residuals/drives.hpp"
 #include "sim/gap/residuals/indices.hpp"
+#include "sim/model/actuator/spring.hpp"
 
 namespace sim::checks {
 namespace {
@@ -68,13 +68,13 @@ bool pulls_nothing(const erp::Robot& robot, const erp::Actuator& actuator) {
 
 }  // namespace
 
-bool Law::believed() const { return std::abs(line.correlation) > together; }
+bool Law::is_consistent() const { return std::abs(line.correlation) > together; }
 
-bool Law::silent() const { return line.correlation != 0 && !good() && !odd(); }
+bool Law::is_inconclusive() const { return line.correlation != 0 && !good() && !suspicious(); }
 
 bool Law::near() const { return line.slope < widest && line.slope > 1 / widest; }
 
-bool Law::odd() const {
+bool Law::suspicious() const {
   return std::abs(line.correlation) > (small_difference ? nothing_else : together) && !near();
 }
 
@@ -167,7 +167,7 @@ void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) con
   const Law path_law{.kind = Law::Kind::path,
                      .columns = columns,
                      .foretold = path,
-                     .said = line,
+                     .measured = line,
                      .line = line_of(path, line),
                      .small_difference = rms(path) < wound_m};
   const double pull_N = weighed ? 0 : swing_of_pull_N(a, means);
@@ -176,7 +176,7 @@ void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) con
     laws.push_back({.kind = Law::Kind::spring,
                     .columns = columns,
                     .foretold = pull,
-                    .said = tension,
+                    .measured = tension,
                     .line = line_of(pull, tension),
                     .small_difference = rms(tension) < stiffness * wound_m});
 }

@@ -22,19 +22,19 @@ struct Line {
 struct Law {
   enum class Kind { speed, current, torque, path, spring } kind;
   std::vector<Column> columns;  ///< the last one may as well be foretold by the others
-  Signal foretold, said;
+  Signal foretold, measured;
   Line line;
   double widest = 3;  ///< times as much: few effects of a robot are as large; chosen
   /// A measure that is a third off, as effects are, would be more than all of it: a line wound up
   /// to pull harder, not to move a joint.
   bool small_difference = false;
 
-  bool believed() const;  ///< both sides go together
-  bool silent() const;    ///< both move, and neither good nor odd may be said of it
-  bool near() const;      ///< they go the same way, about as far
-  bool good() const { return believed() && near(); }
+  bool is_consistent() const;    ///< both sides go together
+  bool is_inconclusive() const;  ///< both move, and neither good nor odd may be said of it
+  bool near() const;             ///< they go the same way, about as far
+  bool good() const { return is_consistent() && near(); }
   /// Against each other or far from equal; of a small difference only where nothing else is in it.
-  bool odd() const;
+  bool suspicious() const;
 };
 
 class Laws {

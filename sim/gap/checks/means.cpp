@@ -17,7 +17,7 @@ std::size_t index_of(Quantity quantity) { return static_cast<std::size_t>(quanti
 
 Signal& Means::operator[](const Column& c) {
   return c.quantity == Quantity::angle ? joints[c.of].angle_rad
-                                       : actuators[c.of].said[index_of(c.quantity)];
+                                       : actuators[c.of].measured[index_of(c.quantity)];
 }
 
 const Signal& Means::operator[](const Column& c) const { return const_cast<Means&>(*this)[c]; }

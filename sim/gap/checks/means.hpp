@@ -15,7 +15,7 @@ using residuals::Column, residuals::Episode, residuals::JointSignals, residuals:
 /// Means of the columns at some rows of a recording.
 struct Means {
   struct Actuator {
-    std::array<Signal, 4> said;  ///< by Quantity
+    std::array<Signal, 4> measured;  ///< by Quantity
     Signal speed_rad_per_s, acceleration_rad_per_s2;
   };
   std::size_t rows = 0;

@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "interfaces/parallel/in_parallel.hpp"
-#include "sim/gap/closed_loop/rehearse.hpp"
+#include "sim/gap/closed_loop/predicted_run.hpp"
 
 namespace sim::closed_loop {
 namespace {
 
-using diagnosis::Trials;
+using diagnosis::Evaluator;
 using effects::Placed;
 
 erp::Robot with(const erp::Robot& robot, const Placed& placed) {
@@ -69,9 +69,9 @@ std::string danger(const Extremes& e, const ExperimentOptions& options) {
 }
 
 /// Σ z² of a suspect at its best on what was rehearsed.
-double square_of(const Trials& trials, const Placed& suspect) {
+double square_of(const Evaluator& evaluator, const Placed& suspect) {
   const std::size_t only[] = {0};
-  return diagnosis::fit(trials, trials.bare(), suspect, only).square;
+  return diagnosis::fit(evaluator, evaluator.bare(), suspect, only).square;
 }
 
 /// An excitation that begins where the robot rests: at pretension, with no line taken in.
@@ -94,24 +94,24 @@ double split(double other, double first) { return std::sqrt(std::max(0.0, other 
 Candidate try_out(const erp::Robot& robot, const std::vector<Placed>& suspects, int kind,
                   std::uint64_t seed, const ExperimentOptions& options) {
   Candidate candidate{kind, seed};
-  const Score score = score_of(from_rest(robot, kind, options.seconds, seed));
-  candidate.extremes = extremes_of(rehearse(robot, score, seed), robot);
+  const SetPoints score = set_points_of(from_rest(robot, kind, options.seconds, seed));
+  candidate.extremes = extremes_of(predict_run(robot, score, seed), robot);
   recording::Table truth;
   for (const Placed& suspect : suspects) {
-    const auto table = rehearse(with(robot, suspect), score, seed);
+    const auto table = predict_run(with(robot, suspect), score, seed);
     worse_of(extremes_of(table, robot), candidate.extremes);
     if (&suspect == &suspects.front()) truth = table;
   }
   candidate.unsafe = danger(candidate.extremes, options);
   if (!candidate.unsafe.empty()) return candidate;
   std::vector<std::string> remarks;
-  const Trials trials(robot, {residuals::lay_out(truth, robot, "rehearsed", remarks)});
+  const Evaluator evaluator(robot, {residuals::lay_out(truth, robot, "rehearsed", remarks)});
   const std::size_t only[] = {0};
-  const double first = square_of(trials, suspects[0]);
+  const double first = square_of(evaluator, suspects[0]);
   for (std::size_t k = 1; k < suspects.size(); ++k)
-    candidate.split.push_back(split(square_of(trials, suspects[k]), first));
+    candidate.split.push_back(split(square_of(evaluator, suspects[k]), first));
   if (suspects.size() == 1)
-    candidate.split = {split(sum(trials.blocks(trials.bare(), only)).square, first)};
+    candidate.split = {split(sum(evaluator.blocks(evaluator.bare(), only)).square, first)};
   candidate.least = *std::ranges::min_element(candidate.split);
   return candidate;
 }

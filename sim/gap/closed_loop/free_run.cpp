@@ -8,11 +8,11 @@
 #include <mutex>
 #include <optional>
 
-#include "interfaces/xml/values.hpp"
-#include "sim/model/actuator/ecu_units.hpp"
 #include "interfaces/parallel/in_parallel.hpp"
+#include "interfaces/xml/values.hpp"
 #include "sim/gap/residuals/indices.hpp"
 #include "sim/gap/residuals/measured.hpp"
+#include "sim/model/actuator/ecu_units.hpp"
 
 namespace sim::closed_loop {
 namespace {
@@ -68,8 +68,8 @@ Signal asked_of(const residuals::ActuatorSignals& said, const erp::Robot& robot,
 }
 
 /// Where a row is missing the last command goes on, as it does in the robot.
-Score score_of(const Episode& e, const erp::Robot& robot) {
-  Score score(e.rows, std::vector<SetPoint>(e.actuators.size()));
+SetPoints set_points_of(const Episode& e, const erp::Robot& robot) {
+  SetPoints score(e.rows, std::vector<SetPoint>(e.actuators.size()));
   std::vector<std::size_t> unsaid(e.actuators.size());
   std::vector<Signal> asked;
   for (std::size_t a = 0; a < e.actuators.size(); ++a)
@@ -94,11 +94,11 @@ using Errors = std::map<std::string, std::pair<std::string, std::vector<Second>>
 /// Three rehearsals of one recording, compared with it.
 Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& found,
                  std::uint64_t seed, const LearnedEcu* learned) {
-  const Score score = score_of(e, nominal);
+  const SetPoints score = set_points_of(e, nominal);
   std::vector<std::string> remarks;
   const auto run = [&](const erp::Robot& robot, std::uint64_t noise) {
-    return residuals::lay_out(rehearse(robot, score, noise, {&nominal, learned}), nominal, e.name,
-                              remarks);
+    return residuals::lay_out(predict_run(robot, score, noise, {&nominal, learned}), nominal,
+                              e.name, remarks);
   };
   const Episode before = run(nominal, seed), after = run(found, seed), again = run(found, seed + 1);
   const auto real = residuals::measured(e, nominal), was = residuals::measured(before, nominal),
@@ -168,8 +168,7 @@ std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const
 /// followed has not.
 bool has_delays(const std::optional<LearnedEcu>& learned, std::span<const Episode> recordings) {
   return learned && std::ranges::all_of(recordings, [](const Episode& e) {
-           return std::ranges::all_of(e.actuators,
-                                      [](const auto& a) { return a.sent.empty(); });
+           return std::ranges::all_of(e.actuators, [](const auto& a) { return a.sent.empty(); });
          });
 }
 

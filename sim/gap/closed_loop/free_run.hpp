@@ -1,8 +1,8 @@
 #pragma once
 #include <functional>
 
-#include "sim/gap/diagnosis/closing.hpp"
-#include "sim/gap/closed_loop/rehearse.hpp"
+#include "sim/gap/closed_loop/predicted_run.hpp"
+#include "sim/gap/diagnosis/gap_closure.hpp"
 #include "sim/gap/residuals/episode.hpp"
 
 /// The gap as the simulator sees it: robot.xml is let run freely, in closed loop with the firmware,

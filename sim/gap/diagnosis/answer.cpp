@@ -10,9 +10,10 @@ namespace {
 constexpr double of_method = 0.02;  // what the method's own approximations may shift a value by
 }
 
-Named named(const effects::Placed& placed) {
+IdentifiedEffect identified(const effects::Placed& placed) {
   const effects::About& about = effects::about(placed.effect);
-  Named n{std::string(about.type), placed.on, about.stage, {}, {}, {}, {}, 0, {}, false, placed};
+  IdentifiedEffect n{
+      std::string(about.type), placed.on, about.stage, {}, {}, {}, {}, 0, {}, false, placed};
   effects::AnyEffect copy = placed.effect;
   for (const effects::Parameter& p : effects::parameters(copy))
     if (p.fitted)
@@ -21,8 +22,8 @@ Named named(const effects::Placed& placed) {
   return n;
 }
 
-Named named(const Ranked& ranked, double least_gain) {
-  Named n = named(ranked.fit.placed);
+IdentifiedEffect identified(const Ranked& ranked, double least_gain) {
+  IdentifiedEffect n = identified(ranked.fit.placed);
   for (std::size_t k = 0; k < n.values.size(); ++k) {
     const double half = 1.96 * ranked.fit.sigmas[k] + of_method * std::abs(n.values[k]);
     n.intervals[k] = {std::max(n.values[k] - half, n.bounds[k].low),
@@ -33,15 +34,15 @@ Named named(const Ranked& ranked, double least_gain) {
   return n;
 }
 
-Named named(const BusFit& fit) {
-  Named n = named(fit.placed);
+IdentifiedEffect identified(const BusFit& fit) {
+  IdentifiedEffect n = identified(fit.placed);
   const double of_ticks = of_method * std::abs(fit.value);  // ages are whole ticks
   n.intervals[0] = {fit.low - of_ticks, fit.high + of_ticks};
   n.gain = fit.gain, n.gain_interval = {fit.gain, fit.gain}, n.supported = fit.supported;
   return n;
 }
 
-std::string undetermined(const Named& effect) {
+std::string undetermined(const IdentifiedEffect& effect) {
   effects::AnyEffect neutral = *effects::neutral(effect.type);
   bool holds_neutral = !effect.values.empty();
   std::size_t k = 0;
@@ -59,7 +60,7 @@ std::string undetermined(const Named& effect) {
   return holds_neutral ? "its interval contains the neutral value" : "";
 }
 
-bool is_at_bound(const Named& effect) {
+bool is_at_bound(const IdentifiedEffect& effect) {
   effects::AnyEffect neutral = *effects::neutral(effect.type);
   std::size_t k = 0;
   for (const effects::Parameter& p : effects::parameters(neutral))
@@ -67,10 +68,10 @@ bool is_at_bound(const Named& effect) {
   return false;
 }
 
-void control_discoveries(const std::vector<Ranked>& ranked, std::vector<Named>& names) {
+void control_discoveries(const std::vector<Ranked>& ranked, std::vector<IdentifiedEffect>& names) {
   constexpr double rate = 0.05;
   std::vector<std::pair<double, std::size_t>> doubts;
-  for (std::size_t k = 0; k < ranked.size(); ++k) doubts.emplace_back(ranked[k].doubt, k);
+  for (std::size_t k = 0; k < ranked.size(); ++k) doubts.emplace_back(ranked[k].p_value, k);
   std::ranges::sort(doubts);
   const auto count = static_cast<double>(doubts.size());
   std::size_t kept = 0;

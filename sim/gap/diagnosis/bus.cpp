@@ -123,7 +123,7 @@ double likelihood(std::span<const Ages> ages, const std::vector<double>& share) 
   return sum;
 }
 
-std::vector<double> own_shares(std::span<const Ages> ages) {
+std::vector<double> own_values(std::span<const Ages> ages) {
   std::vector<double> share(oldest, 1e-9);
   double whole = oldest * 1e-9;
   for (const Ages& one : ages)
@@ -184,7 +184,7 @@ bool told(std::span<const Ages> ages) {
 
 double late_share(std::span<const Ages> ages) {
   if (!told(ages)) return 0;
-  const auto share = own_shares(ages);
+  const auto share = own_values(ages);
   return 1 - share[0];
 }
 
@@ -202,7 +202,7 @@ std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> h
   if (!told(train) || !told(held_out) || late_share(held_out) < practical_late) return fits;
   effects::Placed none{robot.name, *effects::neutral("bus_command_delay")};
   const double before = likelihood(held_out, foretold(none, train[0].period_s));
-  const double most = likelihood(held_out, own_shares(held_out));
+  const double most = likelihood(held_out, own_values(held_out));
   for (const effects::AnyEffect& effect : effects::library()) {
     const effects::About& about = effects::about(effect);
     if (about.stage != effects::Stage::bus || std::ranges::count(withhold, about.type)) continue;

@@ -1,7 +1,7 @@
 #pragma once
 #include "sim/gap/diagnosis/diagnose.hpp"
-#include "sim/gap/diagnosis/evidence.hpp"
-#include "sim/gap/diagnosis/observed.hpp"
+#include "sim/gap/diagnosis/direct_detection.hpp"
+#include "sim/gap/diagnosis/problem.hpp"
 #include "sim/gap/diagnosis/selection.hpp"
 
 /// Writes an answer into the diagnosis: verdict, place, cause, and how much of the gap it closes.
@@ -9,15 +9,15 @@ namespace sim::diagnosis {
 
 /// What a question is answered from.
 struct Question {
-  const Evidence& evidence;
+  const Problem& problem;
   const erp::Robot& robot;  ///< with what was seen without a fit
-  const Trials& plain;      ///< of the robot as it is given
-  const Trials& known;      ///< of `robot`
-  const Observed& observed;
+  const Evaluator& plain;   ///< of the robot as it is given
+  const Evaluator& known;   ///< of `robot`
+  const Detected& detected;
 };
 
 /// Takes the answer of sim/gap/estimation: effects and constants estimated together.
-void conclude(const Question& q, const Built& built, Selection selection, Diagnosis& d);
+void conclude(const Question& q, const JointEstimate& built, Selection selection, Diagnosis& d);
 /// Takes the answer of a selection of effects on the robot's constants as given.
 void conclude(const Question& q, const Selection& selection, Diagnosis& d);
 

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/gap/diagnosis/built.hpp"
-#include "sim/gap/diagnosis/closing.hpp"
-#include "sim/gap/diagnosis/located.hpp"
+#include "sim/gap/diagnosis/attribution.hpp"
+#include "sim/gap/diagnosis/gap_closure.hpp"
+#include "sim/gap/diagnosis/joint_estimate.hpp"
 
 /// The whole question: where robot and model part, which effect causes it, how far it closes the
 /// gap; on recordings that were not used to choose or fit, or on such a part of one.
@@ -21,27 +21,27 @@ struct Shared {
 
 struct Diagnosis {
   Verdict verdict = Verdict::no_gap;
-  std::vector<Located> where;
+  std::vector<Attribution> where;
   std::vector<Unexplained> unexplained;
-  std::vector<StageGap> stages;  ///< of the nominal robot, all recordings
-  std::vector<Named> answer;     ///< effects that together close the gap
-  std::vector<Named> ranked;     ///< one by one, best first
+  std::vector<StageGap> stages;          ///< of the nominal robot, all recordings
+  std::vector<IdentifiedEffect> answer;  ///< effects that together close the gap
+  std::vector<IdentifiedEffect> ranked;  ///< one by one, best first
   /// The robot as it was built, if that explains what a few effects alone do not: robot.xml's
   /// constants as estimated, with the effects of `answer` beside them.
   std::optional<erp::Robot> as_built;
   std::vector<ConstantEstimate> constants;  ///< of that robot
   double interaction = 0;  ///< of the gap: what the answer's effects close only together
-  std::vector<Moment> worst;
+  std::vector<WorstWindow> worst;
   Closed overall;
   std::vector<Closed> channels;
   std::vector<std::string> recordings, train, held_out, warnings;
   std::vector<std::string>
-      mend_first;  ///< what is odd about the recordings; whoever read them tells
-  std::vector<std::string> not_judged;  ///< stages and the bus, in words
-  std::vector<Shared> shared;           ///< those that are in train and in held_out
+      fix_first;  ///< what is odd about the recordings; whoever read them tells
+  std::vector<std::string> not_evaluated;  ///< stages and the bus, in words
+  std::vector<Shared> shared;              ///< those that are in train and in held_out
 
   /// By other data than it was found on.
-  bool judged_apart() const { return train != held_out || !shared.empty(); }
+  bool uses_held_out_data() const { return train != held_out || !shared.empty(); }
 };
 
 /// The recordings tell the same signals (common_signals.hpp).

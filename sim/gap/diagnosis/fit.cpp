@@ -10,8 +10,8 @@
 #include <functional>
 #include <limits>
 
+#include "sim/gap/diagnosis/initial_guesses.hpp"
 #include "sim/gap/diagnosis/standard_errors.hpp"
-#include "sim/gap/diagnosis/tries.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -59,8 +59,8 @@ class Lately {
 
 /// Σ z² of a trial as a cost for Ceres.
 struct Cost {
-  std::function<Trial(const Effects&)> tried;
-  const Trials& trials;
+  std::function<Evaluation(const Effects&)> tried;
+  const Evaluator& evaluator;
   std::span<const std::size_t> episodes;
   Effects& effects;
   std::vector<Knob>& knobs;
@@ -77,10 +77,11 @@ struct Cost {
  private:
   std::vector<double> of(const std::vector<double>& u) const {
     for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(u[k]);
-    const Trial trial = tried(effects);
+    const Evaluation evaluation = tried(effects);
     std::vector<double> z;
     for (const std::size_t e : episodes)
-      for (const double one : trials.whitened(trial, e)) z.push_back(std::isnan(one) ? 0 : one);
+      for (const double one : evaluator.whitened(evaluation, e))
+        z.push_back(std::isnan(one) ? 0 : one);
     return z;
   }
 };
@@ -125,8 +126,9 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   ceres::CRSMatrix sparse;
   std::vector<double> z;
   problem.Evaluate({}, nullptr, &z, nullptr, &sparse);
-  Least least{2 * summary.final_cost, u,
-              standard_errors(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
+  Least least{
+      2 * summary.final_cost, u,
+      standard_errors(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
   for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= given.knobs[k].scale;
   return least;
 }
@@ -134,11 +136,11 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
 /// Where to begin: as given; and, for what shapes the law, at some shares of its bounds.
 std::vector<std::vector<double>> starts(const std::vector<Knob>& knobs, bool given,
                                         const FitOptions& options) {
-  constexpr double nudge = 2e-3;  // of the bounds, off a law's kink at its neutral value
+  constexpr double perturbation = 2e-3;  // of the bounds, off a law's kink at its neutral value
   std::vector<std::vector<double>> all;
   std::vector<double> first;
   for (const Knob& knob : knobs) first.push_back(knob.to_u(*knob.value));
-  if (!given) first[0] += knobs[0].bounds.high > 0 ? nudge : -nudge;
+  if (!given) first[0] += knobs[0].bounds.high > 0 ? perturbation : -perturbation;
   all.push_back(first);
   if (given) return all;
   if (knobs.size() > 1 && knobs[1].bounds.low > 0)
@@ -160,27 +162,27 @@ std::vector<double> values_of(effects::Placed placed) {
 /// change one at a time.
 class OneByOne {
  public:
-  OneByOne(const Trials& trials, std::span<const std::size_t> episodes)
-      : trials_(trials), episodes_(episodes) {}
+  OneByOne(const Evaluator& evaluator, std::span<const std::size_t> episodes)
+      : evaluator_(evaluator), episodes_(episodes) {}
 
-  Trial operator()(const Effects& now) {
+  Evaluation operator()(const Effects& now) {
     std::vector<std::size_t> other;
     for (std::size_t k = 0; k < middle_.effects.size(); ++k)
       if (values_of(now[k]) != values_of(middle_.effects[k])) other.push_back(k);
-    if (other.size() == 1) return trials_.changed(middle_, other[0], now[other[0]], episodes_);
-    if (middle_.effects.empty() || !other.empty()) middle_ = trials_.with(now, episodes_);
+    if (other.size() == 1) return evaluator_.changed(middle_, other[0], now[other[0]], episodes_);
+    if (middle_.effects.empty() || !other.empty()) middle_ = evaluator_.with(now, episodes_);
     return middle_;
   }
 
  private:
-  const Trials& trials_;
+  const Evaluator& evaluator_;
   std::span<const std::size_t> episodes_;
-  Trial middle_;
+  Evaluation middle_;
 };
 
-std::size_t count_residuals(const Trials& trials, std::span<const std::size_t> episodes) {
+std::size_t count_residuals(const Evaluator& evaluator, std::span<const std::size_t> episodes) {
   std::size_t count = 0;
-  for (const std::size_t e : episodes) count += trials.whitened(trials.bare(), e).size();
+  for (const std::size_t e : episodes) count += evaluator.whitened(evaluator.bare(), e).size();
   return count;
 }
 
@@ -205,16 +207,16 @@ bool has_size_at_bound(const effects::Placed& placed) {
   return is_at_bound(effects::parameters(neutral)[0], *effects::parameters(effect)[0].value);
 }
 
-Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
+Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& more,
         std::span<const std::size_t> episodes, const FitOptions& options) {
-  Effects effects{best_try(trials, base, more, episodes)};
+  Effects effects{best_initial_guess(evaluator, base, more, episodes)};
   std::vector<Knob> knobs = knobs_of(effects[0].effect);
-  const Cost cost{[&](const Effects& e) { return trials.with(base, e[0], episodes); },
-                  trials,
+  const Cost cost{[&](const Effects& e) { return evaluator.with(base, e[0], episodes); },
+                  evaluator,
                   episodes,
                   effects,
                   knobs,
-                  count_residuals(trials, episodes)};
+                  count_residuals(evaluator, episodes)};
   Least best{};
   for (const auto& start : starts(knobs, !is_neutral(effects[0]), options))
     if (Least least = minimise(cost, start, options.iterations);
@@ -224,7 +226,7 @@ Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
   return result_of(effects[0], best.square, best.sigma);
 }
 
-std::vector<Fit> fit_together(const Trials& trials, std::span<const effects::Placed> all,
+std::vector<Fit> fit_together(const Evaluator& evaluator, std::span<const effects::Placed> all,
                               std::span<const std::size_t> episodes, const FitOptions& options) {
   Effects effects(all.begin(), all.end());
   std::vector<Knob> knobs;
@@ -234,9 +236,9 @@ std::vector<Fit> fit_together(const Trials& trials, std::span<const effects::Pla
     for (const Knob& knob : knobs_of(placed.effect)) knobs.push_back(knob);
   }
   first.push_back(knobs.size());
-  OneByOne tried(trials, episodes);
-  const Cost cost{std::ref(tried), trials, episodes,
-                  effects,         knobs,  count_residuals(trials, episodes)};
+  OneByOne tried(evaluator, episodes);
+  const Cost cost{std::ref(tried), evaluator, episodes,
+                  effects,         knobs,     count_residuals(evaluator, episodes)};
   std::vector<double> u;
   for (const Knob& knob : knobs) u.push_back(knob.to_u(*knob.value));
   const Least least = minimise(cost, u, options.iterations);

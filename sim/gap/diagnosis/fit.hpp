@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/gap/diagnosis/trial.hpp"
+#include "sim/gap/diagnosis/evaluation.hpp"
 
 /// An effect's parameters from recordings: least squares of z (trial.hpp) within the effect's
 /// bounds, by Levenberg–Marquardt (Ceres), from several starts where a parameter shapes the law.
@@ -27,11 +27,11 @@ bool has_size_at_bound(const effects::Placed& placed);
 
 /// Fits the effect `more` to the recordings `episodes`, on top of `base`; starts at its parameters
 /// when they are not neutral.
-Fit fit(const Trials& trials, const Trial& base, const effects::Placed& more,
+Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& more,
         std::span<const std::size_t> episodes, const FitOptions& options = {});
 
 /// Fits several effects together, from where they are.
-std::vector<Fit> fit_together(const Trials& trials, std::span<const effects::Placed> all,
+std::vector<Fit> fit_together(const Evaluator& evaluator, std::span<const effects::Placed> all,
                               std::span<const std::size_t> episodes,
                               const FitOptions& options = {});
 

@@ -6,14 +6,14 @@
 
 namespace sim::diagnosis {
 
-void drop_alternatives_at_bounds(std::vector<Named>& answer) {
-  for (Named& n : answer)
-    std::erase_if(n.alternatives, [](const Named& other) { return is_at_bound(other); });
+void drop_alternatives_at_bounds(std::vector<IdentifiedEffect>& answer) {
+  for (IdentifiedEffect& n : answer)
+    std::erase_if(n.alternatives, [](const IdentifiedEffect& other) { return is_at_bound(other); });
 }
 
 void require_determined(Diagnosis& d) {
   if (d.verdict != Verdict::supported) return;
-  for (const Named& n : d.answer) {
+  for (const IdentifiedEffect& n : d.answer) {
     const auto why = undetermined(n);
     if (why.empty()) continue;
     d.verdict = Verdict::not_identifiable;
@@ -22,7 +22,7 @@ void require_determined(Diagnosis& d) {
   }
 }
 
-void require_sampling(const Trials& plain, Diagnosis& d) {
+void require_sampling(const Evaluator& plain, Diagnosis& d) {
   if (d.verdict != Verdict::supported && d.verdict != Verdict::none_of_the_known) return;
   const auto why = rows_too_far_apart(plain);
   if (!why) return;
@@ -30,13 +30,13 @@ void require_sampling(const Trials& plain, Diagnosis& d) {
   d.warnings.push_back(*why);
 }
 
-void warn_unjudged(const Evidence& evidence, const Observed& observed, Diagnosis& d) {
-  d.not_judged = not_judged(evidence.robot, d.stages);
-  const bool without_bus = evidence.robot.drives.empty() && !observed.bus_told;
-  if (without_bus) d.not_judged.emplace_back("the bus");
-  if (d.not_judged.empty()) return;
+void warn_not_evaluated(const Problem& problem, const Detected& detected, Diagnosis& d) {
+  d.not_evaluated = not_evaluated(problem.robot, d.stages);
+  const bool without_bus = problem.robot.drives.empty() && !detected.bus_evaluated;
+  if (without_bus) d.not_evaluated.emplace_back("the bus");
+  if (d.not_evaluated.empty()) return;
   d.warnings.push_back(
-      fmt::format("not judged, for lack of data: {}{}", fmt::join(d.not_judged, ", "),
+      fmt::format("not judged, for lack of data: {}{}", fmt::join(d.not_evaluated, ", "),
                   without_bus ? fmt::format("; to judge the bus, record {}", bus_is_told_by) : ""));
 }
 

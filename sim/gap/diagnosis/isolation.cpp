@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/gap/diagnosis/promise.hpp"
-#include "sim/gap/diagnosis/tries.hpp"
 #include "interfaces/parallel/in_parallel.hpp"
+#include "sim/gap/diagnosis/initial_guesses.hpp"
+#include "sim/gap/diagnosis/screening.hpp"
 
 namespace sim::diagnosis {
 namespace {
@@ -18,14 +18,15 @@ constexpr double short_of = 10;      // an open stage may get this much less tha
 constexpr double keeps_closed = 10;  // excess that a closed stage may get
 
 /// Mean Δz² by stage.
-std::vector<double> signature(const Trials& trials, const Placed& nudged, std::size_t episode) {
+std::vector<double> signature(const Evaluator& evaluator, const Placed& perturbed,
+                              std::size_t episode) {
   const std::size_t only[] = {episode};
-  const Trial with = trials.with(trials.bare(), nudged, only);
-  const auto before = trials.whitened(trials.bare(), episode),
-             after = trials.whitened(with, episode);
+  const Evaluation with = evaluator.with(evaluator.bare(), perturbed, only);
+  const auto before = evaluator.whitened(evaluator.bare(), episode),
+             after = evaluator.whitened(with, episode);
   std::vector<double> means;
   std::size_t at = 0;
-  for (const residuals::Residual& r : trials.bare().of_episode[episode].residuals) {
+  for (const residuals::Residual& r : evaluator.bare().of_episode[episode].residuals) {
     double square = 0, windows = 0;
     for (std::size_t k = 0; k < r.value.size(); ++k, ++at)
       if (!std::isnan(before[at])) square += std::pow(after[at] - before[at], 2), ++windows;
@@ -35,11 +36,12 @@ std::vector<double> signature(const Trials& trials, const Placed& nudged, std::s
 }
 
 /// The gap in the same order.
-std::vector<StageGap> gap_of(const Trials& trials, std::size_t episode, const Evidence& evidence) {
+std::vector<StageGap> gap_of(const Evaluator& evaluator, std::size_t episode,
+                             const Problem& problem) {
   const std::size_t only[] = {episode};
-  const auto gaps = where(trials, trials.bare(), only, evidence.where_options());
+  const auto gaps = localize(evaluator, evaluator.bare(), only, problem.localization_options());
   std::vector<StageGap> ordered;
-  for (const residuals::Residual& r : trials.bare().of_episode[episode].residuals)
+  for (const residuals::Residual& r : evaluator.bare().of_episode[episode].residuals)
     ordered.push_back(*find_stage(gaps, r.stage, r.on));
   return ordered;
 }
@@ -61,18 +63,18 @@ bool could_leave(const std::vector<StageGap>& gap, const std::vector<double>& si
 
 }  // namespace
 
-std::vector<Part> isolate(const Evidence& evidence, const Trials& trials) {
-  const std::size_t episode = loudest(trials, trials.bare(), evidence.sets.train);
-  const auto gap = gap_of(trials, episode, evidence);
-  const auto all = candidates(trials, evidence.options.withhold);
+std::vector<Part> isolate(const Problem& problem, const Evaluator& evaluator) {
+  const std::size_t episode = largest_residuals_in(evaluator, evaluator.bare(), problem.sets.train);
+  const auto gap = gap_of(evaluator, episode, problem);
+  const auto all = candidates(evaluator, problem.options.withhold);
   std::vector<char> could(all.size());
-  in_parallel(all.size(), evidence.options.threads, [&](std::size_t k) {
+  in_parallel(all.size(), problem.options.threads, [&](std::size_t k) {
     const std::size_t only[] = {episode};
-    auto ways = nudges(all[k]);
-    const auto more = tries(trials, all[k], only);
+    auto ways = perturbations(all[k]);
+    const auto more = initial_guesses(evaluator, all[k], only);
     ways.insert(ways.end(), more.begin(), more.end());
-    could[k] = std::ranges::any_of(ways, [&](const Placed& nudged) {
-      return could_leave(gap, signature(trials, nudged, episode));
+    could[k] = std::ranges::any_of(ways, [&](const Placed& perturbed) {
+      return could_leave(gap, signature(evaluator, perturbed, episode));
     });
   });
   std::vector<Part> parts;

@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/gap/diagnosis/evidence.hpp"
+#include "sim/gap/diagnosis/problem.hpp"
 
 /// Which parts of the chain could leave such a gap, whatever law it follows there: the
 /// fault-signature matrix, and what it can isolate with the sensors that there are.
@@ -20,6 +20,6 @@ struct Part {
 
 /// Those that could leave the gap of the nominal robot, on the training recording where it is
 /// largest; in the order of the library. Empty: no single part could.
-std::vector<Part> isolate(const Evidence& evidence, const Trials& trials);
+std::vector<Part> isolate(const Problem& problem, const Evaluator& evaluator);
 
 }  // namespace sim::diagnosis

@@ -11,26 +11,26 @@ bool are_given(const DiagnoseOptions& options) {
 
 }  // namespace
 
-Sets first_sets(const Evidence& evidence) {
-  const DiagnoseOptions& options = evidence.options;
-  return are_given(options) ? Sets{options.train, options.held_out} : split(evidence.episodes);
+Sets first_sets(const Problem& problem) {
+  const DiagnoseOptions& options = problem.options;
+  return are_given(options) ? Sets{options.train, options.held_out} : split(problem.episodes);
 }
 
-bool split_by_residual(Evidence& evidence, const Trials& by, CutRecordings& cut) {
-  if (are_given(evidence.options)) return false;
-  const auto before = evidence.sets.held_out;
-  evidence.sets = hold_out_what_shows(evidence.sets, by, evidence.where_options());
-  const auto all = cuts(evidence.sets, by, evidence.where_options());
+bool split_by_residual(Problem& problem, const Evaluator& by, CutRecordings& cut) {
+  if (are_given(problem.options)) return false;
+  const auto before = problem.sets.held_out;
+  problem.sets = hold_out_visible(problem.sets, by, problem.localization_options());
+  const auto all = cuts(problem.sets, by, problem.localization_options());
   for (const Cut& one : all) {
-    const residuals::Episode& episode = evidence.episodes[one.episode];
+    const residuals::Episode& episode = problem.episodes[one.episode];
     cut.shared.push_back({episode.name, double(one.row) * episode.period_s});
     cut.warnings.push_back(fmt::format(
         "too few recordings show the gap in the {} of {}: effects are chosen on the first {:.1f} s "
         "of {} and judged on the rest; record another that shows it",
         effects::word(one.stage), one.on, cut.shared.back().judged_from_s, episode.name));
-    cut_in_two(one, evidence.episodes, evidence.sets);
+    cut_in_two(one, problem.episodes, problem.sets);
   }
-  return !all.empty() || evidence.sets.held_out != before;
+  return !all.empty() || problem.sets.held_out != before;
 }
 
 }  // namespace sim::diagnosis

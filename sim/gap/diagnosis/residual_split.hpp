@@ -1,12 +1,12 @@
 #pragma once
 #include "sim/gap/diagnosis/diagnose.hpp"
-#include "sim/gap/diagnosis/evidence.hpp"
+#include "sim/gap/diagnosis/problem.hpp"
 
 /// The split of recordings into train and held out.
 namespace sim::diagnosis {
 
 /// As the options have them, else by conditions alone (split.hpp).
-Sets first_sets(const Evidence& evidence);
+Sets first_sets(const Problem& problem);
 
 /// Recordings of which the first part is in train and the rest is held out.
 struct CutRecordings {
@@ -18,6 +18,6 @@ struct CutRecordings {
 /// `by` leaves unexplained; a recording that alone shows one is cut in two. With the robot as described, errors of
 /// constants open a stage in every recording; with the robot as built, only recordings that meet, for example, an
 /// early stop remain. True: the split changed.
-bool split_by_residual(Evidence& evidence, const Trials& by, CutRecordings& cut);
+bool split_by_residual(Problem& problem, const Evaluator& by, CutRecordings& cut);
 
 }  // namespace sim::diagnosis

@@ -6,10 +6,10 @@
 
 namespace sim::diagnosis {
 
-double turned_back(const Trials& trials) {
+double turned_back(const Evaluator& evaluator) {
   constexpr double resting_rad_per_s = 0.02;  // chosen: as in chain_trace.cpp
   double back = 0, all = 0;
-  for (const residuals::Episode& e : trials.episodes())
+  for (const residuals::Episode& e : evaluator.episodes())
     for (const residuals::ActuatorSignals& s : e.actuators)
       for (std::size_t k = 1; k + 1 < s.shaft_rad.size(); ++k) {
         const double least = resting_rad_per_s * e.period_s;
@@ -21,15 +21,15 @@ double turned_back(const Trials& trials) {
   return all > 0 ? back / all : 0;
 }
 
-std::optional<std::string> rows_too_far_apart(const Trials& trials) {
+std::optional<std::string> rows_too_far_apart(const Evaluator& evaluator) {
   constexpr double most = 0.05;  // a window has six rows at least, so a third of all; chosen
-  if (trials.nominal().drives.empty()) return std::nullopt;
-  const double share = turned_back(trials);
+  if (evaluator.nominal().drives.empty()) return std::nullopt;
+  const double share = turned_back(evaluator);
   if (share <= most) return std::nullopt;
   return fmt::format(
       "the shaft turned back at {:.0f} % of the rows, {:.3g} ms apart, at which it moved; friction "
       "acts both ways there: record more rows a second, or slower motions",
-      100 * share, 1e3 * trials.episodes()[0].period_s);
+      100 * share, 1e3 * evaluator.episodes()[0].period_s);
 }
 
 }  // namespace sim::diagnosis

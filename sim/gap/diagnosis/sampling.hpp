@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/gap/diagnosis/trial.hpp"
+#include "sim/gap/diagnosis/evaluation.hpp"
 
 /// Whether the rows of a drive's recordings are near enough to each other to determine its friction.
 ///
@@ -11,9 +11,9 @@
 /// In a period about such a row friction acts both ways, and where it changes is not known.
 namespace sim::diagnosis {
 
-double turned_back(const Trials& trials);
+double turned_back(const Evaluator& evaluator);
 
 /// Why friction is not determined; nothing: it is, or the robot has no drive.
-std::optional<std::string> rows_too_far_apart(const Trials& trials);
+std::optional<std::string> rows_too_far_apart(const Evaluator& evaluator);
 
 }  // namespace sim::diagnosis

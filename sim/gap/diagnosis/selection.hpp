@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sim/gap/diagnosis/answer.hpp"
-#include "sim/gap/diagnosis/evidence.hpp"
+#include "sim/gap/diagnosis/problem.hpp"
 
 /// Which effects together explain the residuals: the best alone, others on top of it while a stage
 /// stays open, each reconsidered when another joins; where that leaves one open, or takes as many and
@@ -13,11 +13,12 @@ namespace sim::diagnosis {
 struct Selection {
   bool gap = false;   ///< some stage leaves its floor
   bool shown = true;  ///< false: the recordings held out show too little of it to judge an effect
-  std::vector<Named> ranked = {};   ///< one by one, best first
-  std::vector<Ranked> alone = {};   ///< the same with their fits
-  std::vector<Named> answer = {};   ///< effects that together close the gap, the most telling first
+  std::vector<IdentifiedEffect> ranked = {};  ///< one by one, best first
+  std::vector<Ranked> alone = {};             ///< the same with their fits
+  std::vector<IdentifiedEffect> answer =
+      {};                           ///< effects that together close the gap, the most telling first
   std::vector<StageGap> left = {};  ///< after the answer, held-out recordings
-  Trial trial = {};                 ///< with the answer
+  Evaluation evaluation = {};       ///< with the answer
   double interaction = 0;  ///< of the gap: what the answer closes less what each does alone
 
   bool explained() const;  ///< there is an answer, and no stage stays open
@@ -28,7 +29,7 @@ enum class Depth { best_alone, full };
 
 /// `stages`: the columns of the signatures. `earlier`: a selection on the same robot, whose ranking is reused; without
 /// one every effect is fitted.
-Selection select(const Evidence& evidence, const Trials& trials,
+Selection select(const Problem& problem, const Evaluator& evaluator,
                  const std::vector<StageGap>& stages, Depth depth = Depth::full,
                  Selection earlier = {});
 
@@ -38,7 +39,7 @@ bool stays_open(double excess, double was, const Tolerance& tolerance,
                 const std::function<double()>& follows);
 
 /// The stages that `trial` leaves open on the held-out recordings.
-std::vector<StageGap> left_open(const Evidence& evidence, const Trials& trials, const Trial& trial,
-                                const Tolerance& tolerance);
+std::vector<StageGap> unexplained_stages(const Problem& problem, const Evaluator& evaluator,
+                                         const Evaluation& evaluation, const Tolerance& tolerance);
 
 }  // namespace sim::diagnosis

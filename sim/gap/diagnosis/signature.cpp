@@ -12,13 +12,14 @@ struct Change {
   double square = 0;
 };
 
-Change change_of(const Evidence& evidence, const Trials& trials,
-                 const std::vector<StageGap>& stages, const Trial& with) {
+Change change_of(const Problem& problem, const Evaluator& evaluator,
+                 const std::vector<StageGap>& stages, const Evaluation& with) {
   Change change{{}, std::vector<double>(stages.size(), 0.0)};
-  for (const std::size_t e : evidence.sets.held_out) {
-    const auto before = trials.whitened(trials.bare(), e), after = trials.whitened(with, e);
+  for (const std::size_t e : problem.sets.held_out) {
+    const auto before = evaluator.whitened(evaluator.bare(), e),
+               after = evaluator.whitened(with, e);
     std::size_t at = 0;
-    for (const residuals::Residual& r : trials.bare().of_episode[e].residuals) {
+    for (const residuals::Residual& r : evaluator.bare().of_episode[e].residuals) {
       const auto stage = std::size_t(find_stage(stages, r.stage, r.on) - stages.begin());
       for (std::size_t n = 0; n < r.value.size(); ++n, ++at) {
         const double d = std::isnan(before[at]) ? 0 : after[at] - before[at];
@@ -32,11 +33,12 @@ Change change_of(const Evidence& evidence, const Trials& trials,
 
 }  // namespace
 
-void sign(const Evidence& evidence, const Trials& trials, const std::vector<StageGap>& stages,
-          std::vector<Ranked>& ranked, std::vector<Named>& names) {
+void compute_signatures(const Problem& problem, const Evaluator& evaluator,
+                        const std::vector<StageGap>& stages, std::vector<Ranked>& ranked,
+                        std::vector<IdentifiedEffect>& names) {
   Change first;
   for (std::size_t k = 0; k < ranked.size(); ++k) {
-    Change change = change_of(evidence, trials, stages, ranked[k].on_held_out);
+    Change change = change_of(problem, evaluator, stages, ranked[k].on_held_out);
     ranked[k].on_held_out = {};
     if (k == 0) first = change;
     double dot = 0;

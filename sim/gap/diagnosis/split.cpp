@@ -70,10 +70,10 @@ namespace {
 /// Which recordings show that a stage is open.
 class Showing {
  public:
-  Showing(const Sets& sets, const Trials& plain, const WhereOptions& options) {
+  Showing(const Sets& sets, const Evaluator& plain, const LocalizationOptions& options) {
     for (const std::size_t e : sets.all()) {
       const std::size_t only[] = {e};
-      gaps_[e] = where(plain, plain.bare(), only, options);
+      gaps_[e] = localize(plain, plain.bare(), only, options);
     }
   }
 
@@ -102,15 +102,15 @@ class Showing {
 };
 
 /// The open stages, the loudest first.
-std::vector<StageGap> open_stages(const Sets& sets, const Trials& plain,
-                                  const WhereOptions& options) {
-  auto gaps = where(plain, plain.bare(), sets.all(), options);
+std::vector<StageGap> open_stages(const Sets& sets, const Evaluator& plain,
+                                  const LocalizationOptions& options) {
+  auto gaps = localize(plain, plain.bare(), sets.all(), options);
   std::erase_if(gaps, [](const StageGap& gap) { return !gap.open; });
   return gaps;
 }
 
 /// The row by which half of a stage's excess, Σ (z² − 1), has passed.
-std::size_t middle_row(const Trials& plain, std::size_t episode, const StageGap& stage) {
+std::size_t middle_row(const Evaluator& plain, std::size_t episode, const StageGap& stage) {
   const residuals::Explanation& e = plain.bare().of_episode[episode];
   const auto z = plain.whitened(plain.bare(), episode);
   const std::size_t windows = e.rows.size();
@@ -136,10 +136,10 @@ std::pair<residuals::Episode, residuals::Episode> parts_of(const residuals::Epis
 }
 
 /// Each part alone shows that the stage is open.
-bool both_show(const Cut& cut, const Trials& plain, const WhereOptions& options) {
+bool both_show(const Cut& cut, const Evaluator& plain, const LocalizationOptions& options) {
   const auto [first, second] = parts_of(plain.episodes()[cut.episode], cut.row);
   for (const residuals::Episode& part : {first, second}) {
-    const auto gaps = where(plain.nominal(), std::span(&part, 1), options);
+    const auto gaps = localize(plain.nominal(), std::span(&part, 1), options);
     const auto gap = find_stage(gaps, cut.stage, cut.on);
     if (gap == gaps.end() || !gap->open) return false;
   }
@@ -148,7 +148,7 @@ bool both_show(const Cut& cut, const Trials& plain, const WhereOptions& options)
 
 }  // namespace
 
-Sets hold_out_what_shows(Sets sets, const Trials& plain, const WhereOptions& options) {
+Sets hold_out_visible(Sets sets, const Evaluator& plain, const LocalizationOptions& options) {
   const auto open = open_stages(sets, plain, options);
   const Showing showing(sets, plain, options);
   if (open.empty() || showing.on_both_sides(open[0], sets)) return sets;
@@ -161,7 +161,8 @@ Sets hold_out_what_shows(Sets sets, const Trials& plain, const WhereOptions& opt
   return sets;
 }
 
-std::vector<Cut> cuts(const Sets& sets, const Trials& plain, const WhereOptions& options) {
+std::vector<Cut> cuts(const Sets& sets, const Evaluator& plain,
+                      const LocalizationOptions& options) {
   constexpr double worth = 0.05;  // of the gap: for less no recording is cut; chosen
   const Showing showing(sets, plain, options);
   std::vector<Cut> cuts;

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "sim/gap/estimation/beyond.hpp"
-#include "sim/gap/estimation/settle.hpp"
+#include "sim/gap/estimation/completion.hpp"
 
 namespace sim::estimation {
 namespace {
@@ -21,16 +21,16 @@ bool is_widespread(const Found& found) {
 }
 
 /// −2 log of its evidence, by Laplace's approximation: constants that recordings determine had room before.
-double evidence_cost(const AsBuilt& built) {
+double model_cost(const AsBuilt& built) {
   const Eigen::Index n = Eigen::Index(built.uncertain.constants.size());
   const Eigen::MatrixXd of_constants = built.estimate.covariance.topLeftCorner(n, n);
   return built.cost - of_constants.ldlt().vectorD().array().log().sum();
 }
 
 /// The one stage that keeps more than noise; of a drive, whose laws all act at one, none.
-std::optional<std::size_t> only_open_stage(const Evidence& evidence, const Found& found) {
+std::optional<std::size_t> only_open_stage(const Problem& problem, const Found& found) {
   const auto open = open_stages(found);
-  if (!evidence.nominal.drives.empty() || stages_kept(found) != 1) return std::nullopt;
+  if (!problem.nominal.drives.empty() || stages_kept(found) != 1) return std::nullopt;
   return std::size_t(std::ranges::find(open, true) - open.begin());
 }
 
@@ -44,13 +44,13 @@ std::vector<Placed> hints_of(const Found& found) {
 /// A robot all as described but for effects, and for what is never certain.
 class AsDescribed {
  public:
-  explicit AsDescribed(const Evidence& evidence)
-      : evidence_(evidence),
-        built_{.uncertain = uncertain_of(evidence.nominal, options().search.withhold, true),
+  explicit AsDescribed(const Problem& problem)
+      : problem_(problem),
+        built_{.uncertain = uncertain_of(problem.nominal, options().search.withhold, true),
                .exact = true},
-        search_(evidence.train, evidence.held_out, built_.uncertain, options().search),
+        search_(problem.train, problem.held_out, built_.uncertain, options().search),
         found_(search_.with({})) {
-    if (const auto stage = only_open_stage(evidence_, found_)) describe_unknown_law(*stage);
+    if (const auto stage = only_open_stage(problem_, found_)) describe_unknown_law(*stage);
   }
   AsDescribed(const AsDescribed&) = delete;
 
@@ -87,17 +87,17 @@ class AsDescribed {
     constexpr double price = 30;  // −2 log of the odds of such a law; chosen
     unknown_law = answer();
     unknown_law->unknown_law = true;
-    unknown_law->cost += price - misfit(found_.on_train, evidence_.train.residuals(), stage) -
-                         misfit(found_.held_out, evidence_.held_out, stage);
+    unknown_law->cost += price - misfit(found_.on_train, problem_.train.residuals(), stage) -
+                         misfit(found_.held_out, problem_.held_out, stage);
   }
-  const AsBuiltOptions& options() const { return evidence_.options; }
+  const AsBuiltOptions& options() const { return problem_.options; }
   void compare_suggested() {
     const auto& suggested = options().suggested;
     if (suggested.empty() || are_same(found_.train.point.effects, suggested)) return;
     if (Found other = search_.with(suggested); other.cost < found_.cost) found_ = std::move(other);
   }
 
-  const Evidence& evidence_;
+  const Problem& problem_;
   AsBuilt built_;
   Search search_;
   Found found_;
@@ -106,12 +106,11 @@ class AsDescribed {
 /// All constants uncertain.
 class WithTolerances {
  public:
-  explicit WithTolerances(const Evidence& evidence)
-      : evidence_(evidence),
-        built_{.uncertain =
-                   uncertain_of(evidence.nominal, evidence.options.search.withhold, false)},
-        search_(evidence.train, evidence.held_out, built_.uncertain, evidence.options.search),
-        found_(settle(search_, search_.with({}), evidence_, built_)) {}
+  explicit WithTolerances(const Problem& problem)
+      : problem_(problem),
+        built_{.uncertain = uncertain_of(problem.nominal, problem.options.search.withhold, false)},
+        search_(problem.train, problem.held_out, built_.uncertain, problem.options.search),
+        found_(complete(search_, search_.with({}), problem_, built_)) {}
   WithTolerances(const WithTolerances&) = delete;
 
   /// The constants alone explain, and so many parts of the robot are clearly off that no few effects
@@ -125,19 +124,19 @@ class WithTolerances {
           std::abs(built_.estimate.point.x[k]) > clear * built_.estimate.sigma(k))
         places.emplace(c.on, c.stage);
     }
-    return !built_.keeps && places.size() > evidence_.options.search.most_effects;
+    return !built_.keeps && places.size() > problem_.options.search.most_effects;
   }
   /// With effects where constants alone leave more than noise, or where one could stand for constants
   /// that are far off.
   AsBuilt answer(const std::vector<Placed>& hints) {
     if (built_.keeps)
-      settle(search_, search_.run(std::move(found_), evidence_.options.search.most_effects),
-             evidence_, built_);
-    return or_effect(evidence_, built_, hints);
+      complete(search_, search_.run(std::move(found_), problem_.options.search.most_effects),
+               problem_, built_);
+    return or_effect(problem_, built_, hints);
   }
 
  private:
-  const Evidence& evidence_;
+  const Problem& problem_;
   AsBuilt built_;
   Search search_;
   Found found_;
@@ -145,27 +144,27 @@ class WithTolerances {
 
 /// Of the two hypotheses the one with more evidence. All constants are tried only where one effect on the robot as described leaves more
 /// than noise; more effects on that only where the constants do not plainly explain.
-AsBuilt likelier(const Evidence& evidence, AsDescribed& described) {
+AsBuilt likelier(const Problem& problem, AsDescribed& described) {
   described.find_first();
   if (described.explains()) return described.answer();
-  WithTolerances with(evidence);
+  WithTolerances with(problem);
   if (with.explain_plainly()) return with.answer(described.hints);
   described.find_others();
   AsBuilt one = described.answer();
   if (!one.keeps) return one;
   AsBuilt other = with.answer(described.hints);
-  return evidence_cost(other) < evidence_cost(one) ? other : one;
+  return model_cost(other) < model_cost(one) ? other : one;
 }
 
 /// That, or a law that the library lacks, if the answer has several causes beside estimated constants and less evidence.
-AsBuilt likeliest(const Evidence& evidence) {
+AsBuilt likeliest(const Problem& problem) {
   constexpr std::size_t few = 2;  // causes; chosen
-  AsDescribed described(evidence);
-  AsBuilt best = likelier(evidence, described);
+  AsDescribed described(problem);
+  AsBuilt best = likelier(problem, described);
   const auto& unknown = described.unknown_law;
   const std::size_t causes = best.beyond.size() + best.estimate.point.effects.size();
   const bool is_unknown = unknown && !best.exact && !best.keeps && causes > few &&
-                          evidence_cost(*unknown) < evidence_cost(best);
+                          model_cost(*unknown) < model_cost(best);
   return is_unknown ? *unknown : best;
 }
 
@@ -180,7 +179,7 @@ AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode
   const Estimator estimator(nominal, train, options);
   AsBuilt built{.uncertain = uncertain_of(nominal, {}, false)};
   built.estimate = estimator.run(built.uncertain, {});
-  settle_far_off(estimator, built);
+  complete_far_off(estimator, built);
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;
 }

@@ -37,7 +37,7 @@ bool drop_near(AsBuilt& built) {
 
 }  // namespace
 
-void settle_far_off(const Estimator& estimator, AsBuilt& built) {
+void complete_far_off(const Estimator& estimator, AsBuilt& built) {
   constexpr int rounds = 4;  // the set follows the estimate, and the estimate the set; chosen
   for (int round = 0; round < rounds; ++round) {
     FarOff found = far_off(built.uncertain, built.estimate);

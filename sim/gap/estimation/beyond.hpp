@@ -9,6 +9,6 @@ void list_uncertain(AsBuilt& built);
 
 /// Where all constants are uncertain: identifies those that are far off (far_off.hpp), and estimates all again with
 /// that known, until both agree or after four rounds. Those that end near nominal are dropped then.
-void settle_far_off(const Estimator& estimator, AsBuilt& built);
+void complete_far_off(const Estimator& estimator, AsBuilt& built);
 
 }  // namespace sim::estimation

@@ -66,14 +66,14 @@ void add_instead(std::vector<Sized>& instead, Sized one) {
 
 /// Estimates `other` as far off instead of the n-th constant far off. The cheaper of the two stays; the other one becomes
 /// an alternative if its cost is near.
-void compare(const Search& search, const Evidence& evidence, std::size_t n, std::size_t other,
+void compare(const Search& search, const Problem& problem, std::size_t n, std::size_t other,
              double gain, Found& found, AsBuilt& built) {
   const std::size_t k = built.beyond[n];
   const auto set_far = [&](std::size_t is, std::size_t is_not) {
     built.uncertain.far[is] = true, built.uncertain.far[is_not] = false;
   };
   set_far(other, k);
-  Found rival = search.judge(evidence.train.run(built.uncertain, exchanged(built, k, other)));
+  Found rival = search.judge(problem.train.run(built.uncertain, exchanged(built, k, other)));
   rival.rivals = found.rivals;
   const bool is_better = rival.cost < found.cost;
   if (!is_better) set_far(k, other);
@@ -90,13 +90,13 @@ void compare(const Search& search, const Evidence& evidence, std::size_t n, std:
 
 }  // namespace
 
-Found with_rivals_far(const Search& search, Found found, const Evidence& evidence, double gain,
+Found with_rivals_far(const Search& search, Found found, const Problem& problem, double gain,
                       AsBuilt& built) {
   constexpr std::size_t few = 2;  // of more, each would take estimates of its own; chosen
   if (built.beyond.size() > few) return found;
   for (std::size_t n = 0; n < built.beyond.size(); ++n)
     for (const std::size_t other : most_similar(built, built.beyond[n]))
-      if (!built.uncertain.far[other]) compare(search, evidence, n, other, gain, found, built);
+      if (!built.uncertain.far[other]) compare(search, problem, n, other, gain, found, built);
   return found;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "sim/gap/estimation/settle.hpp"
+#include "sim/gap/estimation/completion.hpp"
 
 /// Which constant is far off: estimates with another one far off in its place.
 ///
@@ -11,7 +11,7 @@ namespace sim::estimation {
 /// effect on the residuals is estimated as far off instead. The cheapest estimate is taken into `built` and returned;
 /// those that cost little more are added to `built.instead`. `found`: `built.estimate`, judged; `gain`: by how much the
 /// constants far off lower the cost.
-Found with_rivals_far(const Search& search, Found found, const Evidence& evidence, double gain,
+Found with_rivals_far(const Search& search, Found found, const Problem& problem, double gain,
                       AsBuilt& built);
 
 }  // namespace sim::estimation

@@ -7,7 +7,7 @@
 
 #include "interfaces/parallel/in_parallel.hpp"
 #include "sim/gap/residuals/band.hpp"
-#include "sim/gap/residuals/floor.hpp"
+#include "sim/gap/residuals/noise_floor.hpp"
 
 namespace sim::estimation {
 
@@ -71,7 +71,7 @@ ResidualVector::ResidualVector(const erp::Robot& nominal,
                                int threads)
     : episodes_(episodes) {
   for (const residuals::Episode& episode : episodes)
-    disturbed_.push_back(residuals::said_again(episode, nominal, seed));
+    disturbed_.push_back(residuals::resampled_noise(episode, nominal, seed));
   Explained bare = explain(nominal, threads);
   bare_ = bare.real;
   for (const residuals::Explanation& e : bare_) {
@@ -170,7 +170,7 @@ namespace {
 /// A residual in units of its noise. Where friction has a band the sign is that of the nominal robot's residual: within
 /// a band a residual has none, and a sign that changed between robots would be a jump.
 double with_fixed_sign(const residuals::Residual& nominal, const residuals::Residual& r,
-                std::size_t window, double floor) {
+                       std::size_t window, double floor) {
   const double z = residuals::in_noise(r, window, floor), was = nominal.value[window];
   if (!residuals::banded(nominal, window) && !residuals::banded(r, window)) return z;
   return std::copysign(z, was != 0 ? was : window % 2 ? -1 : 1);

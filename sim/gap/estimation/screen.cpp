@@ -7,10 +7,10 @@
 #include <span>
 #include <tuple>
 
-#include "sim/gap/estimation/can_show.hpp"
-#include "sim/gap/estimation/directions.hpp"
 #include "sim/gap/estimation/initial_guesses.hpp"
+#include "sim/gap/estimation/observable.hpp"
 #include "sim/gap/estimation/periods.hpp"
+#include "sim/gap/estimation/sensitivities.hpp"
 
 namespace sim::estimation {
 
@@ -37,7 +37,7 @@ struct StepBounds {
 struct Beginning {
   const Estimate& estimate;
   const std::vector<bool>& open;
-  Left left;
+  RemainingResidual left;
   VectorXd moved;   ///< of the unknowns, by a last step without it
   double cost = 0;  ///< after that step
 };
@@ -80,17 +80,17 @@ VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd&
 }  // namespace
 
 /// By the linear model of `base`, where its unknowns moved, with what an effect changes in z.
-double Screen::cost_at(const Estimate& base, const Left& left, const VectorXd& changed,
+double Screen::cost_at(const Estimate& base, const RemainingResidual& left, const VectorXd& changed,
                        const VectorXd& moved) const {
   Point after = base.point;
   for (std::size_t k = 0; k < after.x.size(); ++k) after.x[k] += moved[Index(k)];
   const ResidualVector& residuals = train_.residuals();
   const VectorXd z = base.z + changed + base.jacobian * moved;
-  return misfit(left_by(residuals, left, z), residuals) + prior_cost(uncertain_, after);
+  return misfit(remaining_residual(residuals, left, z), residuals) + prior_cost(uncertain_, after);
 }
 
 /// The best of 1, 2, 4 and 8 times a step, and what it gains: the quadratic model weighs windows that the cost cuts off.
-std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const Directions& all,
+std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const Sensitivities& all,
                                                   const MatrixXd& shared, const VectorXd& step,
                                                   const StepBounds& bounds) const {
   constexpr int doublings = 3;  // chosen
@@ -107,7 +107,7 @@ std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const 
 }
 
 /// Of one shape: the values that would explain most, and what they would explain.
-Candidate Screen::score(const Beginning& begin, const Directions& all) const {
+Candidate Screen::score(const Beginning& begin, const Sensitivities& all) const {
   const Estimate& base = begin.estimate;
   const MatrixXd wd = base.weight.asDiagonal() * all.d;
   const MatrixXd shared = base.covariance * (base.jacobian.transpose() * wd);
@@ -122,8 +122,8 @@ Candidate Screen::score(const Beginning& begin, const Directions& all) const {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool like = is_like(p, values[all.sizes[0]]);
     places |= !like;
-    bounds.low.push_back(like ? (p.bounds.low - *p.value) / all.nudge[n] : -unlimited);
-    bounds.high.push_back(like ? (p.bounds.high - *p.value) / all.nudge[n] : unlimited);
+    bounds.low.push_back(like ? (p.bounds.low - *p.value) / all.perturbation[n] : -unlimited);
+    bounds.high.push_back(like ? (p.bounds.high - *p.value) / all.perturbation[n] : unlimited);
   }
   VectorXd step = step_within(
       own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), bounds);
@@ -134,7 +134,7 @@ Candidate Screen::score(const Beginning& begin, const Directions& all) const {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool place = !is_like(p, values[all.sizes[0]]);
     const double by = place ? step[Index(n)] / step[0] : step[Index(n)];
-    *p.value = std::clamp(*p.value + by * all.nudge[n], p.bounds.low, p.bounds.high);
+    *p.value = std::clamp(*p.value + by * all.perturbation[n], p.bounds.low, p.bounds.high);
   }
   return candidate;
 }
@@ -170,16 +170,16 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
       best = std::move(one);
   }
   const auto sizes = sizes_of(neutral);
-  std::vector<double> by = first_nudges(neutral, sizes);
+  std::vector<double> by = first_perturbations(neutral, sizes);
   for (const Placed& shape :
        shaped(neutral, periods_of(neutral, robot, train_.residuals(), base))) {
-    std::vector<Directions> tried = secants(shape, sizes, changed_by);
-    tried.push_back(directions(shape, sizes, by, changed_by));
-    std::erase_if(tried, [&](const Directions& all) {
+    std::vector<Sensitivities> tried = secants(shape, sizes, changed_by);
+    tried.push_back(sensitivities(shape, sizes, by, changed_by));
+    std::erase_if(tried, [&](const Sensitivities& all) {
       return !changes(train_.residuals(), all.d, begin.open);
     });
     if (tried.empty()) break;
-    for (const Directions& all : tried)
+    for (const Sensitivities& all : tried)
       if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
   }
   return best;
@@ -215,7 +215,7 @@ Candidate candidate_of(Placed effect, const Pool::Numbers& numbers) {
 
 std::vector<Candidate> Screen::candidates(const Estimate& base,
                                           const std::vector<bool>& open) const {
-  Beginning begin{base, open, left_by(train_.residuals(), base.explained, base.z),
+  Beginning begin{base, open, remaining_residual(train_.residuals(), base.explained, base.z),
                   -(base.covariance * base.gradient)};
   begin.cost = cost_at(base, begin.left, VectorXd::Zero(base.z.size()), begin.moved);
   std::vector<Placed> all;
@@ -223,7 +223,7 @@ std::vector<Candidate> Screen::candidates(const Estimate& base,
     const effects::About& about = effects::about(effect);
     if (!is_searched(about)) continue;
     for (const std::string& on : effects::places(uncertain_.nominal, about.seat))
-      if (can_show({on, effect}, uncertain_.nominal, train_.residuals().episodes()) &&
+      if (is_observable({on, effect}, uncertain_.nominal, train_.residuals().episodes()) &&
           std::ranges::none_of(base.point.effects, [&](const Placed& p) {
             return p.on == on && p.effect.index() == effect.index();
           }))

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/gap/estimation/left.hpp"
+#include "sim/gap/estimation/remaining_residual.hpp"
 
 /// Which effects of the library could explain what an estimate leaves:
 ///
@@ -21,7 +21,7 @@ struct Candidate {
   Eigen::VectorXd others = {};  ///< how far the unknowns of the estimate go along then
 };
 
-struct Directions;
+struct Sensitivities;
 struct Beginning;
 struct StepBounds;
 
@@ -40,14 +40,14 @@ class Screen {
   /// Not what a constant stands for already, and not what no residual shows.
   bool is_searched(const effects::About& about) const;
   Candidate best_shape(const Beginning& base, const effects::Placed& neutral) const;
-  double cost_at(const Estimate& base, const Left& left, const Eigen::VectorXd& changed,
-                 const Eigen::VectorXd& moved) const;
+  double cost_at(const Estimate& base, const RemainingResidual& left,
+                 const Eigen::VectorXd& changed, const Eigen::VectorXd& moved) const;
   std::pair<double, Eigen::VectorXd> best_multiple(const Beginning& begin,
-                                                   const Directions& directions,
+                                                   const Sensitivities& sensitivities,
                                                    const Eigen::MatrixXd& shared,
                                                    const Eigen::VectorXd& step,
                                                    const StepBounds& bounds) const;
-  Candidate score(const Beginning& base, const Directions& directions) const;
+  Candidate score(const Beginning& base, const Sensitivities& sensitivities) const;
   Candidate score_guess(const Beginning& base, const effects::Placed& guess,
                         const Eigen::VectorXd& changed) const;
 

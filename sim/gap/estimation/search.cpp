@@ -64,15 +64,15 @@ Search::Search(const Estimator& train, const ResidualVector& held_out, const Unc
       screen_(train_, uncertain_, options_.withhold) {
   const ResidualVector& residuals = train_.residuals();
   const Explained nominal = residuals.explain(uncertain_.nominal, train_.options().threads);
-  for (const double e : left_by(residuals, nominal, residuals.z(nominal)).excess)
+  for (const double e : remaining_residual(residuals, nominal, residuals.z(nominal)).excess)
     tolerated_.push_back(tolerated(e));
 }
 
 Found Search::judge(Estimate estimate) const {
   Found found{.train = std::move(estimate), .tolerated = tolerated_};
-  found.on_train = left_by(train_.residuals(), found.train.explained, found.train.z);
+  found.on_train = remaining_residual(train_.residuals(), found.train.explained, found.train.z);
   const Explained held_out = held_out_.explain(robot_at(uncertain_, found.train.point), 1);
-  found.held_out = left_by(held_out_, held_out, held_out_.z(held_out));
+  found.held_out = remaining_residual(held_out_, held_out, held_out_.z(held_out));
   found.cost = misfit(found.on_train, train_.residuals()) + misfit(found.held_out, held_out_) +
                prior_cost(uncertain_, found.train.point) +
                effect_price * double(found.train.point.effects.size());

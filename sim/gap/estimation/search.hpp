@@ -42,7 +42,7 @@ struct Rivals {
 /// An estimate with effects, what it leaves, and what it costs.
 struct Found {
   Estimate train;
-  Left on_train, held_out;
+  RemainingResidual on_train, held_out;
   double cost = 0;
   std::vector<Rivals> rivals = {};  ///< one an effect
   std::vector<double> tolerated;    ///< excess of each stage that is not worth an effect

@@ -197,7 +197,7 @@ class Tracer {
     if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
     out_.drive_Nm.assign(rows_, nan), out_.motor_Nm.assign(rows_, nan);
     out_.unsure_Nm.assign(rows_, 0);
-    direction_ = directions();
+    direction_ = sensitivities();
     for (std::size_t k = 1; k + 1 < rows_; ++k) {
       out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * around_A(k);
       const double omega = out_.speed_rad_per_s[k];
@@ -221,7 +221,7 @@ class Tracer {
   ///   v = Δθ/T,  Δv = √(((v₊ − v₋)/2)² + (step/T)²),  s = 2 v/Δv within ±1
   ///
   /// step: what the encoder leaves unsure; where that is too much, v is the smoothed speed.
-  std::vector<double> directions() const {
+  std::vector<double> sensitivities() const {
     const Signal& theta = out_.shaft_rad;
     constexpr double little = 0.02;  // of the usual speed; chosen
     const double unsure = unsure_rad() / period_s_;

@@ -22,8 +22,7 @@ double slowest_damper_s(const erp::Robot& robot, std::span<const std::size_t> li
   double slowest_s = 0;
   for (const std::size_t a : lines) {
     const erp::Tendon& tendon = robot.actuators[a].tendon;
-    slowest_s =
-        std::max(slowest_s, tendon.damping_N_s_per_m / Spring::of(tendon).slope_N_per_m(0));
+    slowest_s = std::max(slowest_s, tendon.damping_N_s_per_m / Spring::of(tendon).slope_N_per_m(0));
   }
   return slowest_s;
 }
@@ -40,8 +39,9 @@ std::vector<std::size_t> Stages::missing_joints(const JointTrace& trace) const {
   return missing;
 }
 
-std::vector<std::size_t> Stages::telling_lines(const Episode& episode, const JointTrace& trace,
-                                               std::span<const std::size_t> missing) const {
+std::vector<std::size_t> Stages::informative_tendons(const Episode& episode,
+                                                     const JointTrace& trace,
+                                                     std::span<const std::size_t> missing) const {
   const auto& joints = bones_.joint_list();
   std::vector<std::size_t> lines;
   for (std::size_t a = 0; a < episode.actuators.size(); ++a) {
@@ -67,7 +67,7 @@ std::vector<ChainTrace> Stages::chains_of(const Episode& episode,
 }
 
 void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
-  const auto missing = missing_joints(trace), lines = telling_lines(episode, trace, missing);
+  const auto missing = missing_joints(trace), lines = informative_tendons(episode, trace, missing);
   if (missing.empty() || lines.empty()) return;
   const bool near = guess && guess->estimated;
   if (near) trace.nearby = guess->nearby;
@@ -89,7 +89,7 @@ void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTra
 
 void Stages::find_crossings(const Episode& episode, JointTrace& trace,
                             std::span<const LooseJoint> loose) {
-  const auto lines = telling_lines(episode, trace, {});
+  const auto lines = informative_tendons(episode, trace, {});
   if (loose.empty() || lines.empty() || trace.estimated) return;
   std::vector<std::size_t> joints;
   for (const LooseJoint& l : loose) joints.push_back(l.joint);
@@ -123,9 +123,9 @@ std::shared_ptr<const PathsNearby> Stages::nearby(const Episode& episode, const 
   for (const std::size_t j : missing) {
     if (bones_.joint_list()[j].type == erp::JointType::fixed) continue;
     if (bones_.joint_list()[j].type != erp::JointType::revolute) return nullptr;
-    auto nudged = trace.signals;
-    for (double& angle : nudged[j].angle_rad) angle += nudge_rad;
-    auto moved = bones_.paths(nudged, episode.rows, all);
+    auto perturbed = trace.signals;
+    for (double& angle : perturbed[j].angle_rad) angle += nudge_rad;
+    auto moved = bones_.paths(perturbed, episode.rows, all);
     for (const std::size_t a : all) {
       Signal& slope = near.slope_m[a].emplace_back(std::move(moved[a].length_m));
       for (std::size_t k = 0; k < slope.size(); ++k)

@@ -107,9 +107,9 @@ Eigen::MatrixXd PoseSearch::slopes(const std::vector<JointSignals>& signals,
   Eigen::MatrixXd slopes =
       Eigen::MatrixXd::Zero(Eigen::Index(lines * unknown_.size()), Eigen::Index(rows));
   for (std::size_t c = 0; c < unknown_.size(); ++c) {
-    auto nudged = signals;
-    for (std::size_t k = 0; k < rows; ++k) turn(nudged, unknown_[c], k, nudge_rad);
-    const auto moved = chains_(nudged);
+    auto perturbed = signals;
+    for (std::size_t k = 0; k < rows; ++k) turn(perturbed, unknown_[c], k, nudge_rad);
+    const auto moved = chains_(perturbed);
     for (std::size_t k = 0; k < rows; ++k)
       for (std::size_t a = 0; a < lines; ++a) {
         const double slope = (moved[a].spring_N[k] - here[a].spring_N[k]) / nudge_rad;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/model/effects/library.hpp"
 #include "sim/gap/residuals/explanation.hpp"
 #include "sim/gap/residuals/loose_joint.hpp"
+#include "sim/model/effects/library.hpp"
 
 /// Where model and recording part: the chain cut at every measured signal, each stage driven by
 /// what was measured at its ends, so that an error upstream cannot pose as one downstream.
@@ -71,8 +71,8 @@ class Stages {
   /// little.
   std::vector<std::size_t> missing_joints(const JointTrace& trace) const;
   /// Tendons that say shaft and tension, and cross no joint but those and measured ones.
-  std::vector<std::size_t> telling_lines(const Episode& episode, const JointTrace& trace,
-                                         std::span<const std::size_t> missing) const;
+  std::vector<std::size_t> informative_tendons(const Episode& episode, const JointTrace& trace,
+                                               std::span<const std::size_t> missing) const;
   /// Sets them, if enough tendons say where they are.
   void find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess);
   /// Where loose sensors may rest, sets their joints to where the tendons pull as measured.

@@ -89,7 +89,7 @@ double accepted(double depth) {
 Figures sphere_wrap() {
   double length_m = 0, opposite_m = 0, jump_m = 0, cosine = 0;
   std::mt19937 random(1);
-  for (int trial = 0; trial < 1000; ++trial) {
+  for (int evaluation = 0; evaluation < 1000; ++evaluation) {
     const Ends ends = any_ends(random);
     for (double theta = 1e-3; theta < std::numbers::pi; theta += 0.02) {
       length_m = larger(length_m, ends.error_m(theta));

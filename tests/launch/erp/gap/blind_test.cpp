@@ -100,7 +100,7 @@ TEST_CASE("a robot that begins beyond its stops is recorded") {
 }
 
 /// Seals those truths beside the diagnoses of a folder, and scores them.
-std::string score_of(const Folder& folder, const nlohmann::json& truths) {
+std::string set_points_of(const Folder& folder, const nlohmann::json& truths) {
   const std::string truth = folder.path / "truth.json";
   std::ofstream(truth) << truths.dump();
   std::ofstream(folder.path / "cases.json")
@@ -138,7 +138,7 @@ TEST_CASE("pairs: both found, and F1 of all that was named") {
   auto one = effect("a"), other = effect("twin_of_b"), same = effect("b");
   other["set"] = same["set"] = 1;
   diagnosed("by_its_twin", {one, other}, {other, same});
-  const std::string score = score_of(folder, truths);
+  const std::string score = set_points_of(folder, truths);
   INFO(score);
   CHECK_THAT(score, Catch::Contains("(2 of 3)"));
   CHECK_THAT(score, Catch::Contains("0.805"));  // of means 7/9 and 5/6
@@ -175,7 +175,7 @@ TEST_CASE("many numbers off: those that can be seen are named, and few others") 
        {constant("named", 1.05, 0.01, true), constant("missed", 1.01, 0.01, false),
         constant("too_little_to_see", 1.01, 0.02, false), constant("exact", 1.04, 0.01, true)}}};
   fs::copy(robot_file, folder.path / "robot.xml");
-  const std::string score = score_of(folder, truths);
+  const std::string score = set_points_of(folder, truths);
   INFO(score);
   CHECK_THAT(score, Catch::Contains("named, of errors seen          50.0 %  (1 of 2)") &&
                         Catch::Contains("falsely, of those named        50.0 %  (1 of 2)") &&

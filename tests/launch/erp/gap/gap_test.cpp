@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "interfaces/recording/csv.hpp"
-#include "sim/gap/diagnosis/where.hpp"
-#include "sim/gap/closed_loop/rehearse.hpp"
-#include "sim/gap/checks/odd_table.hpp"
-#include "sim/gap/checks/units.hpp"
+#include "sim/gap/checks/column_checks.hpp"
+#include "sim/gap/checks/table_checks.hpp"
+#include "sim/gap/closed_loop/predicted_run.hpp"
+#include "sim/gap/diagnosis/localization.hpp"
 #include "tests/sim/gap/residuals/rig_recording.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -35,20 +35,20 @@ std::string said_of(const std::vector<std::string>& files) {
   return out.str();
 }
 
-void check_sound(const erp::Robot& robot, const sim::closed_loop::Score& score) {
-  const auto table = sim::closed_loop::rehearse(robot, score);
+void check_sound(const erp::Robot& robot, const sim::closed_loop::SetPoints& score) {
+  const auto table = sim::closed_loop::predict_run(robot, score);
   std::vector<std::string> mended;
   auto episode = sim::residuals::lay_out(table, robot, "run", mended);
-  CHECK(sim::checks::odd_table(table, robot, "run") == std::vector<std::string>{});
-  CHECK(sim::checks::odd_units(episode, robot) == std::vector<std::string>{});
-  CHECK_FALSE(sim::diagnosis::where(robot, std::vector{episode}).empty());
+  CHECK(sim::checks::table_checks(table, robot, "run") == std::vector<std::string>{});
+  CHECK(sim::checks::column_checks(episode, robot) == std::vector<std::string>{});
+  CHECK_FALSE(sim::diagnosis::localize(robot, std::vector{episode}).empty());
   for (auto& signals : episode.actuators) signals.tension_N.clear();
-  CHECK(sim::checks::odd_units(episode, robot) == std::vector<std::string>{});
+  CHECK(sim::checks::column_checks(episode, robot) == std::vector<std::string>{});
 }
 
 /// Each to and fro at its own pace.
-sim::closed_loop::Score every_line_by_2_mm(const erp::Robot& robot, double seconds) {
-  sim::closed_loop::Score score(static_cast<std::size_t>(500 * seconds));
+sim::closed_loop::SetPoints every_line_by_2_mm(const erp::Robot& robot, double seconds) {
+  sim::closed_loop::SetPoints score(static_cast<std::size_t>(500 * seconds));
   for (std::size_t k = 0; k < score.size(); ++k)
     for (std::size_t a = 0; a < robot.actuators.size(); ++a)
       score[k].push_back(
@@ -98,7 +98,7 @@ TEST_CASE("a recording of any prototype as modelled can be judged, and nothing i
     const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
     for (int kind = 0; kind < sim::excitation_kinds; ++kind) {
       INFO(name << ", " << sim::excitation_word(robot, kind));
-      check_sound(robot, sim::closed_loop::score_of(sim::excitation(robot, kind, 4, 1)));
+      check_sound(robot, sim::closed_loop::set_points_of(sim::excitation(robot, kind, 4, 1)));
     }
   }
   for (const char* name : {"ecce1", "ecce2", "ecce3", "ecce4"}) {
@@ -110,7 +110,7 @@ TEST_CASE("a recording of any prototype as modelled can be judged, and nothing i
 
 TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {
   std::ostringstream out, remarks, less;
-  launch::gap::TwinsOptions options{.robot = robot_file, .seconds = 4};
+  launch::gap::IndistinguishableOptions options{.robot = robot_file, .seconds = 4};
   CHECK(launch::gap::twins(options, out, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("routing_pulley_radius on flexor"));
   options.without = {"tension"};
@@ -121,7 +121,7 @@ TEST_CASE("what the sensors of a robot cannot tell apart is told without a recor
 
 TEST_CASE("what several effects do together for one is told, and of what types is checked") {
   std::ostringstream out, remarks;
-  launch::gap::TwinsOptions options{.robot = robot_file, .seconds = 4, .together = 2};
+  launch::gap::IndistinguishableOptions options{.robot = robot_file, .seconds = 4, .together = 2};
   CHECK(launch::gap::twins(options, out, remarks) == 0);
   CHECK_THAT(out.str(),
              Catch::Matches("[^]*sensor_joint_offset on elbow [^\n]* on [^\n]* \\+ [^]*"));

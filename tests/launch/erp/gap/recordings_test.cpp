@@ -31,7 +31,7 @@ TEST_CASE("where no recording is long enough, neither constants nor twins are li
   std::ostringstream out, remarks;
   CHECK(launch::gap::calibrate({.robot = rig_file, .out = "", .recordings = {short_one}}, out,
                                remarks) == 5);
-  launch::gap::TwinsOptions twins;
+  launch::gap::IndistinguishableOptions twins;
   twins.robot = rig_file, twins.recordings = {short_one};
   CHECK(launch::gap::twins(twins, out, remarks) == 5);
   CHECK_THAT(out.str(), Catch::Contains("nothing could be judged") &&

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "sim/gap/blind/case.hpp"
-#include "sim/gap/blind/shows.hpp"
-#include "sim/gap/blind/strength.hpp"
+#include "sim/gap/blind/joint_load.hpp"
+#include "sim/gap/blind/visibility.hpp"
 #include "sim/world/world.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -14,15 +14,17 @@ using namespace sim::blind;
 namespace {
 
 erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
-Quirks no_quirks(const erp::Robot& robot) { return draw_case(robot, Kind::null, 1).quirks; }
+HiddenEffects no_effects(const erp::Robot& robot) {
+  return draw_case(robot, Kind::null, 1).hidden_effects;
+}
 
 }  // namespace
 
 TEST_CASE(
-    "without quirks the blind plant moves as the simulator does, by another integrator and "
+    "without hidden effects the blind plant moves as the simulator does, by another integrator and "
     "friction") {
   const erp::Robot robot = hinge_rig();
-  Plant plant(robot, no_quirks(robot));
+  Plant plant(robot, no_effects(robot));
   sim::World world(robot);
   const int elbow = 0;
   double worst_rad = 0, worst_N = 0, moved_rad = 0;
@@ -44,7 +46,7 @@ TEST_CASE(
 TEST_CASE("every tendon of every robot starts at its pretension") {
   for (const char* name : {"hinge_rig", "leg", "arm", "seven_dof", "ecce4"}) {
     const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
-    Plant plant(robot, no_quirks(robot));
+    Plant plant(robot, no_effects(robot));
     REQUIRE(plant.run(std::vector<double>(robot.actuators.size()), 1e-5, 0));
     for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
       CAPTURE(name, robot.actuators[a].name);
@@ -55,14 +57,14 @@ TEST_CASE("every tendon of every robot starts at its pretension") {
 
 TEST_CASE("a quirk changes what it is named for") {
   const erp::Robot robot = hinge_rig();
-  const auto shaft_after = [&](const Quirks& quirks) {
-    Plant plant(robot, quirks);
+  const auto shaft_after = [&](const HiddenEffects& hidden_effects) {
+    Plant plant(robot, hidden_effects);
     const double volts[] = {3, 0};
     REQUIRE(plant.run(volts, 0.3, 0));
     return plant.shaft_rad(0);
   };
-  const double nominal = shaft_after(no_quirks(robot));
-  Quirks rubs = no_quirks(robot), torn = no_quirks(robot);
+  const double nominal = shaft_after(no_effects(robot));
+  HiddenEffects rubs = no_effects(robot), torn = no_effects(robot);
   rubs.chains[0].dry_Nm = 1;
   torn.chains[1].dry_Nm = 1;
   CHECK(shaft_after(rubs) < 0.95 * nominal);
@@ -84,7 +86,7 @@ TEST_CASE("a seed draws the same case again, another seed another") {
 
 TEST_CASE("many: eight to twelve numbers of a robot are 2 to 10 % off, all others as described") {
   const erp::Robot robot = hinge_rig();
-  Quirks unchanged = no_quirks(robot);
+  HiddenEffects unchanged = no_effects(robot);
   const AsBuilt exact = as_built(robot, 0, 1, unchanged);
   std::vector<int> counts;
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
@@ -107,15 +109,15 @@ TEST_CASE("many: eight to twelve numbers of a robot are 2 to 10 % off, all other
 
 TEST_CASE("what no reading shows is drawn anew: friction of a guide on a line that runs straight") {
   const erp::Robot robot = hinge_rig();
-  const Shows shows(robot);
-  Quirks nothing = no_quirks(robot), sag = nothing, heavy = nothing;
+  const Visibility shows(robot);
+  HiddenEffects nothing = no_effects(robot), sag = nothing, heavy = nothing;
   sag.chains[0].source_ohm = 1e-4;
   heavy.bodies["forearm"].mass = 0.3;
   CHECK_FALSE(shows(nothing));
   CHECK_FALSE(shows(sag));
   CHECK(shows(heavy));
   int asked = 0;
-  const auto third = [&](const Quirks&) { return ++asked == 3; };
+  const auto third = [&](const HiddenEffects&) { return ++asked == 3; };
   const Case drawn = draw_case(robot, Kind::single, 7, {}, third);
   CHECK(drawn.drawn_anew == 2);
   CHECK(drawn.hidden.size() == 1);
@@ -129,7 +131,7 @@ TEST_CASE("a disc off its centre reads the angle of the ray from it to the head"
   erp::Robot robot = hinge_rig();
   const auto angles = [&](double sine) {
     Case blind = draw_case(robot, Kind::null, 1);
-    blind.quirks.joints[0].angle.sine_rad = sine;
+    blind.hidden_effects.joints[0].angle.sine_rad = sine;
     const auto table = record(robot, blind, sim::excitation(robot, 0, 4, 1), 1);
     return table.find("elbow.angle_rad")->values;
   };

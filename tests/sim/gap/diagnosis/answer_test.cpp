@@ -10,8 +10,8 @@ namespace effects = sim::effects;
 namespace {
 
 /// An effect with such values of its fitted parameters, each within ±half.
-Named sized(const char* type, std::vector<double> values, double half) {
-  Named n = named(effects::Placed{"flexor", *effects::neutral(type)});
+IdentifiedEffect sized(const char* type, std::vector<double> values, double half) {
+  IdentifiedEffect n = identified(effects::Placed{"flexor", *effects::neutral(type)});
   REQUIRE(n.values.size() == values.size());
   n.values = std::move(values);
   for (std::size_t k = 0; k < n.values.size(); ++k)
@@ -30,8 +30,8 @@ TEST_CASE("an effect is undetermined if its intervals hold a robot without it") 
 }
 
 TEST_CASE("an alternative with a value at a bound is dropped, a size or a shape") {
-  std::vector<Named> answer{sized("gearbox_coulomb", {0.03}, 0.001)};
-  Named ageing = sized("gearbox_ageing_stiction", {0.03, 1, 0.1}, 0.001);
+  std::vector<IdentifiedEffect> answer{sized("gearbox_coulomb", {0.03}, 0.001)};
+  IdentifiedEffect ageing = sized("gearbox_ageing_stiction", {0.03, 1, 0.1}, 0.001);
   answer[0].alternatives = {ageing, ageing, ageing};
   answer[0].alternatives[0].values[1] = ageing.bounds[1].low;  // sticks at once
   answer[0].alternatives[2].values[0] = ageing.bounds[0].high;
@@ -41,7 +41,7 @@ TEST_CASE("an alternative with a value at a bound is dropped, a size or a shape"
 }
 
 TEST_CASE("an effect whose value is at a bound is undetermined") {
-  Named n = sized("tendon_kite_line", {1e-4}, 1e-5);
+  IdentifiedEffect n = sized("tendon_kite_line", {1e-4}, 1e-5);
   CHECK(undetermined(n).empty());
   n.values[0] = n.bounds[0].high;
   CHECK_THAT(undetermined(n), Catch::Contains("at its bound"));

@@ -15,7 +15,7 @@ using blind_recording::nothing_hidden;
 
 namespace {
 
-double value_of(const Named& n, const std::string& name) {
+double value_of(const IdentifiedEffect& n, const std::string& name) {
   for (std::size_t k = 0; k < n.names.size(); ++k)
     if (n.names[k] == name) return n.values[k];
   return 0;
@@ -32,7 +32,7 @@ TEST_CASE("two physics of the nominal rig agree: nothing hidden, no gap") {
 
 TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings held out") {
   auto blind = nothing_hidden();
-  blind.quirks.chains[1].viscous = 0.02;  // extensor
+  blind.hidden_effects.chains[1].viscous = 0.02;  // extensor
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.verdict == Verdict::supported);
   REQUIRE(d.answer.size() == 1);
@@ -54,10 +54,11 @@ TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings hel
   for (const std::string& name : d.held_out) CHECK(std::ranges::count(d.train, name) == 0);
 }
 
-TEST_CASE("an inertia that multiplies noisy accelerations is not too small, and its interval holds") {
+TEST_CASE(
+    "an inertia that multiplies noisy accelerations is not too small, and its interval holds") {
   const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
   auto blind = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
-  blind.quirks.bodies["shank"].inertia = 2.5;
+  blind.hidden_effects.bodies["shank"].inertia = 2.5;
   const Diagnosis d = diagnose(leg, episodes(blind, 12, 3, leg));
   REQUIRE(d.verdict == Verdict::supported);
   REQUIRE(d.answer.size() == 1);
@@ -69,7 +70,7 @@ TEST_CASE("an inertia that multiplies noisy accelerations is not too small, and 
 
 TEST_CASE("a loose sensor of a joint is named: where it rests, the tendons tell of the bone") {
   auto blind = nothing_hidden();
-  blind.quirks.joints[0].loose_rad = 0.03;
+  blind.hidden_effects.joints[0].loose_rad = 0.03;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.verdict == Verdict::supported);
   CHECK(d.answer[0].type == "joint_play");
@@ -79,7 +80,7 @@ TEST_CASE("a loose sensor of a joint is named: where it rests, the tendons tell 
 
 TEST_CASE("withheld, it is none of the known, at its place") {
   auto blind = nothing_hidden();
-  blind.quirks.chains[0].dead_V = 0.4;  // flexor
+  blind.hidden_effects.chains[0].dead_V = 0.4;  // flexor
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind), {.withhold = {"motor_dead_band"}});
   CHECK(d.verdict == Verdict::none_of_the_known);
   REQUIRE_FALSE(d.where.empty());
@@ -90,7 +91,7 @@ TEST_CASE("withheld, it is none of the known, at its place") {
 
 TEST_CASE("a law of another shape is not known, however much of it an effect closes") {
   auto blind = nothing_hidden();
-  blind.quirks.joints[0].drag = 0.12;  // grows with the square of the speed
+  blind.hidden_effects.joints[0].drag = 0.12;  // grows with the square of the speed
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 12, 4));
   CHECK(d.verdict == Verdict::none_of_the_known);
   REQUIRE(d.answer.size() == 1);
@@ -103,46 +104,47 @@ TEST_CASE("a law of another shape is not known, however much of it an effect clo
 
 TEST_CASE("two effects at once are both named") {
   auto blind = nothing_hidden();
-  blind.quirks.chains[0].ohm = 0.3;
-  blind.quirks.joints[0].viscous = 0.15;
+  blind.hidden_effects.chains[0].ohm = 0.3;
+  blind.hidden_effects.joints[0].viscous = 0.15;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   CHECK(d.verdict == Verdict::supported);
   std::vector<std::string> types;
-  for (const Named& n : d.answer) types.push_back(n.type + " " + n.on);
+  for (const IdentifiedEffect& n : d.answer) types.push_back(n.type + " " + n.on);
   CHECK(std::ranges::count(types, "motor_resistance flexor") == 1);
   CHECK(std::ranges::count(types, "joint_viscous elbow") == 1);
-  double shares = 0;
-  for (const Named& n : d.answer) {
+  double shapley_values = 0;
+  for (const IdentifiedEffect& n : d.answer) {
     CHECK(n.supported);
     CHECK(n.gain > 0.05);
-    shares += n.gain;
+    shapley_values += n.gain;
   }
-  CHECK(shares == Approx(1).margin(0.03));  // together they close all
-  CHECK(std::abs(d.interaction) < 0.1);     // and each its own stage
+  CHECK(shapley_values == Approx(1).margin(0.03));  // together they close all
+  CHECK(std::abs(d.interaction) < 0.1);             // and each its own stage
 }
 
 TEST_CASE("the same effect on every muscle of a leg is named on each") {
   const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
   auto blind = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
-  for (auto& chain : blind.quirks.chains) chain.dead_V = 0.4;
+  for (auto& chain : blind.hidden_effects.chains) chain.dead_V = 0.4;
   std::vector<std::string> withheld;  // to be quick
   for (const auto& effect : sim::effects::library())
     if (sim::effects::about(effect).stage != sim::effects::Stage::motor)
       withheld.emplace_back(sim::effects::about(effect).type);
-  const Evidence evidence{leg, episodes(blind, 6, 3, leg), {.withhold = withheld}, {{0, 1}, {2}}};
-  const Trials trials(leg, evidence.episodes, evidence.options.seed);
-  const auto stages = where(trials, trials.bare(), evidence.sets.all(), evidence.where_options());
-  const Selection selection = select(evidence, trials, stages);
+  const Problem problem{leg, episodes(blind, 6, 3, leg), {.withhold = withheld}, {{0, 1}, {2}}};
+  const Evaluator evaluator(leg, problem.episodes, problem.options.seed);
+  const auto stages =
+      localize(evaluator, evaluator.bare(), problem.sets.all(), problem.localization_options());
+  const Selection selection = select(problem, evaluator, stages);
   CHECK(selection.explained());
   CHECK(selection.answer.size() == leg.actuators.size());
-  CHECK(selection.answer.size() > evidence.options.most_effects);  // of one after another
-  for (const Named& n : selection.answer) CHECK(n.type == "motor_dead_band");
+  CHECK(selection.answer.size() > problem.options.most_effects);  // of one after another
+  for (const IdentifiedEffect& n : selection.answer) CHECK(n.type == "motor_dead_band");
 }
 
 TEST_CASE("the shares of two effects on one stage add up, and what they share is interaction") {
   auto blind = nothing_hidden();
-  blind.quirks.chains[1].dry_Nm = 0.06;
-  blind.quirks.chains[1].viscous = 0.006;
+  blind.hidden_effects.chains[1].dry_Nm = 0.06;
+  blind.hidden_effects.chains[1].viscous = 0.006;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 2);
   CHECK(d.answer[0].gain + d.answer[1].gain == Approx(1).margin(0.03));
@@ -152,14 +154,14 @@ TEST_CASE("the shares of two effects on one stage add up, and what they share is
 TEST_CASE("of what was not told, the interval is all that is allowed") {
   Ranked ranked{.fit = {{"flexor", *sim::effects::neutral("gearbox_viscous")}, 0, {}, {}}};
   ranked.fit.sigmas = {std::numeric_limits<double>::infinity()};
-  const Named n = named(ranked, 0);
+  const IdentifiedEffect n = identified(ranked, 0);
   CHECK(n.intervals.at(0).low == n.bounds.at(0).low);
   CHECK(n.intervals.at(0).high == n.bounds.at(0).high);
 }
 
 TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
   auto blind = nothing_hidden();
-  blind.quirks.chains[0].knot_m = 4e-4;
+  blind.hidden_effects.chains[0].knot_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 1);
   REQUIRE(d.answer[0].alternatives.size() == 1);
@@ -169,12 +171,12 @@ TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
 
 TEST_CASE("of two effects, what stands for one is not given to the other") {
   auto blind = nothing_hidden();
-  blind.quirks.chains[0].ohm = 0.3;
-  blind.quirks.chains[1].knot_m = 4e-4;
+  blind.hidden_effects.chains[0].ohm = 0.3;
+  blind.hidden_effects.chains[1].knot_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 2);
-  const auto offset = std::ranges::find(d.answer, "tendon_length_offset", &Named::type);
-  const auto resistance = std::ranges::find(d.answer, "motor_resistance", &Named::type);
+  const auto offset = std::ranges::find(d.answer, "tendon_length_offset", &IdentifiedEffect::type);
+  const auto resistance = std::ranges::find(d.answer, "motor_resistance", &IdentifiedEffect::type);
   REQUIRE(offset != d.answer.end());
   REQUIRE(resistance != d.answer.end());
   REQUIRE(offset->alternatives.size() == 1);
@@ -182,7 +184,7 @@ TEST_CASE("of two effects, what stands for one is not given to the other") {
   CHECK(resistance->alternatives.empty());
   REQUIRE(d.where.size() == 3);
   double whole = 0;
-  for (const Located& place : d.where) {
+  for (const Attribution& place : d.where) {
     whole += place.share;
     CHECK(place.on == (place.stage == sim::effects::Stage::motor ? "flexor" : "extensor"));
     CHECK((place.stage == sim::effects::Stage::motor) == (place.interval.low > 0));
@@ -194,25 +196,25 @@ TEST_CASE("late, jittering and lost commands are told apart by their ages") {
   auto blind = nothing_hidden();
   const auto told = [&] { return diagnose(hinge_rig(), episodes(blind, 4)).answer.at(0); };
   SECTION("late") {
-    blind.quirks.command_delay_s = 0.013;
-    const Named n = told();
+    blind.hidden_effects.command_delay_s = 0.013;
+    const IdentifiedEffect n = told();
     CHECK(n.type == "bus_command_delay");
     CHECK(value_of(n, "delay_s") == Approx(0.013).margin(0.0012));
   }
   SECTION("jitter") {
-    blind.quirks.jitter_s = 0.02;
-    const Named n = told();
+    blind.hidden_effects.jitter_s = 0.02;
+    const IdentifiedEffect n = told();
     CHECK(n.type == "bus_jitter");
     CHECK(value_of(n, "spread_s") == Approx(0.02).margin(0.002));
   }
   SECTION("lost") {
-    blind.quirks.loss = 0.4;
-    const Named n = told();
+    blind.hidden_effects.loss = 0.4;
+    const IdentifiedEffect n = told();
     CHECK(n.type == "bus_frame_loss");
     CHECK(value_of(n, "probability") == Approx(0.4).margin(0.03));
   }
   SECTION("late as no effect has it: the bus all the same") {
-    blind.quirks.loss = 0.4;
+    blind.hidden_effects.loss = 0.4;
     DiagnoseOptions options;
     options.withhold = {"bus_frame_loss"};
     const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 4), options);
@@ -226,7 +228,7 @@ TEST_CASE("late, jittering and lost commands are told apart by their ages") {
 TEST_CASE("a gap that only the training recordings show is not identifiable") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 6, 2);
-  blind.quirks.chains[1].viscous = 0.02;
+  blind.hidden_effects.chains[1].viscous = 0.02;
   all[0] = episodes(blind, 6, 1)[0];
   const Diagnosis d = diagnose(hinge_rig(), all, {.train = {0}, .held_out = {1}});
   CHECK(d.verdict == Verdict::not_identifiable);

@@ -1,7 +1,7 @@
 #include "sim/gap/residuals/drives.hpp"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -106,7 +106,7 @@ recording::Table recorded(const Bench& b, double seconds, double pace) {
 }
 
 double value_of(const Diagnosis& d, const char* type) {
-  for (const Named& n : d.answer)
+  for (const IdentifiedEffect& n : d.answer)
     if (n.type == type) return n.values[0];
   return 0;
 }
@@ -122,7 +122,7 @@ Diagnosis diagnosed(const erp::Robot& drives, const std::vector<recording::Table
 
 std::set<std::string> types_of(const Diagnosis& d) {
   std::set<std::string> types;
-  for (const Named& n : d.answer) types.insert(n.type);
+  for (const IdentifiedEffect& n : d.answer) types.insert(n.type);
   return types;
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("a slide without friction has no gap, with friction it is named and si
   const Diagnosis d = diagnosed(robot, runs({80, 12, 0}));
   CHECK(d.verdict == Verdict::supported);
   CHECK(types_of(d) == std::set<std::string>{"gearbox_coulomb", "gearbox_viscous"});
-  for (const Named& n : d.answer)  // on the shaft: N m_per_rad, N s/m m_per_rad²
+  for (const IdentifiedEffect& n : d.answer)  // on the shaft: N m_per_rad, N s/m m_per_rad²
     CHECK(n.values[0] == Approx(n.type == "gearbox_viscous" ? 80e-4 : 12e-2).epsilon(0.03));
   CHECK(d.channels[0].after < 0.02 * d.channels[0].driven_by);
 }
@@ -149,7 +149,7 @@ TEST_CASE("friction that differs both ways is the gearbox's; no current was meas
   CHECK(d.verdict == Verdict::supported);
   CHECK(types_of(d) ==
         std::set<std::string>{"gearbox_asymmetric", "gearbox_coulomb", "gearbox_viscous"});
-  for (const Named& n : d.ranked) CHECK_FALSE(n.type.starts_with("sensor_current"));
+  for (const IdentifiedEffect& n : d.ranked) CHECK_FALSE(n.type.starts_with("sensor_current"));
 }
 
 TEST_CASE("a control by current drives its motor's torque, by voltage its winding") {

@@ -20,7 +20,7 @@ Episode recorded(const std::vector<effects::Placed>& placed, std::uint64_t seed 
 }
 
 void check_closed(const std::vector<Episode>& episodes) {
-  for (const StageGap& gap : where(hinge_rig(), episodes)) {
+  for (const StageGap& gap : localize(hinge_rig(), episodes)) {
     INFO(effects::word(gap.stage) << " " << gap.on << ": excess " << gap.excess);
     CHECK_FALSE(gap.open);
     CHECK(gap.rms < 1.4 * gap.floor);
@@ -30,9 +30,9 @@ void check_closed(const std::vector<Episode>& episodes) {
 std::vector<std::string> suspected(const std::vector<effects::Placed>& hidden,
                                    const std::vector<std::string>& withhold = {}) {
   const erp::Robot robot = hinge_rig();
-  Evidence evidence{robot, {recorded(hidden)}, {.withhold = withhold}, {{0}, {0}}};
+  Problem problem{robot, {recorded(hidden)}, {.withhold = withhold}, {{0}, {0}}};
   std::vector<std::string> names;
-  for (const Part& part : isolate(evidence, Trials(robot, evidence.episodes)))
+  for (const Part& part : isolate(problem, Evaluator(robot, problem.episodes)))
     names.push_back(std::string(effects::word(part.stage)) + " " + part.on);
   return names;
 }
@@ -71,8 +71,8 @@ TEST_CASE(
   Episode episode = recorded({{"extensor", effects::SpindleRadius{0.1}}});
   episode.joints[0].angle_rad.clear();
   const Episode all[] = {episode};
-  CHECK(where(hinge_rig(), all)[0].stage == effects::Stage::tendon);
-  CHECK(where(hinge_rig(), all)[0].open);
+  CHECK(localize(hinge_rig(), all)[0].stage == effects::Stage::tendon);
+  CHECK(localize(hinge_rig(), all)[0].open);
   for (auto& a : episode.actuators) std::ranges::fill(a.tension_N, 0.0);
   const auto joints = Stages(hinge_rig()).explain(episode).joints;
   CHECK(std::isnan(joints->signals[0].angle_rad[1000]));

@@ -18,7 +18,7 @@ namespace {
 std::vector<Episode> dragging(const std::vector<std::size_t>& shows) {
   auto blind = nothing_hidden();
   auto all = episodes(blind);
-  blind.quirks.chains[1].viscous = 0.02;
+  blind.hidden_effects.chains[1].viscous = 0.02;
   const auto drags = episodes(blind);
   for (const std::size_t k : shows) all[k] = drags[k];
   return all;
@@ -38,11 +38,11 @@ TEST_CASE("of two recordings that show the gap, one teaches and one judges") {
   for (const std::size_t silent : {0u, 1u, 2u}) {
     std::vector<std::size_t> shows{0, 1, 2};
     shows.erase(shows.begin() + std::ptrdiff_t(silent));
-    const Trials plain(hinge_rig(), dragging(shows));
+    const Evaluator plain(hinge_rig(), dragging(shows));
     Sets given;
     given.held_out = {silent};
     given.train = shows;
-    const Sets sets = hold_out_what_shows(given, plain, {});
+    const Sets sets = hold_out_visible(given, plain, {});
     REQUIRE(sets.held_out.size() == 1);
     CHECK(sets.held_out[0] != silent);
     CHECK(sets.train.size() == 2);
@@ -53,13 +53,14 @@ TEST_CASE("of two recordings that show the gap, one teaches and one judges") {
 TEST_CASE("a recording cut in two has each of its windows once") {
   auto all = dragging({0, 1, 2});
   Sets sets{{0, 1}, {2}};
-  const std::size_t whole = Trials(hinge_rig(), all).bare().of_episode[0].rows.size();
+  const std::size_t whole = Evaluator(hinge_rig(), all).bare().of_episode[0].rows.size();
   const std::size_t row = all[0].rows / 3;
   cut_in_two({0, row, sim::effects::Stage::gearbox, "extensor"}, all, sets);
   CHECK(sets.train == std::vector<std::size_t>{1, 0});
   CHECK(sets.held_out == std::vector<std::size_t>{2, 3});
-  const Trials trials(hinge_rig(), all);
-  const auto &first = trials.bare().of_episode[0].rows, &second = trials.bare().of_episode[3].rows;
+  const Evaluator evaluator(hinge_rig(), all);
+  const auto &first = evaluator.bare().of_episode[0].rows,
+             &second = evaluator.bare().of_episode[3].rows;
   CHECK(first.back() < row);
   CHECK(second.front() >= row);
   CHECK(first.size() + second.size() == whole);
@@ -69,7 +70,7 @@ TEST_CASE(
     "a stop that one recording meets: that teaches by its first part and judges by the rest") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 20);
-  blind.quirks.joints[0].min_in_rad = 0.6;
+  blind.hidden_effects.joints[0].min_in_rad = 0.6;
   all[0] = episodes(blind, 20)[0];
   const Diagnosis d = diagnose(hinge_rig(), all);
   CHECK(d.verdict == Verdict::supported);
@@ -93,7 +94,7 @@ TEST_CASE(
   auto blind = nothing_hidden();
   auto all = episodes(blind, 20);
   const std::size_t met = split(all).held_out[0];
-  blind.quirks.joints[0].min_in_rad = 0.6;
+  blind.hidden_effects.joints[0].min_in_rad = 0.6;
   all[met] = episodes(blind, 20)[met];
   erp::Robot described = hinge_rig();  // of which the recordings' robot differs
   described.motor_types[0].resistance_ohm *= 1.03;
@@ -117,7 +118,7 @@ TEST_CASE(
 
 TEST_CASE("what a sensor smoothed comes back with its noise, which is no gap") {
   auto blind = nothing_hidden();
-  blind.quirks.joints[0].angle.lag_s = 0.025;
+  blind.hidden_effects.joints[0].angle.lag_s = 0.025;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 10));
   CHECK(d.verdict == Verdict::supported);
   REQUIRE(d.answer.size() == 1);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "sim/gap/residuals/floor.hpp"
+#include "sim/gap/residuals/noise_floor.hpp"
 #include "tests/sim/gap/diagnosis/blind_recording.hpp"
 
 using namespace sim::estimation;
@@ -106,7 +106,7 @@ TEST_CASE("a gearbox's friction of many times its nominal one is that constant, 
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.02, built.actuators[0].spindle.radius_m *= 0.99;
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.chains[0].viscous = 0.05;  // 100 times
+  blind.hidden_effects.chains[0].viscous = 0.05;  // 100 times
   const auto recordings = recordings_of(built, 10, blind);
   const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
@@ -121,7 +121,7 @@ TEST_CASE("a forearm far too light is found, its centre of mass nearer instead i
   built.motor_types[0].resistance_ohm *= 1.02, change_magnet(built, 0.99);
   built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.bodies["forearm"].mass = -0.4;
+  blind.hidden_effects.bodies["forearm"].mass = -0.4;
   const auto recordings = recordings_of(built, 10, blind);
   const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
@@ -137,7 +137,8 @@ TEST_CASE("an effect is found beside constants that are all a little off") {
   built.motor_types[0].resistance_ohm *= 1.03, change_magnet(built, 0.98);
   built.actuators[0].spindle.radius_m *= 1.02, built.actuators[1].tendon.stiffness_N_per_m *= 0.97;
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.chains[1].creep_N_per_m = 1500, blind.quirks.chains[1].creep_s = 2;  // extensor
+  blind.hidden_effects.chains[1].creep_N_per_m = 1500,
+  blind.hidden_effects.chains[1].creep_s = 2;  // extensor
   const auto recordings = recordings_of(built, 10, blind);
   const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
@@ -150,7 +151,7 @@ TEST_CASE("a joint sensor's gain is found though both moment arms could nearly s
   built.motor_types[0].resistance_ohm *= 1.02, change_magnet(built, 0.99);
   built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.joints[0].angle.gain = -0.095;
+  blind.hidden_effects.joints[0].angle.gain = -0.095;
   const auto recordings = recordings_of(built, 10, blind);
   const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
@@ -163,7 +164,7 @@ TEST_CASE(
     "a joint's play, a sensor's lag and a line that gives are found beside constants 2 % off") {
   struct Hidden {
     const char* name;
-    std::function<void(sim::blind::Quirks&)> hide;
+    std::function<void(sim::blind::HiddenEffects&)> hide;
   };
   const Hidden each[] = {
       {"joint_play on elbow", [](auto& q) { q.joints[0].loose_rad = 0.054; }},
@@ -172,8 +173,8 @@ TEST_CASE(
   for (const Hidden& hidden : each) {
     INFO(hidden.name);
     auto blind = blind_recording::nothing_hidden();
-    hidden.hide(blind.quirks);
-    blind.built = sim::blind::as_built(hinge_rig(), 0.02, 41, blind.quirks);
+    hidden.hide(blind.hidden_effects);
+    blind.built = sim::blind::as_built(hinge_rig(), 0.02, 41, blind.hidden_effects);
     const auto recordings = blind_recording::episodes(blind, 10);
     const std::span<const sim::residuals::Episode> all(recordings);
     const AsBuilt found = as_built(hinge_rig(), all.first(2), all.last(1));
@@ -185,7 +186,7 @@ TEST_CASE(
 
 TEST_CASE("a robot as described but for one effect is explained by that effect alone") {
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.chains[0].spring = 0.2;  // flexor
+  blind.hidden_effects.chains[0].spring = 0.2;  // flexor
   const auto recordings = recordings_of(hinge_rig(), 10, blind);
   const std::span<const sim::residuals::Episode> each(recordings);
   const AsBuilt found = as_built(hinge_rig(), each.first(2), each.last(1));
@@ -267,8 +268,8 @@ TEST_CASE("the first third of recordings shows how much a robot raises each nois
       for (const auto& recording : recordings) {
         sim::residuals::Stages stages(robot);
         const auto real = stages.residuals(recording)[s],
-                   disturbed =
-                       stages.residuals(sim::residuals::said_again(recording, nominal, seed))[s];
+                   disturbed = stages.residuals(
+                       sim::residuals::resampled_noise(recording, nominal, seed))[s];
         for (std::size_t k = 0; k < real.value.size(); ++k)
           if (const double change = disturbed.value[k] - real.value[k];
               !std::isnan(change) && !banded(real, k) && !banded(disturbed, k))

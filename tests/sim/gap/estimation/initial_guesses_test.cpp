@@ -14,7 +14,7 @@ namespace {
 
 std::vector<sim::residuals::Episode> with_early_stop(double min_in_rad) {
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.joints[0].min_in_rad = min_in_rad;
+  blind.hidden_effects.joints[0].min_in_rad = min_in_rad;
   return blind_recording::episodes(blind, 20);
 }
 

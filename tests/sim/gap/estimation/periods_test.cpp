@@ -25,7 +25,7 @@ std::vector<double> found(const sim::blind::Case& hidden, const char* type) {
 
 TEST_CASE("the periods of a friction that depends on position are those of its residual") {
   sim::blind::Case hidden = blind_recording::nothing_hidden();
-  auto& chain = hidden.quirks.chains[0];
+  auto& chain = hidden.hidden_effects.chains[0];
   chain.dry_Nm = 0.06, chain.turn_sine_Nm = 0.04, chain.turn_periods = 5;
   const auto periods = found(hidden, "gearbox_position_dependent");
   REQUIRE(periods.size() == 3);
@@ -34,7 +34,7 @@ TEST_CASE("the periods of a friction that depends on position are those of its r
 
 TEST_CASE("the periods of a cogging are those of its residual") {
   sim::blind::Case hidden = blind_recording::nothing_hidden();
-  hidden.quirks.chains[0].cog_sine_Nm = 2e-3;  // 12 of the motor's shaft
+  hidden.hidden_effects.chains[0].cog_sine_Nm = 2e-3;  // 12 of the motor's shaft
   const auto periods = found(hidden, "motor_cogging");
   REQUIRE(periods.size() == 3);
   CHECK(periods[0] == 12);

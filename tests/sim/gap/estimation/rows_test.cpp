@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "sim/gap/estimation/defective_rows.hpp"
 #include "sim/gap/estimation/limits.hpp"
 #include "sim/gap/estimation/row_timing.hpp"
-#include "sim/gap/estimation/spoilt_rows.hpp"
 #include "tests/sim/gap/diagnosis/blind_recording.hpp"
 
 using namespace sim::estimation;
@@ -59,7 +59,7 @@ TEST_CASE("a voltage that acts 8 ms late is a delay of 8 ms") {
 
 TEST_CASE("a driver of one motor that is late is no lag of rows") {
   sim::blind::Case late = blind_recording::nothing_hidden();
-  late.quirks.chains[0].driver_late_s = 0.0013;
+  late.hidden_effects.chains[0].driver_late_s = 0.0013;
   CHECK(row_timing(blind_recording::episodes(late, 5, 2)).rows == 0);
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("reports that repeat the last one are lost ones: filled in or forgotte
   for (Episode& e : all) lose_reports(e, 40, 4);
   CHECK(repeated_rows(all).share == Approx(0.1).epsilon(0.1));
   std::vector<std::string> remarks;
-  mend_spoilt_rows(all, remarks);
+  repair_defective_rows(all, remarks);
   REQUIRE(remarks.size() == 1);
   CHECK(remarks[0].find("reports were lost") != std::string::npos);
   CHECK(all[0].repeated_share == Approx(0.1).epsilon(0.1));

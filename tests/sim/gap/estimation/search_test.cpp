@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "sim/gap/estimation/completion.hpp"
 #include "sim/model/effects/library.hpp"
-#include "sim/gap/estimation/settle.hpp"
 #include "tests/sim/gap/diagnosis/blind_recording.hpp"
 
 using namespace sim::estimation;
@@ -19,7 +19,7 @@ sim::effects::Placed on_flexor(const char* type) {
 
 TEST_CASE("an effect whose estimate may be neutral is dropped where the others explain") {
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.chains[0].viscous = 0.02;  // flexor
+  blind.hidden_effects.chains[0].viscous = 0.02;  // flexor
   const auto recordings = blind_recording::episodes(blind, 8);
   const std::span<const sim::residuals::Episode> each(recordings);
   const erp::Robot robot = hinge_rig();

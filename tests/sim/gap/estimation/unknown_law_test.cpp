@@ -22,7 +22,7 @@ TEST_CASE(
     "a stiffness that may not be named is an unknown law, not three constants that make up for "
     "it") {
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.chains[1].spring = 0.3;  // extensor
+  blind.hidden_effects.chains[1].spring = 0.3;  // extensor
   const AsBuilt found = found_of(blind, {"tendon_stiffness", "tendon_creep"});
   CHECK(found.unknown_law);
   CHECK(found.beyond.empty());
@@ -30,8 +30,9 @@ TEST_CASE(
 
 TEST_CASE("two causes at one place are named, and are no unknown law") {
   auto blind = blind_recording::nothing_hidden();
-  blind.quirks.chains[1].rotor = 0.66;  // extensor
-  blind.quirks.chains[1].turn_sine_Nm = 0.049, blind.quirks.chains[1].turn_cosine_Nm = -0.063;
+  blind.hidden_effects.chains[1].rotor = 0.66;  // extensor
+  blind.hidden_effects.chains[1].turn_sine_Nm = 0.049,
+  blind.hidden_effects.chains[1].turn_cosine_Nm = -0.063;
   const AsBuilt found = found_of(blind);
   CHECK_FALSE(found.keeps);
   CHECK_FALSE(found.unknown_law);

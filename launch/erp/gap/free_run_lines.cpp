@@ -1,0 +1,95 @@
+#include "launch/erp/gap/free_run_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launch::gap {
+namespace {
+
+namespace diagnosis = sim::diagnosis;
+namespace residuals = sim::residuals;
+namespace closed_loop = sim::closed_loop;
+using diagnosis::IdentifiedEffect;
+
+/// The recordings held out, of one that is shared the part that judges.
+std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
+                                            const std::vector<residuals::Episode>& episodes) {
+  std::vector<residuals::Episode> held_out;
+  for (const auto& e : episodes)
+    if (std::ranges::count(d.held_out, e.name)) held_out.push_back(e);
+  for (const auto& [recording, judged_from_s] : d.shared)
+    if (const auto e = std::ranges::find(held_out, recording, &residuals::Episode::name);
+        e != held_out.end())
+      e->judge_from(judged_from_s);
+  return held_out;
+}
+
+/// In whose place another of those as good comes first.
+void put_first(IdentifiedEffect& answer, std::size_t k) {
+  IdentifiedEffect other = answer.alternatives[k];
+  other.supported = answer.supported, other.alternatives = answer.alternatives;
+  other.alternatives.erase(other.alternatives.begin() + std::ptrdiff_t(k));
+  answer.alternatives.clear();
+  other.alternatives.insert(other.alternatives.begin(), answer);
+  answer = std::move(other);
+}
+
+class Rehearsals {
+ public:
+  Rehearsals(const diagnosis::Diagnosis& d, const std::vector<residuals::Episode>& episodes,
+             const erp::Robot& robot, const DiagnoseOptions& options,
+             const std::function<void(double)>& progress)
+      : robot_(robot),
+        how_{options.threads, options.seed, progress},
+        held_out_(held_out_of(d, episodes)) {}
+
+  closed_loop::FreeRun of(const std::vector<IdentifiedEffect>& answer) const {
+    erp::Robot found = robot_;
+    for (const IdentifiedEffect& n : answer)
+      found.effects.push_back(sim::effects::written(n.placed));
+    return of(found);
+  }
+  closed_loop::FreeRun of(const erp::Robot& found) const {
+    return closed_loop::free_run(robot_, found, held_out_, how_);
+  }
+
+ private:
+  const erp::Robot& robot_;
+  closed_loop::FreeRunOptions how_;
+  std::vector<residuals::Episode> held_out_;
+};
+
+}  // namespace
+
+closed_loop::FreeRun run_freely(diagnosis::Diagnosis& d,
+                                const std::vector<residuals::Episode>& episodes,
+                                const erp::Robot& robot, const DiagnoseOptions& options,
+                                const std::function<void(double)>& progress) {
+  constexpr double plain = 2, much = 0.5;  // of the noise; of what is left; chosen
+  constexpr std::size_t most = 4;          // others that are tried; chosen
+  const bool nothing = d.answer.empty() && !d.as_built && d.verdict != diagnosis::Verdict::no_gap;
+  if (nothing || !options.free_run || !robot.drives.empty()) return {};
+  const Rehearsals rehearsals(d, episodes, robot, options, progress);
+  if (d.as_built) return rehearsals.of(*d.as_built);
+  closed_loop::FreeRun best = rehearsals.of(d.answer);
+  if (d.verdict != diagnosis::Verdict::supported || d.answer.size() != 1 ||
+      !(best.all.after > plain * best.all.floor))
+    return best;
+  IdentifiedEffect& answer = d.answer[0];
+  std::size_t nearest = answer.alternatives.size();
+  const double first = best.all.after;
+  for (std::size_t k = 0; k < std::min(most, answer.alternatives.size()); ++k)
+    if (auto run = rehearsals.of({answer.alternatives[k]}); run.all.after < much * best.all.after)
+      best = std::move(run), nearest = k;
+  if (nearest == answer.alternatives.size()) return best;
+  d.warnings.push_back(fmt::format(
+      "the residuals cannot tell {} on {} from {} on {}; the free run is off by {:.3g} times "
+      "the noise with the former and {:.3g} with the latter, which is put first",
+      answer.type, answer.on, answer.alternatives[nearest].type, answer.alternatives[nearest].on,
+      first, best.all.after));
+  put_first(answer, nearest);
+  return best;
+}
+
+}  // namespace launch::gap

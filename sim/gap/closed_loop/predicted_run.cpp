@@ -1,0 +1,142 @@
+#include "sim/gap/closed_loop/predicted_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "interfaces/recording/columns.hpp"
+#include "sim/model/actuator/noise.hpp"
+
+namespace sim::closed_loop {
+namespace {
+
+constexpr double tick_s = 0.002;
+
+class Stage {
+ public:
+  Stage(const erp::Robot& robot, std::uint64_t seed, const Ecus& ecus)
+      : robot_(robot),
+        simulated_(robot, ecus.configured ? *ecus.configured : robot, seed),
+        noise_(seed),
+        ecu_(ecus.learned) {
+    last_.resize(robot.actuators.size());
+    const erp::Robot& configured = ecus.configured ? *ecus.configured : robot;
+    for (const erp::Actuator& a : configured.actuators)
+      loops_.push_back({{erp::Mode::off, a.spindle.radius_m},
+                        a.spindle.radius_m,
+                        robot.motor_of(a).supply_V,
+                        erp::Mode::off,
+                        {}});
+    table_.columns.push_back({"time_s", {}});
+    for (std::string& name : recording::columns_of(robot_))
+      table_.columns.push_back({std::move(name), {}});
+  }
+
+  recording::Table play(const SetPoints& score) {
+    for (const auto& asked : score) {
+      before_ = last_;
+      for (std::size_t a = 0; a < last_.size(); ++a)
+        if (!std::isnan(asked[a].reference)) last_[a] = asked[a];
+      simulated_.tick(commanded());
+      put(tick_s * static_cast<double>(table_.rows()));
+    }
+    return std::move(table_);
+  }
+
+ private:
+  /// A learned law at work: what it has seen since its mode began.
+  struct Loop {
+    Regressors regressors;
+    double radius_m, supply_V;
+    erp::Mode mode;
+    std::vector<Eigen::Vector<double, Regressors::count>> seen;
+  };
+
+  /// What the firmware is asked: what the recording was, or the voltage of a learned law.
+  std::vector<SetPoint> commanded() {
+    std::vector<SetPoint> all = last_;
+    if (table_.rows() == 0) return all;  // nothing is measured yet
+    for (std::size_t a = 0; ecu_ && a < all.size(); ++a)
+      for (const bool newest : {true, false}) {
+        const SetPoint& asked = newest ? last_[a] : before_[a];
+        if (const auto law = ecu_->find({a, asked.mode});
+            law != ecu_->end() && law->second.newest == newest)
+          all[a] = {erp::Mode::voltage, voltage_of(law->second, asked, a)};
+      }
+    return all;
+  }
+  double voltage_of(const LearnedLaw& law, const SetPoint& asked, std::size_t a) {
+    Loop& loop = loops_[a];
+    if (loop.mode != asked.mode)
+      loop.mode = asked.mode, loop.regressors = {loop.mode, loop.radius_m}, loop.seen.clear();
+    const auto& said = simulated_.sample_of(a);
+    const EcuUnits& units = simulated_.units(a);
+    loop.seen.push_back(loop.regressors.next({asked.reference, units.shaft_rad(said.encoder_counts),
+                                              said.current_counts * units.current_A_per_count,
+                                              units.tension_N(said.tension_counts)}));
+    const std::size_t back = std::min(law.lag, loop.seen.size());
+    return std::clamp(law.weights.dot(loop.seen[loop.seen.size() - back]), -loop.supply_V,
+                      loop.supply_V);
+  }
+
+  /// As its sensor says, or as it is where there is none.
+  double angle_of(std::size_t joint, const std::string& name) const {
+    for (const erp::JointSensor& sensor : robot_.joint_sensors)
+      for (const auto& analog : erp::samples(simulated_.frame().analogs))
+        if (sensor.joint == name && analog.ecu == sensor.ecu && analog.input == sensor.input)
+          return 2 * std::numbers::pi / std::exp2(sensor.bits_per_rev) * analog.counts;
+    return simulated_.world().joints()[joint].position[0];
+  }
+
+  void put(double time_s) {
+    std::size_t column = 0;
+    const auto add = [&](double value) {
+      if (!std::isfinite(value)) throw std::runtime_error("the rehearsed motion is not finite");
+      table_.columns[column++].values.push_back(value);
+    };
+    add(time_s);
+    for (std::size_t a = 0; a < last_.size(); ++a) {
+      const auto& said = simulated_.sample_of(a);
+      const EcuUnits& units = simulated_.units(a);
+      add(static_cast<double>(last_[a].mode)), add(last_[a].reference);
+      add(units.voltage_V(said.duty_counts));
+      add(said.current_counts * units.current_A_per_count);
+      add(units.shaft_rad(said.encoder_counts));
+      add(units.tension_N(said.tension_counts));
+    }
+    const auto joints = robot_.joints();
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].type == erp::JointType::revolute) add(angle_of(j, joints[j].name));
+      if (joints[j].type == erp::JointType::spherical)
+        for (const double q : simulated_.world().joints()[j].position)
+          add(q + tracking_noise * noise_.normal());
+    }
+  }
+
+  const erp::Robot& robot_;
+  SimulatedRobot simulated_;
+  std::vector<SetPoint> last_, before_;
+  Noise noise_;
+  const LearnedEcu* ecu_;
+  std::vector<Loop> loops_;
+  recording::Table table_;
+};
+
+}  // namespace
+
+SetPoints set_points_of(const Excitation& excitation) {
+  SetPoints score;
+  for (const auto& row : excitation.reference) {
+    auto& asked = score.emplace_back();
+    for (const double reference : row) asked.push_back({excitation.mode, reference});
+  }
+  return score;
+}
+
+recording::Table predict_run(const erp::Robot& robot, const SetPoints& score, std::uint64_t seed,
+                             const Ecus& ecus) {
+  return Stage(robot, seed, ecus).play(score);
+}
+
+}  // namespace sim::closed_loop

@@ -1,0 +1,124 @@
+#include "sim/gap/diagnosis/attribution.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "sim/gap/diagnosis/isolation.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+/// When the residual of what sits there lives, at its most open stage.
+std::vector<Region> when(const Problem& problem, const Evaluator& plain,
+                         const std::vector<StageGap>& stages, const std::string& on) {
+  const auto most =
+      std::ranges::find_if(stages, [&](const StageGap& gap) { return gap.open && gap.on == on; });
+  if (most == stages.end()) return {};
+  return regions(plain, plain.bare(), most->stage, on, problem.sets.all());
+}
+
+/// The place of an effect, and those of what could stand for it.
+std::vector<Part> group_of(const IdentifiedEffect& n) {
+  std::vector<Part> group{{n.stage, n.on}};
+  for (const IdentifiedEffect& other : n.alternatives)
+    if (find_stage(group, other.stage, other.on) == group.end())
+      group.push_back({other.stage, other.on});
+  return group;
+}
+
+/// What it closes, but for the bus, which closes nothing beside what does.
+Interval closed_by(const IdentifiedEffect& n, bool alone) {
+  if (n.stage == effects::Stage::bus && !alone) return {0, 0};
+  return {std::max(0.0, n.gain_interval.low), std::max(0.0, n.gain_interval.high)};
+}
+
+void add(std::vector<Attribution>& places, Attribution place) {
+  const auto same = find_stage(places, place.stage, place.on);
+  if (same == places.end()) return places.push_back(std::move(place));
+  same->share += place.share;
+  same->interval.low = std::min(1.0, same->interval.low + place.interval.low);
+  same->interval.high = std::min(1.0, same->interval.high + place.interval.high);
+}
+
+/// The parts of the chain that could leave the gap, the likeliest first: the one whose effects come
+/// nearest to closing it, then the one where it shows.
+std::vector<Part> suspects(const Problem& problem, const Evaluator& plain,
+                           const Attribution& widest, const std::vector<IdentifiedEffect>& ranked) {
+  constexpr double near = 0.3;  // of the gap; chosen
+  const auto likelihood = [&](const Part& part) {
+    double gain = 0;
+    for (const IdentifiedEffect& n : ranked)
+      if (same_stage(part, n.stage, n.on)) gain = std::max(gain, n.gain);
+    return std::pair(gain > near ? gain : 0, same_stage(widest, part.stage, part.on));
+  };
+  auto parts = isolate(problem, plain);
+  std::ranges::stable_sort(parts, std::greater(), likelihood);
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Attribution> where_of_answer(const Problem& problem, const Evaluator& plain,
+                                         const std::vector<StageGap>& stages,
+                                         const std::vector<IdentifiedEffect>& answer) {
+  const bool alone = answer.size() == 1;
+  const auto gain = [&](const IdentifiedEffect& n) {
+    return closed_by(n, alone).high > 0 ? std::max(0.0, n.gain) : 0;
+  };
+  double whole = 0;
+  for (const IdentifiedEffect& n : answer) whole += gain(n);
+  const auto share = [&](double of, double rest) { return of + rest > 0 ? of / (of + rest) : 1; };
+  std::vector<Attribution> places;
+  for (const IdentifiedEffect& n : answer) {
+    const Interval closed = closed_by(n, alone);
+    const double rest = whole - gain(n);
+    const auto group = group_of(n);
+    const Interval any{group.size() > 1 ? 0 : share(closed.low, rest), share(closed.high, rest)};
+    for (const Part& part : group)
+      add(places, {part.stage, part.on, share(gain(n), rest) / double(group.size()), any,
+                   when(problem, plain, stages, n.on)});
+  }
+  return places;
+}
+
+std::vector<Attribution> where_of_stages(const Problem& problem, const Evaluator& plain,
+                                         const std::vector<StageGap>& stages,
+                                         const std::vector<IdentifiedEffect>& ranked) {
+  std::vector<Attribution> places;
+  double whole = 0;
+  for (const StageGap& gap : stages) whole += gap.open ? gap.excess : 0;
+  const auto share = [&](double excess) { return std::clamp(excess / whole, 0.0, 1.0); };
+  for (const StageGap& gap : stages)
+    if (gap.open)
+      places.push_back({gap.stage,
+                        gap.on,
+                        gap.share,
+                        {share(gap.excess_interval.low), share(gap.excess_interval.high)},
+                        when(problem, plain, stages, gap.on)});
+  if (places.empty()) return places;
+  const auto parts = suspects(problem, plain, places[0], ranked);
+  if (parts.empty()) return places;
+  const Interval any = parts.size() > 1 ? Interval{0, 1} : Interval{1, 1};
+  std::vector<Attribution> group;
+  for (const Part& part : parts)
+    group.push_back(
+        {part.stage, part.on, 1 / static_cast<double>(parts.size()), any, places[0].when});
+  return group;
+}
+
+std::vector<Unexplained> unexplained(const Problem& problem, const Evaluator& evaluator,
+                                     const Selection& selection) {
+  const Tolerance nothing{problem.options.search.excess, 0, 0};
+  const auto left = selection.explained()
+                        ? unexplained_stages(problem, evaluator, selection.evaluation, nothing)
+                        : selection.left;
+  std::vector<Unexplained> all;
+  for (const StageGap& gap : left)
+    if (gap.open)
+      all.push_back({gap.stage, gap.on, gap.excess,
+                     residual_profile(evaluator, selection.evaluation, gap.stage, gap.on,
+                                      problem.sets.train, problem.sets.held_out)});
+  return all;
+}
+
+}  // namespace sim::diagnosis

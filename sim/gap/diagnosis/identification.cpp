@@ -1,0 +1,137 @@
+#include "sim/gap/diagnosis/identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "interfaces/parallel/in_parallel.hpp"
+#include "sim/gap/diagnosis/bootstrap.hpp"
+#include "sim/gap/diagnosis/screening.hpp"
+#include "sim/gap/residuals/indices.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+using effects::Placed;
+
+constexpr double least_gap = 0.02;  // of noise: below, a share of the gap means nothing; chosen
+
+/// Of a candidate, at the stages that are open and at those that it makes worse: to fit the noise
+/// of a stage that has no gap gains nothing.
+struct Score {
+  std::vector<ScoreBlock> before, after;  ///< at these stages
+  std::vector<ScoreBlock> gap;            ///< before, at the open ones
+};
+
+Score score(const Evaluator& evaluator, const Evaluation& base, const Evaluation& with,
+            const RankingOptions& options) {
+  const bool any = std::ranges::any_of(options.stages, &StageGap::open);
+  const auto was = by_stage(evaluator, base, options.held_out);
+  const auto is = by_stage(evaluator, with, options.held_out);
+  const auto open = [&](const residuals::Residual& r) {
+    const auto stage = find_stage(options.stages, r.stage, r.on);
+    return !any || (stage != options.stages.end() && stage->open);
+  };
+  const auto counts = [&](const residuals::Residual& r) {
+    return open(r) || find_stage(is, r.stage, r.on)->whole.square >
+                          find_stage(was, r.stage, r.on)->whole.square;
+  };
+  return {evaluator.blocks(base, options.held_out, counts),
+          evaluator.blocks(with, options.held_out, counts),
+          evaluator.blocks(base, options.held_out, open)};
+}
+
+void judge(Ranked& r, const Evaluator& evaluator, const Evaluation& base,
+           const RankingOptions& options) {
+  r.on_held_out = evaluator.with(base, r.fit.placed, options.held_out);
+  r.blocks = evaluator.blocks(r.on_held_out, options.held_out);
+  const Score s = score(evaluator, base, r.on_held_out, options);
+  const auto gain = [&](std::span<const std::size_t> blocks) {
+    double was = 0, is = 0, gap = 0, windows = 0;
+    for (const std::size_t k : blocks) {
+      was += s.before[k].square, is += s.after[k].square, gap += s.gap[k].square;
+      windows += static_cast<double>(s.gap[k].windows);
+    }
+    return (was - is) / std::max(gap - windows, least_gap * windows);
+  };
+  const auto every = each(s.before.size());
+  r.gain = gain(every);
+  const auto drawn = bootstrap(every.size(), options.draws, options.seed,
+                               [&](const auto& blocks) { return gain(blocks); });
+  r.gain_interval = middle(drawn);
+  if (std::ranges::any_of(options.stages, &StageGap::open))
+    r.relief = relief(evaluator, base, r.on_held_out, options.held_out, options.stages);
+  r.p_value = static_cast<double>(std::ranges::lower_bound(drawn, 0.0) - drawn.begin() + 1) /
+              static_cast<double>(drawn.size() + 1);
+}
+
+/// A number of the model is off, nothing is new.
+bool corrects(const Placed& placed) {
+  effects::AnyEffect effect = placed.effect;
+  return std::string_view(effects::parameters(effect)[0].name) == "relative";
+}
+
+/// How much more the other leaves, Σ z² of the same blocks.
+Interval worse_by(const Ranked& other, const Ranked& best, const RankingOptions& options) {
+  return middle(bootstrap(best.blocks.size(), options.draws, options.seed, [&](const auto& drawn) {
+    double more = 0;
+    for (const std::size_t k : drawn) more += other.blocks[k].square - best.blocks[k].square;
+    return more;
+  }));
+}
+
+bool is_within_bounds(const Ranked& r) { return !has_size_at_bound(r.fit.placed); }
+
+/// Of those as good as the first, the ones with fewer parameters come first, then those that
+/// correct a number of the model, then in the order of the chain.
+void prefer_plain(std::vector<Ranked>& ranked, const RankingOptions& options) {
+  constexpr double as_good = 1e-3, same = 1e-4;  // of the gap; chosen
+  if (ranked.empty()) return;
+  const Ranked best = ranked[0];
+  const auto end = std::stable_partition(ranked.begin(), ranked.end(), [&](const Ranked& r) {
+    return r.relieves() && is_within_bounds(r) && r.gain >= best.gain - as_good &&
+           (r.gain >= best.gain - same || worse_by(r, best, options).low <= 0);
+  });
+  std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
+    const auto plainness = [](const Ranked& r) {
+      return std::tuple(r.fit.values.size(), !corrects(r.fit.placed), r.fit.placed.effect.index());
+    };
+    return plainness(a) < plainness(b);
+  });
+}
+
+}  // namespace
+
+std::vector<Ranked> rank(const Evaluator& evaluator, const Evaluation& base,
+                         const RankingOptions& options) {
+  const auto chosen = screen_effects(evaluator, base, options);
+  std::vector<Ranked> ranked(chosen.size());
+  std::size_t done = 0;
+  std::mutex telling;
+  in_parallel(chosen.size(), options.threads, [&](std::size_t k) {
+    ranked[k].fit = fit(evaluator, base, chosen[k], options.train);
+    judge(ranked[k], evaluator, base, options);
+    const std::lock_guard lock(telling);
+    if (options.progress) options.progress(++done, chosen.size());
+  });
+  std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
+  // A size at its bound is no estimate: it fits by scaling the whole equation down.
+  std::ranges::stable_partition(ranked, is_within_bounds);
+  std::ranges::stable_partition(ranked, &Ranked::relieves);
+  prefer_plain(ranked, options);
+  return ranked;
+}
+
+std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked,
+                                    const RankingOptions& options, double practical) {
+  std::vector<std::size_t> same;
+  for (std::size_t n = 1; n < ranked.size(); ++n) {
+    if (!ranked[n].relieves()) continue;
+    if (std::min(1.0, ranked[0].gain) - std::min(1.0, ranked[n].gain) < practical ||
+        worse_by(ranked[n], ranked[0], options).low <= 0)
+      same.push_back(n);
+  }
+  return same;
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,64 @@
+#include "sim/gap/diagnosis/initial_guesses.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/gap/estimation/initial_guesses.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+/// How many parameters are not neutral.
+std::size_t told(const effects::Placed& placed) {
+  return effects::written(placed).parameters.size();
+}
+
+}  // namespace
+
+bool is_neutral(const effects::Placed& placed) { return told(placed) == 0; }
+
+std::vector<effects::Placed> initial_guesses(const Evaluator& evaluator,
+                                             const effects::Placed& neutral,
+                                             std::span<const std::size_t> episodes) {
+  const auto type = effects::about(neutral.effect).type;
+  std::vector<const residuals::Episode*> recordings;
+  for (const std::size_t e : episodes) recordings.push_back(&evaluator.episodes()[e]);
+  auto all = estimation::initial_guesses(neutral, evaluator.nominal(), recordings);
+  constexpr double soft = 0.7, stiff = 0.01, ratio = 0.8;  // rad/Nm
+  if (type == "skeleton_link_flexibility")
+    for (double c = soft; c > stiff; c *= ratio) {
+      all.push_back(neutral);
+      *effects::parameters(all.back().effect)[0].value = c;
+    }
+  return all;
+}
+
+effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation& base,
+                                   const effects::Placed& more,
+                                   std::span<const std::size_t> episodes) {
+  constexpr double worth = 0.01;  // of the gap, a parameter beyond the first; chosen
+  effects::Placed best = more;
+  if (!is_neutral(more)) return best;
+  const ScoreBlock whole = sum(evaluator.blocks(base, episodes));
+  const double before = whole.square,
+               gap = std::max(0.0, before - static_cast<double>(whole.windows));
+  auto all = initial_guesses(evaluator, more, episodes);
+  for (const double share :
+       {0.1, 0.02, -0.1}) {  // of the bounds: laws that are bent from the start
+    all.push_back(more);
+    const effects::Parameter first = effects::parameters(all.back().effect)[0];
+    *first.value = share * (share > 0 ? first.bounds.high : -first.bounds.low);
+    if (*first.value == 0) all.pop_back();
+  }
+  const auto cost = [&](const effects::Placed& one) {
+    const std::size_t further = std::max<std::size_t>(1, told(one)) - 1;
+    return sum(evaluator.blocks(evaluator.with(base, one, episodes), episodes)).square +
+           worth * gap * static_cast<double>(further);
+  };
+  double least = before;
+  for (const effects::Placed& one : all)
+    if (const double of_one = cost(one); of_one < least) least = of_one, best = one;
+  return best;
+}
+
+}  // namespace sim::diagnosis

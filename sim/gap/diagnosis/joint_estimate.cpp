@@ -1,0 +1,229 @@
+#include "sim/gap/diagnosis/joint_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "sim/gap/diagnosis/residual_profile.hpp"
+#include "sim/gap/diagnosis/selection.hpp"
+#include "sim/gap/diagnosis/shapley.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+std::vector<residuals::Episode> some(const Problem& problem, const std::vector<std::size_t>& set) {
+  std::vector<residuals::Episode> episodes;
+  for (const std::size_t k : set) episodes.push_back(problem.episodes[k]);
+  return episodes;
+}
+
+estimation::EstimateOptions estimate_options(const Problem& problem) {
+  return {.threads = problem.options.threads,
+          .seed = problem.options.seed,
+          .pool = problem.options.pool};
+}
+
+std::vector<ConstantEstimate> constants_of(const estimation::AsBuilt& built) {
+  std::vector<ConstantEstimate> all;
+  for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) {
+    const estimation::Constant& c = built.uncertain.constants[k];
+    const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
+    all.push_back({c.name,
+                   c.on,
+                   c.stage,
+                   c.nominal,
+                   c.tolerance,
+                   c.value(x),
+                   {c.value(x - half), c.value(x + half)},
+                   estimation::determined(built, k),
+                   std::ranges::count(built.beyond, k) > 0});
+  }
+  return all;
+}
+
+/// Parts of the robot whose constants are off, largest first: Σ z² that a part's deviations make alone, z linear in
+/// them, and its share of the sum over all parts.
+std::vector<Attribution> where_off(const estimation::AsBuilt& built) {
+  constexpr double least = 0.02;  // of the sum, to be listed; chosen
+  std::map<std::pair<effects::Stage, std::string>, Eigen::VectorXd> change;
+  for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) {
+    const estimation::Constant& c = built.uncertain.constants[k];
+    const Eigen::VectorXd by =
+        built.estimate.jacobian.col(Eigen::Index(k)) * built.estimate.point.x[k];
+    Eigen::VectorXd& sum = change[{c.stage, c.on}];
+    if (sum.size() == 0) sum = by;
+    else sum += by;
+  }
+  double whole = 0;
+  for (const auto& [part, z] : change) whole += z.squaredNorm();
+  std::vector<Attribution> all;
+  for (const auto& [part, z] : change)
+    if (const double share = z.squaredNorm() / whole; share > least)
+      all.push_back({part.first, part.second, share, {0, 1}, {}});
+  std::ranges::stable_sort(all, std::greater(), &Attribution::share);
+  return all;
+}
+
+IdentifiedEffect with_intervals(estimation::Sized sized) {
+  constexpr double of_method = 0.02;  // of the value: what windows approximate; chosen
+  IdentifiedEffect n = identified(sized.effect);
+  std::size_t p = 0, estimated = 0;
+  for (const effects::Parameter& parameter : effects::parameters(sized.effect.effect)) {
+    if (!estimation::is_estimated(parameter)) continue;
+    const double sigma = sized.sigma[estimated++];
+    if (!parameter.fitted) continue;
+    const double half = 1.96 * sigma + of_method * std::abs(n.values[p]);
+    n.intervals[p] = {std::max(n.values[p] - half, n.bounds[p].low),
+                      std::min(n.values[p] + half, n.bounds[p].high)};
+    ++p;
+  }
+  return n;
+}
+
+/// The n-th constant beyond its tolerance, with what could be in its place.
+IdentifiedEffect beyond(const estimation::AsBuilt& built, std::size_t n) {
+  const std::size_t k = built.beyond[n];
+  IdentifiedEffect identified = with_intervals(estimation::as_effect(
+      built.uncertain.constants[k], {k, built.estimate.point.x[k], built.estimate.sigma(k)}));
+  for (const estimation::Sized& other : built.instead[n])
+    if (effects::name_of(other.effect) != effects::name_of(identified.placed))
+      identified.alternatives.push_back(with_intervals(other));
+  return identified;
+}
+
+/// The effects found, with their intervals and what could stand for each.
+std::vector<IdentifiedEffect> effects_of(const estimation::AsBuilt& built) {
+  std::vector<IdentifiedEffect> all;
+  for (const estimation::Sized& sized : estimation::sized(built.estimate)) {
+    IdentifiedEffect n = with_intervals(sized);
+    for (const estimation::Sized& other : built.indistinguishable[all.size()])
+      n.alternatives.push_back(with_intervals(other));
+    all.push_back(std::move(n));
+  }
+  return all;
+}
+
+bool ends_at_bound(const estimation::Estimate& estimate) {
+  return std::ranges::count(estimate.bound, true) > 0;
+}
+
+Evaluator evaluator_of(const Problem& problem, const erp::Robot& robot) {
+  return {robot, problem.episodes, problem.options.seed};
+}
+
+/// A robot as built, but with some causes of its answer alone: its effects, then its constants that are far off.
+erp::Robot robot_with(const estimation::AsBuilt& built, const std::vector<bool>& among) {
+  estimation::Point some = built.estimate.point;
+  const std::size_t effects = some.effects.size();
+  for (std::size_t k = among.size(); k-- > 0;) {
+    if (among[k]) continue;
+    if (k < effects) some.effects.erase(some.effects.begin() + std::ptrdiff_t(k));
+    else some.x[built.beyond[k - effects]] = 0;
+  }
+  return estimation::robot_at(built.uncertain, some);
+}
+
+/// What each cause has to do with the gap that they close together. Returns what they share.
+double set_gains(const Problem& problem, const Evaluator& plain, const estimation::AsBuilt& built,
+                 std::vector<IdentifiedEffect>& answer) {
+  const auto& held_out = problem.sets.held_out;
+  const ShapleyValues each =
+      shapley_values(problem, answer.size(), [&](const std::vector<bool>& among) {
+        residuals::Stages stages(robot_with(built, among));
+        Evaluation evaluation{{}, std::vector<residuals::Explanation>(problem.episodes.size())};
+        for (const std::size_t e : held_out)
+          evaluation.of_episode[e] = stages.explain(problem.episodes[e]);
+        return plain.blocks(evaluation, held_out);
+      });
+  for (std::size_t k = 0; k < answer.size(); ++k) {
+    answer[k].gain = each.share[k], answer[k].gain_interval = each.interval[k];
+    answer[k].supported = true;
+  }
+  return each.interaction;
+}
+
+/// Excess of a stage without the hundredth of its seconds that keeps most: one event is no law.
+double without_events(const Evaluator& evaluator, const StageGap& gap,
+                      const std::vector<std::size_t>& set) {
+  auto blocks = evaluator.blocks(evaluator.bare(), set, [&](const residuals::Residual& r) {
+    return same_stage(r, gap.stage, gap.on);
+  });
+  std::ranges::sort(blocks, {}, &ScoreBlock::square);
+  blocks.resize(blocks.size() - std::min(blocks.size(), blocks.size() / 100 + 1));
+  const ScoreBlock whole = sum(blocks);
+  return whole.windows ? whole.square / double(whole.windows) - 1 : 0;
+}
+
+std::vector<StageGap> remaining_residual(const Problem& problem, const Evaluator& plain,
+                                         const Evaluator& built) {
+  const auto held_out = [&](const Evaluator& evaluator) {
+    return localize(evaluator, evaluator.bare(), problem.sets.held_out,
+                    problem.localization_options());
+  };
+  const auto before = held_out(plain);
+  auto left = held_out(built);
+  for (StageGap& gap : left) {
+    const auto was = find_stage(before, gap.stage, gap.on);
+    const double usual = without_events(built, gap, problem.sets.held_out);
+    gap.open = gap.open && usual > problem.localization_options().practical_excess &&
+               stays_open(gap.excess, was->excess, problem.options.together, [&] {
+                 return follows(built, built.bare(), gap.stage, gap.on, problem.sets);
+               });
+  }
+  return left;
+}
+
+/// The stage that keeps most.
+StageGap& largest(std::vector<StageGap>& left) {
+  return *std::ranges::max_element(left, {}, &StageGap::excess);
+}
+
+}  // namespace
+
+bool ConstantEstimate::differs() const {
+  return std::abs(value - nominal) > 3 / (2 * 1.96) * (interval.high - interval.low);
+}
+
+bool JointEstimate::explained() const {
+  return !at_bound && !unknown_law && std::ranges::none_of(left, &StageGap::open);
+}
+
+JointEstimate estimate_jointly(const Problem& problem, const erp::Robot& robot,
+                               const Evaluator& plain,
+                               const std::vector<IdentifiedEffect>& suggested) {
+  const auto train = some(problem, problem.sets.train),
+             held_out = some(problem, problem.sets.held_out);
+  estimation::AsBuiltOptions options{.estimate = estimate_options(problem)};
+  for (const IdentifiedEffect& n : suggested) options.suggested.push_back(n.placed);
+  options.search.withhold = problem.options.withhold;
+  options.search.most_effects = problem.options.most_effects;
+  options.search.progress = [&](const std::string& what, double share) {
+    problem.tell(what, 0.6 + 0.3 * share);
+  };
+  const estimation::AsBuilt found = estimation::as_built(robot, train, held_out, options);
+  std::vector<IdentifiedEffect> answer = effects_of(found);
+  for (std::size_t n = 0; n < found.beyond.size(); ++n) answer.push_back(beyond(found, n));
+  const double interaction = set_gains(problem, plain, found, answer);
+  JointEstimate built{.robot = found.robot,
+                      .constants = constants_of(found),
+                      .answer = std::move(answer),
+                      .evaluator = evaluator_of(problem, found.robot),
+                      .left = {},
+                      .exact = found.exact,
+                      .unknown_law = found.unknown_law,
+                      .at_bound = ends_at_bound(found.estimate),
+                      .interaction = interaction,
+                      .off = where_off(found)};
+  built.left = remaining_residual(problem, plain, built.evaluator);
+  if (built.unknown_law) largest(built.left).open = true;
+  return built;
+}
+
+IdentifiedEffect estimated(const Problem& problem, const erp::Robot& robot,
+                           const IdentifiedEffect& effect) {
+  return with_intervals(estimation::estimated(robot, some(problem, problem.sets.train),
+                                              effect.placed, estimate_options(problem)));
+}
+
+}  // namespace sim::diagnosis

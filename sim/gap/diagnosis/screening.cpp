@@ -1,0 +1,167 @@
+#include "sim/gap/diagnosis/screening.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/gap/diagnosis/initial_guesses.hpp"
+#include "sim/gap/estimation/observable.hpp"
+#include "sim/gap/residuals/indices.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+using effects::Placed;
+using Eigen::VectorXd;
+
+/// z of one recording, 0 where nothing is judged.
+class Look {
+ public:
+  Look(const Evaluator& evaluator, const Evaluation& base, std::vector<std::size_t> episodes)
+      : evaluator_(evaluator), base_(base), only_(std::move(episodes)), left_(z_of(base)) {
+    for (std::size_t e = 0; e < base.effects.size(); ++e) add_sensitivities(e);
+  }
+
+  /// The best promise of the candidate's parameters and tries; 0: it changes nothing.
+  double screening_score(const Placed& neutral) const {
+    double best = 0;
+    for (const Placed& perturbed : perturbations(neutral))
+      best = std::max(best, along(z_of(evaluator_.with(base_, perturbed, only_)) - left_));
+    for (const Placed& one : initial_guesses(evaluator_, neutral, only_))
+      best = std::max(best,
+                      left_.squaredNorm() - z_of(evaluator_.with(base_, one, only_)).squaredNorm());
+    return best;
+  }
+
+ private:
+  VectorXd z_of(const Evaluation& evaluation) const {
+    std::vector<double> all;
+    for (const std::size_t e : only_)
+      for (const double z : evaluator_.whitened(evaluation, e))
+        all.push_back(std::isnan(z) ? 0 : z);
+    return VectorXd::Map(all.data(), Eigen::Index(all.size()));
+  }
+
+  double along(VectorXd change) const {
+    const double whole = change.squaredNorm();
+    for (const VectorXd& d : sensitivities_) change -= d.dot(change) * d;
+    const double square = change.squaredNorm();
+    constexpr double own = 1e-4;  // of its square: less is a copy of what is there
+    if (square < 1e-12 || square < own * whole) return 0;
+    return std::pow(left_.dot(change), 2) / square;
+  }
+
+  /// What the parameters of an effect of the base change, made orthonormal to the others.
+  void add_sensitivities(std::size_t e) {
+    effects::AnyEffect counted = base_.effects[e].effect;
+    const std::size_t count = effects::parameters(counted).size();
+    for (std::size_t k = 0; k < count; ++k) {
+      auto all = base_.effects;
+      const auto parameter = effects::parameters(all[e].effect)[k];
+      if (!parameter.fitted) continue;
+      const double step = 1e-3 * (parameter.bounds.high - parameter.bounds.low);
+      *parameter.value += *parameter.value + step > parameter.bounds.high ? -step : step;
+      VectorXd d = z_of(evaluator_.with(all, only_)) - left_;
+      for (const VectorXd& other : sensitivities_) d -= other.dot(d) * other;
+      if (d.norm() > 1e-9) sensitivities_.push_back(d.normalized());
+    }
+  }
+
+  const Evaluator& evaluator_;
+  const Evaluation& base_;
+  std::vector<std::size_t> only_;
+  VectorXd left_;
+  std::vector<VectorXd> sensitivities_;
+};
+
+std::vector<double> screening_scores(const Evaluator& evaluator, const Evaluation& base,
+                                     const RankingOptions& options,
+                                     const std::vector<Placed>& all) {
+  std::vector<double> promised(all.size());
+  const bool drive =
+      !evaluator.nominal().drives.empty();  // each of its recordings may be of one speed
+  const Look look(
+      evaluator, base,
+      drive ? options.train : std::vector{largest_residuals_in(evaluator, base, options.train)});
+  const auto found = map(options.pool, options.threads, all.size(), [&](std::size_t k) {
+    return Pool::Numbers{look.screening_score(all[k])};
+  });
+  for (std::size_t k = 0; k < all.size(); ++k) promised[k] = found[k][0];
+  return promised;
+}
+
+}  // namespace
+
+std::vector<Placed> candidates(const Evaluator& evaluator,
+                               const std::vector<std::string>& withhold) {
+  const bool estimated =
+      std::ranges::any_of(evaluator.bare().of_episode,
+                          [](const residuals::Explanation& e) { return e.joints->estimated; });
+  const residuals::Stages nominal(evaluator.nominal());
+  std::vector<Placed> all;
+  for (const effects::AnyEffect& effect : effects::library()) {
+    const effects::About& about = effects::about(effect);
+    if (std::ranges::count(withhold, about.type)) continue;
+    for (const std::string& on : effects::places(evaluator.nominal(), about.seat))
+      if (const Placed placed{on, effect};
+          estimation::is_observable(placed, evaluator.nominal(), evaluator.episodes()) &&
+          !(estimated && nominal.reach(placed).joints))
+        all.push_back(placed);
+  }
+  return all;
+}
+
+std::vector<Placed> perturbations(const Placed& neutral) {
+  constexpr double little = 3e-3;
+  std::vector<Placed> all;
+  effects::AnyEffect counted = neutral.effect;
+  const std::size_t count = effects::parameters(counted).size();
+  for (std::size_t k = 0; k < count; ++k)
+    for (const double share : {little, 0.1}) {
+      Placed perturbed = neutral;
+      const auto parameters = effects::parameters(perturbed.effect);
+      if (!parameters[k].fitted) continue;
+      for (std::size_t other = 0; other < k; ++other)
+        *parameters[other].value += little * parameters[other].bounds.high;
+      const auto& [low, high] = parameters[k].bounds;
+      *parameters[k].value += share * (high > 0 ? high : low);
+      all.push_back(std::move(perturbed));
+    }
+  return all;
+}
+
+std::size_t largest_residuals_in(const Evaluator& evaluator, const Evaluation& base,
+                                 std::span<const std::size_t> episodes) {
+  return *std::ranges::max_element(episodes, {}, [&](std::size_t e) {
+    const std::size_t only[] = {e};
+    return sum(evaluator.blocks(base, only)).square;
+  });
+}
+
+std::vector<Placed> screen_effects(const Evaluator& evaluator, const Evaluation& base,
+                                   const RankingOptions& options) {
+  const auto all = candidates(evaluator, options.withhold);
+  const auto promised = screening_scores(evaluator, base, options, all);
+  auto sorted = promised;
+  std::ranges::sort(sorted, std::greater());
+  const double enough = std::min(options.screen_share * sorted[0],
+                                 sorted[std::min(options.fitted_at_least, sorted.size()) - 1]);
+  std::vector<Placed> chosen;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (promised[k] > 0 && promised[k] >= enough) chosen.push_back(all[k]);
+  return chosen;
+}
+
+std::vector<Placed> best_screened(const Evaluator& evaluator, const Evaluation& base,
+                                  const RankingOptions& options, std::size_t count) {
+  const auto all = candidates(evaluator, options.withhold);
+  const auto promised = screening_scores(evaluator, base, options, all);
+  auto order = each(all.size());
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return promised[k]; });
+  std::vector<Placed> chosen;
+  for (std::size_t k = 0; k < std::min(count, all.size()) && promised[order[k]] > 0; ++k)
+    chosen.push_back(all[order[k]]);
+  return chosen;
+}
+
+}  // namespace sim::diagnosis

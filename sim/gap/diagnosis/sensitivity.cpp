@@ -1,0 +1,56 @@
+#include "sim/gap/diagnosis/sensitivity.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <span>
+
+#include "interfaces/parallel/in_parallel.hpp"
+#include "sim/gap/diagnosis/screening.hpp"
+#include "sim/gap/residuals/indices.hpp"
+
+namespace sim::diagnosis {
+namespace {
+
+using effects::Placed;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// z of all recordings, 0 where nothing is judged.
+VectorXd z_of(const Evaluator& evaluator, const Evaluation& evaluation) {
+  std::vector<double> all;
+  for (std::size_t e = 0; e < evaluator.episodes().size(); ++e)
+    for (const double z : evaluator.whitened(evaluation, e)) all.push_back(std::isnan(z) ? 0 : z);
+  return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+Sensitivity sensitivity_of(const Evaluator& evaluator, const VectorXd& bare,
+                           const Placed& neutral) {
+  const auto all = each(evaluator.episodes().size());
+  const auto ways = perturbations(neutral);  // a little and more, of each parameter
+  MatrixXd changes(bare.size(), static_cast<Eigen::Index>(ways.size()) / 2);
+  Sensitivity direction;
+  for (Eigen::Index k = 0; k < changes.cols(); ++k)
+    for (const Placed& way : std::span(ways).subspan(std::size_t(2 * k), 2)) {
+      changes.col(k) = z_of(evaluator, evaluator.with(evaluator.bare(), way, all)) - bare;
+      if (k == 0) direction.perturbed = way;
+      if (changes.col(k).norm() > shown) break;
+    }
+  const Eigen::ColPivHouseholderQR<MatrixXd> parts(changes);
+  direction.first = changes.col(0);
+  direction.span = parts.householderQ() * MatrixXd::Identity(bare.size(), parts.rank());
+  return direction;
+}
+
+}  // namespace
+
+std::vector<Sensitivity> sensitivities(const Evaluator& evaluator,
+                                       const std::vector<std::string>& withhold, int threads) {
+  const VectorXd bare = z_of(evaluator, evaluator.bare());
+  const auto all = candidates(evaluator, withhold);
+  std::vector<Sensitivity> sensitivities(all.size());
+  in_parallel(all.size(), threads,
+              [&](std::size_t k) { sensitivities[k] = sensitivity_of(evaluator, bare, all[k]); });
+  return sensitivities;
+}
+
+}  // namespace sim::diagnosis

@@ -1,0 +1,57 @@
+#include "sim/gap/estimation/observable.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/gap/residuals/drives.hpp"
+
+namespace sim::estimation {
+
+using effects::Placed;
+
+namespace {
+
+/// Of all turns of a shaft, the share that goes the rarer way.
+double rarer_way(std::span<const residuals::Episode> recordings, std::size_t actuator) {
+  double forwards = 0, backwards = 0;
+  for (const residuals::Episode& e : recordings) {
+    const residuals::Signal& theta = e.actuators[actuator].shaft_rad;
+    const auto taken = [&](std::size_t row) { return e.judged(row) && !std::isnan(theta[row]); };
+    constexpr std::size_t rows = 10;  // apart: noise turns to and fro
+    for (std::size_t k = rows; k < theta.size(); k += rows)
+      if (taken(k) && taken(k - rows)) {
+        const double turned = theta[k] - theta[k - rows];
+        (turned > 0 ? forwards : backwards) += std::abs(turned);
+      }
+  }
+  return std::min(forwards, backwards) / std::max(forwards + backwards, 1e-12);
+}
+
+/// An effect of a sensor that a drive has not: of a current that its control sets, of a pull without
+/// a torque sensor.
+bool is_of_no_sensor(const Placed& placed, const erp::Robot& robot, std::size_t actuator,
+                     std::span<const residuals::Episode> recordings) {
+  const auto sense = effects::sense_of(placed.effect);
+  const erp::Drive* drive = sense ? residuals::drive_of(robot, placed.on) : nullptr;
+  if (!drive) return false;
+  if (sense == effects::Sense::tension) return !drive->find<erp::TorqueSensor>();
+  return sense == effects::Sense::current &&
+         std::ranges::any_of(recordings, [&](const residuals::Episode& e) {
+           return e.actuators[actuator].current_around;
+         });
+}
+
+}  // namespace
+
+bool is_observable(const Placed& placed, const erp::Robot& robot,
+                   std::span<const residuals::Episode> recordings) {
+  constexpr double enough = 0.02;  // of all turns; chosen
+  const std::size_t a =
+      std::size_t(std::ranges::find(robot.actuators, placed.on, &erp::Actuator::name) -
+                  robot.actuators.begin());
+  if (is_of_no_sensor(placed, robot, a, recordings)) return false;
+  return !std::holds_alternative<effects::GearboxAsymmetric>(placed.effect) ||
+         rarer_way(recordings, a) > enough;
+}
+
+}  // namespace sim::estimation

@@ -1,0 +1,64 @@
+#include "sim/gap/diagnosis/localization.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "sim/gap/residuals/noise_floor.hpp"
+#include "tests/sim/gap/residuals/rig_recording.hpp"
+#include "tests/sim/model/effects/magnitudes.hpp"
+#include "tests/sim/rigs.hpp"
+
+namespace effects = sim::effects;
+using namespace sim::diagnosis;
+using namespace sim::residuals;
+
+namespace {
+
+erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
+
+/// Two recordings of a rig with these effects on.
+std::vector<Episode> recordings(const std::vector<effects::Placed>& placed) {
+  erp::Robot real = hinge_rig();
+  for (const auto& p : placed) real.effects.push_back(effects::written(p));
+  return {rig_recording::record(hinge_rig(), real, {.seconds = 12, .seed = 7}),
+          rig_recording::record(hinge_rig(), real,
+                                {.seconds = 12, .swing_N = 12, .swing_Hz = 0.7, .seed = 8})};
+}
+
+}  // namespace
+
+TEST_CASE("the floor that the sensors' specification gives is what is left without effects") {
+  for (const StageGap& gap : localize(hinge_rig(), recordings({}))) {
+    INFO(effects::word(gap.stage) << " " << gap.on << ": rms " << gap.rms << " " << gap.unit
+                                  << ", floor " << gap.floor);
+    CHECK(gap.rms < 1.35 * gap.floor);
+    // the floor of a tendon allows for a tension half a period late, which these are not
+    CHECK(gap.rms > (gap.stage == effects::Stage::tendon ? 0.4 : 0.7) * gap.floor);
+    CHECK_FALSE(gap.open);
+  }
+}
+
+TEST_CASE("a small effect is found at its stage and place, with an interval that excludes noise") {
+  const std::vector<std::pair<effects::Placed, std::string>> cases{
+      {{"extensor", effects::MotorDeadBand{0.05}}, "motor extensor"},
+      {{"flexor", effects::GearboxCoulomb{0.02}}, "gearbox flexor"},
+      {{"extensor", effects::TendonStiffness{0.03}}, "tendon extensor"},
+      {{"elbow", effects::JointViscous{0.03}}, "joint elbow"}};
+  for (const auto& [placed, stage] : cases) {
+    const auto gaps = localize(hinge_rig(), recordings({placed}));
+    INFO(stage);
+    CHECK(std::string(effects::word(gaps[0].stage)) + " " + gaps[0].on == stage);
+    CHECK(gaps[0].open);
+    CHECK(gaps[0].share > 0.8);
+    CHECK(gaps[0].excess_interval.low > 0.5);
+    CHECK(gaps[0].excess > gaps[0].excess_interval.low);
+    CHECK(gaps[0].excess < gaps[0].excess_interval.high);
+    for (std::size_t k = 1; k < gaps.size(); ++k) CHECK_FALSE(gaps[k].open);
+  }
+}
+
+TEST_CASE("without the columns of any stage it is said what is missing") {
+  auto episodes = recordings({});
+  for (Episode& e : episodes)
+    for (auto& a : e.actuators) a.shaft_rad.clear(), a.tension_N.clear();
+  CHECK_THROWS_WITH(localize(hinge_rig(), episodes), Catch::Contains("shaft_rad"));
+}
