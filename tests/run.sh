@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The test command: installs what is missing, builds, runs every test.
 #   tests/run.sh           everything, on the release build
+#   tests/run.sh sim/gap   one room: builds its tests and runs them, without the long ones
 #   tests/run.sh faults    every fault injected twenty times into running graphs, and timed
 #   tests/run.sh soak      half an hour of a graph of which processes are killed at random
 #   tests/run.sh fuzz      every fuzzer for 600 s, or for the seconds given next; ctest gives all of them 60
@@ -9,7 +10,18 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
-case $preset in faults | soak) preset=release ;; esac
+room=
+case $preset in
+  faults | soak) preset=release ;;
+  release | asan | tsan | fuzz) ;;
+  *)
+    [ -d "tests/$preset" ] || {
+      echo "tests/run.sh: no room tests/$preset; give a folder below tests, or faults, soak, fuzz, asan, tsan" >&2
+      exit 2
+    }
+    room=${preset%/} preset=release
+    ;;
+esac
 
 launch/dependencies.sh test
 if [ "$preset" = fuzz ]; then
@@ -17,6 +29,13 @@ if [ "$preset" = fuzz ]; then
   exec tests/fuzz/run.sh "${2:-600}"
 fi
 cmake --preset "$preset" -DERP_TESTS=ON >/dev/null
+if [ -n "$room" ]; then
+  label=("-L" "^$room\$" "-LE" "^long\$")
+  mapfile -t names < <(ctest --preset "$preset" -N "${label[@]}" | sed -n 's/^ *Test *#[0-9]*: //p')
+  [ ${#names[@]} -gt 0 ] || { echo "tests/run.sh: no test in tests/$room" >&2; exit 2; }
+  cmake --build --preset "$preset" --target "${names[@]}"
+  exec ctest --preset "$preset" --output-on-failure -j2 "${label[@]}"
+fi
 cmake --build --preset "$preset"
 if [ "${1:-}" = faults ]; then
   build/release/tests/erp_faults
