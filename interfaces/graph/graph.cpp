@@ -8,14 +8,14 @@
 namespace erp {
 namespace {
 
-/// Of the key `component` of the messages; a test compares it with them.
-constexpr std::size_t longest_component_name = 32;
+/// Bound of the key `component` in the messages; a test compares both.
+constexpr std::size_t max_component_name_length = 32;
 
 void resolve(std::string& file, const std::string& graph_file) {
   if (!file.empty()) file = xml::resolved(file, graph_file);
 }
 
-/// Looks at files as they are written in the graph, so that errors quote what stands there.
+/// Checks file names before they are resolved, so that errors quote the text of the graph.
 class Check {
  public:
   explicit Check(const Graph& graph) : graph_(graph) {}
@@ -41,12 +41,12 @@ class Check {
   template <class Item>
   bool check_file(const Item& item, const std::string& attribute, const std::string& file) {
     if (std::filesystem::is_regular_file(path_of(file))) return true;
-    add(item, attribute + "=" + xml::quote(file) + " is no file",
+    add(item, attribute + "=" + xml::quote(file) + " is not a file",
         "looked for " + path_of(file) + "; paths are relative to the graph file");
     return false;
   }
 
-  /// The root element says what a file is. What else is wrong in it, its own reader says.
+  /// Checks only the root element; the reader of that file checks the rest.
   template <class Item>
   void check_root(const Item& item, const std::string& attribute, const std::string& file,
                   const std::string& expected) {
@@ -54,8 +54,8 @@ class Check {
     try {
       const std::string root = xml::read_document(path_of(file)).name;
       if (root != expected)
-        add(item, attribute + "=" + xml::quote(file) + " holds <" + root + ">",
-            "it must hold <" + expected + ">, or this component's type is \"" + root + "\"");
+        add(item, attribute + "=" + xml::quote(file) + " contains <" + root + ">",
+            "it must contain <" + expected + ">; otherwise change the type to \"" + root + "\"");
     } catch (const xml::Errors& errors) {
       errors_.insert(errors_.end(), errors.all().begin(), errors.all().end());
     }
@@ -63,28 +63,28 @@ class Check {
 
   void check_device() {
     if (graph_.device == Device::replay && graph_.replay.empty())
-      add(graph_, "device=\"replay\" plays no file", "add replay=\"recording.mcap\"");
+      add(graph_, "device=\"replay\" has no recording", "add replay=\"recording.mcap\"");
     if (graph_.device == Device::replay && !graph_.replay.empty())
       check_file(graph_, "replay", graph_.replay);
     if (!graph_.bus.starts_with("socketcan:") && !graph_.bus.starts_with("udp:"))
-      add(graph_, "bus=" + xml::quote(graph_.bus) + " is no CAN bus",
+      add(graph_, "bus=" + xml::quote(graph_.bus) + " is not a CAN bus",
           "write socketcan:INTERFACE or udp:GROUP:PORT");
     if (graph_.device == Device::can && graph_.hardware && graph_.time == Time::lockstep)
-      add(graph_, "time=\"lockstep\" with hardware=\"true\": a robot does not wait",
-          "write time=\"wall\", or take hardware out");
+      add(graph_, "time=\"lockstep\" with hardware=\"true\": hardware cannot run in lockstep",
+          "write time=\"wall\", or remove hardware");
   }
 
   void check(const GraphComponent& component) {
     const auto [first, is_new] = seen_.emplace(component.name, component.place);
     if (!is_new)
       add(component, "duplicate name " + xml::quote(component.name),
-          "give this one its own name and say type=\"…\"; the first stands in line " +
+          "give this one its own name and set type=\"…\"; the first is in line " +
               std::to_string(first->second.line));
-    if (component.name.size() > longest_component_name)
+    if (component.name.size() > max_component_name_length)
       add(component,
           "name=" + xml::quote(component.name) + " has " + std::to_string(component.name.size()) +
               " characters",
-          "the bus carries at most " + std::to_string(longest_component_name));
+          "the bus allows at most " + std::to_string(max_component_name_length));
     if (component.config.empty() || !check_file(component, "config", component.config)) return;
     const std::string& type = component.type.empty() ? component.name : component.type;
     check_root(component, "config", component.config,

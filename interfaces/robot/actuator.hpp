@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "interfaces/robot/sensors.hpp"
+#include "interfaces/robot/source.hpp"
 #include "interfaces/values.hpp"
 #include "interfaces/xml/fields.hpp"
 
 /// Motors, sensors and tendons of robot.xml.
 namespace erp {
 
-/// DC motor with gearbox: the constants of eq. 3. Friction of the motor on its own shaft, of the
-/// gearbox on the output shaft.
 struct MotorType {
   static constexpr auto element = "motor_type";
+  static constexpr auto meaning =
+      "DC motor with gearbox, eq. 3. Several actuators may use one type.";
   xml::Place place;
   std::string name;
   double resistance_ohm = 0, inductance_H = 0;                           ///< R, L
@@ -26,148 +27,246 @@ struct MotorType {
   double rotor_viscous_Nm_s_per_rad = 0, gear_viscous_Nm_s_per_rad = 0;  ///< µ_M, µ_G
   double rotor_coulomb_Nm = 0, gear_coulomb_Nm = 0;                      ///< τ_CM, τ_CG
   double supply_V = 12, current_limit_A = 0;
-  /// What the winding bears for ever, and ∫ (i² − continuous²) dt beyond which it is switched off;
-  /// 0: not judged.
   double continuous_current_A = 0, overload_A2_s = 0;
   std::string source;
   void visit(auto& v) {
-    v.required("name", name);
-    v.required("resistance_ohm", resistance_ohm, xml::positive);
-    v.required("inductance_H", inductance_H, xml::positive);
-    v.required("back_emf_V_s_per_rad", back_emf_V_s_per_rad, xml::positive);
-    v.required("torque_Nm_per_A", torque_Nm_per_A, xml::positive);
-    v.required("gear_ratio", gear_ratio, xml::positive);
-    v.required("gear_efficiency", gear_efficiency, xml::Range{0.0, 1.0, true, false});
-    v.required("rotor_inertia_kg_m2", rotor_inertia_kg_m2, xml::positive);
-    v("gear_inertia_kg_m2", gear_inertia_kg_m2, xml::at_least_zero);
-    v("rotor_viscous_Nm_s_per_rad", rotor_viscous_Nm_s_per_rad, xml::at_least_zero);
-    v("gear_viscous_Nm_s_per_rad", gear_viscous_Nm_s_per_rad, xml::at_least_zero);
-    v("rotor_coulomb_Nm", rotor_coulomb_Nm, xml::at_least_zero);
-    v("gear_coulomb_Nm", gear_coulomb_Nm, xml::at_least_zero);
-    v.required("supply_V", supply_V, xml::positive);
-    v.required("current_limit_A", current_limit_A, xml::positive);
-    v("continuous_current_A", continuous_current_A, xml::at_least_zero);
-    v("overload_A2_s", overload_A2_s, xml::at_least_zero);
-    v("source", source);
+    v.required("name", name,
+               "Name of the type, unique among motor types; actuators and drives refer to it.");
+    v.required("resistance_ohm", resistance_ohm,
+               {xml::positive,
+                "Resistance R of the cold winding. The ECU also uses it to limit the current."});
+    v.required("inductance_H", inductance_H, {xml::positive, "Inductance L of the winding."});
+    v.required("back_emf_V_s_per_rad", back_emf_V_s_per_rad,
+               {xml::positive, "Back-EMF constant K_E: voltage per speed of the motor shaft."});
+    v.required("torque_Nm_per_A", torque_Nm_per_A,
+               {xml::positive, "Torque constant K_T, at the motor shaft."});
+    v.required(
+        "gear_ratio", gear_ratio,
+        {xml::positive,
+         "Gear ratio N: revolutions of the motor shaft per revolution of the gearbox output."});
+    v.required("gear_efficiency", gear_efficiency,
+               {xml::Range{0.0, 1.0, true, false},
+                "Efficiency η of the gearbox, as a factor on the motor torque while the motor "
+                "drives the load; 1/η applies while the load drives the motor."});
+    v.required("rotor_inertia_kg_m2", rotor_inertia_kg_m2,
+               {xml::positive,
+                "Moment of inertia J_M of the rotor, about the motor shaft; acts at the gearbox "
+                "output with N²."});
+    v("gear_inertia_kg_m2", gear_inertia_kg_m2,
+      {xml::at_least_zero, "Moment of inertia J_G of the gearbox, referred to its output."});
+    v("rotor_viscous_Nm_s_per_rad", rotor_viscous_Nm_s_per_rad,
+      {xml::at_least_zero, "Viscous friction coefficient µ_M at the motor shaft."});
+    v("gear_viscous_Nm_s_per_rad", gear_viscous_Nm_s_per_rad,
+      {xml::at_least_zero, "Viscous friction coefficient µ_G at the gearbox output."});
+    v("rotor_coulomb_Nm", rotor_coulomb_Nm,
+      {xml::at_least_zero,
+       "Coulomb friction torque τ_CM at the motor shaft, at rest and in motion."});
+    v("gear_coulomb_Nm", gear_coulomb_Nm,
+      {xml::at_least_zero,
+       "Coulomb friction torque τ_CG at the gearbox output, at rest and in motion."});
+    v.required("supply_V", supply_V,
+               {xml::positive,
+                "Supply voltage of the power stage: motor voltage at full duty cycle, limit of "
+                "voltage references in both directions."});
+    v.required("current_limit_A", current_limit_A,
+               {xml::positive,
+                "Limit of the magnitude of current references and, by the ECU's motor model, of "
+                "the current. The ECU switches the channel off at 1.5 times this value, or at 95 % "
+                "of the current sensor's range if that is less."});
+    v("continuous_current_A", continuous_current_A,
+      {xml::at_least_zero,
+       "Permanently allowed current: a larger one increases the integral of overload_A2_s, a "
+       "smaller one decreases it."});
+    v("overload_A2_s", overload_A2_s,
+      {xml::at_least_zero,
+       "Limit of ∫ (i² − continuous_current_A²) dt, which never falls below 0; above it the ECU "
+       "switches the channel off. 0: no limit."});
+    v("source", source, source_meaning);
   }
 };
 
-/// A tendon's end or a point it passes through, fixed to a body.
 struct Attach {
   static constexpr auto element = "attach";
+  static constexpr auto meaning =
+      "Point of a tendon that is fixed to a body. The first is the motor's end and the last the "
+      "distal end; the tendon passes through those between without friction.";
   xml::Place place;
   std::string body;
   Vec3 at_m{0, 0, 0};
-  void visit(auto& v) { v.required("body", body), v.required("at_m", at_m); }
+  void visit(auto& v) {
+    v.required("body", body,
+               "Name of the body that carries the point and takes the force of the tendon there.");
+    v.required("at_m", at_m, "Position in the frame of the body.");
+  }
 };
 
 enum class PulleyShape { sphere, cylinder };
 
-/// A sphere, or an endless cylinder, that the tendon wraps around when it is in the way.
 struct Pulley {
   static constexpr auto element = "pulley";
+  static constexpr auto meaning =
+      "Sphere or infinite cylinder without friction, fixed to a body. The tendon wraps around it "
+      "where it crosses the straight path.";
   xml::Place place;
   std::string body;
   Vec3 center_m{0, 0, 0};
   double radius_m = 0;
-  /// Of a sphere, which side the tendon passes: a direction in the body frame from the centre;
-  /// zero: the shorter way.
-  Vec3 side{0, 0, 0};
+  Vec3 side{0, 0, 0};  ///< zero: the shorter path
   PulleyShape shape = PulleyShape::sphere;
-  /// Given: the tendon runs around it right-handed, from the motor's end on, and its turns are
-  /// counted. A cylinder needs one.
   std::optional<Vec3> axis;
-  int turns = 0;  ///< whole turns more than needed, at the start
+  int turns = 0;
   void visit(auto& v) {
-    v.required("body", body);
-    v("shape", shape);
-    v.required("center_m", center_m);
-    v.required("radius_m", radius_m, xml::positive);
-    v("side", side);
-    v("axis", axis);
-    v("turns", turns, xml::Range{0, 20});
+    v.required("body", body,
+               "Name of the body that carries the pulley and takes the force of the tendon there.");
+    v("shape", shape,
+      "sphere: the tendon runs in the plane of the centre and the neighboring points of the path. "
+      "cylinder: it runs around axis, as a helix if these points are offset along axis.");
+    v.required(
+        "center_m", center_m,
+        "Centre of the sphere, or a point on the axis of the cylinder, in the frame of the body.");
+    v.required("radius_m", radius_m,
+               {xml::positive,
+                "Radius of the circle on which the line runs; with a <rope>, of the surface of the "
+                "pulley. Neighboring points of the path must stay outside."});
+    v("side", side,
+      "For a sphere: direction, in the frame of the body, from the centre to the side on which the "
+      "tendon passes, also for more than half a turn. Default: the shorter path. Excludes axis.");
+    v("axis", axis,
+      "Direction, in the frame of the body, around which the tendon runs right-handed from the "
+      "motor's end to the distal end; whole turns are then counted. Required for a cylinder; its "
+      "magnitude has no effect.");
+    v("turns", turns,
+      {xml::Range{0, 20},
+       "Whole turns around axis in the starting pose, in addition to a path of less than one turn. "
+       "Requires axis if not 0."});
   }
 };
 
-/// Series elastic tendon, eqs 1 and 2: F = κ Δx + D dΔx/dt, never below zero. The spring may
-/// stiffen, F = κ x + κ₃ x³, and the line it hangs on may stretch as well; a tendon without a
-/// spring is all line, its stiffness κ.
 struct Tendon {
   static constexpr auto element = "tendon";
+  static constexpr auto meaning =
+      "Series elastic tendon, eqs 1 and 2: F = κ x + κ₃ x³ + D dx/dt for the stretch x, never "
+      "negative, 0 if slack. Its path is listed from the motor's end to the distal end.";
   xml::Place place;
-  double stiffness_N_per_m = 0, damping_N_s_per_m = 0;
-  double cubic_N_per_m3 = 0;                     ///< κ₃
+  double stiffness_N_per_m = 0, damping_N_s_per_m = 0;  ///< κ, D
+  double cubic_N_per_m3 = 0;                            ///< κ₃
   std::optional<double> line_stiffness_N_per_m;  ///< in series with the spring; absent: rigid
-  double pretension_N = 0;                       ///< at the initial pose; sets the line length L_K0
+  double pretension_N = 0;
   std::string source;
   std::vector<std::variant<Attach, Pulley>> path;  ///< from the motor's end to the distal end
   void visit(auto& v) {
-    v.required("stiffness_N_per_m", stiffness_N_per_m, xml::positive);
-    v("damping_N_s_per_m", damping_N_s_per_m, xml::at_least_zero);
-    v("cubic_N_per_m3", cubic_N_per_m3, xml::at_least_zero);
-    v("line_stiffness_N_per_m", line_stiffness_N_per_m, xml::positive);
-    v("pretension_N", pretension_N, xml::at_least_zero);
-    v("source", source);
+    v.required(
+        "stiffness_N_per_m", stiffness_N_per_m,
+        {xml::positive, "Stiffness κ of the spring; for a tendon without a spring, of the line."});
+    v("damping_N_s_per_m", damping_N_s_per_m,
+      {xml::at_least_zero, "Damping D: tension per rate of stretch. A slack tendon has none."});
+    v("cubic_N_per_m3", cubic_N_per_m3,
+      {xml::at_least_zero,
+       "Cubic stiffness κ₃ of a spring that stiffens as it is stretched. Default: linear spring."});
+    v("line_stiffness_N_per_m", line_stiffness_N_per_m,
+      {xml::positive,
+       "Stiffness of the line in series with the spring. Default: inextensible line."});
+    v("pretension_N", pretension_N,
+      {xml::at_least_zero,
+       "Tension in the starting pose before the motor turns; it determines the line length L_K0 at "
+       "the start. A <pretension> of the robot replaces it."});
+    v("source", source, source_meaning);
     v.list(path);
   }
 };
 
 struct Spindle {
   static constexpr auto element = "spindle";
+  static constexpr auto meaning = "Spindle on the gearbox output, which winds up the line.";
   xml::Place place;
   double radius_m = 0;
-  void visit(auto& v) { v.required("radius_m", radius_m, xml::positive); }
-};
-
-/// A tendon simulated as a rope of nodes that collides with the bodies' solids and the pulleys
-/// (the paper's physical tendon), in place of one that finds its path at once.
-struct Rope {
-  static constexpr auto element = "rope";
-  xml::Place place;
-  int nodes = 20;
-  double mass_kg = 0, radius_m = 0;
-  double friction = 0;  ///< Coulomb's µ, on bones and pulleys
-  std::string source;
   void visit(auto& v) {
-    v("nodes", nodes, xml::Range{4, 200});
-    v.required("mass_kg", mass_kg, xml::positive);
-    v.required("radius_m", radius_m, xml::at_least_zero);
-    v("friction", friction, xml::Range{0, 2});
-    v("source", source);
+    v.required("radius_m", radius_m,
+               {xml::positive,
+                "Radius r at which the line is wound: line length per radian of the gearbox "
+                "output, and torque per tension."});
   }
 };
 
-/// One artificial muscle.
+struct Rope {
+  static constexpr auto element = "rope";
+  static constexpr auto meaning =
+      "Simulates the tendon as a chain of nodes that collides with solids and pulleys (the paper's "
+      "physical tendon), instead of a massless line on the shortest path. Excludes an <attach> "
+      "between the ends, and pulleys with an axis.";
+  xml::Place place;
+  int nodes = 20;
+  double mass_kg = 0, radius_m = 0;
+  double friction = 0;
+  std::string source;
+  void visit(auto& v) {
+    v("nodes", nodes,
+      {xml::Range{4, 200},
+       "Number of segments between the ends. A segment may be as long as radius_m plus the "
+       "smallest radius or half edge of the solids and pulleys; the error states the number "
+       "required."});
+    v.required("mass_kg", mass_kg,
+               {xml::positive, "Mass of the whole rope, distributed equally among its nodes."});
+    v.required("radius_m", radius_m,
+               {xml::at_least_zero,
+                "Half thickness: distance of the nodes from the surface that they touch."});
+    v("friction", friction,
+      {xml::Range{0, 2},
+       "Coulomb friction coefficient µ between rope and solids or pulleys. Default: no friction."});
+    v("source", source, source_meaning);
+  }
+};
+
 struct Actuator {
   static constexpr auto element = "actuator";
+  static constexpr auto meaning =
+      "Artificial muscle: motor, gearbox, spindle and tendon on one channel of an ECU. The line is "
+      "wound up at positive voltage.";
   xml::Place place;
   std::string name, motor, sensors;
   int ecu = 0, channel = 0;
   SafeAction safe_action = SafeAction::relax;
   double max_tension_N = 0;
-  double relax_tension_N = 2.0;  ///< what `relax` lets the tendon down to
-  /// How fast references may change, beyond what motor and controller do; absent: as they come.
+  double relax_tension_N = 2.0;
   std::optional<double> max_line_speed_m_per_s, max_tension_rate_N_per_s;
-  /// When an ECU of it falls silent, all of a limb drop to their safe actions: what pulls on must
-  /// not pull alone. Those that name none are one together.
-  std::string limb;
+  std::string limb;  ///< actuators without one form one group
   std::string source;
   Spindle spindle;
   Tendon tendon;
   std::optional<Rope> rope;
   void visit(auto& v) {
-    v.required("name", name);
-    v.required("motor", motor);
-    v.required("sensors", sensors);
-    v.required("ecu", ecu, xml::Range{0, 126});
-    v.required("channel", channel, xml::Range{0, 1});
-    v.required("safe_action", safe_action);
-    v.required("max_tension_N", max_tension_N, xml::positive);
-    v("relax_tension_N", relax_tension_N, xml::at_least_zero);
-    v("max_line_speed_m_per_s", max_line_speed_m_per_s, xml::positive);
-    v("max_tension_rate_N_per_s", max_tension_rate_N_per_s, xml::positive);
-    v("limb", limb);
-    v("source", source);
+    v.required("name", name,
+               "Name, unique among actuators and drives; key of its references and measurements on "
+               "the bus and in recordings.");
+    v.required("motor", motor, "Name of its motor_type.");
+    v.required("sensors", sensors, "Name of its sensor_type.");
+    v.required("ecu", ecu, {xml::Range{0, 126}, "CAN address of its ECU."});
+    v.required("channel", channel,
+               {xml::Range{0, 1}, "Channel of the ECU. Each channel has one actuator."});
+    v.required(
+        "safe_action", safe_action,
+        "Action of the plant when no controller sends references, or an ECU of the limb is silent. "
+        "hold: keep the line length; relax: control the tension to relax_tension_N; damp: 0 V.");
+    v.required(
+        "max_tension_N", max_tension_N,
+        {xml::positive,
+         "Largest tension reference, at most tension_range_N of its sensors. The ECU switches the "
+         "channel off at 1.2 times this value, or at 98 % of that range if that is less."});
+    v("relax_tension_N", relax_tension_N,
+      {xml::at_least_zero, "Tension of the safe action relax; at most max_tension_N."});
+    v("max_line_speed_m_per_s", max_line_speed_m_per_s,
+      {xml::positive,
+       "Limit on the rate of change of line length references, in both directions. Default: no "
+       "limit."});
+    v("max_tension_rate_N_per_s", max_tension_rate_N_per_s,
+      {xml::positive,
+       "Limit on the rate of change of tension references, in both directions. Default: no "
+       "limit."});
+    v("limb", limb,
+      "Name of a group of actuators. When an ECU of the group is silent, all of them take their "
+      "safe action, so that none pulls without its antagonist. All actuators without a limb form "
+      "one group.");
+    v("source", source, source_meaning);
     v.child(spindle);
     v.child(tendon);
     v.optional_child(rope);

@@ -15,7 +15,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// A type that several parts of a robot use may stand in each; the same one twice is one.
+/// Appends types that are not in `to` yet. Several parts may define the same type.
 template <class Type>
 void append_new(std::vector<Type>& to, const std::vector<Type>& from) {
   for (const Type& type : from) {
@@ -55,8 +55,8 @@ std::vector<std::string> names_in(const Robot& part) {
   return names;
 }
 
-/// Reads files depth first. `open_` is the chain of files being read: a file in it must not come
-/// again.
+/// Reads files depth first. `open_` is the chain of files being read; it must not contain a file
+/// twice.
 class Assembler {
  public:
   Robot read(const std::string& file) {
@@ -76,7 +76,7 @@ class Assembler {
     const auto own = std::exchange(robot.pretensions, {});
     for (const Include& include : std::exchange(robot.includes, {})) add(robot, include, file);
     for (const Mirror& mirror : std::exchange(robot.mirrors, {})) add(robot, mirror, file);
-    append(robot.pretensions, own);  // after those of the parts: the whole has the last word
+    append(robot.pretensions, own);  // after those of the parts, so that they replace them
     open_.pop_back();
     return robot;
   }
@@ -94,9 +94,10 @@ class Assembler {
     const auto names = names_in(part);
     const auto renamed = [&](const std::string& name) { return name.starts_with(mirror.from); };
     if (!names.empty() && std::none_of(names.begin(), names.end(), renamed))
-      errors_.push_back(error_in(Mirror::element, mirror.place,
-                                 "from=\"" + mirror.from + "\" begins no name in " + mirror.file,
-                                 "names there: " + xml::joined(names)));
+      errors_.push_back(
+          error_in(Mirror::element, mirror.place,
+                   "no name in " + mirror.file + " begins with from=\"" + mirror.from + "\"",
+                   "names there: " + xml::joined(names)));
     part = mirrored(std::move(part), mirror);
     shift_ecus(part, mirror.ecu_offset);
     append_part(robot, part);
@@ -114,15 +115,15 @@ class Assembler {
       names.push_back(actuator.name);
     }
     errors_.push_back(error_in(Pretension::element, given.place,
-                               "actuator=\"" + given.actuator + "\" names no actuator",
+                               "actuator=\"" + given.actuator + "\" refers to an unknown actuator",
                                xml::did_you_mean(given.actuator, names)));
   }
 
-  /// The part, or an empty one when it cannot be read; then errors_ says why.
+  /// The part, or an empty one when it cannot be read; the reason is then in errors_.
   template <class Reference>
   Robot part_of(const Reference& reference, const std::string& from_file) {
     const std::string file = xml::resolved(reference.file, from_file);
-    if (reference.file.empty()) return {};  // reported as missing already
+    if (reference.file.empty()) return {};  // already reported as missing
     const auto refuse = [&](const std::string& what, const std::string& remedy) {
       errors_.push_back(error_in(Reference::element, reference.place,
                                  "file=\"" + reference.file + "\" " + what, remedy));
@@ -130,7 +131,7 @@ class Assembler {
     const auto canonical = std::filesystem::weakly_canonical(file).string();
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
       refuse("includes itself: " + xml::joined(open_, " > ") + " > " + canonical,
-             "take one of these includes out");
+             "remove one of these includes");
       return {};
     }
     const auto depth = open_.size();

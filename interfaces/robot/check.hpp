@@ -8,19 +8,19 @@
 
 namespace erp {
 
-/// What the structure of robot.xml cannot say: references, the joint tree, the ECUs, the tendons.
-/// Every mistake found, none if the robot is sound. `read_robot` throws them; robots that do not
-/// come from a file (imported, fitted) are to be checked with this.
+/// Checks that an XSD cannot express: references, the joint tree, the ECUs, the tendons. Returns all
+/// errors; empty if the robot is valid. `read_robot` throws them. Call this for robots that do not
+/// come from a file (imported, fitted).
 std::vector<xml::Error> check_robot(const Robot& robot);
 
 namespace robot_check {
 
 /// The bounds of interfaces/idl/*.idl; a test compares them with the generated messages.
-inline constexpr std::size_t longest_name = 32;
-inline constexpr std::size_t most_actuators = 64, most_joints = 128, most_bodies = 128,
-                             most_imus = 32, most_path_elements = 12;
+inline constexpr std::size_t max_name_length = 32;
+inline constexpr std::size_t max_actuators = 64, max_joints = 128, max_bodies = 128, max_imus = 32,
+                             max_path_elements = 12;
 
-/// Collects errors about elements that know their place.
+/// Collects errors about elements of robot.xml.
 class Findings {
  public:
   template <class Item>

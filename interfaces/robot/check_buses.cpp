@@ -7,31 +7,31 @@
 namespace erp::robot_check {
 namespace {
 
-constexpr std::size_t longest_bus_name = 16;
+constexpr std::size_t max_bus_name_length = 16;
 
 std::string ecu_words(int ecu) { return "ECU " + std::to_string(ecu); }
 
-/// Every ECU of a plan is in use, and hangs on one bus.
+/// Checks that every ECU of a bus is in use and is on no other bus.
 void check_members(const BusPlan& bus, const std::vector<int>& used,
                    std::map<int, const BusPlan*>& place_of, Findings& findings) {
   for (const int ecu : bus.ecus) {
     const auto [first, is_free] = place_of.emplace(ecu, &bus);
     if (!is_free)
-      findings.add(bus,
-                   ecu_words(ecu) + " is on bus " + xml::quote(first->second->name) + " already",
-                   "keep it on one; the first stands at " + place_words(first->second->place));
+      findings.add(bus, ecu_words(ecu) + " is already on bus " + xml::quote(first->second->name),
+                   "keep it on one; the first is at " + place_words(first->second->place));
     if (std::ranges::find(used, ecu) == used.end())
-      findings.add(bus, ecu_words(ecu) + " drives no actuator and reads no sensor",
-                   "take it off the bus; in use are " + xml::Codec<std::vector<int>>::write(used));
+      findings.add(
+          bus, ecu_words(ecu) + " drives no actuator and reads no sensor",
+          "remove it from the bus; ECUs in use: " + xml::Codec<std::vector<int>>::write(used));
   }
 }
 
 void check_bus(const BusPlan& bus, Findings& findings) {
-  if (bus.name.size() > longest_bus_name)
+  if (bus.name.size() > max_bus_name_length)
     findings.add(
         bus,
         "name=" + xml::quote(bus.name) + " has " + std::to_string(bus.name.size()) + " characters",
-        "its figures are named after it: give at most " + std::to_string(longest_bus_name));
+        "published values contain its name: give at most " + std::to_string(max_bus_name_length));
   if (bus.data_bitrate_per_s && *bus.data_bitrate_per_s < bus.bitrate_per_s)
     findings.add(bus,
                  "data_bitrate_per_s=\"" + xml::write_number(*bus.data_bitrate_per_s) +
@@ -51,7 +51,7 @@ void check_buses(const Robot& robot, Findings& findings) {
   if (robot.can_buses.empty()) return;
   for (const int ecu : used)
     if (!place_of.contains(ecu))
-      findings.add(robot, ecu_words(ecu) + " hangs on no CAN bus",
+      findings.add(robot, ecu_words(ecu) + " is on no CAN bus",
                    "name it in the ecus of a <can_bus>");
 }
 

@@ -7,9 +7,9 @@
 namespace erp::robot_check {
 namespace {
 
-constexpr double most_imu_Hz = 500;
+constexpr double max_imu_rate_Hz = 500;
 
-/// A mirror's offset can carry an ecu out of what the XSD allows.
+/// The ecu_offset of a mirror can lead to an ecu outside of the XSD's range.
 template <class Item>
 void check_ecu_number(const Item& item, Findings& findings) {
   if (item.ecu < 0 || item.ecu > 126)
@@ -24,19 +24,18 @@ void check_channels(const Robot& robot, Findings& findings) {
     const auto [first, is_free] =
         taken.emplace(std::pair(actuator.ecu, actuator.channel), &actuator);
     if (!is_free)
-      findings.add(
-          actuator,
-          "ecu=\"" + std::to_string(actuator.ecu) + "\" channel=\"" +
-              std::to_string(actuator.channel) + "\" drives " + xml::quote(first->second->name) +
-              " already",
-          "choose a free channel; the first stands at " + place_words(first->second->place));
+      findings.add(actuator,
+                   "ecu=\"" + std::to_string(actuator.ecu) + "\" channel=\"" +
+                       std::to_string(actuator.channel) + "\" already drives " +
+                       xml::quote(first->second->name),
+                   "choose a free channel; the first is at " + place_words(first->second->place));
   }
 }
 
-/// Inputs, and what each reads, are given out once.
+/// ECU inputs in use, and the number of sensors per measured quantity.
 struct Taken {
   std::map<std::pair<int, int>, std::string> inputs;
-  std::map<std::string, int> sensed;
+  std::map<std::string, int> sensors;
 };
 
 template <class Sensor>
@@ -46,9 +45,9 @@ void check_input(const Sensor& sensor, const std::string& reads, Taken& taken, F
   if (!is_free)
     findings.add(sensor,
                  "ecu=\"" + std::to_string(sensor.ecu) + "\" input=\"" +
-                     std::to_string(sensor.input) + "\" reads " + first->second + " already",
+                     std::to_string(sensor.input) + "\" already reads " + first->second,
                  "choose a free input");
-  if (taken.sensed[reads]++ > 0) findings.add(sensor, "a second sensor on " + reads, "keep one");
+  if (taken.sensors[reads]++ > 0) findings.add(sensor, "a second sensor on " + reads, "keep one");
 }
 
 void check_inputs(const Robot& robot, Findings& findings) {
@@ -61,11 +60,11 @@ void check_inputs(const Robot& robot, Findings& findings) {
       findings.add(sensor,
                    "start_rad=\"" + xml::write_number(sensor.start_rad) +
                        "\" lies beyond range_rad=\"" + xml::write_number(sensor.range_rad) + "\"",
-                   "start within its range");
+                   "give a value within its range");
   }
 }
 
-/// What angle a sensor of this joint reads.
+/// Checks that the joint has the angle that the sensor reads.
 void check_angle(const JointSensor& sensor, const Joint& joint, Findings& findings) {
   const std::string words = "joint " + xml::quote(joint.name);
   if (joint.type == JointType::fixed)
@@ -74,11 +73,11 @@ void check_angle(const JointSensor& sensor, const Joint& joint, Findings& findin
     findings.add(sensor, words + " has one angle", "remove about");
   else if (joint.type != JointType::revolute && !sensor.about)
     findings.add(sensor, words + " turns about three axes",
-                 "say which component the sensor reads: about=\"x\", y or z");
-  if (sample_name(sensor).size() > longest_name)
+                 "give the component that the sensor reads: about=\"x\", y or z");
+  if (sample_name(sensor).size() > max_name_length)
     findings.add(
         sensor, "its name on the bus would be " + xml::quote(sample_name(sensor)),
-        "the bus carries " + std::to_string(longest_name) + " characters: rename the joint");
+        "the bus allows " + std::to_string(max_name_length) + " characters: rename the joint");
 }
 
 void check_sensed_joints(const Robot& robot, Findings& findings) {
@@ -92,7 +91,7 @@ void check_sensed_joints(const Robot& robot, Findings& findings) {
                        "\" is not below max_rad=\"" + xml::write_number(*sensor.max_rad) + "\"",
                    "give the lower end as min_rad");
   for (const Imu& imu : robot.imus)
-    if (imu.sampling.rate_Hz > most_imu_Hz)
+    if (imu.sampling.rate_Hz > max_imu_rate_Hz)
       findings.add(imu, "rate_Hz=\"" + xml::write_number(imu.sampling.rate_Hz) + "\" is too fast",
                    "give at most 500: the host reads it each 2 ms");
 }

@@ -13,10 +13,10 @@ bool plain(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == 
 template <class Item>
 void check_name(const Item& item, Findings& findings) {
   const std::string& name = item.name;
-  if (name.size() > longest_name)
+  if (name.size() > max_name_length)
     findings.add(item,
                  "name=" + xml::quote(name) + " has " + std::to_string(name.size()) + " characters",
-                 "the bus carries at most " + std::to_string(longest_name));
+                 "the bus allows at most " + std::to_string(max_name_length));
   if (!std::all_of(name.begin(), name.end(), plain))
     findings.add(item, "name=" + xml::quote(name) + " is not a plain name",
                  "use letters, digits, _ and -");
@@ -30,7 +30,7 @@ void check_unique(const Items& items, Findings& findings) {
     const auto [first, is_new] = seen.emplace(item.name, item.place);
     if (!is_new)
       findings.add(item, "duplicate name " + xml::quote(item.name),
-                   "rename it; the first stands at " + place_words(first->second));
+                   "rename it; the first is at " + place_words(first->second));
   }
 }
 
@@ -39,14 +39,15 @@ void check_count(const Robot& robot, const Items& items, std::size_t most, const
                  Findings& findings) {
   if (items.size() > most)
     findings.add(robot, std::to_string(items.size()) + " " + what,
-                 "the bus carries at most " + std::to_string(most));
+                 "the bus allows at most " + std::to_string(most));
 }
 
 template <class Item>
 void check_reference(const Item& item, const char* attribute, const std::string& name,
                      const std::vector<std::string>& known, const char* kind, Findings& findings) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  findings.add(item, std::string(attribute) + "=" + xml::quote(name) + " names no " + kind,
+  findings.add(item,
+               std::string(attribute) + "=" + xml::quote(name) + " refers to an unknown " + kind,
                known.empty() ? std::string("the robot has none: add a ") + kind
                              : xml::did_you_mean(name, known));
 }
@@ -61,7 +62,7 @@ void check_tolerances(const Robot& robot, const std::vector<std::string>& places
       findings.add(tolerance,
                    tolerance.relative ? "relative and absolute are both given"
                                       : "neither relative nor absolute is given",
-                   "give one: relative, of the number, or absolute, in its unit");
+                   "give one: relative to the number, or absolute in its unit");
   }
 }
 
@@ -77,11 +78,11 @@ void check_names(const Robot& robot, Findings& findings) {
   check_unique(robot.motor_types, findings);
   check_unique(robot.sensor_types, findings);
   check_unique(robot.imus, findings);
-  check_count(robot, robot.bodies(), most_bodies, "bodies", findings);
-  check_count(robot, robot.joints(), most_joints, "joints", findings);
-  check_count(robot, robot.actuators, most_actuators, "actuators", findings);
-  check_count(robot, robot.imus, most_imus, "imus", findings);
-  check_count(robot, robot.analog_inputs(), most_joints, "analog inputs in use", findings);
+  check_count(robot, robot.bodies(), max_bodies, "bodies", findings);
+  check_count(robot, robot.joints(), max_joints, "joints", findings);
+  check_count(robot, robot.actuators, max_actuators, "actuators", findings);
+  check_count(robot, robot.imus, max_imus, "imus", findings);
+  check_count(robot, robot.analog_inputs(), max_joints, "analog inputs in use", findings);
 }
 
 void check_references(const Robot& robot, Findings& findings) {
@@ -116,11 +117,11 @@ void check_references(const Robot& robot, Findings& findings) {
   for (const auto* more : {&bodies, &actuators, &drives})
     places.insert(places.end(), more->begin(), more->end());
   for (const Drive& drive : robot.drives)
-    if (has_two_ends(drive)) places.push_back(drive.name + ".load");
+    if (has_load_sensor(drive)) places.push_back(drive.name + ".load");
   places.push_back(robot.name);
   for (const Effect& effect : robot.effects)
-    check_reference(effect, "on", effect.on, places,
-                    "actuator, drive, joint or body, nor the robot", findings);
+    check_reference(effect, "on", effect.on, places, "actuator, drive, joint, body or robot",
+                    findings);
   check_tolerances(robot, places, findings);
 }
 

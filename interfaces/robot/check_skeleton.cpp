@@ -11,18 +11,18 @@ namespace {
 using xml::quote;
 using xml::write_number;
 
-/// Which joint moves a body; the first, if there are several.
+/// The joint that moves each body; the first one if there are several.
 using MovedBy = std::map<std::string, const Joint*>;
 
-MovedBy check_one_joint_a_body(const std::vector<Joint>& joints, Findings& findings) {
+MovedBy check_one_joint_per_body(const std::vector<Joint>& joints, Findings& findings) {
   MovedBy moved_by;
   for (const Joint& joint : joints) {
     const auto [first, is_new] = moved_by.emplace(joint.child, &joint);
     if (!is_new)
       findings.add(joint,
-                   "child=" + quote(joint.child) + " is moved by joint " +
-                       quote(first->second->name) + " already",
-                   "a body hangs on one joint: remove one");
+                   "child=" + quote(joint.child) + " is already moved by joint " +
+                       quote(first->second->name),
+                   "a body is moved by one joint: remove one");
   }
   return moved_by;
 }
@@ -57,10 +57,10 @@ void check_free(const Joint& joint, const MovedBy& moved_by, Findings& findings)
   if (const auto above = moved_by.find(joint.parent); above != moved_by.end())
     findings.add(
         joint, "parent=" + quote(joint.parent) + " is moved by joint " + quote(above->second->name),
-        "a free body floats relative to a root: name one");
+        "a free body floats relative to a root body: give one");
   if (joint.viscous_Nm_s_per_rad > 0 || joint.coulomb_Nm > 0)
-    findings.add(joint, "a free body has no joint that could rub",
-                 "leave out viscous_Nm_s_per_rad and coulomb_Nm");
+    findings.add(joint, "a free joint has no friction",
+                 "remove viscous_Nm_s_per_rad and coulomb_Nm");
 }
 
 void check_joint(const Joint& joint, Findings& findings) {
@@ -78,7 +78,7 @@ void check_joint(const Joint& joint, Findings& findings) {
         "give a number from " + write_number(joint.min_rad) + " to " + write_number(joint.max_rad));
 }
 
-/// I₁ ≤ I₂ + I₃ for each of the three: no mass distribution has other principal inertias.
+/// I₁ ≤ I₂ + I₃ for each of the three: every mass distribution satisfies this.
 bool possible(const Vec3& inertia) {
   const double sum = inertia[0] + inertia[1] + inertia[2];
   return *std::max_element(inertia.begin(), inertia.end()) <= sum / 2 * (1 + 1e-9);
@@ -91,16 +91,16 @@ void check_body(const Body& body, const MovedBy& moved_by, Findings& findings) {
         body,
         quote(body.name) + " has no mass but joint " + quote(joint->second->name) + " moves it",
         "add mass_kg, or density_kg_per_m3 for its solids");
-  if (made_of_parts(body) && body.mass_kg > 0)
+  if (has_mass_from_parts(body) && body.mass_kg > 0)
     findings.add(body,
                  "mass_kg=" + quote(write_number(body.mass_kg)) +
-                     " is given beside a density or a weight, from which it would follow",
-                 "give either");
+                     " is given in addition to a density or a weight, which determine the mass",
+                 "remove one of them");
   if (!possible(body.inertia_kg_m2))
-    findings.add(
-        body,
-        "inertia_kg_m2=\"" + xml::Codec<Vec3>::write(body.inertia_kg_m2) + "\" belongs to no body",
-        "none of the three may exceed the sum of the other two");
+    findings.add(body,
+                 "inertia_kg_m2=\"" + xml::Codec<Vec3>::write(body.inertia_kg_m2) +
+                     "\" is not a possible inertia",
+                 "none of the three may exceed the sum of the other two");
 }
 
 bool is_solid(const Part& part) { return !std::holds_alternative<Weight>(part); }
@@ -126,7 +126,7 @@ void check_gravity(const Robot& robot, Findings& findings) {
     if (!part.gravity_m_per_s2) continue;
     if (first)
       findings.add(part, "gravity_m_per_s2 is given twice",
-                   "keep one; the first stands at " + place_words(first->place));
+                   "keep one; the first is at " + place_words(first->place));
     else first = &part;
   }
 }
@@ -135,7 +135,7 @@ void check_gravity(const Robot& robot, Findings& findings) {
 
 void check_skeleton(const Robot& robot, Findings& findings) {
   const auto joints = robot.joints();
-  const MovedBy moved_by = check_one_joint_a_body(joints, findings);
+  const MovedBy moved_by = check_one_joint_per_body(joints, findings);
   check_loops(joints, moved_by, findings);
   for (const Joint& joint : joints) {
     check_joint(joint, findings);

@@ -10,7 +10,7 @@ namespace {
 using xml::quote;
 using xml::write_number;
 
-/// From a sphere's centre, or from a cylinder's axis.
+/// Distance from the sphere's centre or the cylinder's axis.
 double distance_m(const Vec3& point, const Pulley& pulley) {
   Vec3 from{};
   for (std::size_t i = 0; i < 3; ++i) from[i] = point[i] - pulley.center_m[i];
@@ -29,9 +29,9 @@ bool is_attach(const std::variant<Attach, Pulley>& point) {
 
 void check_ends(const Actuator& actuator, Findings& findings) {
   const auto& path = actuator.tendon.path;
-  if (path.size() > most_path_elements)
+  if (path.size() > max_path_elements)
     findings.add(actuator.tendon, "the path has " + std::to_string(path.size()) + " points",
-                 "give at most " + std::to_string(most_path_elements));
+                 "give at most " + std::to_string(max_path_elements));
   if (path.size() < 2)
     findings.add(actuator.tendon, "the path has " + std::to_string(path.size()) + " points",
                  "it needs at least two <attach>: the motor's end and the distal end");
@@ -40,15 +40,15 @@ void check_ends(const Actuator& actuator, Findings& findings) {
                  "begin and end it with an <attach>");
 }
 
-/// Between a point inside a sphere and the sphere there is no tangent. Bodies apart may come
-/// together in some pose; that is the simulator's to notice.
+/// There is no tangent from a point inside a sphere to the sphere. Checks points and pulleys on the
+/// same body only; the simulator reports a point that enters a pulley of another body.
 void check_inside(const Attach& point, const Pulley& pulley, Findings& findings) {
   const double apart_m = distance_m(point.at_m, pulley);
   if (point.body != pulley.body || apart_m >= pulley.radius_m) return;
   findings.add(point,
                "at_m=" + quote(xml::Codec<Vec3>::write(point.at_m)) + " lies " +
                    write_number(apart_m) +
-                   " m from the middle of the pulley beside it, "
+                   " m from the centre of the neighbouring pulley, "
                    "inside its radius_m=" +
                    quote(write_number(pulley.radius_m)),
                "move it out, or make the pulley smaller");
@@ -64,34 +64,34 @@ void check_neighbours(const Actuator& actuator, Findings& findings) {
   }
 }
 
-/// What a pulley's shape needs and what its turns need.
+/// Checks that a pulley with a cylinder or with turns has an axis.
 void check_pulleys(const Actuator& actuator, Findings& findings) {
   for (const auto& point : actuator.tendon.path) {
     const auto* pulley = std::get_if<Pulley>(&point);
     if (!pulley) continue;
     const bool zero = pulley->axis && *pulley->axis == Vec3{0, 0, 0};
-    if (zero) findings.add(*pulley, "axis=\"0 0 0\" is no direction", "give one");
+    if (zero) findings.add(*pulley, "axis=\"0 0 0\" has no direction", "give a direction");
     if (!pulley->axis && pulley->shape == PulleyShape::cylinder)
       findings.add(*pulley, "a cylinder without an axis",
                    "add axis=\"…\": the tendon runs around it right-handed");
     if (!pulley->axis && pulley->turns > 0)
-      findings.add(*pulley, "turns without an axis", "add axis=\"…\" to say which way they run");
+      findings.add(*pulley, "turns without an axis", "add axis=\"…\" to define their direction");
     if (pulley->axis && pulley->side != Vec3{0, 0, 0})
-      findings.add(*pulley, "both axis and side", "axis says the side already: remove side");
+      findings.add(*pulley, "both axis and side", "axis already defines the side: remove side");
   }
 }
 
-/// A rope finds its own way over the solids.
+/// A rope takes its path over the solids by collision: it has no via points and no counted turns.
 void check_rope(const Actuator& actuator, Findings& findings) {
   if (!actuator.rope) return;
   const auto& path = actuator.tendon.path;
   for (std::size_t k = 1; k + 1 < path.size(); ++k)
     if (is_attach(path[k]))
-      findings.add(std::get<Attach>(path[k]), "a rope passes no points between its ends",
+      findings.add(std::get<Attach>(path[k]), "a rope supports no <attach> between its ends",
                    "remove it, or the <rope>");
   for (const auto& point : path)
     if (const auto* pulley = std::get_if<Pulley>(&point); pulley && pulley->axis)
-      findings.add(*pulley, "a rope counts no turns and knows spheres only",
+      findings.add(*pulley, "a rope supports neither turns nor cylinders",
                    "remove axis, or the <rope>");
 }
 

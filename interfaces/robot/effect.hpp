@@ -6,18 +6,24 @@
 
 namespace erp {
 
-/// Something the nominal robot leaves out and the simulator adds: `<effect type="gearbox_backlash"
-/// on="flexor" width_rad="0.01"/>`. Which types there are, on what, and their parameters:
-/// sim/model/effects, which checks them. Components other than the simulator do not look at effects.
+/// `<effect type="gearbox_backlash" on="flexor" width_rad="0.01"/>`. sim/model/effects defines and checks
+/// types, targets and parameters.
 struct Effect {
   static constexpr auto element = "effect";
+  static constexpr auto meaning =
+      "Deviation from the nominal robot that the simulator and the diagnosis add; controllers and "
+      "plant ignore it. Further attributes are the parameters of its type.";
   xml::Place place;
   std::string type;
-  std::string on;  ///< name of an actuator, joint, body or of the robot
+  std::string on;
   std::vector<xml::Attribute> parameters;
   void visit(auto& v) {
-    v.required("type", type);
-    v.required("on", on);
+    v.required("type", type,
+               "Type of the effect, such as gearbox_backlash; `erp model effects` lists all types "
+               "with their parameters.");
+    v.required("on", on,
+               "Name of the affected actuator, drive, joint, body or robot, as the type requires; "
+               "NAME.load is the load of a drive with a sensor.");
     v.rest(parameters);
   }
 };

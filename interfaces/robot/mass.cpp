@@ -49,7 +49,7 @@ Mass of_part(const Capsule& c, double density) {
 
 Mass of_part(const Weight& w, double) { return {w.mass_kg, w.at_m, {}}; }
 
-/// The same about a point at `d` from the centre of mass; `sign` −1 leads back.
+/// Moves the reference point of the inertia from the centre of mass by `d`; `sign` −1 moves it back.
 void shift(Mass& mass, const Vec3& d, double sign) {
   const double m = sign * mass.mass_kg;
   auto& i = mass.inertia_kg_m2;
@@ -60,7 +60,7 @@ void shift(Mass& mass, const Vec3& d, double sign) {
 
 }  // namespace
 
-bool made_of_parts(const Body& body) {
+bool has_mass_from_parts(const Body& body) {
   return body.density_kg_per_m3 || std::ranges::any_of(body.parts, [](const Part& part) {
            return std::holds_alternative<Weight>(part);
          });
@@ -73,8 +73,8 @@ Mass given_mass(const Body& body) {
 }
 }  // namespace
 
-Mass together(std::vector<Mass> masses) {
-  Mass sum;  // about the origin of the axes, until the end
+Mass combined(std::vector<Mass> masses) {
+  Mass sum;  // inertia about the origin until the last shift
   for (Mass& mass : masses) {
     shift(mass, mass.com_m, 1);
     sum.mass_kg += mass.mass_kg;
@@ -88,12 +88,12 @@ Mass together(std::vector<Mass> masses) {
 }
 
 Mass mass_of(const Body& body) {
-  if (!made_of_parts(body)) return given_mass(body);
+  if (!has_mass_from_parts(body)) return given_mass(body);
   const double density = body.density_kg_per_m3.value_or(0);
   std::vector<Mass> masses;
   for (const Part& part : body.parts)
     masses.push_back(std::visit([&](const auto& p) { return of_part(p, density); }, part));
-  return together(std::move(masses));
+  return combined(std::move(masses));
 }
 
 }  // namespace erp

@@ -39,7 +39,7 @@ void reflect(Pulley& pulley) {
   if (auto& axis = pulley.axis) axis = reflected_axis(*axis);
 }
 
-/// A rotation vector's image is (−x, y, −z): what a sensor reads of it changes sign with the axes.
+/// The mirror image of a rotation vector is (−x, y, −z), so sensors about x and z change their sign.
 void reflect(JointSensor& sensor) {
   if (!sensor.about || *sensor.about == AxisName::y) return;
   std::swap(sensor.min_rad, sensor.max_rad);
@@ -47,7 +47,7 @@ void reflect(JointSensor& sensor) {
     if (*end) **end = negated(**end);
 }
 
-/// Replaces the front of names.
+/// Replaces the prefix of names.
 struct Rename {
   const Mirror& mirror;
   void operator()(std::string& name) const {

@@ -11,91 +11,115 @@
 #include "interfaces/robot/skeleton.hpp"
 #include "interfaces/xml/fields.hpp"
 
-/// robot.xml as plain structs. Each struct lists its attributes and children once, in `visit`:
-/// from that list come the strict reader, the writer and the XSD.
+/// robot.xml as plain structs. Each struct lists its attributes and children once, in `visit`, which
+/// the strict reader, the writer and the XSD use.
 namespace erp {
 
-/// The pretension of a tendon in this robot's starting pose, in place of the one its part gives:
-/// pretensions balance a whole robot. `erp model balance` finds them.
 struct Pretension {
   static constexpr auto element = "pretension";
+  static constexpr auto meaning =
+      "Pretension of one tendon, instead of that in its <tendon>, since pretensions must balance "
+      "the whole robot; of several for one actuator, the last applies. `erp model balance` "
+      "computes them.";
   xml::Place place;
   std::string actuator;
   double tension_N = 0;
   void visit(auto& v) {
-    v.required("actuator", actuator);
-    v.required("tension_N", tension_N, xml::at_least_zero);
+    v.required("actuator", actuator, "Name of the actuator.");
+    v.required("tension_N", tension_N,
+               {xml::at_least_zero, "Tension in the starting pose before the motor turns."});
   }
 };
 
-/// The standard deviation of a number of the robot as built from its value in robot.xml:
-/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. The numbers are listed and checked in
-/// sim/gap. Simulation and control ignore tolerances.
+/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. sim/gap lists and checks the constants.
 struct Tolerance {
   static constexpr auto element = "tolerance";
+  static constexpr auto meaning =
+      "Standard deviation of a constant of the built robot from its value in robot.xml, for the "
+      "diagnosis and `erp gap calibrate`; simulation and control ignore it. Of several for one "
+      "constant, the last applies.";
   xml::Place place;
-  std::string of;  ///< name of the number
-  std::string on;  ///< actuator, drive, joint or body; empty: wherever there is such a number
-  std::optional<double> relative;  ///< of the number; exactly one of these two
-  std::optional<double> absolute;  ///< in the number's unit
+  std::string of, on;
+  std::optional<double> relative, absolute;  ///< exactly one of both
   void visit(auto& v) {
-    v.required("of", of);
-    v("on", on);
-    v("relative", relative, xml::at_least_zero);
-    v("absolute", absolute, xml::at_least_zero);
+    v.required(
+        "of", of,
+        "Name of the constant: an attribute such as resistance_ohm or radius_m, a factor (1 in "
+        "robot.xml) on mass, com or inertia of a body, or a sensor error such as tension_gain.");
+    v("on", on,
+      "Name of an actuator, drive, joint or body. Default: all that have such a constant.");
+    v("relative", relative,
+      {xml::at_least_zero,
+       "Standard deviation relative to the constant; 0: exactly known, not estimated. Give either "
+       "relative or absolute."});
+    v("absolute", absolute,
+      {xml::at_least_zero,
+       "Standard deviation in the unit of the constant; required where the constant is 0 in "
+       "robot.xml. 0: exactly known, not estimated."});
   }
 };
 
-/// Another robot.xml whose parts belong to this robot; its own name is not used.
 struct Include {
   static constexpr auto element = "include";
+  static constexpr auto meaning =
+      "Another robot.xml, whose elements are added to this robot. The name of that robot is "
+      "ignored.";
   xml::Place place;
-  std::string file;    ///< relative to the including file
-  int ecu_offset = 0;  ///< added to every ecu
+  std::string file;
+  int ecu_offset = 0;
   void visit(auto& v) {
-    v.required("file", file);
-    v("ecu_offset", ecu_offset, xml::Range{-127, 127});
+    v.required("file", file, "Path of the file, relative to the file that contains this element.");
+    v("ecu_offset", ecu_offset,
+      {xml::Range{-127, 127}, "Number that is added to every ECU address of the file."});
   }
 };
 
-/// Another robot.xml, reflected at the plane y = 0: a left arm from a right one. Names that begin
-/// with `from` begin with `to` instead, in references too; the same joint angles are mirror images.
 struct Mirror {
   static constexpr auto element = "mirror";
+  static constexpr auto meaning =
+      "Another robot.xml, reflected at its plane y = 0 and added to this robot, such as a left arm "
+      "as a right one. Equal joint angles are mirror images.";
   xml::Place place;
   std::string file;
   std::string from, to;  ///< "left_", "right_"
-  int ecu_offset = 0;    ///< added to every ecu
+  int ecu_offset = 0;
   void visit(auto& v) {
-    v.required("file", file);
-    v.required("from", from);
-    v.required("to", to);
-    v("ecu_offset", ecu_offset, xml::Range{-127, 127});
+    v.required("file", file, "Path of the file, relative to the file that contains this element.");
+    v.required("from", from,
+               "Prefix of the names and references that are renamed. Names without it refer to "
+               "elements of other files.");
+    v.required("to", to, "Prefix that replaces from.");
+    v("ecu_offset", ecu_offset,
+      {xml::Range{-127, 127}, "Number that is added to every ECU address of the file."});
   }
 };
 
-/// A robot. As `read_robot` returns it, it is whole: no includes, mirrors and pretensions are
-/// left.
+/// A robot. After `read_robot` the lists of includes, mirrors and pretensions are empty, since it has
+/// applied them.
 struct Robot {
   static constexpr auto element = "robot";
+  static constexpr auto meaning =
+      "Robot with tendons or drives, or a part of one that another file includes.";
   xml::Place place;
   std::string name;
-  std::vector<Skeleton> skeletons;  ///< one a part; `bodies()` and `joints()` see them all
+  std::vector<Skeleton> skeletons;  ///< one per part; `bodies()` and `joints()` join them
   std::vector<MotorType> motor_types;
   std::vector<SensorType> sensor_types;
   std::vector<Actuator> actuators;
-  std::vector<Drive> drives;  ///< without tendons: for diagnosis, not on the bus
+  std::vector<Drive> drives;  ///< drives without tendons; for diagnosis only, not on the bus
   std::vector<JointSensor> joint_sensors;
   std::vector<Potentiometer> potentiometers;
   std::vector<Imu> imus;
-  std::vector<BusPlan> can_buses;  ///< as they stand; `buses()` is never empty
+  std::vector<BusPlan> can_buses;  ///< as in the file; `buses()` is never empty
   std::vector<Effect> effects;
-  std::vector<Tolerance> tolerances;    ///< the last one that names a number counts
-  std::vector<Pretension> pretensions;  ///< the last one that names an actuator counts
+  std::vector<Tolerance> tolerances;    ///< of several for one number, the last applies
+  std::vector<Pretension> pretensions;  ///< of several for one actuator, the last applies
   std::vector<Include> includes;
   std::vector<Mirror> mirrors;
   void visit(auto& v) {
-    v.required("name", name);
+    v.required("name", name,
+               "Name of the robot; key of its messages on the bus. Effects on the whole robot "
+               "refer to it.");
     v.list(includes);
     v.list(mirrors);
     v.list(skeletons);
@@ -114,23 +138,23 @@ struct Robot {
 
   std::vector<Body> bodies() const;  ///< of all skeletons, in the order of the file
   std::vector<Joint> joints() const;
-  /// Of the joint sensors, then of the potentiometers.
+  /// The inputs of the joint sensors, then of the potentiometers.
   std::vector<AnalogInput> analog_inputs() const;
-  /// Addresses in use, ascending.
+  /// ECU addresses in use, ascending.
   std::vector<int> ecus() const;
-  /// The CAN buses in the order of the file; where none is named, one with every ECU.
+  /// The CAN buses in the order of the file; if there are none, one bus with every ECU.
   std::vector<BusPlan> buses() const;
-  Vec3 gravity_m_per_s2() const;  ///< zero when no part gives it
-  /// Throw std::out_of_range when the robot has no type of that name (read_robot refuses that).
+  Vec3 gravity_m_per_s2() const;  ///< zero if no part defines it
+  /// Both throw std::out_of_range when the robot has no such type (read_robot refuses such a robot).
   const MotorType& motor_of(const Actuator& actuator) const;
   const SensorType& sensors_of(const Actuator& actuator) const;
 };
 
-/// Reads robot.xml with its includes and mirrors, and checks every reference.
-/// Throws xml::Errors with every mistake found: place, value, remedy.
+/// Reads robot.xml with its includes and mirrors, and checks it with `check_robot`.
+/// Throws xml::Errors with all errors: place, value, remedy.
 Robot read_robot(const std::string& file);
 
-/// One flat robot.xml; reads back to the same bits.
+/// Writes one robot.xml without includes; reads back bit-equal.
 std::string write_robot(const Robot& robot);
 
 }  // namespace erp

@@ -3,52 +3,67 @@
 #include <variant>
 #include <vector>
 
+#include "interfaces/robot/source.hpp"
 #include "interfaces/xml/fields.hpp"
 
-/// What the bodies of robot.xml consist of. Lengths in metres, in the body's frame.
+/// Solids and weights of the bodies of robot.xml. Lengths in metres, in the body's frame.
 namespace erp {
 
 using xml::Vec3;
 
 struct Sphere {
   static constexpr auto element = "sphere";
+  static constexpr auto meaning = "Solid sphere.";
   xml::Place place;
-  Vec3 at_m{0, 0, 0};  ///< centre
-  double radius_m = 0;
-  void visit(auto& v) { v("at_m", at_m), v.required("radius_m", radius_m, xml::positive); }
-};
-
-/// A cylinder with round ends: all points within a radius of a line.
-struct Capsule {
-  static constexpr auto element = "capsule";
-  xml::Place place;
-  Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};  ///< the ends of that line
+  Vec3 at_m{0, 0, 0};
   double radius_m = 0;
   void visit(auto& v) {
-    v.required("from_m", from_m), v.required("to_m", to_m);
-    v.required("radius_m", radius_m, xml::positive);
+    v("at_m", at_m, "Centre in the frame of the body.");
+    v.required("radius_m", radius_m, {xml::positive, "Radius."});
   }
 };
 
-/// Its edges are parallel to the body's axes.
-struct Box {
-  static constexpr auto element = "box";
+struct Capsule {
+  static constexpr auto element = "capsule";
+  static constexpr auto meaning =
+      "Solid cylinder with hemispherical ends: all points within radius_m of a line segment.";
   xml::Place place;
-  Vec3 at_m{0, 0, 0};    ///< centre
-  Vec3 size_m{0, 0, 0};  ///< edges
-  void visit(auto& v) { v("at_m", at_m), v.required("size_m", size_m, xml::positive); }
+  Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};
+  double radius_m = 0;
+  void visit(auto& v) {
+    v.required(
+        "from_m", from_m,
+        "One end of the line segment, in the frame of the body; the hemisphere extends beyond it.");
+    v.required("to_m", to_m, "Other end of the line segment, in the frame of the body.");
+    v.required("radius_m", radius_m, {xml::positive, "Radius of the cylinder and of its ends."});
+  }
 };
 
-/// A mass without size, such as a motor on a bone.
+struct Box {
+  static constexpr auto element = "box";
+  static constexpr auto meaning = "Solid box with edges parallel to the axes of the body.";
+  xml::Place place;
+  Vec3 at_m{0, 0, 0};
+  Vec3 size_m{0, 0, 0};
+  void visit(auto& v) {
+    v("at_m", at_m, "Centre in the frame of the body.");
+    v.required("size_m", size_m, {xml::positive, "Full lengths of the edges along x, y and z."});
+  }
+};
+
 struct Weight {
   static constexpr auto element = "weight";
+  static constexpr auto meaning =
+      "Point mass, such as a motor on a bone. A body with a weight takes its mass from its solids "
+      "and weights.";
   xml::Place place;
   Vec3 at_m{0, 0, 0};
   double mass_kg = 0;
   std::string source;
   void visit(auto& v) {
-    v.required("at_m", at_m), v.required("mass_kg", mass_kg, xml::positive);
-    v("source", source);
+    v.required("at_m", at_m, "Position in the frame of the body.");
+    v.required("mass_kg", mass_kg, {xml::positive, "Mass, added to that of the solids."});
+    v("source", source, source_meaning);
   }
 };
 

@@ -12,7 +12,7 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-std::string tail(const Description& d) {
+std::string presence(const Description& d) {
   if (d.required) return "required";
   return d.default_text.empty() ? "" : "default " + d.default_text;
 }
@@ -20,14 +20,16 @@ std::string tail(const Description& d) {
 }  // namespace
 
 std::string to_table(const std::vector<Description>& all) {
-  std::size_t names = 0, types = 0;
+  std::size_t names = 0, types = 0, presences = 0;
   for (const Description& d : all) {
     names = std::max(names, d.name.size());
     types = std::max(types, d.type.size());
+    presences = std::max(presences, presence(d).size());
   }
   std::string table;
   for (const Description& d : all) {
-    std::string line = padded(d.name, names) + "  " + padded(d.type, types) + "  " + tail(d);
+    std::string line = padded(d.name, names) + "  " + padded(d.type, types) + "  " +
+                       padded(presence(d), presences) + "  " + d.meaning;
     line.erase(line.find_last_not_of(' ') + 1);
     table += line + "\n";
   }

@@ -8,13 +8,22 @@
 
 namespace xml {
 
-/// One line of `--help`: a parameter with its type, range and default.
+/// One line of `--help` and of `erp help`: an attribute with its type, range, default and meaning, or an element.
 struct Description {
   std::string name, type, default_text;
   bool required = false;
+  std::string meaning = "";
+  bool is_element = false;
 };
 
-/// One a line, columns aligned: `gain     number > 0    default 2.5`.
+/// The meaning of an element: `static constexpr auto meaning` of its struct; empty without one.
+template <class T>
+std::string meaning_of_element() {
+  if constexpr (requires { T::meaning; }) return T::meaning;
+  else return "";
+}
+
+/// One parameter per line, columns aligned: `gain     number > 0    default 2.5`.
 std::string to_table(const std::vector<Description>& all);
 
 /// Describes a struct through its `visit`; children are indented below their element.
@@ -24,31 +33,33 @@ class Describer {
       : all_(all), indent_(std::move(indent)) {}
 
   template <class T>
-  void operator()(const char* name, const T& value, const Range& range = any) {
-    all_.push_back({indent_ + name, Codec<T>::words(range), Codec<T>::write(value), false});
+  void operator()(const char* name, const T& value, const Field& field = {}) {
+    all_.push_back({indent_ + name, Codec<T>::words(field.range), Codec<T>::write(value), false,
+                    field.meaning});
   }
   template <class T>
-  void required(const char* name, const T&, const Range& range = any) {
-    all_.push_back({indent_ + name, Codec<T>::words(range), "", true});
+  void required(const char* name, const T&, const Field& field = {}) {
+    all_.push_back({indent_ + name, Codec<T>::words(field.range), "", true, field.meaning});
   }
   void rest(const std::vector<Attribute>&) {
-    all_.push_back({indent_ + "…", "attributes as its type has them", "", false});
+    all_.push_back({indent_ + "…", "further attributes, depending on the type", "", false,
+                    "Parameters of the type."});
   }
   template <class T>
   void child(T& value) {
-    all_.push_back({indent_ + "<" + T::element + ">", "one", "", false});
+    add_element<T>("one");
     inside(value);
   }
   template <class T>
   void optional_child(std::optional<T>&) {
     T fresh{};
-    all_.push_back({indent_ + "<" + T::element + ">", "one or none", "", false});
+    add_element<T>("one or none");
     inside(fresh);
   }
   template <class T>
   void list(std::vector<T>&) {
     T fresh{};
-    all_.push_back({indent_ + "<" + T::element + ">", "any number", "", false});
+    add_element<T>("any number");
     inside(fresh);
   }
   template <class... Kinds>
@@ -57,6 +68,11 @@ class Describer {
   }
 
  private:
+  template <class T>
+  void add_element(const char* count) {
+    all_.push_back(
+        {indent_ + "<" + T::element + ">", count, "", false, meaning_of_element<T>(), true});
+  }
   template <class T>
   void list(std::vector<T>&& none) {
     list(none);

@@ -20,9 +20,9 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   throw Errors({{place, what, remedy}});
 }
 
-/// tinyxml2 knows lines only. But it parses in place: names and texts point into one buffer, a
-/// copy of what it was given. A declaration put in front marks where that buffer begins, so a
-/// pointer becomes an offset in the untouched text, and that a line and a column.
+/// tinyxml2 reports lines only. But it parses in place: names and texts point into one buffer, a
+/// copy of the text. A declaration put before the text marks the beginning of that buffer, so a
+/// pointer gives an offset into the original text, and from it line and column.
 class Tree {
  public:
   Tree(std::string_view text, const std::string& file) : text_(text), file_(file) {
@@ -36,7 +36,7 @@ class Tree {
 
   Element root() const {
     const tinyxml2::XMLElement* root = document_.RootElement();
-    if (!root) refuse({file_, 1, 1}, "has no element", "write the root element");
+    if (!root) refuse({file_, 1, 1}, "contains no element", "write the root element");
     return element(*root);
   }
 
@@ -78,7 +78,7 @@ std::string contents(const std::string& file) {
   if (!std::filesystem::exists(file, ignored))
     refuse(whole, "no such file", "check the path, or create the file");
   if (std::filesystem::is_directory(file, ignored))
-    refuse(whole, "is a folder", "name the XML file in it");
+    refuse(whole, "is a folder", "give the XML file in it");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf()).good()) {
@@ -89,16 +89,6 @@ std::string contents(const std::string& file) {
 }
 
 }  // namespace
-
-Place place_at(std::string_view text, std::size_t offset, const std::string& file) {
-  const std::string_view before = text.substr(0, offset);
-  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-  const std::string_view in_line = before.substr(before.rfind('\n') + 1);
-  const auto characters = std::count_if(in_line.begin(), in_line.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;  // not a UTF-8 continuation byte
-  });
-  return {file, static_cast<int>(line), static_cast<int>(characters) + 1};
-}
 
 Element parse_document(std::string_view text, const std::string& file) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());

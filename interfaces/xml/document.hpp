@@ -5,7 +5,7 @@
 
 #include "interfaces/xml/errors.hpp"
 
-/// An XML text as a tree of plain structs in which everything knows its place.
+/// An XML text as a tree of plain structs whose elements and attributes have their place.
 namespace xml {
 
 struct Element {
@@ -17,17 +17,17 @@ struct Element {
 };
 
 /// The root element of a text. Throws Errors (one) when the text is not well-formed XML.
-/// `file` is only the name that errors carry.
+/// `file` is only the file name in errors.
 Element parse_document(std::string_view text, const std::string& file);
 
 /// The root element of a file. Throws Errors also when it is missing, unreadable or empty.
 Element read_document(const std::string& file);
 
-/// A file name as written in `from_file`: relative to that file's folder.
+/// Resolves a file name relative to the folder of `from_file`, the file that contains it.
 std::string resolved(const std::string& file, const std::string& from_file);
 
-/// The first thing in a text that XML 1.0 does not allow, with its place; tinyxml2 forgives some
-/// of it and gives lines only. Covers elements, attributes, entities and comments.
+/// The first violation of XML 1.0 in a text, with its place. tinyxml2 accepts some violations and
+/// reports lines only. Covers elements, attributes, entities and comments.
 std::vector<Error> malformed(std::string_view text, const std::string& file);
 
 /// Line and column (both from 1, columns in characters) of a byte in a text.

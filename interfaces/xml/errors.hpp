@@ -7,7 +7,7 @@
 
 namespace xml {
 
-/// One mistake: where, what (with the value), and what to do about it.
+/// One error: place, what is wrong (with the value), remedy.
 struct Error {
   Place place;
   std::string what, remedy;
@@ -16,11 +16,11 @@ struct Error {
 /// `file:line:column: what; remedy`. Line 0 means the file as a whole.
 std::string to_string(const Error& error);
 
-/// An error about the element `<element>` standing at `place`.
+/// An error about the element `<element>` at `place`.
 Error error_in(const std::string& element, const Place& place, const std::string& message,
                const std::string& remedy);
 
-/// Every mistake found in a file, in the order they stand there; `what()` is one line each.
+/// All errors found in a file, in the order of their places; `what()` has one line per error.
 class Errors : public std::runtime_error {
  public:
   explicit Errors(std::vector<Error> errors);

@@ -57,7 +57,7 @@ class Scan {
   bool root_seen_ = false;
 };
 
-/// How many bytes a UTF-8 character takes that starts with this byte; 0: none starts so.
+/// Length in bytes of a UTF-8 character with this first byte; 0: not a valid first byte.
 std::size_t utf8_length(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first < 0xE0) return 2;
@@ -105,7 +105,7 @@ void Scan::markup() {
   if (rest().starts_with("</")) return closing_tag();
   if (rest().starts_with("<?xml") && !root_seen_) {
     const std::size_t end = rest().find("?>");
-    if (end == npos) throw Fault{at_, "the declaration <?xml never ends", "end it with ?>"};
+    if (end == npos) throw Fault{at_, "the declaration <?xml is never closed", "end it with ?>"};
     at_ += end + 2;
     return;
   }
@@ -118,7 +118,7 @@ void Scan::markup() {
 void Scan::comment() {
   const std::size_t begin = at_ + std::string_view("<!--").size();
   const std::size_t dashes = text_.find("--", begin);
-  if (dashes == npos) throw Fault{at_, "a comment never ends", "end it with -->"};
+  if (dashes == npos) throw Fault{at_, "a comment is never closed", "end it with -->"};
   if (!text_.substr(dashes).starts_with("-->"))
     throw Fault{dashes, "\"--\" inside a comment", "XML does not allow it: write one dash"};
   at_ = dashes + 3;
@@ -129,7 +129,7 @@ std::string_view Scan::name(const char* of_what) {
   while (at_ < text_.size() && in_name(text_[at_])) ++at_;
   const std::string_view found = text_.substr(begin, at_ - begin);
   if (found.empty() || std::string_view("-.0123456789").find(found.front()) != npos)
-    throw Fault{begin, std::string("here should stand the name of an ") + of_what,
+    throw Fault{begin, std::string("expected the name of an ") + of_what,
                 "names begin with a letter; a \"<\" in a text is written &lt;"};
   return found;
 }
@@ -148,7 +148,8 @@ void Scan::closing_tag() {
   if (!rest().starts_with(">")) throw Fault{begin, "</" + closes + " has no \">\"", "add it"};
   ++at_;
   if (open_.empty())
-    throw Fault{begin, "</" + closes + "> closes nothing", "remove it, or add <" + closes + ">"};
+    throw Fault{begin, "</" + closes + "> has no opening tag",
+                "remove it, or add <" + closes + ">"};
   if (closes != open_.back().text)
     throw Fault{begin, "</" + closes + "> where <" + name_of(open_.back()) + "> is open",
                 "write </" + name_of(open_.back()) + "> first"};
@@ -160,7 +161,7 @@ void Scan::opening_tag() {
   const std::string_view element = name("element");
   if (open_.empty() && root_seen_)
     throw Fault{begin, "a second root element <" + std::string(element) + ">",
-                "a file has one: put it inside, or into its own file"};
+                "a file has one root: move this element inside, or into its own file"};
   root_seen_ = true;
   std::vector<std::string_view> seen;
   for (;;) {
@@ -200,6 +201,16 @@ void Scan::attribute(const std::string& element, std::vector<std::string_view>& 
 }
 
 }  // namespace
+
+Place place_at(std::string_view text, std::size_t offset, const std::string& file) {
+  const std::string_view before = text.substr(0, offset);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::string_view in_line = before.substr(before.rfind('\n') + 1);
+  const auto characters = std::count_if(in_line.begin(), in_line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;  // not a UTF-8 continuation byte
+  });
+  return {file, static_cast<int>(line), static_cast<int>(characters) + 1};
+}
 
 std::vector<Error> malformed(std::string_view text, const std::string& file) {
   try {

@@ -5,8 +5,8 @@
 
 namespace xml {
 
-/// A list in an element of its own, where single children stand beside it: an XSD cannot say both of
-/// one element.   <plans> <plan …/> … </plans>;   One::plural is its name.
+/// A list in an element of its own, for structs that also have single children: an XSD cannot express
+/// both in one element.   <plans> <plan …/> … </plans>;   One::plural is its name.
 template <class One>
 struct Plural {
   static constexpr auto element = One::plural;

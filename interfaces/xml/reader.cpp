@@ -9,7 +9,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Attributes with which an editor finds the XSD; allowed everywhere, read nowhere.
+/// Attributes with which an editor finds the XSD; allowed in every element and ignored.
 bool belongs_to_editors(const std::string& name) {
   return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
 }
@@ -30,7 +30,7 @@ const Element* Reader::only(const std::string& name) {
     if (found)
       errors_.push_back(
           error_in(element_.name, child.place, "a second <" + name + ">",
-                   "keep one; the first stands in line " + std::to_string(found->place.line)));
+                   "keep one; the first is in line " + std::to_string(found->place.line)));
     else found = &child;
   }
   return found;
@@ -50,7 +50,8 @@ void Reader::rest(std::vector<Attribute>& values) {
     }
 }
 
-/// One mistake, one error: a misspelt name is not reported as missing as well.
+/// Reports an unknown name, and removes its nearest known name from the missing ones, so that a
+/// misspelt name gives one error.
 void Reader::refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
                             const std::vector<std::string>& known,
                             std::vector<std::string>& missing) {

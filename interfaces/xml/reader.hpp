@@ -9,26 +9,26 @@
 
 namespace xml {
 
-/// Fills a struct from an element through its `visit`, and collects every mistake.
-/// One element, one Reader; `finish` refuses whatever the struct did not ask for.
+/// Fills a struct from an element through its `visit`, and collects all errors. One Reader per
+/// element; `finish` refuses attributes and children that the struct does not list.
 class Reader {
  public:
   Reader(const Element& element, std::vector<Error>& errors) : element_(element), errors_(errors) {}
 
   template <class T>
-  void operator()(const char* name, T& value, const Range& range = any) {
+  void operator()(const char* name, T& value, const Field& field = {}) {
     known_attributes_.push_back(name);
-    if (const Attribute* found = attribute(name)) read(*found, value, range);
+    if (const Attribute* found = attribute(name)) read(*found, value, field.range);
   }
 
   template <class T>
-  void required(const char* name, T& value, const Range& range = any) {
+  void required(const char* name, T& value, const Field& field = {}) {
     known_attributes_.push_back(name);
     const Attribute* found = attribute(name);
     if (!found) return void(missing_attributes_.push_back(name));
     if (std::is_same_v<T, std::string> && trimmed(found->value).empty())
       return refuse(*found, {"is empty", "give a text"});
-    read(*found, value, range);
+    read(*found, value, field.range);
   }
 
   template <class T>
@@ -57,7 +57,7 @@ class Reader {
 
   void rest(std::vector<Attribute>& values);
 
-  /// Refuses unknown attributes and children, stray text, and what is missing.
+  /// Reports unknown and missing attributes and children, and stray text.
   void finish();
 
   template <class T>
@@ -70,7 +70,7 @@ class Reader {
 
  private:
   const Attribute* attribute(const std::string& name) const;
-  const Element* only(const std::string& name);  ///< the child of that name; a second is refused
+  const Element* only(const std::string& name);  ///< the child with that name; reports a second one
   void refuse(const Attribute& attribute, const Refusal& refusal);
   void refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
                       const std::vector<std::string>& known, std::vector<std::string>& missing);

@@ -8,18 +8,27 @@ namespace {
 
 using Child = SchemaParts::Child;
 
+/// `<xs:annotation>` with the meaning; empty without one.
+std::string annotation(const std::string& meaning) {
+  if (meaning.empty()) return "";
+  std::string text;
+  for (const char c : meaning) text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return "<xs:annotation><xs:documentation>" + text + "</xs:documentation></xs:annotation>";
+}
+
 std::string attribute_text(const SchemaParts::Attribute& attribute) {
   return "<xs:attribute name=\"" + attribute.name + "\"" +
-         (attribute.required ? " use=\"required\">" : ">") + attribute.type + "</xs:attribute>";
+         (attribute.required ? " use=\"required\">" : ">") + annotation(attribute.meaning) +
+         attribute.type + "</xs:attribute>";
 }
 
 std::string child_text(const Child& child) {
   return "<xs:element name=\"" + child.name + "\"" +
-         (child.count == Child::optional ? " minOccurs=\"0\">" : ">") + child.type +
-         "</xs:element>";
+         (child.count == Child::optional ? " minOccurs=\"0\">" : ">") + annotation(child.meaning) +
+         child.type + "</xs:element>";
 }
 
-/// The named types that all others restrict: the reader's notation of numbers, and no infinities.
+/// The base types, which restrict numbers to the reader's notation without infinities.
 const char* const base_types = R"(<xs:simpleType name="number">
 <xs:restriction base="xs:double">
 <xs:pattern value="[+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?"/>
@@ -42,7 +51,7 @@ const char* const base_types = R"(<xs:simpleType name="number">
 </xs:simpleType>
 )";
 
-std::string one_tag_a_line(const std::string& text) {
+std::string one_tag_per_line(const std::string& text) {
   std::string lines;
   for (std::size_t i = 0; i < text.size(); ++i) {
     lines += text[i];
@@ -58,8 +67,9 @@ std::string indented(const std::string& lines) {
     const std::size_t end = lines.find('\n', begin);
     const std::string line = lines.substr(begin, end - begin);
     const bool closes = line.starts_with("</");
-    const bool opens =
-        !closes && !line.ends_with("/>") && !line.starts_with("<?") && !line.starts_with("<!");
+    const bool whole = !closes && line.find("</") != line.npos;
+    const bool opens = !closes && !whole && !line.ends_with("/>") && !line.starts_with("<?") &&
+                       !line.starts_with("<!");
     if (closes) --depth;
     text += std::string(2 * depth, ' ') + line + "\n";
     if (opens) ++depth;
@@ -74,7 +84,8 @@ std::string complex_type(const SchemaParts& parts) {
   const auto is_list = [](const Child& c) { return c.count == Child::any_number; };
   const bool lists = std::any_of(parts.children.begin(), parts.children.end(), is_list);
   if (lists && !std::all_of(parts.children.begin(), parts.children.end(), is_list))
-    throw std::logic_error("an element has both lists and single children; XSD 1.0 cannot say so");
+    throw std::logic_error(
+        "an element has both lists and single children; XSD 1.0 cannot express this");
   std::string text;
   for (const Child& child : parts.children) text += child_text(child);
   if (lists) text = "<xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">" + text + "</xs:choice>";
@@ -88,11 +99,11 @@ std::string complex_type(const SchemaParts& parts) {
 std::string schema_document(const std::string& root_name, const std::string& root_type) {
   const std::string document =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<!-- Generated from the structs' visit functions; a test keeps it so. -->\n"
+      "<!-- Generated from the structs' visit functions; do not edit. -->\n"
       "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n" +
       std::string(base_types) + "<xs:element name=\"" + root_name + "\">" + root_type +
       "</xs:element>\n</xs:schema>";
-  return indented(one_tag_a_line(document));
+  return indented(one_tag_per_line(document));
 }
 
 }  // namespace xml

@@ -4,60 +4,63 @@
 #include <variant>
 #include <vector>
 
+#include "interfaces/xml/describe.hpp"
 #include "interfaces/xml/values.hpp"
 
 namespace xml {
 
-/// What one `visit` says, gathered for the XSD.
+/// Attributes and children that one `visit` lists, for the XSD.
 struct SchemaParts {
   struct Attribute {
     std::string name, type;  ///< type: an `<xs:simpleType>`
     bool required = false;
+    std::string meaning = "";
   };
   struct Child {
     std::string name, type;  ///< type: an `<xs:complexType>`
-    enum { one, optional, any_number } count = one;
+    enum Count { one, optional, any_number } count = one;
+    std::string meaning = "";
   };
   std::vector<Attribute> attributes;
   std::vector<Child> children;
-  bool others = false;  ///< attributes of other names too
+  bool others = false;  ///< attributes with other names are allowed
 };
 
-/// `<xs:complexType>` of an element. XSD 1.0 knows unordered children (xs:all) only up to one of
-/// each, so a struct has either single children or lists: throws std::logic_error for a mixture.
+/// `<xs:complexType>` of an element. XSD 1.0 allows unordered children (xs:all) only up to one of
+/// each, so a struct has either single children or lists; throws std::logic_error for both.
 std::string complex_type(const SchemaParts& parts);
 
-/// The whole document around the type of the root element, one tag a line, indented.
+/// The whole document around the type of the root element, one tag per line, indented.
 std::string schema_document(const std::string& root_name, const std::string& root_type);
 
-/// Types a struct through its `visit`.
+/// Derives the XSD type of a struct from its `visit`.
 class Schema {
  public:
   template <class T>
-  void operator()(const char* name, const T&, const Range& range = any) {
-    parts_.attributes.push_back({name, Codec<T>::xsd(range), false});
+  void operator()(const char* name, const T&, const Field& field = {}) {
+    parts_.attributes.push_back({name, Codec<T>::xsd(field.range), false, field.meaning});
   }
   template <class T>
-  void required(const char* name, const T&, const Range& range = any) {
+  void required(const char* name, const T&, const Field& field = {}) {
     const bool text = std::is_same_v<T, std::string>;
-    parts_.attributes.push_back({name, text ? xsd_filled_text() : Codec<T>::xsd(range), true});
+    parts_.attributes.push_back(
+        {name, text ? xsd_filled_text() : Codec<T>::xsd(field.range), true, field.meaning});
   }
   template <class T>
   void child(T&) {
-    parts_.children.push_back({T::element, type_of<T>(), SchemaParts::Child::one});
+    add<T>(SchemaParts::Child::one);
   }
   template <class T>
   void optional_child(std::optional<T>&) {
-    parts_.children.push_back({T::element, type_of<T>(), SchemaParts::Child::optional});
+    add<T>(SchemaParts::Child::optional);
   }
   template <class T>
   void list(std::vector<T>&) {
-    parts_.children.push_back({T::element, type_of<T>(), SchemaParts::Child::any_number});
+    add<T>(SchemaParts::Child::any_number);
   }
   template <class... Kinds>
   void list(std::vector<std::variant<Kinds...>>&) {
-    (parts_.children.push_back({Kinds::element, type_of<Kinds>(), SchemaParts::Child::any_number}),
-     ...);
+    (add<Kinds>(SchemaParts::Child::any_number), ...);
   }
 
   void rest(const std::vector<Attribute>&) { parts_.others = true; }
@@ -71,6 +74,10 @@ class Schema {
   }
 
  private:
+  template <class T>
+  void add(SchemaParts::Child::Count count) {
+    parts_.children.push_back({T::element, type_of<T>(), count, meaning_of_element<T>()});
+  }
   SchemaParts parts_;
 };
 

@@ -10,7 +10,7 @@
 namespace xml {
 
 /// Sets one attribute by its path: `gain`, `spindle.radius_m` for a single child, and
-/// `flexor.gain` for the list item whose `name` is flexor. Visits once; then `found` tells.
+/// `flexor.gain` for the list item whose `name` is flexor. Call `finish` after the visit.
 class Setter {
  public:
   Setter(std::string_view path, std::string_view text) : text_(text) {
@@ -20,15 +20,15 @@ class Setter {
   }
 
   template <class T>
-  void operator()(const char* name, T& value, const Range& range = any) {
+  void operator()(const char* name, T& value, const Field& field = {}) {
     known_.push_back(name);
     if (!tail_.empty() || head_ != name) return;
     found_ = true;
-    refused_ = Codec<T>::read(text_, value, range);
+    refused_ = Codec<T>::read(text_, value, field.range);
   }
   template <class T>
-  void required(const char* name, T& value, const Range& range = any) {
-    (*this)(name, value, range);
+  void required(const char* name, T& value, const Field& field = {}) {
+    (*this)(name, value, field);
   }
   void rest(std::vector<Attribute>& values) {
     for (Attribute& attribute : values) {
@@ -62,7 +62,8 @@ class Setter {
           value);
   }
 
-  /// Throws Errors when nothing has that path or the text was refused. `path` whole, for the error.
+  /// Throws Errors when no attribute has that path or the text was refused. `path`: the full path, for
+  /// the error.
   void finish(std::string_view path) const;
 
  private:

@@ -6,12 +6,12 @@
 
 namespace xml {
 
-/// An element that is built piece by piece, for formats that are not ours.
+/// An element that is built step by step, for formats of other programs.
 struct Tree {
   std::string name;
   std::vector<WrittenAttribute> attributes;
   std::string text;          ///< instead of children
-  std::list<Tree> children;  ///< stay where they are when others are added
+  std::list<Tree> children;  ///< references stay valid when others are added
 
   explicit Tree(std::string tag) : name(std::move(tag)) {}
   Tree& add(std::string tag) { return children.emplace_back(std::move(tag)); }
@@ -29,7 +29,7 @@ struct Tree {
   Tree& set(std::string key, const char* value) { return set(std::move(key), std::string(value)); }
 };
 
-/// A whole document, with its first line.
+/// A whole document, with its XML declaration.
 std::string write_tree(const Tree& root);
 
 }  // namespace xml

@@ -16,7 +16,7 @@ std::string_view without_plus(std::string_view text) {
   return text;
 }
 
-/// Without an exponent where that is readable; XSD's integers know none.
+/// Without an exponent for values of moderate size; XSD integers have no exponent.
 template <class Float>
 std::string shortest(Float value) {
   const Float size = std::abs(value);

@@ -10,11 +10,11 @@
 #include "interfaces/xml/fields.hpp"
 #include "interfaces/xml/words.hpp"
 
-/// How each type of attribute is read, written, described and typed in the XSD.
+/// Reading, writing, description and XSD type of each type of attribute.
 /// To support another type, specialise Codec with the same four functions.
 namespace xml {
 
-/// Why a text is not a value: goes behind `name="text" ` in an error.
+/// Why a text is not a valid value; follows `name="text" ` in an error.
 struct Refusal {
   std::string what, remedy;
 };
@@ -23,7 +23,7 @@ using Refused = std::optional<Refusal>;
 /// ` > 0`, ` from 0 to 127`, or nothing.
 std::string range_words(const Range& range);
 
-/// A finite number in decimal notation; no other text around it but white space.
+/// A finite number in decimal notation, surrounded by nothing but white space.
 Refused read_number(std::string_view text, double& value, const Range& range);
 Refused read_integer(std::string_view text, long long& value, Range range);
 Refused read_flag(std::string_view text, bool& value);
@@ -34,7 +34,7 @@ std::string write_number(float value);
 std::string xsd_restriction(const std::string& base, const Range& range);
 std::string xsd_list(const std::string& item_type, std::size_t length);  ///< length 0: any
 std::string xsd_words(const std::vector<std::string>& words);
-std::string xsd_filled_text();  ///< a text that is not blank
+std::string xsd_filled_text();  ///< a non-blank text
 
 template <class T>
 struct Codec;

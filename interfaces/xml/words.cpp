@@ -11,7 +11,7 @@ constexpr std::string_view blanks = " \t\r\n";
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-/// `mass` for `mass_kg`: what stands before the unit.
+/// The name without its unit: `mass` for `mass_kg`.
 std::string_view stem(std::string_view name) { return name.substr(0, name.find('_')); }
 
 std::size_t distance(std::string_view name, std::string_view candidate) {
@@ -57,7 +57,7 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   if (const std::string near = nearest(name, known); !near.empty())
     return "did you mean " + quote(near) + "?";
-  return known.empty() ? "remove it" : "known here: " + joined(known);
+  return known.empty() ? "remove it" : "valid names: " + joined(known);
 }
 
 std::string quote(std::string_view text) {

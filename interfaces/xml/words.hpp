@@ -3,20 +3,20 @@
 #include <string_view>
 #include <vector>
 
-/// Words for error messages: the nearest known name, lists, quotes.
+/// Text functions for error messages: the nearest known name, lists, quotes.
 namespace xml {
 
-/// The Levenshtein distance: how many letters to insert, delete or replace; case is ignored.
+/// Levenshtein distance: number of letters to insert, delete or replace; ignores case.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known name that `name` was probably meant to be, or "" if none is close.
-/// A name without its unit, or with another one, counts as close.
+/// The known name closest to `name`, or "" if none is close. A name without its unit, or with
+/// another unit, counts as close.
 std::string nearest(std::string_view name, const std::vector<std::string>& known);
 
-/// `did you mean "x"?`, or the whole list of known names when none is close.
+/// `did you mean "x"?`, or the list of all known names when none is close.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
-/// In quotation marks; of a long or many-lined text the beginning.
+/// The text in quotation marks; only the beginning of a long text or one of several lines.
 std::string quote(std::string_view text);
 std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 std::string_view trimmed(std::string_view text);

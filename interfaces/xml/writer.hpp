@@ -17,18 +17,18 @@ using WrittenAttribute = std::pair<std::string, std::string>;
 std::string element_text(const std::string& name, const std::vector<WrittenAttribute>& attributes,
                          const std::string& children, std::size_t depth);
 
-/// The same for one that holds text.
+/// The same for an element that contains text.
 std::string text_element(const std::string& name, const std::vector<WrittenAttribute>& attributes,
                          const std::string& text, std::size_t depth);
 
-/// Writes a struct through its `visit`. What reads back to the default anyway is left out.
+/// Writes a struct through its `visit`. Omits optional attributes that equal their default.
 class Writer {
  public:
   explicit Writer(std::size_t depth = 0, std::vector<WrittenAttribute> defaults = {})
       : depth_(depth), defaults_(std::move(defaults)) {}
 
   template <class T>
-  void operator()(const char* name, const T& value, const Range& = any) {
+  void operator()(const char* name, const T& value, const Field& = {}) {
     if (!present(value)) return;
     WrittenAttribute written{name, Codec<T>::write(value)};
     const auto end = defaults_.end();
@@ -36,7 +36,7 @@ class Writer {
       attributes_.push_back(std::move(written));
   }
   template <class T>
-  void required(const char* name, const T& value, const Range& = any) {
+  void required(const char* name, const T& value, const Field& = {}) {
     if (present(value)) attributes_.emplace_back(name, Codec<T>::write(value));
   }
   template <class T>

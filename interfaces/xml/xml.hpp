@@ -5,17 +5,18 @@
 #include "interfaces/xml/set.hpp"
 #include "interfaces/xml/writer.hpp"
 
-/// Structs from XML and back, their XSD, their help, and single values set by path. See README.md.
+/// Reads and writes structs as XML; generates their XSD and help; sets single values by path. See
+/// README.md.
 namespace xml {
 
-/// Refuses a root element of another name.
+/// Reports a root element with another name.
 std::vector<Error> wrong_root(const Element& root, const std::string& expected);
 
-/// An element's text with the XML declaration in front.
+/// The XML declaration followed by an element's text.
 std::string file_text(const std::string& element);
 
-/// Fills `value` (which keeps its defaults where the file says nothing) from a file whose root
-/// element is <root>. Throws Errors with every mistake in the file.
+/// Fills `value` from a file whose root element is <root_name>; attributes absent from the file keep
+/// their defaults. Throws Errors with all errors of the file.
 template <class T>
 void read_into(T& value, const Element& root, const std::string& root_name) {
   throw_if_any(wrong_root(root, root_name));
@@ -28,7 +29,7 @@ void read_into(T& value, const std::string& file, const std::string& root_name) 
   read_into(value, read_document(file), root_name);
 }
 
-/// A struct with an `element` name of its own, from a file. Throws Errors.
+/// Reads a struct that defines `element` from a file. Throws Errors.
 template <class T>
 T read(const std::string& file) {
   T value;
@@ -36,7 +37,7 @@ T read(const std::string& file) {
   return value;
 }
 
-/// The same from a text; `label` stands for the file's name in errors.
+/// The same from a text; `label` replaces the file name in errors.
 template <class T>
 T parse(std::string_view text, const std::string& label) {
   T value;
@@ -44,8 +45,8 @@ T parse(std::string_view text, const std::string& label) {
   return value;
 }
 
-/// The struct as the text of a file; reads back to the same bits. What equals its default is left
-/// out. Needs a copyable struct, because `visit` is not const.
+/// The struct as the text of a file; reads back bit-equal. Omits optional attributes that equal their
+/// default. Needs a copyable struct, because `visit` is not const.
 template <class T>
 std::string write(const T& value, const std::string& root_name) {
   T copy = value;
@@ -56,7 +57,7 @@ std::string write(const T& value) {
   return write(value, T::element);
 }
 
-/// The XSD 1.0 of a file that holds one T as its root element.
+/// The XSD 1.0 of a file whose root element is a T.
 template <class T>
 std::string schema(const std::string& root_name) {
   return schema_document(root_name, Schema::type_of<T>());
@@ -66,7 +67,7 @@ std::string schema() {
   return schema<T>(T::element);
 }
 
-/// Names, types, ranges and defaults, one a line; for --help.
+/// Names, types, ranges and defaults, one parameter per line; for --help.
 template <class T>
 std::string describe() {
   std::vector<Description> all;
@@ -76,8 +77,8 @@ std::string describe() {
   return to_table(all);
 }
 
-/// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the checks that a
-/// file gets. Throws Errors and changes nothing when the path is unknown or the text is refused.
+/// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the same checks as in
+/// a file. Throws Errors and changes nothing when the path is unknown or the text is refused.
 template <class T>
 void set(T& params, const std::string& path, const std::string& text) {
   Setter setter(path, text);
