@@ -9,14 +9,14 @@
 #include <tuple>
 #include <type_traits>
 
-/// Values that cross the bus: the generated C structs, given value semantics and room of their own.
+/// Messages on the bus: the generated C structs with value semantics and their own storage.
 namespace erp {
 
-/// How many elements a bounded IDL sequence holds; the bounds of `interfaces/idl/sizes.idl`.
+/// Capacity of a bounded IDL sequence; the bounds of `interfaces/idl/sizes.idl`.
 template <class Element>
 inline constexpr std::size_t capacity_of = 64;
 
-/// The live elements of an IDL sequence.
+/// The used elements of an IDL sequence.
 template <class Sequence>
 auto samples(Sequence& sequence) {
   return std::span(sequence._buffer, sequence._length);
@@ -41,7 +41,7 @@ void assign(char (&field)[N], std::string_view text) {
   std::fill(field + text.size(), field + N, '\0');
 }
 
-/// Copies as much of a text as fits; for notes and reasons, where the end may be lost.
+/// Copies as much of a text as fits; for notes and reasons, which may be truncated.
 template <std::size_t N>
 void assign_shortened(char (&field)[N], std::string_view text) {
   assign(field, text.substr(0, N - 1));
@@ -60,36 +60,36 @@ template <auto Member>
 using element_of = std::remove_pointer_t<decltype(sequence_of<Member>::_buffer)>;
 }  // namespace detail
 
-/// A wire struct together with the storage its sequences point at: copyable, no heap.
-/// Copies carry the live elements only.
+/// A wire struct together with the storage of its sequences: copyable, without heap allocation.
+/// Copies contain the used elements only.
 template <class WireStruct, auto... Members>
 struct Message : WireStruct {
   using Wire = WireStruct;
 
-  Message() : Wire{} { lend(); }
-  Message(const Message& other) : Wire(other) { lend(), copy_elements(other); }
+  Message() : Wire{} { attach_storage(); }
+  Message(const Message& other) : Wire(other) { attach_storage(), copy_elements(other); }
   Message& operator=(const Message& other) {
-    if (this != &other) Wire::operator=(other), lend(), copy_elements(other);
+    if (this != &other) Wire::operator=(other), attach_storage(), copy_elements(other);
     return *this;
   }
   ~Message() = default;
 
-  /// Points every sequence at this message's own storage; the lengths stay.
-  void lend() {
-    std::apply([this](auto&... storage) { (lend_one<Members>(storage), ...); }, storage_);
+  /// Points every sequence at this message's own storage; keeps the lengths.
+  void attach_storage() {
+    std::apply([this](auto&... storage) { (attach_one<Members>(storage), ...); }, storage_);
   }
   void clear() {
     Wire::operator=(Wire{});
-    lend();
+    attach_storage();
   }
 
  private:
   template <auto Member, class Storage>
-  void lend_one(Storage& storage) {
-    auto& lent = this->*Member;
-    lent._maximum = static_cast<std::uint32_t>(storage.size());
-    lent._buffer = storage.data();
-    lent._release = false;
+  void attach_one(Storage& storage) {
+    auto& field = this->*Member;
+    field._maximum = static_cast<std::uint32_t>(storage.size());
+    field._buffer = storage.data();
+    field._release = false;
   }
   void copy_elements(const Message& other) {
     (std::copy_n((other.*Members)._buffer, (other.*Members)._length, (this->*Members)._buffer),

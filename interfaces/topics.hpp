@@ -1,5 +1,5 @@
 #pragma once
-// The map of the bus: every message, its C++ name, its topic. One line a message.
+// All topics: every message, its C++ name, its topic name. One line per message.
 #include <tuple>
 
 #include "interfaces/idl/actuator_command.h"
@@ -112,7 +112,7 @@ ERP_TOPIC(Clock, "clock")                         // sim -> all
 ERP_TOPIC(Event, "event")                         // all
 #undef ERP_TOPIC
 
-/// Every message, for those who look at the bus as a whole.
+/// All message types, for code that handles every topic.
 using Messages =
     std::tuple<ActuatorCommand, ActuatorTarget, SensorFrame, EcuCommand, EcuFrame, EcuParameter,
                GainCommand, JointState, JointTarget, BodyPose, ImagePoint, ImuFrame, StageResidual,

@@ -1,24 +1,24 @@
 #pragma once
 #include <cstdint>
 
-/// The meaning of the small numbers in messages.
+/// Enumerations used in messages.
 namespace erp {
 
-/// How an actuator is driven; the unit of its reference.
+/// Control mode of an actuator; defines the unit of its reference.
 enum class Mode : std::uint8_t { off = 0, voltage = 1, length = 2, current = 3, force = 4 };
 
-/// What the plant does with an actuator that nobody drives.
+/// What the plant does with an actuator that has no owner.
 enum class SafeAction : std::uint8_t { none = 0, hold = 1, relax = 2, damp = 3 };
 
-/// Which measurements of a sample were taken; bits.
+/// Bits for the measurements of a sample that were taken.
 namespace valid {
 inline constexpr std::uint8_t voltage = 1, current = 2, shaft = 4, line = 8, tension = 16;
-inline constexpr std::uint8_t all = 31;            ///< of what an ECU's channel says
-inline constexpr std::uint8_t potentiometer = 32;  ///< where one is fitted
+inline constexpr std::uint8_t all = 31;            ///< all measurements of an ECU channel
+inline constexpr std::uint8_t potentiometer = 32;  ///< if the actuator has one
 inline constexpr std::uint8_t joint_angle = 1;
 }  // namespace valid
 
-/// State of one ECU channel; same numbers as `ecu_state` in firmware/core.
+/// State of one ECU channel; same values as `ecu_state` in firmware/core.
 enum class EcuState : std::uint8_t {
   boot = 0,
   idle = 1,

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs, from Debian's own packages, what building and testing need; asks for sudo only if it must.
+# Installs the Debian packages for building or testing that are missing. Uses sudo unless run as root.
 #   dependencies.sh build | test
 set -euo pipefail
 
@@ -10,12 +10,12 @@ build=(git ca-certificates g++ gcc make cmake ninja-build pkg-config cyclonedds-
 test=(libopenmpi-dev openmpi-bin catch2 libbenchmark-dev libmujoco-dev libcgal-dev libcollada-dom-dev libboost-filesystem-dev libxml2-utils user-mode-linux kmod iproute2 can-utils
   nodejs npm procps spin gcovr gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang-16 libclang-rt-16-dev)
 
-wanted=("${build[@]}")
-[ "${1:-build}" = test ] && wanted+=("${test[@]}")
+required=("${build[@]}")
+[ "${1:-build}" = test ] && required+=("${test[@]}")
 
-# A command that is already there, from wherever, serves as well as Debian's package of it.
+# A command that was installed in another way replaces the Debian package.
 missing=()
-for package in "${wanted[@]}"; do
+for package in "${required[@]}"; do
   case $package in
     nodejs) command -v node >/dev/null && continue ;;
     npm | git | cmake | g++ | gcc) command -v "$package" >/dev/null && continue ;;
@@ -26,7 +26,7 @@ done
 
 root=()
 if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || { echo "need root to install: ${missing[*]}" >&2; exit 1; }
+  command -v sudo >/dev/null || { echo "cannot install without root or sudo; run as root: apt-get install ${missing[*]}" >&2; exit 1; }
   root=(sudo)
 fi
 echo "installing ${#missing[@]} Debian packages: ${missing[*]}"

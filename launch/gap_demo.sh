@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# From a fresh clone to a diagnosis: hides an effect in the hinge rig, records it, finds it, adds it
-# to the model and shows how far that closes the gap. A seed may be given; another hides another.
+# From a fresh clone to a diagnosis: hides an effect in the hinge rig, records it, identifies it, adds
+# it to the model and shows the gap closure. Optional argument: seed that selects the hidden effect.
+#   gap_demo.sh [SEED]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,7 +16,7 @@ build/release/bin/erp gap blind make --robot "$robot" --cases 1 --seed "${1:-4}"
 verdict=0
 build/release/bin/erp gap diagnose --robot "$robot" --real "$out"/case/case_0001/*.csv \
   --out "$out" || verdict=$?
-echo "what was hidden:"
+echo "hidden effect:"
 sed -n '/"hidden"/,$p' "$out/truth.json" | grep -E '": [^[{]' | grep -v '"stage"'
 [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || xdg-open "$out/report.html" 2>/dev/null || true
 exit "$verdict"

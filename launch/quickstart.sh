@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# From a fresh clone to a moving robot: installs what is missing, builds, runs the hinge rig in the
-# simulator under force control, and leaves a recording and a plot.
+# From a fresh clone to a simulated run: installs missing packages, builds, runs the hinge rig in the
+# simulator under force control, and writes a recording and a plot. Optional argument: duration.
+#   quickstart.sh [20s]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,5 +13,17 @@ out=erp_runs/quickstart
 rm -rf "$out"
 build/release/bin/erp launch launch/hinge_rig.xml --for "${1:-20s}" --out "$out"
 build/release/bin/erp log plot "$out/hinge_rig.mcap" --out "$out/hinge_rig.png" \
-  --title "hinge_rig under force control: measured, and what was asked for"
-echo "recording: $out/hinge_rig.mcap    plot: $out/hinge_rig.png"
+  --title "hinge_rig under force control: measured and desired"
+cat <<END
+
+Tension control of two antagonistic muscles at 500 Hz, simulated with the ECU firmware.
+RMS errors below 2 N are good: the desired tensions run from 5 to 40 N and change by up to 24 N/s. Larger errors mean that
+the computer was busy: a run in real time depends on it, a run with --lockstep does not.
+  recording  $out/hinge_rig.mcap      (Foxglove and PlotJuggler open it)
+  plot       $out/hinge_rig.png
+Next:
+  export PATH=\$PWD/build/release/bin:\$PATH
+  erp launch launch/arm.xml --lockstep --for 45s       # an arm of 11 muscles moves through 15 poses
+  erp gap where --robot configs/hinge_rig/robot.xml --real $out/hinge_rig.mcap     # compares it with its model
+  erp new controller my_controller ../my_controller    # a controller of your own, with a test
+END

@@ -13,19 +13,19 @@
 #include <thread>
 #include <vector>
 
-/// What the machine itself does to a run in real time: a virtual one stands still now and then, one
-/// processor or all, and nobody on it can keep time then.
+/// Detects when the computer itself stalls during a run in real time. A virtual machine now and then stops one processor or
+/// all of them, and no program on it can keep time then.
 namespace tests {
 
 inline std::int64_t wall_ns() {
   return std::chrono::system_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
-/// Looks each millisecond, on every processor and ahead of everything else (where that is permitted:
-/// elsewhere what else the machine does counts as well), for times at which it could not.
+/// Wakes every millisecond, on every processor, and records the times at which it woke late. It runs at real-time
+/// priority where that is permitted; elsewhere other load of the computer counts as a stall as well.
 class Stalls {
  public:
-  /// The one of this program; it looks from the first call on.
+  /// The instance of this program; it records from the first call on.
   static Stalls& watch() {
     static Stalls stalls;
     return stalls;
@@ -37,20 +37,20 @@ class Stalls {
   Stalls(const Stalls&) = delete;
   Stalls& operator=(const Stalls&) = delete;
 
-  /// All that overlap these times (since 1970), of every processor, together, ms: what is counted in
-  /// ticks is late by about that much.
-  double together_ms(std::int64_t from_ns, std::int64_t to_ns) const {
+  /// Sum of the stalls of all processors that overlap this interval, in ms. Times are ns since 1970. A tick counter is
+  /// late by about that much.
+  double sum_of_stalls_ms(std::int64_t from_ns, std::int64_t to_ns) const {
     const std::lock_guard lock(guard_);
     return sum_ms(from_ns, to_ns);
   }
-  /// The most of that in a tenth of a second.
-  double most_ms(std::int64_t from_ns, std::int64_t to_ns) const {
+  /// Largest sum within 100 ms.
+  double largest_ms(std::int64_t from_ns, std::int64_t to_ns) const {
     const std::lock_guard lock(guard_);
-    double most_ms = 0;
+    double largest_ms = 0;
     for (const Stall& stall : found_)
       if (stall.to_ns >= from_ns && stall.from_ns <= to_ns)
-        most_ms = std::max(most_ms, sum_ms(stall.from_ns, stall.from_ns + 100 * ms));
-    return most_ms;
+        largest_ms = std::max(largest_ms, sum_ms(stall.from_ns, stall.from_ns + 100 * ms));
+    return largest_ms;
   }
 
  private:
@@ -69,9 +69,9 @@ class Stalls {
 
   Stalls() {
     for (unsigned k = 0; k < std::thread::hardware_concurrency(); ++k)
-      threads_.emplace_back([this, k] { look(k); });
+      threads_.emplace_back([this, k] { record(k); });
   }
-  void look(unsigned processor) {
+  void record(unsigned processor) {
     cpu_set_t only;
     CPU_ZERO(&only);
     CPU_SET(processor, &only);
@@ -96,30 +96,34 @@ class Stalls {
   std::vector<std::thread> threads_;  // last: they use the others
 };
 
-/// Says that this machine is no judge of that; `tests/run.sh` tells it again at its end.
+/// Reports that this computer could not evaluate `what`; `tests/run.sh` repeats the line at its end.
 inline void not_evaluated(const std::string& what) {
-  std::printf("not judged, the machine stood still each time: %s\n", what.c_str());
+  std::printf("not evaluated, because the computer stalled in every attempt: %s\n", what.c_str());
   std::fflush(stdout);
 }
 
-/// What is wrong with a run; nothing where it is empty.
+/// Errors of a run; empty: none.
 using Complaints = std::vector<std::string>;
 
-/// A run in real time. One that fails is made again if the machine stood still in it for longer than
-/// loops bear, 8 ms in a tenth of a second; where that was so five times it is not judged.
+/// A run in real time. A run that fails is repeated if the computer stalled for longer than control loops tolerate, 8 ms
+/// within 100 ms. After five such runs the test is reported as not evaluated.
 template <class Run>
 void in_real_time(Run run) {
   for (int left = 4;; --left) {
     Stalls& stalls = Stalls::watch();
     const auto from_ns = wall_ns();
-    const Complaints wrong = run();
-    const double still_ms = stalls.most_ms(from_ns, wall_ns());
-    if (wrong.empty() || still_ms < 8) {
-      CHECK(wrong == Complaints{});
+    const Complaints errors = run();
+    const double stalled_ms = stalls.largest_ms(from_ns, wall_ns());
+    if (!errors.empty())
+      std::printf("%s\nlargest stall of the computer within 100 ms: %.1f ms\n", errors[0].c_str(),
+                  stalled_ms);
+    if (errors.empty() || stalled_ms < 8) {
+      CHECK(errors == Complaints{});
       return;
     }
-    if (left == 0) return not_evaluated(wrong[0]);
-    std::printf("%s\nthe machine stood still for %.0f ms: once more\n", wrong[0].c_str(), still_ms);
+    if (left == 0) return not_evaluated(errors[0]);
+    std::printf("%s\nthe computer stalled for %.0f ms: repeating the run\n", errors[0].c_str(),
+                stalled_ms);
     std::fflush(stdout);
   }
 }

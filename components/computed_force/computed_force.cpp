@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "components/node/ask.hpp"
+#include "components/node/controller_helpers.hpp"
 
 namespace control {
 namespace {
@@ -13,22 +13,21 @@ namespace {
 using Eigen::Quaterniond;
 using sim::vec, sim::Vec3;
 
-constexpr double creeping_rad_per_s =
-    0.02;  // chosen: below that Coulomb friction is taken as viscous
+constexpr double creep_rad_per_s = 0.02;  // chosen: Coulomb friction is viscous below this speed
 
 Quaterniond turn(const sim::JointReading& reading) {
   const auto& q = reading.position;
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
 }
 
-/// What turns a vector of the target's frame into the joint's own.
-Eigen::Matrix3d into_own(const sim::JointReading& now, const sim::JointReading& wanted) {
+/// Rotation from the target's frame into the joint's own frame.
+Eigen::Matrix3d into_joint_frame(const sim::JointReading& now, const sim::JointReading& desired) {
   if (now.type != erp::JointType::spherical) return Eigen::Matrix3d::Identity();
-  return (turn(now).conjugate() * turn(wanted)).toRotationMatrix();
+  return (turn(now).conjugate() * turn(desired)).toRotationMatrix();
 }
 
-/// The file of the muscles, beside the config that names it.
-std::string beside(const ComputedForce::Params& params) {
+/// Path of the muscles file, which is relative to the config.
+std::string muscles_file(const ComputedForce::Params& params) {
   if (params.muscles.empty()) return "";
   return (std::filesystem::path(params.place.file).parent_path() / params.muscles).string();
 }
@@ -40,10 +39,10 @@ ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
       robot_(robot),
       names_(robot),
       model_(robot),
-      source_(jacobian_source(params.jacobian, beside(params), robot, model_)),
-      share_(sim::likes_of(robot, params.liking, params.least_N), model_.coordinates()),
+      source_(jacobian_source(params.jacobian, muscles_file(params), robot, model_)),
+      share_(sim::objective_terms(robot, params.liking, params.least_N), model_.coordinates()),
       now_(names_.size()),
-      wanted_(names_.size()),
+      desired_(names_.size()),
       acceleration_(Vector::Zero(model_.coordinates())),
       integral_(acceleration_),
       bias_(acceleration_),
@@ -63,35 +62,35 @@ std::optional<erp::ActuatorCommand> ComputedForce::step(
   const bool known = state && state.age_s <= params_.stale_s &&
                      names_.read(state.message, frame.stamp_ns, now_) && target &&
                      target.age_s <= params_.stale_s &&
-                     names_.read(target.message, frame.stamp_ns, wanted_);
+                     names_.read(target.message, frame.stamp_ns, desired_);
   if (!std::exchange(driving_, known))
     integral_.setZero(), rate_N_per_s_.setZero(), last_N_.setConstant(-1);
   if (!known) return std::nullopt;
   model_.place(now_);
-  wanted_acceleration(dt_s);
+  reference_acceleration(dt_s);
   model_.skeleton().inertia(inertia_);
   model_.skeleton().bias(bias_);
   torque_ = bias_;
   torque_.noalias() += inertia_ * acceleration_;
   add_friction();
-  count_lost(frame);
-  source_->hear(now_, frame);
+  mark_tripped(frame);
+  source_->update(now_, frame);
   const Eigen::MatrixXd& jacobian = source_->at(now_);
   return command(jacobian, share_.share(jacobian, torque_), dt_s);
 }
 
 /// a_ref, joint by joint.
-void ComputedForce::wanted_acceleration(double dt_s) {
+void ComputedForce::reference_acceleration(double dt_s) {
   acceleration_.setZero();
   for (std::size_t j = 0; j < now_.size(); ++j) {
     const int first = model_.skeleton().first_of(static_cast<int>(j));
     const int turns = std::min(sim::coordinates_of(now_[j].type), 3);
     if (first < 0 || names_.list()[j].type == erp::JointType::free) continue;
-    const Eigen::Matrix3d own = into_own(now_[j], wanted_[j].now);
-    const Vec3 e = vec(sim::way_between(now_[j].type, now_[j].position, wanted_[j].now.position));
-    const Vec3 speed = own * vec(wanted_[j].now.velocity_rad_per_s);
+    const Eigen::Matrix3d own = into_joint_frame(now_[j], desired_[j].now);
+    const Vec3 e = vec(sim::way_between(now_[j].type, now_[j].position, desired_[j].now.position));
+    const Vec3 speed = own * vec(desired_[j].now.velocity_rad_per_s);
     const Vec3 slower = speed - vec(now_[j].velocity_rad_per_s);
-    const Vec3 ahead = own * vec(wanted_[j].acceleration_rad_per_s2);
+    const Vec3 ahead = own * vec(desired_[j].acceleration_rad_per_s2);
     for (int d = 0; d < turns; ++d) {
       speed_d_[first + d] = speed[d], acceleration_d_[first + d] = ahead[d];
       double& sum = integral_[first + d];
@@ -102,29 +101,29 @@ void ComputedForce::wanted_acceleration(double dt_s) {
   }
 }
 
-/// τ_f = µ v_d + τ_C v_d/|v_d|: of the wanted motion, so that it does not chatter.
+/// τ_f = µ v_d + τ_C v_d/|v_d|, at the desired velocity, so that it does not chatter.
 void ComputedForce::add_friction() {
   for (std::size_t j = 0; j < now_.size(); ++j) {
     const int first = model_.skeleton().first_of(static_cast<int>(j));
     const erp::Joint& joint = names_.list()[j];
     if (first < 0 || params_.friction == 0) continue;
-    const Vec3 v = vec(wanted_[j].now.velocity_rad_per_s);
+    const Vec3 v = vec(desired_[j].now.velocity_rad_per_s);
     const double per_speed =
-        joint.viscous_Nm_s_per_rad + joint.coulomb_Nm / std::max(v.norm(), creeping_rad_per_s);
+        joint.viscous_Nm_s_per_rad + joint.coulomb_Nm / std::max(v.norm(), creep_rad_per_s);
     for (int d = 0; d < std::min(sim::coordinates_of(joint.type), 3); ++d)
       torque_[first + d] += params_.friction * per_speed * v[d];
   }
 }
 
-/// Tendons of ECUs that have tripped do not do as they are told.
-void ComputedForce::count_lost(const erp::SensorFrame& frame) {
+/// Fixes the tension of tendons whose ECU has tripped at the measured value.
+void ComputedForce::mark_tripped(const erp::SensorFrame& frame) {
   for (const erp::ActuatorSample& sample : erp::samples(frame.actuators))
     for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
       if (robot_.actuators[a].name != sample.name) continue;
-      const bool lost = static_cast<erp::EcuState>(sample.ecu_state) == erp::EcuState::fault;
-      const double pulls_N =
+      const bool tripped = static_cast<erp::EcuState>(sample.ecu_state) == erp::EcuState::fault;
+      const double measured_N =
           sample.valid & erp::valid::tension ? std::max(0.0, sample.tension_N) : 0;
-      share_.fix(static_cast<int>(a), lost ? pulls_N : -1);
+      share_.fix(static_cast<int>(a), tripped ? measured_N : -1);
     }
 }
 
@@ -137,10 +136,10 @@ erp::ActuatorCommand ComputedForce::command(const Eigen::MatrixXd& jacobian,
     const auto i = static_cast<Eigen::Index>(a);
     const double rate = last_N_[i] >= 0 && dt_s > 0 ? (tension_N[i] - last_N_[i]) / dt_s : 0;
     rate_N_per_s_[i] += dt_s / (dt_s + params_.rate_s) * (rate - rate_N_per_s_[i]);
-    const double asked_N = laws_[a].reference_N(
+    const double reference_N = laws_[a].reference_N(
         {tension_N[i], rate_N_per_s_[i], line_rate_[i], line_acceleration_[i]});
-    node::ask(command, robot_.actuators[a].name, erp::Mode::force,
-              std::clamp(tension_N[i] + params_.anticipate * (asked_N - tension_N[i]), 0.0,
+    node::append_reference(command, robot_.actuators[a].name, erp::Mode::force,
+              std::clamp(tension_N[i] + params_.anticipate * (reference_N - tension_N[i]), 0.0,
                          robot_.actuators[a].max_tension_N));
   }
   last_N_ = tension_N;

@@ -6,37 +6,38 @@
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
 #include "sim/control/force_reference.hpp"
-#include "sim/model/actuator/musculoskeletal.hpp"
 #include "sim/control/tension_share.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
 
 /// Computed force control (paper, 5.3 and Fig. 8a):
 ///
 ///   a_ref = a_d + k_d (v_d − v) + k_p e + k_i ∫ e dt          e = q_d ⊖ q
 ///   τ     = H(q) a_ref + C(q, v) + τ_G(q) + τ_f(v_d)          eq. 6; τ_f friction of the joints
-///   f     = argmin of a liking, τ = −Lᵀ(q) f, f_min ≤ f ≤ f_max     eqs 7, 8: tension_share.hpp
+///   f     = argmin of a cost, τ = −Lᵀ(q) f, f_min ≤ f ≤ f_max     eqs 7, 8: tension_share.hpp
 ///
-/// f are references for the force controllers of the ECUs. Of ball joints e is a rotation vector in
-/// the child's frame, which is where v and a are: no angles, so no gimbal lock.
-/// A tendon whose ECU has tripped is counted with what it still pulls; the others make up for it.
+/// f are references for the force controllers of the ECUs. For ball joints e, v and a are vectors
+/// in the child's frame, so there is no gimbal lock. A tendon whose ECU has tripped enters with its
+/// measured tension; the others compensate for it.
 namespace control {
 
 class ComputedForce {
  public:
   struct Params {
     xml::Place place;
-    sim::Liking liking = sim::Liking::least_tension;
+    sim::TensionObjective liking = sim::TensionObjective::least_tension;
     JacobianKind jacobian = JacobianKind::analytic;
-    std::string muscles;     ///< of a learnt Jacobian: its file, relative to the config
-    double least_N = 5;      ///< no tendon goes slack; chosen
+    std::string muscles;     ///< file of a learned Jacobian, relative to the config
+    double least_N = 5;      ///< f_min, so that no tendon goes slack; chosen
     double kp_per_s2 = 100;  ///< (10 /s)², critically damped with kd; chosen
     double kd_per_s = 20;
     double ki_per_s3 = 0;
-    double integral_rad_s = 0.2;  ///< ∫ e is kept within; chosen
+    double integral_rad_s = 0.2;  ///< limit of |∫ e|; chosen
     double friction = 0;          ///< share of robot.xml's joint friction that is compensated
-    double anticipate = 1;  ///< share of what the force laws would fall behind; force_reference.hpp
-    double rate_s = 0.02;   ///< over which df/dt is smoothed; chosen
-    std::string source = "sim";  ///< whose joint_state is believed
-    double stale_s = 0.05;       ///< older states and targets are no longer followed; chosen
+    /// Share of the force laws' lag that is compensated; force_reference.hpp.
+    double anticipate = 1;
+    double rate_s = 0.02;        ///< smoothing time of df/dt; chosen
+    std::string source = "sim";  ///< source of the joint_state that is used
+    double stale_s = 0.05;       ///< older states and targets are rejected; chosen
     void visit(auto& v) {
       v("liking", liking);
       v("jacobian", jacobian);
@@ -54,22 +55,22 @@ class ComputedForce {
     }
   };
 
-  /// Throws std::invalid_argument as Musculoskeletal and likes_of, and as jacobian_source.
+  /// Throws std::invalid_argument as Musculoskeletal, objective_terms and jacobian_source.
   ComputedForce(const Params& params, const erp::Robot& robot);
   ComputedForce(const ComputedForce&) = delete;
   ComputedForce& operator=(const ComputedForce&) = delete;
 
-  bool wants(const erp::JointState& state) const { return params_.source == state.source; }
-  /// Nothing while joints or target are not known or stale: the plant then takes its safe action.
+  bool accepts(const erp::JointState& state) const { return params_.source == state.source; }
+  /// nullopt if joints or target are unknown or stale: the plant then takes its safe action.
   std::optional<erp::ActuatorCommand> step(const erp::SensorFrame& frame, double dt_s,
                                            const node::Latest<erp::JointState>& state,
                                            const node::Latest<erp::JointTarget>& target);
 
  private:
   using Vector = Eigen::VectorXd;
-  void wanted_acceleration(double dt_s);
+  void reference_acceleration(double dt_s);
   void add_friction();
-  void count_lost(const erp::SensorFrame& frame);
+  void mark_tripped(const erp::SensorFrame& frame);
   erp::ActuatorCommand command(const Eigen::MatrixXd& jacobian, const Vector& tension_N,
                                double dt_s);
 
@@ -80,9 +81,9 @@ class ComputedForce {
   std::unique_ptr<JacobianSource> source_;
   sim::TensionShare share_;
   std::vector<sim::JointReading> now_;
-  std::vector<sim::JointMotion> wanted_;
+  std::vector<sim::JointMotion> desired_;
   std::vector<sim::ForceReference> laws_;
-  Vector speed_d_, acceleration_d_;  ///< wanted, in the joints' own frames
+  Vector speed_d_, acceleration_d_;  ///< desired values, in the joints' own frames
   Vector acceleration_, integral_, bias_, torque_, last_N_, rate_N_per_s_, line_rate_,
       line_acceleration_;
   Eigen::MatrixXd inertia_;
@@ -100,10 +101,10 @@ struct xml::Names<control::JacobianKind> {
        {"on_line", control::JacobianKind::on_line}});
 };
 template <>
-struct xml::Names<sim::Liking> {
-  static constexpr auto list = std::to_array<std::pair<const char*, sim::Liking>>(
-      {{"least_tension", sim::Liking::least_tension},
-       {"least_energy", sim::Liking::least_energy},
-       {"least_activation", sim::Liking::least_activation},
-       {"smooth", sim::Liking::smooth}});
+struct xml::Names<sim::TensionObjective> {
+  static constexpr auto list = std::to_array<std::pair<const char*, sim::TensionObjective>>(
+      {{"least_tension", sim::TensionObjective::least_tension},
+       {"least_energy", sim::TensionObjective::least_energy},
+       {"least_activation", sim::TensionObjective::least_activation},
+       {"smooth", sim::TensionObjective::smooth}});
 };

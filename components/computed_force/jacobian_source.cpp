@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "interfaces/xml/xml.hpp"
-#include "sim/model/actuator/tendon.hpp"
-#include "sim/learning/muscle_networks/learnt_lengths.hpp"
+#include "sim/learning/muscle_networks/learned_lengths.hpp"
 #include "sim/learning/muscle_networks/length_learner.hpp"
+#include "sim/model/actuator/tendon.hpp"
 
 namespace control {
 namespace {
@@ -27,37 +27,37 @@ class Analytic : public JacobianSource {
 
 class Network : public JacobianSource {
  public:
-  Network(muscle_networks::LearntLengths lengths, bool by_difference)
+  Network(muscle_networks::LearnedLengths lengths, bool by_difference)
       : lengths_(std::move(lengths)), by_difference_(by_difference) {}
   const MatrixXd& at(Joints joints) override {
     return by_difference_ ? lengths_.jacobian_by_difference(joints) : lengths_.jacobian(joints);
   }
 
  private:
-  muscle_networks::LearntLengths lengths_;
+  muscle_networks::LearnedLengths lengths_;
   bool by_difference_;
 };
 
-/// A base, and what the robot adds to it.
+/// A base (network or robot.xml) with online corrections.
 class OnLine : public JacobianSource {
  public:
   OnLine(const erp::Robot& robot, const sim::Musculoskeletal& model,
-         std::unique_ptr<muscle_networks::LearntLengths> network)
+         std::unique_ptr<muscle_networks::LearnedLengths> network)
       : robot_(robot),
         model_(model),
         network_(std::move(network)),
         learner_({model.tree().joints, model.skeleton()},
                  static_cast<Eigen::Index>(robot.actuators.size()), {}),
-        beside_m_(static_cast<Eigen::Index>(robot.actuators.size())),
+        correction_m_(static_cast<Eigen::Index>(robot.actuators.size())),
         jacobian_(model.jacobian()) {
     for (const erp::Actuator& actuator : robot.actuators)
       laws_.push_back(sim::TendonLaw::at_rest(actuator.tendon, actuator.spindle, 0));
   }
 
-  void hear(Joints joints, const erp::SensorFrame& frame) override {
+  void update(Joints joints, const erp::SensorFrame& frame) override {
     if (!measure(frame)) return;
-    beside_m_ -= network_ ? network_->length_m(joints) : model_.length_m();
-    learner_.hear(joints, beside_m_);
+    correction_m_ -= network_ ? network_->length_m(joints) : model_.length_m();
+    learner_.add_sample(joints, correction_m_);
   }
   const MatrixXd& at(Joints joints) override {
     jacobian_ = network_ ? network_->jacobian(joints) : model_.jacobian();
@@ -66,9 +66,9 @@ class OnLine : public JacobianSource {
   }
 
  private:
-  static constexpr double taut_N = 2;  // chosen: slacker, a line tells nothing of its path
+  static constexpr double taut_N = 2;  // chosen: below, the line does not determine the path length
 
-  /// Lengths of the paths by what the actuators say, up to constants. False: not all are known.
+  /// Path lengths from the actuators' measurements, up to constants. False: not all are known.
   bool measure(const erp::SensorFrame& frame) {
     constexpr auto needed = erp::valid::shaft | erp::valid::tension;
     std::size_t known = 0;
@@ -76,7 +76,7 @@ class OnLine : public JacobianSource {
       for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
         if (robot_.actuators[a].name != sample.name) continue;
         if ((sample.valid & needed) != needed || !(sample.tension_N > taut_N)) return false;
-        beside_m_[static_cast<Eigen::Index>(a)] =
+        correction_m_[static_cast<Eigen::Index>(a)] =
             laws_[a].length_m(sample.tension_N, sample.shaft_rad);
         ++known;
       }
@@ -85,10 +85,10 @@ class OnLine : public JacobianSource {
 
   erp::Robot robot_;
   const sim::Musculoskeletal& model_;
-  std::unique_ptr<muscle_networks::LearntLengths> network_;
+  std::unique_ptr<muscle_networks::LearnedLengths> network_;
   muscle_networks::LengthLearner learner_;
   std::vector<sim::TendonLaw> laws_;
-  VectorXd beside_m_;
+  VectorXd correction_m_;
   MatrixXd jacobian_;
 };
 
@@ -98,15 +98,16 @@ std::unique_ptr<JacobianSource> jacobian_source(JacobianKind kind, const std::st
                                                 const erp::Robot& robot,
                                                 const sim::Musculoskeletal& model) {
   if (kind == JacobianKind::analytic) return std::make_unique<Analytic>(model);
-  std::unique_ptr<muscle_networks::LearntLengths> network;
+  std::unique_ptr<muscle_networks::LearnedLengths> network;
   if (!file.empty())
-    network =
-        std::make_unique<muscle_networks::LearntLengths>(robot, xml::read<muscle_networks::LearntMuscles>(file));
+    network = std::make_unique<muscle_networks::LearnedLengths>(
+        robot, xml::read<muscle_networks::LearnedMuscles>(file));
   if (kind == JacobianKind::on_line)
     return std::make_unique<OnLine>(robot, model, std::move(network));
   if (!network)
     throw std::invalid_argument(
-        "a learnt Jacobian needs `muscles`: a file that `erp model muscles` has written");
+        "a learned Jacobian needs the parameter `muscles`: name a file written by `erp model "
+        "muscles`");
   return std::make_unique<Network>(std::move(*network), kind == JacobianKind::difference);
 }
 

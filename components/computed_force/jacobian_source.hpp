@@ -5,27 +5,27 @@
 #include "interfaces/topics.hpp"
 #include "sim/model/actuator/musculoskeletal.hpp"
 
-/// Where the muscle Jacobian L(q) = ∂l/∂q comes from (paper, 5.3).
+/// Sources of the muscle Jacobian L(q) = ∂l/∂q (paper, 5.3).
 namespace control {
 
 enum class JacobianKind {
   analytic,    ///< from robot.xml's paths
-  network,     ///< from perceptrons that `erp model muscles` has learnt, by their derivative
+  network,     ///< derivative of perceptrons that `erp model muscles` has trained
   difference,  ///< the same by difference quotient
-  on_line      ///< network or, without one, robot.xml, and what the robot teaches while it moves
+  on_line      ///< network or, without one, robot.xml, with corrections learned during motion
 };
 
 class JacobianSource {
  public:
   virtual ~JacobianSource() = default;
-  /// One sensor frame at these joints, to learn from.
-  virtual void hear(std::span<const sim::JointReading>, const erp::SensorFrame&) {}
+  /// Learns from a sensor frame at the given joints.
+  virtual void update(std::span<const sim::JointReading>, const erp::SensorFrame&) {}
   /// Muscles × coordinates. No heap.
   virtual const Eigen::MatrixXd& at(std::span<const sim::JointReading> joints) = 0;
 };
 
-/// `model`, lent: stands at the joints that are asked for. `muscles_file`: of network and difference.
-/// Throws xml::Errors, std::invalid_argument.
+/// `model` must outlive the result and must be placed at the joints passed to `at`. `muscles_file`
+/// is required by network and difference. Throws xml::Errors, std::invalid_argument.
 std::unique_ptr<JacobianSource> jacobian_source(JacobianKind kind, const std::string& muscles_file,
                                                 const erp::Robot& robot,
                                                 const sim::Musculoskeletal& model);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "components/node/ask.hpp"
+#include "components/node/controller_helpers.hpp"
 #include "interfaces/xml/document.hpp"
-#include "sim/learning/training_loop/keep.hpp"
+#include "sim/learning/training_loop/checkpoint.hpp"
 
 namespace control {
 namespace {
@@ -49,10 +49,10 @@ Experience::Experience(const Params& params, const erp::Robot& robot, node::Node
       motors_(robot) {
   for (const erp::Joint& joint : names_.list()) now_.push_back(sim::start_of(joint));
   line_m_ = tension_N_ = Eigen::VectorXd::Zero(std::ssize(robot.actuators));
-  feedback(params_, base_, 0, Vec3::Zero());  // a file of rules that is wrong is said now
+  feedback(params_, base_, 0, Vec3::Zero());  // reports errors of the rules file at start-up
 }
 
-/// What was not measured keeps its last value; the plant does not drive an actuator that is lost.
+/// Values that were not measured keep their last value; the plant does not drive such an actuator.
 void Experience::read(const erp::SensorFrame& frame) {
   for (std::size_t m = 0; const erp::ActuatorSample& sample : erp::samples(frame.actuators)) {
     const auto muscle = static_cast<Eigen::Index>(m++);
@@ -83,50 +83,52 @@ int Experience::nearest_start() const {
 void Experience::begin() {
   const Vec3 target_m = sim::vec(params_.goals[goal_].at_m);
   start_ = nearest_start();
-  const Eigen::VectorXd wanted_Vs = base_.inverse(start_, target_m);
-  if (const double peak = peak_V(file_, wanted_Vs); peak > file_.pattern_V)
-    node_.report(erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "far",
-                 fmt::format("asks for {:.1f} V of a muscle, all are scaled down to {:.1f} V: it "
-                             "lies beyond what was experienced",
-                             peak, file_.pattern_V));
-  reach_.emplace(reach_with(file_, start_, target_m, within_voltage(file_, wanted_Vs),
+  const Eigen::VectorXd desired_Vs = base_.inverse(start_, target_m);
+  if (const double peak = peak_V(file_, desired_Vs); peak > file_.pattern_V)
+    node_.report(
+        erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "far",
+        fmt::format(
+            "needs {:.1f} V at a muscle; all voltages are scaled down to at most {:.1f} V. The "
+            "goal lies outside the experience; train the base nearer to it",
+            peak, file_.pattern_V));
+  reach_.emplace(reach_with(file_, start_, target_m, within_voltage(file_, desired_Vs),
                             feedback(params_, base_, start_, target_m)));
 }
 
 void Experience::end() {
-  tell_reached();
+  report_reached();
   if (const auto& settled_m = reach_->settled_m())
     base_.add({start_, reach_->plan().scales_Vs, *settled_m});
   write();
   ++goal_;
   node_.show("goals", static_cast<double>(goal_));
   if (goal_ == params_.goals.size())
-    node_.report(erp::Severity::info, "goals", "done", "all are tried; the gears hold");
+    node_.report(erp::Severity::info, "goals", "done", "all goals are finished; the gears hold");
 }
 
-void Experience::tell_reached() {
+void Experience::report_reached() {
   const Vec3& target_m = reach_->plan().target_m;
   const std::string goal = "goal " + std::to_string(goal_ + 1);
   node_.report(
       erp::Severity::info, goal, "reached",
       fmt::format(
-          "off by {} without feedback, {} with it", off_mm(reach_->settled_m(), target_m),
-          reach_->plan().feedback ? off_mm(reach_->corrected_m(), target_m) : "there is none"));
+          "offset {} before feedback, {} after it", off_mm(reach_->settled_m(), target_m),
+          reach_->plan().feedback ? off_mm(reach_->corrected_m(), target_m) : "no feedback"));
   if (reach_->limited())
     node_.report(erp::Severity::warning, goal, "limited",
-                 fmt::format("feedback asked a drive for more than {:.1f} V; it was scaled down",
+                 fmt::format("feedback exceeded {:.1f} V at a drive and was scaled down",
                              file_.times.feedback_V));
 }
 
 erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s,
                                       const node::Latest<erp::JointState>& joints) {
   constexpr double most_gap_s =
-      0.1;  // without frames: where the robot is now, nobody knows; chosen
+      0.1;  // longest gap without frames; afterwards the robot's position is unknown; chosen
   read(frame);
   time_s_ += dt_s;
   if (reach_ && dt_s > most_gap_s && goal_ < params_.goals.size()) {
     node_.report(erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "begun_again",
-                 fmt::format("no frames for {:.2f} s", dt_s));
+                 fmt::format("no frames for {:.2f} s; the reach restarts", dt_s));
     reach_.reset();
   }
   if ((!reach_ || reach_->done()) && goal_ < params_.goals.size()) {
@@ -135,21 +137,22 @@ erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s
   }
   if (!reach_) return command({false, Eigen::VectorXd::Zero(line_m_.size())});
   const auto hand = hand_m(frame, joints);
-  if (!hand && !blind_told_) {
-    blind_told_ = true;
+  if (!hand && !unknown_reported_) {
+    unknown_reported_ = true;
     node_.report(
         erp::Severity::warning, params_.source, "blind",
-        "its joint_state is missing, stale or lacks a joint: nothing is corrected meanwhile");
+        "its joint_state is missing, stale or lacks a joint; no correction until it is complete");
   }
-  if (hand) blind_told_ = false;
+  if (hand) unknown_reported_ = false;
   return command(reach_->step(time_s_, line_m_, hand));
 }
 
-erp::ActuatorCommand Experience::command(const Wanted& wanted) const {
+erp::ActuatorCommand Experience::command(const MuscleCommand& desired) const {
   erp::ActuatorCommand command;
   for (std::size_t m = 0; m < robot_.actuators.size(); ++m) {
-    const auto [mode, reference] = motors_.ask(m, wanted, tension_N_[static_cast<Eigen::Index>(m)]);
-    node::ask(command, robot_.actuators[m].name, mode, reference);
+    const auto [mode, reference] =
+        motors_.ecu_reference(m, desired, tension_N_[static_cast<Eigen::Index>(m)]);
+    node::append_reference(command, robot_.actuators[m].name, mode, reference);
   }
   return command;
 }
@@ -158,9 +161,10 @@ void Experience::write() const {
   if (params_.save.empty()) return;
   BaseFile all = file_;
   all.experiences.all = rows_of(base_);
-  node::write_or_report(
-      node_, xml::resolved(params_.save, params_.place.file),
-      [&](const std::string& file) { sim::training_loop::keep(file, xml::write(all)); });
+  node::write_or_report(node_, xml::resolved(params_.save, params_.place.file),
+                        [&](const std::string& file) {
+                          sim::training_loop::write_checkpoint(file, xml::write(all));
+                        });
 }
 
 }  // namespace control

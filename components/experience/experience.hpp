@@ -9,14 +9,14 @@
 #include "sim/learning/experience/motors.hpp"
 #include "sim/model/skeleton/skeleton_model.hpp"
 
-/// Reaching with what was experienced before (paper, 5.6 and Fig. 11): from the nearest start a
-/// pattern of voltages, then feedback on what the hand is off; goal after goal.
+/// Reaching with stored experiences (paper, 5.6 and Fig. 11): for each goal, a voltage pattern from
+/// the nearest start, then feedback on the offset of the hand.
 ///
-/// Where the hand is follows from the joints. While they are not known nothing is corrected: no
-/// voltage beyond what the tension takes, so that the gears hold. Each reach is an experience more.
+/// The hand position follows from the joints. While they are unknown there is no correction: the
+/// voltage only holds the tension, and the gears hold. Each reach is added to the base.
 namespace control {
 
-/// `<goal at_m="0.3 -0.2 -0.5"/>`, in the world.
+/// `<goal at_m="0.3 -0.2 -0.5"/>`: position in the world.
 struct ReachGoal {
   static constexpr auto element = "goal";
   xml::Place place;
@@ -28,13 +28,13 @@ class Experience {
  public:
   struct Params {
     xml::Place place;
-    std::string base;  ///< base.xml of `erp learn experience`, beside this file
+    std::string base;  ///< base.xml of `erp learn experience`, relative to this file
     sim::experience::FeedbackKind feedback = sim::experience::FeedbackKind::linear;
-    double closing_per_s = 1.5;  ///< of linear feedback
-    std::string rules;           ///< of fuzzy feedback, beside this file
-    std::string save;            ///< where the base goes with each reach added; "": nowhere
-    std::string source = "sim";  ///< whose joint_state is believed
-    double stale_s = 0.05;       ///< older ones are not; chosen
+    double closing_per_s = 1.5;  ///< gain b of linear feedback
+    std::string rules;           ///< file of fuzzy feedback, relative to this file
+    std::string save;            ///< file to which the extended base is written; "": none
+    std::string source = "sim";  ///< source of the joint_state that is used
+    double stale_s = 0.05;       ///< older states are rejected; chosen
     std::vector<ReachGoal> goals;
     void visit(auto& v) {
       v.required("base", base);
@@ -51,7 +51,7 @@ class Experience {
   /// Throws xml::Errors of the base, std::invalid_argument as its `check` and Hand do.
   Experience(const Params& params, const erp::Robot& robot, node::Node& node);
 
-  bool wants(const erp::JointState& state) const { return params_.source == state.source; }
+  bool accepts(const erp::JointState& state) const { return params_.source == state.source; }
   erp::ActuatorCommand step(const erp::SensorFrame& frame, double dt_s,
                             const node::Latest<erp::JointState>& joints);
 
@@ -62,9 +62,9 @@ class Experience {
   int nearest_start() const;
   void begin();
   void end();
-  void tell_reached();
+  void report_reached();
   void write() const;
-  erp::ActuatorCommand command(const sim::experience::Wanted& wanted) const;
+  erp::ActuatorCommand command(const sim::experience::MuscleCommand& desired) const;
 
   Params params_;
   erp::Robot robot_;
@@ -81,7 +81,7 @@ class Experience {
   std::size_t goal_ = 0;
   int start_ = 0;
   double time_s_ = 0;
-  bool blind_told_ = false;
+  bool unknown_reported_ = false;
 };
 
 }  // namespace control

@@ -21,7 +21,7 @@ Eye::Eye(const Params& params, const erp::Robot& robot, node::Node& node)
               see(frame, stamp_ns);
             }) {}
 
-void Eye::see(const images::Film::Frame& frame, std::int64_t stamp_ns) {
+void Eye::see(const images::ImageSource::Frame& frame, std::int64_t stamp_ns) {
   erp::ImagePoint message;
   message.stamp_ns = stamp_ns;
   for (std::size_t c = 0; c < frame.size(); ++c)

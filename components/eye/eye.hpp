@@ -1,10 +1,10 @@
 #pragma once
-#include "components/images/film.hpp"
+#include "components/images/image_source.hpp"
 #include "components/images/spots.hpp"
 #include "components/node/run.hpp"
 
-/// Cameras that say where bright spots are in their images: image_point. The images are painted or
-/// read from a folder (film.hpp).
+/// Publishes the positions of bright spots in camera images: image_point. The images are rendered
+/// or read from a folder (image_source.hpp).
 namespace eye {
 
 class Eye {
@@ -12,8 +12,8 @@ class Eye {
   static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
-    std::string view;  ///< cameras and markers, beside this file
-    images::FilmParams film;
+    std::string view;  ///< file of cameras and markers, relative to this file
+    images::ImageSourceParams film;
     images::SpotOptions spots;
     void visit(auto& v) {
       v.required("view", view);
@@ -22,16 +22,16 @@ class Eye {
     }
   };
 
-  /// Throws xml::Errors of the view, and what Film does.
+  /// Throws xml::Errors of the view, and as ImageSource does.
   Eye(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
-  void see(const images::Film::Frame& frame, std::int64_t stamp_ns);
+  void see(const images::ImageSource::Frame& frame, std::int64_t stamp_ns);
 
   images::SpotOptions spots_;
   sim::cameras::ViewConfig view_;
   node::Publisher<erp::ImagePoint>& out_;
-  images::Film film_;  ///< last: it uses the others
+  images::ImageSource film_;  ///< last, because it uses the other members
 };
 
 }  // namespace eye

@@ -10,8 +10,8 @@
 #include "interfaces/topics.hpp"
 #include "sim/control/gain_design.hpp"
 
-/// Following actuator targets with one of the firmware's laws: at the ECU, by passing the
-/// reference on, or on the host, by running the same law here and sending voltages.
+/// Follows actuator targets with one of the firmware's laws: at the ECU, by passing the reference
+/// on, or on the host, by running the same law here and sending voltages.
 ///
 ///   where="ecu"    target → actuator_command in the law's own mode
 ///   where="host"   u = law(target, measured);  actuator_command in mode voltage
@@ -21,14 +21,14 @@ enum class Where { ecu, host };
 
 struct Params {
   Where where = Where::ecu;
-  double stale_s = 0.1;  ///< a target older than this is no longer followed; chosen
+  double stale_s = 0.1;  ///< older targets are rejected; chosen
   void visit(auto& v) {
     v("where", where);
     v("stale_s", stale_s, xml::positive);
   }
 };
 
-/// One actuator's state on the host: what the ECU would know.
+/// State of one actuator on the host, as the ECU would have it.
 struct Channel {
   std::array<float, ECU_PARAMETER_COUNT> gains;
   double radius_m;
@@ -51,33 +51,34 @@ class Follow {
           Channel{sim::design_parameters(robot, actuator, {}), actuator.spindle.radius_m, {}});
   }
 
-  /// Nothing while there is no fresh target: the plant then takes its safe action.
+  /// nullopt without a fresh target: the plant then takes its safe action.
   std::optional<erp::ActuatorCommand> step(const erp::SensorFrame& frame, double dt_s,
                                            const node::Latest<erp::ActuatorTarget>& target) {
     update_speeds(frame, dt_s);
     if (!target || target.age_s > params_.stale_s) return std::nullopt;
     erp::ActuatorCommand command;
-    for (const auto& wanted : erp::samples(target->actuators)) {
-      const auto* sample = find(frame, wanted.name);
-      if (!sample || static_cast<erp::Mode>(wanted.mode) != Law::mode) continue;
-      erp::append(command.actuators, answer(wanted, *sample));
+    for (const auto& desired : erp::samples(target->actuators)) {
+      const auto* sample = find(frame, desired.name);
+      if (!sample || static_cast<erp::Mode>(desired.mode) != Law::mode) continue;
+      erp::append(command.actuators, command_for(desired, *sample));
     }
     return command;
   }
 
  private:
-  erp::ActuatorReference answer(erp::ActuatorReference wanted, const erp::ActuatorSample& sample) {
-    if (params_.where == Where::ecu) return wanted;
+  erp::ActuatorReference command_for(erp::ActuatorReference desired,
+                                     const erp::ActuatorSample& sample) {
+    if (params_.where == Where::ecu) return desired;
     const std::size_t i = index_of(sample.name);
     const Channel& channel = channels_[i].second;
     const float voltage =
-        Law::voltage_V(channel, static_cast<float>(wanted.reference), sample, speeds_[i]);
-    wanted.mode = static_cast<std::uint8_t>(erp::Mode::voltage);
-    wanted.reference = law_limit_current_V(
+        Law::voltage_V(channel, static_cast<float>(desired.reference), sample, speeds_[i]);
+    desired.mode = static_cast<std::uint8_t>(erp::Mode::voltage);
+    desired.reference = law_limit_current_V(
         voltage, speeds_[i], channel.gain(ECU_PARAMETER_RESISTANCE),
         channel.gain(ECU_PARAMETER_BACK_EMF), channel.gain(ECU_PARAMETER_CURRENT_LIMIT),
         channel.gain(ECU_PARAMETER_SUPPLY));
-    return wanted;
+    return desired;
   }
 
   void update_speeds(const erp::SensorFrame& frame, double dt_s) {
@@ -90,7 +91,7 @@ class Follow {
     }
   }
 
-  /// A measured actuator by name; nullptr when it was not measured.
+  /// A measured actuator by name; nullptr if it was not measured.
   static const erp::ActuatorSample* find(const erp::SensorFrame& frame, std::string_view name) {
     for (const auto& sample : erp::samples(frame.actuators))
       if (name == sample.name)

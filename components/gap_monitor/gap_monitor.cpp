@@ -7,9 +7,9 @@
 
 namespace {
 
-// Deep enough for what arrives while a window is judged (chosen).
+// Queue for the messages that arrive during an evaluation (chosen).
 constexpr int depth = 2000;
-constexpr std::int64_t patience_ns = 5'000'000'000;
+constexpr std::int64_t silence_ns = 5'000'000'000;
 
 erp::Robot model_of(const GapMonitor::Params& params, const erp::Robot& robot) {
   if (params.model.empty()) return robot;
@@ -28,38 +28,39 @@ GapMonitor::GapMonitor(const Params& params, const erp::Robot& robot, node::Node
       node_(node),
       window_(model_of(params, robot), params.window_s),
       out_(node.advertise<erp::StageResidual>()) {
-  node.subscribe<erp::JointState>([this](const erp::JointState& state) { window_.hear(state); },
+  node.subscribe<erp::JointState>([this](const erp::JointState& state) { window_.receive(state); },
                                   depth, node::Where::in_loop);
   node.subscribe<erp::SensorFrame>(
       [this](const erp::SensorFrame& frame) {
-        window_.hear(frame), heard_ = ever_heard_ = true;
-        judged_ns_ = std::min(judged_ns_, frame.stamp_ns);  // another graph's time begins anew
-        if (1e-9 * double(frame.stamp_ns - judged_ns_) < params_.every_s) return;
-        judged_ns_ = frame.stamp_ns;
-        judge();
+        window_.receive(frame), received_ = ever_received_ = true;
+        evaluated_ns_ = std::min(evaluated_ns_, frame.stamp_ns);  // a new graph restarts the time
+        if (1e-9 * double(frame.stamp_ns - evaluated_ns_) < params_.every_s) return;
+        evaluated_ns_ = frame.stamp_ns;
+        evaluate();
       },
       depth, node::Where::in_loop);
-  node.every(patience_ns, [this] { tell_waiting(); });
+  node.every(silence_ns, [this] { report_silence(); });
 }
 
-void GapMonitor::tell_waiting() {
-  const bool silent = !heard_, told = told_waiting_;
-  heard_ = false, told_waiting_ = silent;
-  if (!silent || told) return;
+void GapMonitor::report_silence() {
+  const bool silent = !received_, reported = silence_reported_;
+  received_ = false, silence_reported_ = silent;
+  if (!silent || reported) return;
   node_.report(erp::Severity::info, "", "waiting",
-               ever_heard_
-                   ? "no sensor frame for 5 s: has the graph ended? The next one is watched too"
-                   : "no sensor frame yet: launch a graph, on the same ERP_DOMAIN");
+               ever_received_ ? "no sensor frame for 5 s: check whether the graph is running; "
+                                "monitoring continues with "
+                                "the next frame"
+                              : "no sensor frame yet: launch a graph with the same ERP_DOMAIN");
 }
 
-void GapMonitor::judge() {
+void GapMonitor::evaluate() {
   std::string why;
-  const auto gaps = window_.judge(why);
-  if (!why.empty() && !told_why_)
-    node_.report(erp::Severity::warning, "", "not_judged", why), told_why_ = true;
+  const auto gaps = window_.evaluate(why);
+  if (!why.empty() && !failure_reported_)
+    node_.report(erp::Severity::warning, "", "not_judged", why), failure_reported_ = true;
   if (gaps.empty()) return;
   publish(gaps);
-  for (const auto& gap : gaps) tell(gap);
+  for (const auto& gap : gaps) report(gap);
   node_.count_step(window_.stamp_ns());
 }
 
@@ -78,19 +79,22 @@ void GapMonitor::publish(const std::vector<sim::diagnosis::StageGap>& gaps) {
   out_.publish(message_);
 }
 
-void GapMonitor::tell(const sim::diagnosis::StageGap& gap) {
-  Said& said = said_[name_of(gap)];
-  said.open = gap.open ? said.open + 1 : 0;
-  said.closed = gap.judged && !gap.open ? said.closed + 1 : 0;
-  if (!said.told && said.open >= params_.times) {
-    said.told = true;
-    node_.report(erp::Severity::warning, gap.on, "gap_open",
-                 fmt::format("{}: robot and model part, {:.3g} {} rms against {:.3g} of noise",
-                             name_of(gap), gap.rms, gap.unit, gap.floor));
+void GapMonitor::report(const sim::diagnosis::StageGap& gap) {
+  StageState& state = states_[name_of(gap)];
+  state.open = gap.open ? state.open + 1 : 0;
+  state.closed = gap.judged && !gap.open ? state.closed + 1 : 0;
+  if (!state.reported && state.open >= params_.times) {
+    state.reported = true;
+    node_.report(
+        erp::Severity::warning, gap.on, "gap_open",
+        fmt::format(
+            "{}: robot and model differ, residual {:.3g} {} rms, noise floor {:.3g} {}; run "
+            "`erp gap diagnose` on a recording",
+            name_of(gap), gap.rms, gap.unit, gap.floor, gap.unit));
   }
-  if (said.told && said.closed >= params_.times) {
-    said.told = false;
+  if (state.reported && state.closed >= params_.times) {
+    state.reported = false;
     node_.report(erp::Severity::info, gap.on, "gap_closed",
-                 name_of(gap) + " is at its floor again");
+                 name_of(gap) + ": the residual is at its noise floor again");
   }
 }

@@ -5,17 +5,18 @@
 #include "components/gap_monitor/window.hpp"
 #include "components/node/node.hpp"
 
-/// The nominal model beside the running robot: residuals of every stage on `stage_residual`, and an
-/// event when a stage leaves its floor or comes back to it. It commands nothing.
+/// Compares the running robot with its nominal model. Publishes the residuals of every stage on
+/// `stage_residual`, and reports an event when a residual exceeds its noise floor or returns to it. Sends no
+/// commands.
 class GapMonitor {
  public:
   static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
-    std::string model;    ///< robot.xml to hold the robot against; empty: the graph's
-    double window_s = 4;  ///< of what is judged
-    double every_s = 1;
-    int times = 2;  ///< in a row, before an event is made of it
+    std::string model;    ///< robot.xml to compare with; empty: the graph's
+    double window_s = 4;  ///< length of the evaluated window
+    double every_s = 1;   ///< period of the evaluation
+    int times = 2;        ///< consecutive evaluations before an event is reported
     void visit(auto& v) {
       v("model", model);
       v("window_s", window_s, xml::Range{2, 60});
@@ -26,23 +27,23 @@ class GapMonitor {
   GapMonitor(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
-  struct Said {
-    int open = 0, closed = 0;  ///< times in a row
-    bool told = false;
+  struct StageState {
+    int open = 0, closed = 0;  ///< consecutive evaluations
+    bool reported = false;     ///< as open
   };
-  /// Once for each silence.
-  void tell_waiting();
-  void judge();
+  /// Reports missing sensor frames, once per silence.
+  void report_silence();
+  void evaluate();
   void publish(const std::vector<sim::diagnosis::StageGap>& gaps);
-  void tell(const sim::diagnosis::StageGap& gap);
+  void report(const sim::diagnosis::StageGap& gap);
 
   Params params_;
   node::Node& node_;
   gap_monitor::Window window_;
   node::Publisher<erp::StageResidual>& out_;
   erp::StageResidual message_;
-  std::map<std::string, Said> said_;
-  std::int64_t judged_ns_ = 0;
-  bool heard_ = false, ever_heard_ = false;  ///< a frame, lately and at all
-  bool told_why_ = false, told_waiting_ = false;
+  std::map<std::string, StageState> states_;
+  std::int64_t evaluated_ns_ = 0;
+  bool received_ = false, ever_received_ = false;  ///< a frame: since the last check, at all
+  bool failure_reported_ = false, silence_reported_ = false;
 };

@@ -43,7 +43,7 @@ Window::Window(const erp::Robot& model, double window_s)
       joint_state_.resize(joint_state_.size() + 4, recording::not_taken);
 }
 
-void Window::hear(const erp::JointState& state) {
+void Window::receive(const erp::JointState& state) {
   const std::string_view source = state.source;
   if (source == "pose_estimator" || (source == "sim" && tracked_)) return;
   tracked_ |= source == "motion_capture";
@@ -57,7 +57,7 @@ void Window::hear(const erp::JointState& state) {
   }
 }
 
-void Window::hear(const erp::SensorFrame& frame) {
+void Window::receive(const erp::SensorFrame& frame) {
   std::vector<double> row{1e-9 * static_cast<double>(frame.stamp_ns),
                           static_cast<double>(frame.sequence)};
   for (const erp::Actuator& a : model_.actuators) add(row, frame, a);
@@ -67,7 +67,7 @@ void Window::hear(const erp::SensorFrame& frame) {
     if (joint.type == erp::JointType::spherical) row.insert(row.end(), pose, pose + 4), pose += 4;
   }
   std::ranges::fill(joint_state_, recording::not_taken);
-  if (frame.stamp_ns < stamp_ns_) rows_.clear();  // another run
+  if (frame.stamp_ns < stamp_ns_) rows_.clear();  // a new run
   rows_.push_back(std::move(row));
   if (rows_.size() > most_) rows_.pop_front();
   stamp_ns_ = frame.stamp_ns;
@@ -83,13 +83,13 @@ recording::Table Window::table() const {
   return table;
 }
 
-std::vector<sim::diagnosis::StageGap> Window::judge(std::string& why) const {
+std::vector<sim::diagnosis::StageGap> Window::evaluate(std::string& why) const {
   why.clear();
   if (!full()) return {};
   try {
-    std::vector<std::string> mended;
+    std::vector<std::string> remarks;
     const sim::residuals::Episode last[] = {
-        sim::residuals::lay_out(table(), model_, "the last seconds", mended)};
+        sim::residuals::lay_out(table(), model_, "the last seconds", remarks)};
     return sim::diagnosis::localize(model_, last, {.block_s = 0.5});
   } catch (const std::invalid_argument& failed) {
     why = failed.what();

@@ -6,7 +6,7 @@
 #include "interfaces/topics.hpp"
 #include "sim/gap/diagnosis/localization.hpp"
 
-/// The last seconds of a running robot, held against its model.
+/// The last seconds of a running robot, compared with its model.
 namespace gap_monitor {
 
 class Window {
@@ -14,28 +14,28 @@ class Window {
   /// Throws as sim::residuals::Stages.
   Window(const erp::Robot& model, double window_s);
 
-  /// One that is stamped before the last is of another run, with which the window begins anew.
-  void hear(const erp::SensorFrame& frame);
-  /// For joints that sensor_frame does not carry: motion capture's, else the simulator's, never an
-  /// estimate.
-  void hear(const erp::JointState& state);
+  /// Adds a frame. A frame with an earlier stamp than the last belongs to a new run and clears the window.
+  void receive(const erp::SensorFrame& frame);
+  /// Positions of spherical joints, which sensor_frame lacks: of motion capture, otherwise of the simulator,
+  /// never of an estimator.
+  void receive(const erp::JointState& state);
 
   bool full() const { return rows_.size() >= most_; }
   std::int64_t stamp_ns() const { return stamp_ns_; }  ///< of the last frame
 
-  /// The window as a table, as a recording would give it.
+  /// The window as a table with the columns of a recording.
   recording::Table table() const;
-  /// Stages and their residuals over the window; nothing while it is not full, or where frames
-  /// were lost in such numbers that it cannot be laid out, which `why` tells.
-  std::vector<sim::diagnosis::StageGap> judge(std::string& why) const;
+  /// Stages and their residuals over the window. Empty while the window is not full, or if it cannot be
+  /// evaluated, for example after too many lost frames; `why` is then the reason.
+  std::vector<sim::diagnosis::StageGap> evaluate(std::string& why) const;
 
  private:
   erp::Robot model_;
   std::size_t most_;
   std::vector<std::string> columns_{"time_s", "sequence"};
-  std::vector<double> joint_state_;  ///< of spherical joints, in the order of columns; NaN: told of
-                                     ///< none since the last frame
-  bool tracked_ = false;             ///< by motion capture
+  std::vector<double>
+      joint_state_;       ///< of spherical joints, by column; NaN: none since the last frame
+  bool tracked_ = false;  ///< by motion capture
   std::deque<std::vector<double>> rows_;
   std::int64_t stamp_ns_ = 0;
 };

@@ -10,13 +10,13 @@
 namespace can {
 namespace {
 
-constexpr std::int64_t tick_ns = 2'000'000;        // the ECUs' period
-constexpr std::int64_t late_ns = 3'000'000;        // chosen: what an ECU may lag behind the others
-constexpr std::int64_t mind_ns = 1'000'000;        // chosen: how often buses are looked after
-constexpr std::int64_t say_ns = 1'000'000'000;     // counters are said once a second at most
-constexpr std::int64_t discover_ns = 100'000'000;  // chosen: between two calls for ECUs
+constexpr std::int64_t tick_ns = 2'000'000;       // the ECUs' period
+constexpr std::int64_t late_ns = 3'000'000;       // chosen: largest lag of an ECU behind the others
+constexpr std::int64_t supervise_ns = 1'000'000;  // chosen: period of bus supervision
+constexpr std::int64_t report_ns = 1'000'000'000;  // counters are reported at most once a second
+constexpr std::int64_t discover_ns = 100'000'000;  // chosen: between two DISCOVERs
 constexpr std::uint64_t clock_period = 50;         // ticks: 10 Hz
-constexpr std::size_t window = 2;                  // chosen: frames an ECU in flight
+constexpr std::size_t window = 2;                  // chosen: frames in flight per ECU
 
 std::uint64_t ticks_in(double duration_s) {
   return static_cast<std::uint64_t>(std::llround(duration_s * 1e9 / tick_ns));
@@ -37,7 +37,7 @@ std::string trace_name(const std::string& file, const std::string& bus, std::siz
   return path.replace_filename(path.stem().string() + "." + bus + path.extension().string());
 }
 
-/// Of its bus's time, worst case. On CAN FD they are taken to go four to a bundle.
+/// Worst-case time of a frame on its bus. On CAN FD four frames per bundle are assumed.
 double time_of_a_frame_s(const erp::BusPlan& plan) {
   if (!plan.data_bitrate_per_s) return erp::frame_time_s(8, plan.bitrate_per_s);
   const std::size_t bytes = bundle_size(4);
@@ -51,7 +51,7 @@ GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::No
       routes_(robot),
       gateway_(robot),
       ecus_(robot.ecus()),
-      drives_(actuators_by_ecu(robot)),
+      actuators_on_(actuators_by_ecu(robot)),
       frame_out_(node.advertise<erp::EcuFrame>()),
       clock_out_(node.advertise<erp::Clock>()),
       end_sequence_(ticks_in(node.options().duration_s)) {
@@ -65,9 +65,9 @@ GatewayNode::GatewayNode(const Params& params, const erp::Robot& robot, node::No
     discover();
   });
   node.on_deactivate([this] { publish_clock(); });
-  node.every(say_ns, [this] { say_counters(); });
+  node.every(report_ns, [this] { report_counters(); });
   node.every(discover_ns, [this] { discover(); });
-  node.every(mind_ns, [this] { mind(); });
+  node.every(supervise_ns, [this] { supervise(); });
   if (!node.clock().lockstep()) node.every(tick_ns, [this] { close_late_tick(); });
 }
 
@@ -81,7 +81,7 @@ void GatewayNode::open(const Params& params, const erp::Robot& robot) {
       buses_[k].record(trace_name(params.trace, routes_.name(k), opened.size()));
   }
   for (const erp::BusPlan& plan : robot.buses()) frame_time_s_.push_back(time_of_a_frame_s(plan));
-  refused_said_.assign(buses_.size(), 0);
+  unsent_reported_.assign(buses_.size(), 0);
   frames_before_.assign(buses_.size(), 0);
 }
 
@@ -96,7 +96,7 @@ void GatewayNode::send(std::span<const erp::CanFrame> frames) {
 }
 
 void GatewayNode::on_command(const erp::EcuCommand& command) {
-  // Gains sent before this command are waiting already: they go first, in every run alike.
+  // Gains sent before this command are already waiting: they are sent first, in every run.
   parameter_in_->poll(true);
   node_.count_step(gateway_.frame().stamp_ns);
   if (node_.clock().lockstep() && command.answers != gateway_.frame().sequence) return;
@@ -109,49 +109,50 @@ void GatewayNode::receive(erp::BusKeeper& bus) {
   while (const auto n = bus.bus().receive(frames, 0))
     for (const erp::CanFrame& frame : std::span(frames).first(n)) {
       const auto ecu = frame_ecu_of(&frame);
-      if (gateway_.understands(ecu)) watch_.heard(ecu, now_ns());
-      switch (gateway_.hear(frame)) {
-        case erp::Heard::tick:
-          take_tick();
+      if (gateway_.is_compatible(ecu)) watch_.received(ecu, now_ns());
+      switch (gateway_.receive(frame)) {
+        case erp::FrameResult::tick:
+          on_tick_complete();
           break;
-        case erp::Heard::tick_repeated:
-          send(gateway_.again());
+        case erp::FrameResult::tick_repeated:
+          send(gateway_.repeat());
           break;
-        case erp::Heard::nothing:
+        case erp::FrameResult::nothing:
           if (!open_since_ns_) open_since_ns_ = node::monotonic_ns();
           break;
       }
     }
-  if (tick_waits_) publish_tick();
+  if (tick_pending_) publish_tick();
   bus.flush(now_ns());
-  say_news();
+  report_events();
 }
 
-/// Of several ticks that waited together, for want of a processor, only the newest is worth an
-/// answer; in lockstep there is never more than one.
-void GatewayNode::take_tick() {
-  ticks_left_out_ += tick_waits_;
-  tick_waits_ = true;
+/// If several ticks are pending because this process was delayed, only the newest is published; in
+/// lockstep there is never more than one.
+void GatewayNode::on_tick_complete() {
+  ticks_skipped_ += tick_pending_;
+  tick_pending_ = true;
   if (node_.clock().lockstep()) publish_tick();
 }
 
-void GatewayNode::mind() {
+void GatewayNode::supervise() {
   for (erp::BusKeeper& bus : buses_)
-    for (const auto& notice : bus.mind(now_ns()))
+    for (const auto& notice : bus.supervise(now_ns()))
       node_.report(notice.severity, bus.name(), notice.code, notice.text);
-  if (node_.clock().lockstep()) return;  // an ECU is not expected at any time then
-  // What waits unread is read before an ECU is called silent: this process may have been late itself.
+  if (node_.clock().lockstep()) return;  // ECUs have no deadline in lockstep
+  // Read all waiting frames before judging an ECU: this process may itself have been late.
   const auto judged_at_ns = now_ns();
   for (erp::BusKeeper& bus : buses_) receive(bus);
-  watch_.step(judged_at_ns, [this](int ecu, erp::EcuWatch::News news) { say_ecu(ecu, news); });
+  watch_.step(judged_at_ns,
+              [this](int ecu, erp::EcuWatch::Event event) { report_ecu(ecu, event); });
 }
 
-/// Calls for the ECUs until all have said what they are.
+/// Sends DISCOVER until all ECUs have answered.
 void GatewayNode::discover() {
-  const auto introduced = [this](int ecu) { return gateway_.introduced(ecu); };
-  if (std::ranges::all_of(ecus_, introduced)) return;
+  const auto is_identified = [this](int ecu) { return gateway_.is_identified(ecu); };
+  if (std::ranges::all_of(ecus_, is_identified)) return;
   send(gateway_.discover());
-  if (++asked_ == 11) say_unanswered();
+  if (++discovers_sent_ == 11) report_unanswered();
 }
 
 void GatewayNode::close_late_tick() {
@@ -161,10 +162,10 @@ void GatewayNode::close_late_tick() {
 }
 
 void GatewayNode::publish_tick() {
-  tick_waits_ = false;
+  tick_pending_ = false;
   open_since_ns_.reset();
   auto& frame = gateway_.frame();
-  // Simulated time begins at the first tick, as it does in the simulator itself.
+  // Simulated time starts at the first tick, as in the simulator.
   node_.clock().advance(static_cast<std::int64_t>(frame.sequence - 1) * tick_ns);
   frame.stamp_ns = node_.clock().now_ns();
   if (frame.sequence % clock_period == 1) publish_clock();

@@ -9,15 +9,15 @@
 #include "hal/can/gateway.hpp"
 #include "hal/can/robot_buses.hpp"
 
-/// The device "can": the plant's messages to the ECUs' frames and back, on the robot's buses.
-/// Frames go out the moment their message arrives; a tick is published the moment it is whole.
+/// The device "can": translates the plant's messages to frames on the robot's CAN buses, and back.
+/// Frames are sent as soon as their message arrives; a tick is published as soon as it is complete.
 namespace can {
 
 class GatewayNode {
  public:
   struct Params {
-    std::string bus = "udp:239.255.42.1:20000";  ///< as erp::open_buses takes it
-    /// "": none; else every frame goes to this file; of several buses to one each, run.log to
+    std::string bus = "udp:239.255.42.1:20000";  ///< as in erp::open_buses
+    /// File for a trace of all frames; "": none. With several buses one file each: run.log becomes
     /// run.left.log.
     std::string trace;
     void visit(auto& v) { v("bus", bus), v("trace", trace); }
@@ -27,25 +27,25 @@ class GatewayNode {
  private:
   void open(const Params& params, const erp::Robot& robot);
   void receive(erp::BusKeeper& bus);
-  /// A silent ECU must not hold back what the others said.
+  /// Publishes an incomplete tick, so that a silent ECU does not delay the data of the others.
   void close_late_tick();
-  void take_tick();
+  void on_tick_complete();
   void publish_tick();
   void publish_clock();
   void on_command(const erp::EcuCommand& command);
   void send(std::span<const erp::CanFrame> frames);
-  /// Real time, for what may grow too old; 0 in lockstep, where nothing does.
+  /// Real time, for the age of frames; 0 in lockstep, where frames do not age.
   std::int64_t now_ns() const;
-  void mind();
+  void supervise();
   void discover();
 
-  // gateway_news.cpp: what it says, and shows in its heartbeat
-  void say_news();
-  void say_hello(const erp::EcuHello& hello);
-  void say_boot_or_fault(const erp::EcuEmergency& emergency);
-  void say_ecu(int ecu, erp::EcuWatch::News news);
-  void say_unanswered();
-  void say_counters();
+  // gateway_events.cpp: events and heartbeat figures
+  void report_events();
+  void report_hello(const erp::EcuHello& hello);
+  void report_boot_or_fault(const erp::EcuEmergency& emergency);
+  void report_ecu(int ecu, erp::EcuWatch::Event event);
+  void report_unanswered();
+  void report_counters();
   void show_counters();
   void show_bus(std::size_t bus, double elapsed_s);
 
@@ -55,20 +55,20 @@ class GatewayNode {
   erp::Gateway gateway_;
   erp::EcuWatch watch_;
   std::vector<int> ecus_;
-  std::vector<std::string> drives_;   ///< by ECU: the actuators on it, for people
-  std::vector<double> frame_time_s_;  ///< of each bus, worst case
+  std::vector<std::string> actuators_on_;  ///< by ECU: names of its actuators, for messages
+  std::vector<double> frame_time_s_;       ///< of each bus, worst case
   node::Publisher<erp::EcuFrame>& frame_out_;
   node::Publisher<erp::Clock>& clock_out_;
   node::Subscription<erp::EcuParameter>* parameter_in_;
   std::uint64_t end_sequence_;
-  erp::GatewayCounters said_;
-  std::vector<std::uint64_t> refused_said_, frames_before_;
+  erp::GatewayCounters reported_;
+  std::vector<std::uint64_t> unsent_reported_, frames_before_;
   std::int64_t began_ns_ = 0;
-  std::optional<std::int64_t> open_since_ns_;  ///< when the tick at hand began to be heard
+  std::optional<std::int64_t> open_since_ns_;  ///< when the first frame of the current tick arrived
   std::int64_t counted_ns_ = 0;
-  bool tick_waits_ = false;  ///< heard whole, not yet published
-  std::uint64_t ticks_left_out_ = 0;
-  int asked_ = 0;  ///< DISCOVERs sent
+  bool tick_pending_ = false;  ///< complete, not yet published
+  std::uint64_t ticks_skipped_ = 0;
+  int discovers_sent_ = 0;  ///< DISCOVERs sent
 };
 
 }  // namespace can

@@ -27,9 +27,9 @@ std::optional<sim::cameras::Image> read_image(const std::string& file, int width
 
 void write_image(const std::string& file, const sim::cameras::Image& image) {
   const cv::Mat whole(image.height, image.width, CV_8UC1,
-                      const_cast<std::uint8_t*>(image.pixels.data()));  // is only read
+                      const_cast<std::uint8_t*>(image.pixels.data()));  // read only
   if (!cv::imwrite(file, whole))
-    throw std::invalid_argument(file + ": cannot be written; is there such a folder?");
+    throw std::invalid_argument(file + ": cannot be written; check that the folder exists");
 }
 
 }  // namespace images

@@ -4,15 +4,15 @@
 
 #include "sim/model/cameras/images.hpp"
 
-/// Images as files of eight bits a pixel.
+/// Image files with eight bits per pixel.
 namespace images {
 
 /// <folder>/<camera>_00017.png
 std::string image_name(const std::string& folder, const std::string& camera, std::uint64_t number);
-/// Any format that OpenCV knows, as grey. Nothing: there is no such file. Throws std::invalid_argument
-/// for one that is no image, or not of that size.
+/// Reads any format that OpenCV supports, as greyscale. nullopt if the file does not exist. Throws
+/// std::invalid_argument if it is not an image or has another size.
 std::optional<sim::cameras::Image> read_image(const std::string& file, int width, int height);
-/// Throws std::invalid_argument where it cannot be written.
+/// Throws std::invalid_argument if the file cannot be written.
 void write_image(const std::string& file, const sim::cameras::Image& image);
 
 }  // namespace images

@@ -5,7 +5,7 @@
 namespace images {
 namespace {
 
-/// Of what is brighter than half the threshold, about the box.
+/// Centre of brightness of the pixels in and around the box that exceed half the threshold.
 Spot centred(const cv::Mat& image, const cv::Rect& box, double area_px, int threshold) {
   const cv::Rect wide = cv::Rect(box.x - 2, box.y - 2, box.width + 4, box.height + 4) &
                         cv::Rect(0, 0, image.cols, image.rows);
@@ -24,15 +24,15 @@ Spot centred(const cv::Mat& image, const cv::Rect& box, double area_px, int thre
 
 std::vector<Spot> find_spots(const sim::cameras::Image& image, const SpotOptions& options) {
   const cv::Mat whole(image.height, image.width, CV_8UC1,
-                      const_cast<std::uint8_t*>(image.pixels.data()));  // is only read
+                      const_cast<std::uint8_t*>(image.pixels.data()));  // read only
   cv::Mat bright, labels, stats, centres;
   cv::threshold(whole, bright, options.threshold, 255, cv::THRESH_BINARY);
-  const cv::Rect lit = cv::boundingRect(bright);  // little of the image: the rest costs no time
+  const cv::Rect lit = cv::boundingRect(bright);  // usually a small part of the image; saves time
   if (lit.empty()) return {};
   const int count =
       cv::connectedComponentsWithStats(bright(lit), labels, stats, centres, 8, CV_32S);
   std::vector<Spot> spots;
-  for (int k = 1; k < count; ++k) {  // 0 is the ground
+  for (int k = 1; k < count; ++k) {  // 0 is the background
     const double area_px = stats.at<int>(k, cv::CC_STAT_AREA);
     if (area_px < options.least_px || area_px > options.most_px) continue;
     spots.push_back(centred(

@@ -7,9 +7,9 @@ namespace images {
 
 /// A bright spot of an image.
 struct Spot {
-  sim::cameras::Pixel at;  ///< its centre of brightness
+  sim::cameras::Pixel at;  ///< centre of brightness
   double area_px = 0;
-  bool at_edge = false;  ///< it touches the image's edge: there may be more of it
+  bool at_edge = false;  ///< the spot touches the image's edge and may be cut off
 };
 
 struct SpotOptions {
@@ -18,7 +18,7 @@ struct SpotOptions {
   double most_px = 2000;  ///< larger ones are lamps
 };
 
-/// In no order.
+/// The spots of an image, in no particular order.
 std::vector<Spot> find_spots(const sim::cameras::Image& image, const SpotOptions& options);
 
 }  // namespace images

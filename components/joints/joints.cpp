@@ -11,9 +11,9 @@ bool turns(const erp::Joint& joint) {
   return joint.type == erp::JointType::revolute || joint.type == erp::JointType::spherical;
 }
 
-/// Where and how fast, of any sample. False: no number, or a quaternion without a direction.
+/// Reads position and velocity of any sample. False: not finite, or a quaternion near zero.
 template <class Sample>
-bool take(const Sample& sample, sim::JointReading& reading) {
+bool read_sample(const Sample& sample, sim::JointReading& reading) {
   double size = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     reading.position[i] = sample.position[i];
@@ -26,7 +26,7 @@ bool take(const Sample& sample, sim::JointReading& reading) {
   return turned && std::isfinite(size) && std::isfinite(speed);
 }
 
-void bring(sim::JointReading& reading, std::int64_t by_ns) {
+void extrapolate(sim::JointReading& reading, std::int64_t by_ns) {
   constexpr std::int64_t farthest_ns = 50'000'000;  // chosen
   if (by_ns == 0 || std::abs(by_ns) > farthest_ns) return;
   const double by_s = 1e-9 * static_cast<double>(by_ns);
@@ -39,16 +39,17 @@ void bring(sim::JointReading& reading, std::int64_t by_ns) {
 
 Names::Names(const erp::Robot& robot) : joints_(robot.joints()) {}
 
-/// Calls take(j, sample) for each joint that turns; messages are mostly in the robot's own order.
+/// Calls read_one(j, sample) for each movable joint. Messages are mostly in the robot's own order.
 template <class Message, class Take>
-bool Names::each(const Message& message, Take take_one) const {
-  const auto said = erp::samples(message.joints);
+bool Names::each(const Message& message, Take read_one) const {
+  const auto samples = erp::samples(message.joints);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     if (!turns(joints_[j])) continue;
-    const auto is_it = [&](const auto& sample) { return joints_[j].name == sample.name; };
-    const auto found = j < said.size() && is_it(said[j]) ? said.begin() + static_cast<long>(j)
-                                                         : std::ranges::find_if(said, is_it);
-    if (found == said.end() || !take_one(j, *found)) return false;
+    const auto matches = [&](const auto& sample) { return joints_[j].name == sample.name; };
+    const auto found = j < samples.size() && matches(samples[j])
+                           ? samples.begin() + static_cast<long>(j)
+                           : std::ranges::find_if(samples, matches);
+    if (found == samples.end() || !read_one(j, *found)) return false;
   }
   return true;
 }
@@ -57,7 +58,7 @@ bool Names::read(const erp::JointState& message, std::vector<sim::JointReading>&
   readings.resize(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) readings[j] = sim::start_of(joints_[j]);
   return each(message,
-              [&](std::size_t j, const auto& sample) { return take(sample, readings[j]); });
+              [&](std::size_t j, const auto& sample) { return read_sample(sample, readings[j]); });
 }
 
 bool Names::read(const erp::JointTarget& message, std::vector<sim::JointMotion>& motions) const {
@@ -67,21 +68,21 @@ bool Names::read(const erp::JointTarget& message, std::vector<sim::JointMotion>&
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i)
       sum += std::abs(motions[j].acceleration_rad_per_s2[i] = sample.acceleration_rad_per_s2[i]);
-    return take(sample, motions[j].now) && std::isfinite(sum);
+    return read_sample(sample, motions[j].now) && std::isfinite(sum);
   });
 }
 
 bool Names::read(const erp::JointState& message, std::int64_t at_ns,
                  std::vector<sim::JointReading>& readings) const {
   if (!read(message, readings)) return false;
-  for (auto& reading : readings) bring(reading, at_ns - message.stamp_ns);
+  for (auto& reading : readings) extrapolate(reading, at_ns - message.stamp_ns);
   return true;
 }
 
 bool Names::read(const erp::JointTarget& message, std::int64_t at_ns,
                  std::vector<sim::JointMotion>& motions) const {
   if (!read(message, motions)) return false;
-  for (auto& motion : motions) bring(motion.now, at_ns - message.stamp_ns);
+  for (auto& motion : motions) extrapolate(motion.now, at_ns - message.stamp_ns);
   return true;
 }
 
@@ -127,13 +128,13 @@ double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::Join
   return most;
 }
 
-sim::CatchUp onto(std::span<const sim::JointReading> now, std::span<const sim::JointMotion> wanted,
-                  double rad_per_s) {
-  constexpr double least_s = 0.2;  // chosen: where they are there already, or to lose that speed
+sim::CatchUp catch_up(std::span<const sim::JointReading> now,
+                      std::span<const sim::JointMotion> desired, double rad_per_s) {
+  constexpr double least_s = 0.2;  // chosen: shortest transition; also limits the deceleration
   double top = 0;
   for (const auto& joint : now) top = std::max(top, sim::vec(joint.velocity_rad_per_s).norm());
-  const double way_s = sim::least_jerk_top_speed * apart_rad(now, wanted) / rad_per_s;
-  return {now, wanted, std::max({way_s, least_s * top / rad_per_s, least_s})};
+  const double way_s = sim::least_jerk_top_speed * apart_rad(now, desired) / rad_per_s;
+  return {now, desired, std::max({way_s, least_s * top / rad_per_s, least_s})};
 }
 
 }  // namespace joints

@@ -11,7 +11,7 @@
 #include "sim/model/skeleton/joint_path.hpp"
 #include "sim/model/skeleton/skeleton_model.hpp"
 
-/// The joints of a robot, in its order, as they cross the bus by name.
+/// Joints of a robot in its own order, from and to messages that identify them by name.
 namespace joints {
 
 class Names {
@@ -21,34 +21,34 @@ class Names {
   std::size_t size() const { return joints_.size(); }
   std::span<const erp::Joint> list() const { return joints_; }
 
-  /// False, and nothing of use: a joint that turns is not in the message, or is no number.
+  /// False, with undefined output, if a movable joint is missing from the message or is not finite.
   bool read(const erp::JointState& message, std::vector<sim::JointReading>& readings) const;
   bool read(const erp::JointTarget& message, std::vector<sim::JointMotion>& motions) const;
-  /// The same at `at_ns`: what was said of a moment before or after is brought there as it moves,
-  /// q ⊕ v dt. Beyond 50 ms it is left as it was: clocks of computers may differ.
+  /// The same, extrapolated to `at_ns` with the message's velocity, q ⊕ v dt. Not extrapolated
+  /// beyond 50 ms, because the clocks of computers may differ.
   bool read(const erp::JointState& message, std::int64_t at_ns,
             std::vector<sim::JointReading>& readings) const;
   bool read(const erp::JointTarget& message, std::int64_t at_ns,
             std::vector<sim::JointMotion>& motions) const;
   void write(std::span<const sim::JointMotion> motions, erp::JointTarget& message) const;
-  /// With variances by coordinate of the model. Joints that do not move are left out, and those that
-  /// are not `known`; empty: all are.
+  /// Writes a message with variances by coordinate of the model. Fixed joints are omitted, and
+  /// joints that are not `known`; if `known` is empty, all are.
   void write(std::span<const sim::JointReading> readings, const Eigen::VectorXd& variance_rad2,
              const sim::SkeletonModel& model, erp::JointState& message,
              const std::vector<bool>& known = {}) const;
 
  private:
   template <class Message, class Take>
-  bool each(const Message& message, Take take) const;
+  bool each(const Message& message, Take read_one) const;
   std::vector<erp::Joint> joints_;
 };
 
-/// How far apart two places of the joints are: the largest turn of any, rad.
+/// Distance of two joint positions: the largest rotation of any joint, in rad.
 double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointMotion> b);
 
-/// From where the joints are and as they move onto what is wanted of them, about as fast as that
-/// and in 0.2 s at least.
-sim::CatchUp onto(std::span<const sim::JointReading> now, std::span<const sim::JointMotion> wanted,
-                  double rad_per_s);
+/// Transition from the current joint motion to the desired motion, at about `rad_per_s` and in at
+/// least 0.2 s.
+sim::CatchUp catch_up(std::span<const sim::JointReading> now,
+                      std::span<const sim::JointMotion> desired, double rad_per_s);
 
 }  // namespace joints

@@ -3,7 +3,7 @@
 
 namespace logger {
 
-/// The IDL that a message of ours was made from, "" for others; by its name "erp/msg/SensorFrame".
+/// The IDL source of a message type such as "erp/msg/SensorFrame"; "" for types of other projects.
 std::string idl_text(const std::string& message);
 
 }  // namespace logger

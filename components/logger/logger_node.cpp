@@ -15,8 +15,7 @@
 namespace logger {
 namespace {
 
-// 40 s of the fastest topic, some seconds of it where lockstep hurries (chosen): the disk may stall,
-// the bus does not wait.
+// Queue length while the disk stalls; chosen: 40 s of the fastest topic, some seconds in lockstep.
 constexpr int depth = 20'000;
 constexpr std::int64_t take_ns = 2'000'000;
 constexpr std::int64_t discover_ns = 250'000'000;
@@ -39,20 +38,19 @@ std::vector<recording::Attachment> attachments(const std::string& files) {
   return all;
 }
 
-/// A recording that stands there already, of an earlier run or of a logger that was killed, is
-/// kept under the next free name: run.mcap becomes run.1.mcap.
+/// Renames an existing recording to the next free name: run.mcap becomes run.1.mcap.
 std::string keep_earlier(const std::string& file) {
   namespace fs = std::filesystem;
   const fs::path path(file);
   if (!fs::exists(path)) return file;
   if (!fs::is_regular_file(path))
-    throw std::invalid_argument("logger: " + file + " is no ordinary file; name another");
+    throw std::invalid_argument("logger: " + file + " is not a regular file; give another name");
   for (int k = 1;; ++k) {
     auto kept = path;
     kept.replace_extension("." + std::to_string(k) + path.extension().string());
     if (fs::exists(kept)) continue;
     fs::rename(path, kept);
-    spdlog::info("the recording that was there is now {}", kept.string());
+    spdlog::info("renamed the existing recording to {}", kept.string());
     return file;
   }
 }
@@ -82,7 +80,7 @@ LoggerNode::~LoggerNode() {
 
 template <class M>
 void LoggerNode::add_known() {
-  if constexpr (!std::same_as<M, erp::LifecycleCommand>)  // a word to one component: discovered
+  if constexpr (!std::same_as<M, erp::LifecycleCommand>)  // not recorded
     add(erp::Topic<M>::name, *erp::Topic<M>::type, nullptr);
 }
 
@@ -116,12 +114,12 @@ void LoggerNode::take_all() {
   for (auto& [name, topic] : topics_)
     topic.reader->take([&](const node::RawSample& sample) { write(topic, sample); });
   recorder_.tick(node::monotonic_ns());
-  if (const auto missing = recorder_.missing(); missing > missing_said_) {
-    if (!missing_said_)
+  if (const auto missing = recorder_.missing(); missing > missing_reported_) {
+    if (!missing_reported_)
       node_.report(
           erp::Severity::warning, "", "dropped",
-          std::to_string(missing) + " messages never came; erp log info counts them by topic");
-    missing_said_ = missing;
+          std::to_string(missing) + " messages are missing; erp log info counts them by topic");
+    missing_reported_ = missing;
   }
 }
 
@@ -133,7 +131,7 @@ void LoggerNode::write(Topic& topic, const node::RawSample& raw) {
   recording::Sample sample;
   sample.writer = {writer, static_cast<std::size_t>(end - writer)};
   sample.publish_time_ns = static_cast<std::uint64_t>(header.stamp_ns.value_or(raw.source_ns));
-  // Simulated time, such as `clock` carries, beside the wall's would tear the time line apart.
+  // In lockstep all log times are simulated, since wall time in the same file would break their order.
   if (node_.clock().lockstep())
     node_.clock().advance(std::max(node_.clock().now_ns(), raw.source_ns));
   sample.log_time_ns = static_cast<std::uint64_t>(node_.clock().now_ns());

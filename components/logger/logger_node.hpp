@@ -9,7 +9,7 @@
 #include "interfaces/recording/type_description.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// Records every topic of the bus to one MCAP file; of messages that name a robot, its own robot's.
+/// Records every topic of the bus to one MCAP file. Messages that name another robot are skipped.
 namespace logger {
 
 class LoggerNode {
@@ -31,7 +31,7 @@ class LoggerNode {
     std::size_t handle;
     recording::TypeDescription type;
     std::unique_ptr<node::RawReader> reader;
-    node::Descriptor descriptor;  ///< of a type met on the bus; null for our own
+    node::Descriptor descriptor;  ///< type discovered on the bus; null for known types
   };
   void add(const std::string& topic, const dds_topic_descriptor_t& type, node::Descriptor owner);
   template <class M>
@@ -46,8 +46,8 @@ class LoggerNode {
   recording::Recorder recorder_;
   node::Discovery discovery_;
   std::map<std::string, Topic> topics_;
-  std::map<std::string, int> refused_;  ///< topics whose type cannot be recorded: said once
-  std::uint64_t missing_said_ = 0;
+  std::map<std::string, int> refused_;  ///< topics whose type cannot be recorded; reported once
+  std::uint64_t missing_reported_ = 0;
   bool closed_ = false;
 };
 

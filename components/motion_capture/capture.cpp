@@ -21,22 +21,22 @@ std::optional<Captured> Capture::see(const sim::cameras::Image& left,
                                      const sim::cameras::Image& right, double dt_s) {
   const auto points = triangulate(cameras_[0], find_spots(left, options_.spots), cameras_[1],
                                   find_spots(right, options_.spots), options_.stereo);
-  expect(dt_s);
+  predict(dt_s);
   const std::vector<bool> known_before = lost_ ? std::vector<bool>{} : captured_.known;
   const bool followed = !lost_ && track(points);
   const bool whole = followed && all_known();
   const bool found = whole || search(points) || followed;
-  if (found) learn_speed(known_before, dt_s);
+  if (found) update_velocities(known_before, dt_s);
   lost_ = !found;
   if (!found) return std::nullopt;
   joints_ = captured_.joints;
   return captured_;
 }
 
-/// Where the joints are now if they go on as they did.
-void Capture::expect(double dt_s) {
-  expected_ = joints_;
-  for (JointReading& joint : expected_) {
+/// Predicts the joints with constant velocity.
+void Capture::predict(double dt_s) {
+  predicted_ = joints_;
+  for (JointReading& joint : predicted_) {
     std::array<double, 3> way = joint.velocity_rad_per_s;
     for (double& turn : way) turn *= dt_s;
     joint.position = sim::gone(joint.type, joint.position, way);
@@ -44,14 +44,15 @@ void Capture::expect(double dt_s) {
 }
 
 bool Capture::track(std::span<const StereoPoint> points) {
-  return accept(follow(fit_.markers(), fit_.poses(expected_), points, options_.gate_m), expected_);
+  return fit_joints(follow(fit_.markers(), fit_.poses(predicted_), points, options_.gate_m),
+                    predicted_);
 }
 
 bool Capture::all_known() const {
   return std::ranges::all_of(captured_.known, [](bool one) { return one; });
 }
 
-/// Body by body, by the distances between its markers.
+/// Finds each body by the distances between its markers.
 bool Capture::search(std::span<const StereoPoint> points) {
   constexpr double within_m = 0.004;  // chosen
   std::vector<std::optional<BodyPose>> found(fit_.tree().bodies.size());
@@ -61,22 +62,19 @@ bool Capture::search(std::span<const StereoPoint> points) {
       if (marker.body == b) own.push_back(marker.at_m);
     if (own.size() >= 3) found[b] = find_body(own, points, within_m);
   }
-  std::vector<JointReading> joints = expected_;
+  std::vector<JointReading> joints = predicted_;
   fit_.from_bodies(found, joints);
-  return accept(follow(fit_.markers(), fit_.poses(joints), points, options_.gate_m), joints);
+  return fit_joints(follow(fit_.markers(), fit_.poses(joints), points, options_.gate_m), joints);
 }
 
-bool Capture::accept(const Sightings& seen, std::vector<JointReading> joints) {
+bool Capture::fit_joints(const MarkerPoints& seen, std::vector<JointReading> joints) {
   const auto count = std::ranges::count_if(seen, [](const auto& one) { return one.has_value(); });
-  if (static_cast<std::size_t>(count) < options_.least) return false;
-  const double left_m = fit_.fit(seen, joints);
-  if (!(left_m < options_.lost_m)) return false;
-  captured_ = {std::move(joints),
-               {},
-               fit_.variance_rad2(),
-               bodies(seen),
-               static_cast<std::size_t>(count),
-               left_m};
+  if (static_cast<std::size_t>(count) < options_.min_markers) return false;
+  const double residual_m = fit_.fit(seen, joints);
+  if (!(residual_m < options_.lost_m)) return false;
+  captured_ = {
+      std::move(joints), {}, fit_.variance_rad2(), bodies(seen), static_cast<std::size_t>(count),
+      residual_m};
   for (std::size_t j = 0; j < captured_.joints.size(); ++j) {
     const int first = fit_.model().first_of(static_cast<int>(j));
     const int turns = first < 0 ? 0 : sim::coordinates_of(captured_.joints[j].type);
@@ -87,21 +85,21 @@ bool Capture::accept(const Sightings& seen, std::vector<JointReading> joints) {
   return true;
 }
 
-/// v ← v + g (q ⊖ q expected)/dt of joints that were followed; at rest where a joint has just been
-/// found or is not in view.
-void Capture::learn_speed(const std::vector<bool>& known_before, double dt_s) {
+/// v ← v + g (q ⊖ q predicted)/dt for tracked joints; 0 for joints that were just found or are
+/// unknown.
+void Capture::update_velocities(const std::vector<bool>& known_before, double dt_s) {
   for (std::size_t j = 0; j < captured_.joints.size(); ++j) {
     JointReading& joint = captured_.joints[j];
     joint.velocity_rad_per_s = {};
     if (known_before.empty() || !known_before[j] || !captured_.known[j] || !(dt_s > 0)) continue;
-    const auto off = sim::way_between(joint.type, expected_[j].position, joint.position);
+    const auto off = sim::way_between(joint.type, predicted_[j].position, joint.position);
     for (std::size_t d = 0; d < 3; ++d)
       joint.velocity_rad_per_s[d] =
-          expected_[j].velocity_rad_per_s[d] + options_.follow * off[d] / dt_s;
+          predicted_[j].velocity_rad_per_s[d] + options_.follow * off[d] / dt_s;
   }
 }
 
-std::vector<std::optional<BodyPose>> Capture::bodies(const Sightings& seen) const {
+std::vector<std::optional<BodyPose>> Capture::bodies(const MarkerPoints& seen) const {
   std::vector<std::optional<BodyPose>> poses(fit_.tree().bodies.size());
   for (std::size_t b = 0; b < poses.size(); ++b) {
     std::vector<Vec3> own, at;

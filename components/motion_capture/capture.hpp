@@ -6,32 +6,32 @@
 
 /// The paper's stereo infrared-marker system, from two images to joints (paper, 4.4):
 ///
-///   spots in each image  →  epipolar matching, triangulation  →  which point is which marker
-///   →  joints by least squares over all markers seen
+///   spots in each image  →  epipolar matching, triangulation  →  assignment of points to markers
+///   →  joints by least squares over all visible markers
 ///
-/// Which marker is which follows from where each is expected; at first, and where that tells too
-/// little, from the distances between a body's markers. Pure: no clock, no bus.
+/// Points are assigned to markers by the markers' predicted positions; at first, and if too few
+/// match, by the distances between a body's markers. Pure: no clock, no bus.
 namespace capture {
 
 struct CaptureOptions {
   SpotOptions spots;
   StereoOptions stereo;
   JointFit::Options fit;
-  double gate_m = 0.03;     ///< how far from where it is expected a marker is looked for
-  double lost_m = 0.003;    ///< what may be left of a good fit, RMS
-  std::size_t least = 3;    ///< markers in view below which it is lost
-  double known_rad = 0.05;  ///< σ above which the markers in view do not tell a joint; chosen
-  double follow = 0.3;      ///< share of a surprise that the velocities take up
+  double gate_m = 0.03;         ///< largest distance of a marker from its predicted position
+  double lost_m = 0.003;        ///< largest RMS residual of a valid fit
+  std::size_t min_markers = 3;  ///< smallest number of visible markers
+  double known_rad = 0.05;      ///< σ above which a joint counts as unknown; chosen
+  double follow = 0.3;          ///< gain g of the velocity update
 };
 
 struct Captured {
   std::vector<sim::JointReading> joints;
-  std::vector<bool> known;        ///< by joint; the others are only where they are expected
+  std::vector<bool> known;        ///< by joint; unknown joints keep their prediction
   Eigen::VectorXd variance_rad2;  ///< by coordinate
   std::vector<std::optional<sim::BodyPose>>
-      bodies;               ///< those of three markers seen, each by itself
-  std::size_t markers = 0;  ///< seen
-  double left_m = 0;        ///< RMS of the fit
+      bodies;               ///< poses of bodies with three or more visible markers
+  std::size_t markers = 0;  ///< number of visible markers
+  double residual_m = 0;    ///< RMS residual of the fit
 };
 
 class Capture {
@@ -39,25 +39,26 @@ class Capture {
   Capture(const sim::RobotTree& tree, std::vector<Marker> markers,
           std::array<sim::cameras::Camera, 2> cameras, const CaptureOptions& options);
 
-  /// Both images of one instant, `dt_s` after the ones before. Nothing: the robot is not found.
+  /// Processes both images of one instant, `dt_s` after the previous ones. nullopt: the robot was
+  /// not found.
   std::optional<Captured> see(const sim::cameras::Image& left, const sim::cameras::Image& right,
                               double dt_s);
   bool lost() const { return lost_; }
   JointFit& fit() { return fit_; }
 
  private:
-  void expect(double dt_s);
+  void predict(double dt_s);
   bool track(std::span<const StereoPoint> points);
   bool search(std::span<const StereoPoint> points);
   bool all_known() const;
-  bool accept(const Sightings& seen, std::vector<sim::JointReading> joints);
-  void learn_speed(const std::vector<bool>& known_before, double dt_s);
-  std::vector<std::optional<sim::BodyPose>> bodies(const Sightings& seen) const;
+  bool fit_joints(const MarkerPoints& seen, std::vector<sim::JointReading> joints);
+  void update_velocities(const std::vector<bool>& known_before, double dt_s);
+  std::vector<std::optional<sim::BodyPose>> bodies(const MarkerPoints& seen) const;
 
   std::array<sim::cameras::Camera, 2> cameras_;
   CaptureOptions options_;
   JointFit fit_;
-  std::vector<sim::JointReading> joints_, expected_;
+  std::vector<sim::JointReading> joints_, predicted_;
   Captured captured_;
   bool lost_ = true;
 };

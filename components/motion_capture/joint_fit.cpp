@@ -27,20 +27,20 @@ std::span<const BodyPose> JointFit::poses(std::span<const JointReading> joints) 
   return model_.poses();
 }
 
-double JointFit::fit(const Sightings& seen, std::vector<JointReading>& joints) {
+double JointFit::fit(const MarkerPoints& seen, std::vector<JointReading>& joints) {
   constexpr int steps = 8;
   constexpr double settled_m = 1e-8;
-  double left_m = step(seen, joints);
+  double residual_m = step(seen, joints);
   for (int k = 1; k < steps; ++k) {
     const double now_m = step(seen, joints);
-    const bool settled = std::abs(left_m - now_m) < settled_m;
-    left_m = now_m;
+    const bool settled = std::abs(residual_m - now_m) < settled_m;
+    residual_m = now_m;
     if (settled) break;
   }
-  return left_m;
+  return residual_m;
 }
 
-double JointFit::step(const Sightings& seen, std::vector<JointReading>& joints) {
+double JointFit::step(const MarkerPoints& seen, std::vector<JointReading>& joints) {
   model_.place(joints);
   const int n = model_.coordinates();
   const double weight = 1 / (options_.noise_m * options_.noise_m);

@@ -17,8 +17,8 @@ std::vector<Marker> markers_of(std::span<const MarkerConfig> configs, const sim:
   return markers;
 }
 
-Sightings follow(std::span<const Marker> markers, std::span<const BodyPose> expected,
-                 std::span<const StereoPoint> points, double gate_m) {
+MarkerPoints follow(std::span<const Marker> markers, std::span<const BodyPose> expected,
+                    std::span<const StereoPoint> points, double gate_m) {
   struct Pair {
     double apart_m;
     std::size_t marker, point;
@@ -32,8 +32,8 @@ Sightings follow(std::span<const Marker> markers, std::span<const BodyPose> expe
         pairs.push_back({apart_m, m, p});
   }
   std::ranges::sort(pairs, {}, &Pair::apart_m);
-  Sightings seen(markers.size());
-  std::set<std::size_t> left, right;  // spots that serve already
+  MarkerPoints seen(markers.size());
+  std::set<std::size_t> left, right;  // spots already assigned
   for (const Pair& pair : pairs) {
     const StereoPoint& point = points[pair.point];
     if (seen[pair.marker] || left.contains(point.left) || right.contains(point.right)) continue;
@@ -54,7 +54,7 @@ BodyPose rigid_pose(std::span<const Vec3> in_body_m, std::span<const Vec3> seen_
 
 namespace {
 
-/// A body's markers and the points they may be.
+/// Exhaustive search of a body's markers among the points.
 class Search {
  public:
   Search(std::span<const Vec3> in_body_m, std::span<const StereoPoint> points, double within_m)

@@ -8,7 +8,7 @@
 #include "sim/model/cameras/view.hpp"
 #include "sim/model/skeleton/robot_tree.hpp"
 
-/// Which point is which marker.
+/// Assignment of points to markers.
 namespace capture {
 
 using sim::cameras::MarkerConfig;
@@ -20,21 +20,21 @@ struct Marker {
 /// Throws std::invalid_argument for a body that the robot does not have.
 std::vector<Marker> markers_of(std::span<const MarkerConfig> configs, const sim::RobotTree& tree);
 
-/// Where markers were seen; nothing of those that were not.
-using Sightings = std::vector<std::optional<sim::Vec3>>;
+/// Measured positions by marker; nullopt for markers that are not visible.
+using MarkerPoints = std::vector<std::optional<sim::Vec3>>;
 
-/// Gives each marker the nearest point to where it is expected, nearest pairs first; a point, and a
-/// spot of an image, serves one marker alone. Beyond `gate_m` none.
-Sightings follow(std::span<const Marker> markers, std::span<const sim::BodyPose> expected,
-                 std::span<const StereoPoint> points, double gate_m);
+/// Assigns each marker the point nearest to its predicted position, nearest pairs first, within
+/// `gate_m`. Each point and each spot of an image is assigned to one marker only.
+MarkerPoints follow(std::span<const Marker> markers, std::span<const sim::BodyPose> expected,
+                    std::span<const StereoPoint> points, double gate_m);
 
-/// Finds a body of which nothing is known, by the distances between its markers: the pose under
-/// which most of them have a point within `within_m`; nothing if fewer than three have.
+/// Finds a body without prediction, by the distances between its markers: the pose with the most
+/// markers that have a point within `within_m`; nullopt if fewer than three have one.
 std::optional<sim::BodyPose> find_body(std::span<const sim::Vec3> in_body_m,
                                        std::span<const StereoPoint> points, double within_m);
 
-/// The pose that brings points of a body nearest to where they were seen (Umeyama 1991). Three or
-/// more, not in a row.
+/// The pose that fits points of a body to measured points by least squares (Umeyama 1991). At least
+/// three points, not collinear.
 sim::BodyPose rigid_pose(std::span<const sim::Vec3> in_body_m, std::span<const sim::Vec3> seen_m);
 
 }  // namespace capture

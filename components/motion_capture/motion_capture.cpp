@@ -9,8 +9,9 @@ namespace {
 
 std::array<sim::cameras::Camera, 2> cameras_of(const MotionCapture::Params& params) {
   if (params.view.cameras.size() != 2)
-    throw std::invalid_argument("motion capture needs two <camera>, left and right; there are " +
-                                std::to_string(params.view.cameras.size()));
+    throw std::invalid_argument(
+        "motion capture needs two <camera> elements, left and right; found " +
+        std::to_string(params.view.cameras.size()));
   return {sim::cameras::Camera(params.view.cameras[0]),
           sim::cameras::Camera(params.view.cameras[1])};
 }
@@ -30,23 +31,24 @@ MotionCapture::MotionCapture(const Params& params, const erp::Robot& robot, node
               see(pair, sequence, stamp_ns);
             }) {}
 
-void MotionCapture::see(const images::Film::Frame& pair, std::uint64_t sequence,
+void MotionCapture::see(const images::ImageSource::Frame& pair, std::uint64_t sequence,
                         std::int64_t stamp_ns) {
   const double dt_s =
       seen_ns_ ? 1e-9 * static_cast<double>(stamp_ns - *seen_ns_) : params_.film.period_s;
   seen_ns_ = stamp_ns;
   const auto found = capture_.see(pair[0], pair[1], dt_s);
-  tell_change();
+  report_change();
   if (found) publish(*found, sequence, stamp_ns);
 }
 
-void MotionCapture::tell_change() {
+void MotionCapture::report_change() {
   if (capture_.lost() == was_lost_) return;
   was_lost_ = capture_.lost();
-  node_.report(was_lost_ ? erp::Severity::warning : erp::Severity::info, "markers",
-               was_lost_ ? "lost" : "found",
-               was_lost_ ? "the robot's markers are not seen well enough: it says nothing"
-                         : "the robot's markers are followed");
+  node_.report(
+      was_lost_ ? erp::Severity::warning : erp::Severity::info, "markers",
+      was_lost_ ? "lost" : "found",
+      was_lost_ ? "too few of the robot's markers are visible; nothing is published until they are"
+                : "the robot's markers are tracked");
 }
 
 void MotionCapture::publish(const Captured& found, std::uint64_t sequence, std::int64_t stamp_ns) {

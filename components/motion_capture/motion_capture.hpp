@@ -1,15 +1,15 @@
 #pragma once
 #include <memory>
 
-#include "components/images/film.hpp"
+#include "components/images/image_source.hpp"
 #include "components/joints/joints.hpp"
 #include "components/motion_capture/capture.hpp"
 #include "components/node/run.hpp"
 
-/// Joints from two infrared cameras as a component: joint_state and body_pose of source
+/// Motion capture with two infrared cameras as a component: joint_state and body_pose of source
 /// "motion_capture".
 ///
-/// The images are painted or read from a folder: film.hpp.
+/// The images are rendered or read from a folder: image_source.hpp.
 namespace capture {
 
 class MotionCapture {
@@ -17,7 +17,7 @@ class MotionCapture {
   static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
-    images::FilmParams film;
+    images::ImageSourceParams film;
     CaptureOptions options;
     sim::cameras::ViewConfig view;  ///< cameras left and right; markers
     void visit(auto& v) {
@@ -30,12 +30,13 @@ class MotionCapture {
     }
   };
 
-  /// Throws std::invalid_argument: not two cameras, a marker or a bone on a body there is not.
+  /// Throws std::invalid_argument unless there are two cameras and the bodies of all markers and
+  /// bones exist.
   MotionCapture(const Params& params, const erp::Robot& robot, node::Node& node);
 
  private:
-  void see(const images::Film::Frame& pair, std::uint64_t sequence, std::int64_t stamp_ns);
-  void tell_change();
+  void see(const images::ImageSource::Frame& pair, std::uint64_t sequence, std::int64_t stamp_ns);
+  void report_change();
   void publish(const Captured& found, std::uint64_t sequence, std::int64_t stamp_ns);
 
   Params params_;
@@ -46,7 +47,7 @@ class MotionCapture {
   node::Publisher<erp::BodyPose>& bodies_out_;
   std::optional<std::int64_t> seen_ns_;
   bool was_lost_ = true;
-  images::Film film_;  ///< last: it uses the others
+  images::ImageSource film_;  ///< last, because it uses the other members
 };
 
 }  // namespace capture

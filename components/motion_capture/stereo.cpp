@@ -28,7 +28,7 @@ std::vector<StereoPoint> triangulate(const sim::cameras::Camera& left_camera,
   for (std::size_t k = 0; k < d.size(); ++k)
     for (std::size_t m = 0; m < e.size(); ++m) {
       const double cosine = d[k].dot(e[m]), sine_square = 1 - cosine * cosine;
-      if (sine_square < 1e-9) continue;  // parallel: they meet nowhere
+      if (sine_square < 1e-9) continue;  // parallel rays do not intersect
       const double on_d = d[k].dot(between), on_e = e[m].dot(between);
       const double s = (cosine * on_e - on_d) / sine_square,
                    t = (on_e - cosine * on_d) / sine_square;

@@ -3,12 +3,12 @@
 
 #include "components/images/spots.hpp"
 
-/// Two spots as one point: epipolar matching and triangulation.
+/// Epipolar matching and triangulation: points from pairs of spots.
 ///
-/// A spot of the left image is a ray a + s d, one of the right b + t e. The two belong together
-/// where the rays nearly meet, which is the epipolar constraint, told in metres:
+/// A spot of the left image defines a ray a + s d, one of the right image b + t e. The two match if
+/// the rays nearly intersect, which is the epipolar constraint in metres:
 ///
-///   min ‖a + s d − b − t e‖ ≤ gap;     the point lies in the middle between the nearest two
+///   min ‖a + s d − b − t e‖ ≤ gap;     the point is midway between the two closest points
 namespace capture {
 
 using images::Spot, images::SpotOptions, images::find_spots;
@@ -21,10 +21,10 @@ struct StereoOptions {
 struct StereoPoint {
   sim::Vec3 at_m;
   double gap_m;
-  std::size_t left, right;  ///< which spots
+  std::size_t left, right;  ///< indices of the spots
 };
 
-/// All pairs that may belong together: a spot may be in more than one.
+/// All matching pairs. A spot may be in more than one pair.
 std::vector<StereoPoint> triangulate(const sim::cameras::Camera& left_camera,
                                      std::span<const Spot> left,
                                      const sim::cameras::Camera& right_camera,

@@ -33,20 +33,21 @@ dds_domainid_t domain_id() {
   return static_cast<dds_domainid_t>(id);
 }
 
-/// The domain lives as long as the process: created once, with our configuration unless the
-/// person brings one, and protected if the person wants it so.
+/// Creates the domain once per process. The configuration is CYCLONEDDS_URI if set, else the
+/// loopback configuration; ERP_SECURITY adds the security configuration.
 void open_domain(dds_domainid_t id) {
-  const char* brought = std::getenv("CYCLONEDDS_URI");
+  const char* user_config = std::getenv("CYCLONEDDS_URI");
   const std::string security = security_config();
-  if (brought && security.empty()) return;
-  std::string config = brought ? brought : loopback;
-  // Of two that protect, Cyclone takes the first: what a person brings cannot undo ours.
+  if (user_config && security.empty()) return;
+  std::string config = user_config ? user_config : loopback;
+  // Cyclone uses the first security element, so the user's configuration cannot replace this one.
   if (!security.empty()) config = security + "," + config;
   static const Entity domain(dds_create_domain(id, config.c_str()), "open DDS domain");
 }
 
-/// DDS refuses to join when it cannot protect: a certificate or document that it does not accept.
-dds_entity_t protected_or_refused(dds_entity_t participant) {
+/// Throws when DDS did not create the participant because it rejects a certificate or document of
+/// the security folder.
+dds_entity_t check_security(dds_entity_t participant) {
   const std::string folder = security_folder();
   if (participant >= 0 || folder.empty()) return participant;
   throw std::invalid_argument("ERP_SECURITY=" + folder + ": DDS refuses it (" +
@@ -54,14 +55,15 @@ dds_entity_t protected_or_refused(dds_entity_t participant) {
                               "); write a new folder with erp security make");
 }
 
-/// A listener sees what was written before it was attached, and who deletes its reader sees what it
-/// has done. DDS's own locks say so too, but not to a thread sanitizer, which cannot look into DDS.
+/// These counters order memory for the thread sanitizer: writes before a listener is attached
+/// happen before its callback, and the callback happens before the deletion of its reader returns.
+/// DDS's own locks ensure this order too, but the sanitizer cannot observe them.
 std::atomic<unsigned> attached = 0, handled = 0;
 
-void on_data(dds_entity_t, void* with) {
+void on_data(dds_entity_t, void* data_callback) {
   attached.load(std::memory_order_acquire);
-  const auto& arrival = *static_cast<const Arrival*>(with);
-  arrival.act(arrival.with);
+  const auto& callback = *static_cast<const DataCallback*>(data_callback);
+  callback.function(callback.context);
   handled.fetch_add(1, std::memory_order_release);
 }
 
@@ -73,7 +75,7 @@ Entity::Entity(dds_entity_t id, const char* operation) : id_(id) {
 
 Entity::~Entity() {
   if (id_ <= 0) return;
-  dds_delete(id_);  // waits for listeners that run
+  dds_delete(id_);  // waits for running listeners
   handled.load(std::memory_order_acquire);
 }
 
@@ -87,7 +89,7 @@ Entity join(const Peer& self) {
   const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), dds_delete_qos);
   const std::string data = to_user_data(self);
   dds_qset_userdata(qos.get(), data.data(), data.size());
-  return {protected_or_refused(dds_create_participant(id, qos.get(), nullptr)), "join the bus"};
+  return {check_security(dds_create_participant(id, qos.get(), nullptr)), "join the bus"};
 }
 
 Qos::Qos(int depth) : qos(dds_create_qos()) {
@@ -106,16 +108,16 @@ Entity make_writer(const Entity& participant, const Entity& topic) {
   return {dds_create_writer(participant.id(), topic.id(), qos.qos, nullptr), "create writer"};
 }
 
-Arrival waking(Wake& wake) {
-  return {[](void* with) { static_cast<Wake*>(with)->raise(); }, &wake};
+DataCallback wake_callback(Wake& wake) {
+  return {[](void* context) { static_cast<Wake*>(context)->raise(); }, &wake};
 }
 
 namespace {
 
 Entity attach(const Entity& participant, dds_entity_t topic, const dds_qos_t* qos,
-              const Arrival& arrival) {
+              const DataCallback& callback) {
   const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
-      dds_create_listener(const_cast<Arrival*>(&arrival)), dds_delete_listener);
+      dds_create_listener(const_cast<DataCallback*>(&callback)), dds_delete_listener);
   dds_lset_data_available(listener.get(), on_data);
   attached.fetch_add(1, std::memory_order_release);
   return {dds_create_reader(participant.id(), topic, qos, listener.get()), "create reader"};
@@ -124,12 +126,13 @@ Entity attach(const Entity& participant, dds_entity_t topic, const dds_qos_t* qo
 }  // namespace
 
 Entity make_reader(const Entity& participant, const Entity& topic, int depth,
-                   const Arrival& arrival) {
-  return attach(participant, topic.id(), Qos(depth).qos, arrival);
+                   const DataCallback& callback) {
+  return attach(participant, topic.id(), Qos(depth).qos, callback);
 }
 
-Entity make_builtin_reader(const Entity& participant, dds_entity_t topic, const Arrival& arrival) {
-  return attach(participant, topic, nullptr, arrival);
+Entity make_builtin_reader(const Entity& participant, dds_entity_t topic,
+                           const DataCallback& callback) {
+  return attach(participant, topic, nullptr, callback);
 }
 
 }  // namespace node

@@ -11,7 +11,7 @@
 #include "components/node/wake.hpp"
 #include "interfaces/topics.hpp"
 
-/// The only DDS plumbing of the house: owned entities, typed writers and readers.
+/// Wrapper of Cyclone DDS: owned entities, typed writers and readers.
 namespace node {
 
 /// Owns one Cyclone DDS entity. Throws std::runtime_error with the operation's name when DDS
@@ -29,16 +29,16 @@ class Entity {
   dds_entity_t id_ = 0;
 };
 
-/// Joins the bus, saying who we are in the participant's user data, which others can read.
+/// Creates a participant whose user data contains `self`; other participants can read it.
 /// Without CYCLONEDDS_URI the bus is this machine's loopback; ERP_DOMAIN (0…230) separates graphs.
 Entity join(const Peer& self);
-/// As a tool, of no robot.
+/// Joins as a tool that belongs to no robot.
 Entity join(const std::string& name);
 
-/// The Cyclone DDS configuration of that bus, for other tools that want to be on it.
+/// The Cyclone DDS configuration of the loopback bus, for other tools that join it.
 const char* loopback_config();
 
-/// Reliable, volatile, keep the last `depth` samples a key. Every topic of ours uses it.
+/// QoS of every topic: reliable, volatile, keep the last `depth` samples per key.
 struct Qos {
   explicit Qos(int depth = 1);
   ~Qos();
@@ -48,18 +48,19 @@ struct Qos {
 Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type, const char* name);
 Entity make_writer(const Entity& participant, const Entity& topic);
 
-/// What happens, on DDS's thread, when samples are there.
-struct Arrival {
-  void (*act)(void* with);
-  void* with;
+/// Function that DDS's thread calls when samples are available.
+struct DataCallback {
+  void (*function)(void* context);
+  void* context;
 };
-/// Only raises the wake: the loop takes the samples.
-Arrival waking(Wake& wake);
-/// The listener is attached at creation so that no sample is missed; `arrival` must outlive it.
+/// A callback that only raises `wake`; the main loop then takes the samples.
+DataCallback wake_callback(Wake& wake);
+/// The listener is attached at creation, so no sample is missed. `callback` must outlive the reader.
 Entity make_reader(const Entity& participant, const Entity& topic, int depth,
-                   const Arrival& arrival);
-/// The same for one of DDS's own topics, which tell who is on the bus.
-Entity make_builtin_reader(const Entity& participant, dds_entity_t topic, const Arrival& arrival);
+                   const DataCallback& callback);
+/// The same for one of DDS's built-in topics.
+Entity make_builtin_reader(const Entity& participant, dds_entity_t topic,
+                           const DataCallback& callback);
 
 /// Publishes messages of one type.
 template <class M>
@@ -69,12 +70,13 @@ class Writer {
       : topic_(make_topic(participant, *erp::Topic<M>::type, erp::Topic<M>::name)),
         writer_(make_writer(participant, topic_)) {}
 
-  /// Numbers and sends the message. Throws std::runtime_error when DDS refuses it.
+  /// Assigns the next sequence number and sends the message. Throws std::runtime_error when DDS
+  /// refuses it.
   void write(M& message) {
     message.sequence = sequence_++;
     send(message);
   }
-  /// Sends the message with the number it carries; its stamp is the DDS source timestamp too.
+  /// Sends the message with its own sequence number; its stamp is also the DDS source timestamp.
   void send(const M& message) {
     const dds_return_t rc = dds_write_ts(
         writer_.id(), static_cast<const typename M::Wire*>(&message), message.stamp_ns);
@@ -92,20 +94,21 @@ class Writer {
   std::uint64_t sequence_ = 0;
 };
 
-/// Takes messages of one type; counts the numbers that never came.
+/// Takes messages of one type; counts missing sequence numbers.
 template <class M>
 class Reader {
  public:
   Reader(const Entity& participant, Wake& wake, int depth = 1)
-      : Reader(participant, waking(wake), depth) {}
-  Reader(const Entity& participant, const Arrival& arrival, int depth = 1)
-      : arrival_(arrival),
+      : Reader(participant, wake_callback(wake), depth) {}
+  Reader(const Entity& participant, const DataCallback& callback, int depth = 1)
+      : callback_(callback),
         topic_(make_topic(participant, *erp::Topic<M>::type, erp::Topic<M>::name)),
-        reader_(make_reader(participant, topic_, depth, arrival_)) {}
+        reader_(make_reader(participant, topic_, depth, callback_)) {}
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// Hands every waiting sample to `use`, oldest first; touches no heap of ours.
+  /// Passes every available sample to `use`, oldest first, without heap allocation. True if there
+  /// was one.
   template <class Use>
   bool take(Use&& use) {
     bool any = false;
@@ -113,7 +116,7 @@ class Reader {
     dds_sample_info_t info;
     while (dds_take(reader_.id(), &sample, &info, 1, 1) == 1) {
       if (!info.valid_data) continue;
-      message_.lend();
+      message_.attach_storage();
       count_gap(info.publication_handle, message_.sequence);
       any = true;
       use(std::as_const(message_));
@@ -137,11 +140,11 @@ class Reader {
     last_.emplace_back(writer, sequence);
   }
 
-  Arrival arrival_;
+  DataCallback callback_;
   M message_{};
   std::vector<std::pair<dds_instance_handle_t, std::uint64_t>> last_;
   std::uint64_t missed_ = 0;
-  Entity topic_, reader_;  // last: samples may arrive as soon as they exist
+  Entity topic_, reader_;  // last: samples may arrive as soon as the reader exists
 };
 
 }  // namespace node

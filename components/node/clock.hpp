@@ -3,18 +3,18 @@
 
 #include "interfaces/graph/graph.hpp"
 
-/// Time, for the whole house: no other folder reads a clock.
+/// The clocks. No other folder reads a clock.
 namespace node {
 
 std::int64_t wall_ns();       ///< since 1970; stamps
 std::int64_t monotonic_ns();  ///< never steps back; deadlines and ages
 
-/// How long a partner is waited for in lockstep that is alive but silent. Chosen: more than a busy
-/// machine ever keeps one waiting, because giving up makes a run unrepeatable.
+/// Timeout of the wait for a partner that is alive but silent in lockstep. Chosen: longer than any
+/// delay of a busy machine, because a timeout makes the run unrepeatable.
 inline constexpr std::int64_t lockstep_patience_ns = 5'000'000'000;
 
-/// What "now" means in a component. In lockstep it is the stamp of the frame being answered, so
-/// that ages are counted in simulated time and a repeated run is identical.
+/// The current time of a component. In lockstep it is the stamp of the current frame, so ages are
+/// counted in simulated time and a repeated run is identical.
 class Clock {
  public:
   explicit Clock(erp::Time time) : time_(time) {}

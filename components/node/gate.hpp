@@ -5,22 +5,22 @@
 
 #include "components/node/wake.hpp"
 
-/// Lets handlers run on DDS's own thread, where a message arrives, one at a time with the loop's
-/// timers: a hop then costs one wake-up instead of two.
+/// Mutual exclusion between handlers, which run on DDS's thread when a message arrives, and the
+/// timers of the main loop. One hop then costs one wake-up instead of two.
 namespace node {
 
 class Gate {
  public:
   explicit Gate(Wake& wake) : wake_(wake) {}
 
-  /// Until then, and after closing, an arrival only wakes the loop.
+  /// Before `open` and after `close`, an arriving message only wakes the main loop.
   void open() { open_ = true; }
-  /// Waits for a handler that runs now; none begins afterwards.
+  /// Waits for a running handler; no handler starts afterwards.
   void close() {
     const std::lock_guard lock(mutex_);
     open_ = false;
   }
-  /// From DDS's thread. What `handle` throws is kept for the loop.
+  /// Calls `handle` on DDS's thread. Stores its exception for `rethrow` in the main loop.
   template <class Handle>
   void enter(Handle&& handle) {
     if (!open_) return wake_.raise();
@@ -34,7 +34,7 @@ class Gate {
       wake_.raise();
     }
   }
-  /// From the loop, held while it runs timers and descriptors.
+  /// The main loop holds this lock while it runs timers and descriptor handlers.
   std::unique_lock<std::recursive_mutex> lock() { return std::unique_lock(mutex_); }
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
@@ -42,7 +42,7 @@ class Gate {
 
  private:
   Wake& wake_;
-  std::recursive_mutex mutex_;  ///< a handler may publish what its own process reads
+  std::recursive_mutex mutex_;  ///< recursive: a handler may publish to a reader of its own process
   std::atomic<bool> open_ = false;
   std::exception_ptr error_;
 };

@@ -3,7 +3,8 @@
 #include <bit>
 #include <cstdint>
 
-/// Times in powers of two: bin k counts 2^k … 2^(k+1) µs, bin 0 everything below 2 µs.
+/// Histogram of durations in powers of two: bin k counts 2^k … 2^(k+1) µs, bin 0 counts all below
+/// 2 µs.
 namespace node {
 
 class Histogram {
@@ -22,15 +23,15 @@ class Histogram {
   std::array<std::uint32_t, bins> counts_{};
 };
 
-/// Upper edge in µs of the bin below which a fraction `q` of the counts lies; 0 when empty.
+/// Upper edge, in µs, of the first bin up to which a fraction `q` of the counts lies; 0 when empty.
 template <class Bins>
 double quantile_us(const Bins& counts, double q) {
-  double total = 0, seen = 0;
+  double total = 0, cumulative = 0;
   for (const auto n : counts) total += n;
   double edge = 2;
   for (const auto n : counts) {
-    seen += n;
-    if (total > 0 && seen >= q * total) return edge;
+    cumulative += n;
+    if (total > 0 && cumulative >= q * total) return edge;
     edge *= 2;
   }
   return 0;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t heartbeat_ns = 100'000'000;
 
-/// SIGINT and SIGTERM become readable on a descriptor, and sleepers wake within a microsecond of a
-/// deadline, not fifty. Must run before DDS starts its threads, which inherit both.
+/// Makes SIGINT and SIGTERM readable on a descriptor and reduces the timer slack from 50 µs to 1 µs.
+/// Must run before DDS starts its threads, which inherit both settings.
 int prepare_process() {
   prctl(PR_SET_TIMERSLACK, 1000);
   sigset_t set;
@@ -40,43 +40,46 @@ spdlog::level::level_enum level_of(erp::Severity severity) {
 
 }  // namespace
 
-Node::Node(Options options, std::string robot_name, Urgency urgency)
+Node::Node(Options options, std::string robot_name, Scheduling scheduling)
     : options_(std::move(options)),
-      urgency_(urgency),
+      scheduling_(scheduling),
       identity_{std::move(robot_name), options_.name, options_.priority},
       clock_(options_.time),
       signals_(prepare_process()),
       self_(own_peer(options_.name, identity_.robot)),
-      participant_(join_in_time()),
+      participant_(join_with_priority()),
       peers_(participant_, wake_, self_),
       polled_{{wake_.descriptor(), POLLIN, 0}, {signals_, POLLIN, 0}} {
   if (!options_.managed) start_due_ns_ = monotonic_ns() + discovery_ns();
   state_out_ = &advertise<erp::ComponentState>();
   event_out_ = &advertise<erp::Event>();
   lifecycle_in_ = &subscribe<erp::LifecycleCommand>(
-      [this](const erp::LifecycleCommand& command) { obey(command); }, 4, Where::in_loop);
+      [this](const erp::LifecycleCommand& command) { on_lifecycle_command(command); }, 4,
+      Where::in_loop);
   state_.pid = getpid();
 }
 
-/// DDS's threads take over the priority of who starts them.
-Entity Node::join_in_time() {
-  const RealTime urgent(in_real_time());
+/// DDS's threads inherit the priority of the thread that starts them.
+Entity Node::join_with_priority() {
+  const RealTimePriority priority(uses_real_time());
   return join(self_);
 }
 
-bool Node::in_real_time() const { return urgency_ == Urgency::real_time && !clock_.lockstep(); }
+bool Node::uses_real_time() const {
+  return scheduling_ == Scheduling::real_time && !clock_.lockstep();
+}
 
 Node::~Node() {
   gate_.close();
   close(signals_);
 }
 
-void Node::every(std::int64_t period_ns, std::function<void()> act, std::int64_t make_up_ns) {
-  periodics_.push_back({{period_ns, make_up_ns, monotonic_ns()}, std::move(act)});
+void Node::every(std::int64_t period_ns, std::function<void()> callback, std::int64_t catch_up_ns) {
+  periodics_.push_back({{period_ns, catch_up_ns, monotonic_ns()}, std::move(callback)});
 }
 
-void Node::watch(int descriptor, std::function<void()> act) {
-  watches_.push_back({descriptor, std::move(act)});
+void Node::watch(int descriptor, std::function<void()> callback) {
+  watches_.push_back({descriptor, std::move(callback)});
   polled_.push_back({descriptor, POLLIN, 0});
 }
 
@@ -90,7 +93,7 @@ void Node::enter(erp::Lifecycle lifecycle) {
   heartbeat();
 }
 
-void Node::obey(const erp::LifecycleCommand& command) {
+void Node::on_lifecycle_command(const erp::LifecycleCommand& command) {
   if (identity_.component != command.component) return;
   const auto target = static_cast<erp::Lifecycle>(command.target);
   if (target == erp::Lifecycle::finalized) return finish();
@@ -99,18 +102,18 @@ void Node::obey(const erp::LifecycleCommand& command) {
 }
 
 void Node::activate() {
-  look_around();
+  discover();
   if (finished_) return;
   const auto now_ns = monotonic_ns();
   for (auto& periodic : periodics_) periodic.timer.restart(now_ns);
-  for (const auto& port : ports_) port->poll(false);  // what came while inactive is old
+  for (const auto& port : ports_) port->poll(false);  // drops messages that arrived while inactive
   set_lifecycle(erp::Lifecycle::active);
-  for (auto& act : activate_) act();
-  heartbeat();  // who waits for it finds it at work
+  for (auto& callback : activate_) callback();
+  heartbeat();  // reports "active" only after all activation callbacks
 }
 
 void Node::deactivate() {
-  for (auto& act : deactivate_) act();
+  for (auto& callback : deactivate_) callback();
   enter(erp::Lifecycle::inactive);
 }
 
@@ -131,27 +134,27 @@ void Node::show(const std::string& name, double value) {
     known->value = value;
     return;
   }
-  erp::ComponentValue shown{};
-  erp::assign(shown.name, name);
-  shown.value = value;
-  erp::append(state_.values, shown);
+  erp::ComponentValue added{};
+  erp::assign(added.name, name);
+  added.value = value;
+  erp::append(state_.values, added);
 }
 
 void Node::report(erp::Severity severity, const std::string& subject, const std::string& code,
                   const std::string& text) {
-  const auto kept_back = damper_.admit(subject + ' ' + code, clock_.now_ns());
-  if (!kept_back) return;
-  const std::string said =
-      *kept_back ? text + " (" + std::to_string(*kept_back) + " more of these went unsaid)" : text;
-  spdlog::log(level_of(severity), "{}{}{}: {}", subject, subject.empty() ? "" : " ", code, said);
+  const auto suppressed = throttle_.admit(subject + ' ' + code, clock_.now_ns());
+  if (!suppressed) return;
+  const std::string message =
+      *suppressed ? text + " (" + std::to_string(*suppressed) + " repeats suppressed)" : text;
+  spdlog::log(level_of(severity), "{}{}{}: {}", subject, subject.empty() ? "" : " ", code, message);
   erp::Event event;
   event.stamp_ns = clock_.now_ns();
   event.severity = static_cast<std::uint8_t>(severity);
   erp::assign_shortened(event.subject, subject);
   erp::assign_shortened(event.code, code);
-  erp::assign_shortened(event.text, said);
+  erp::assign_shortened(event.text, message);
   event_out_->publish(event);
-  erp::assign_shortened(state_.note, said);
+  erp::assign_shortened(state_.note, message);
 }
 
 void Node::finish(int exit_code) {
@@ -161,19 +164,19 @@ void Node::finish(int exit_code) {
   wake_.raise();
 }
 
-void Node::look_around() {
-  peers_.look();
+void Node::discover() {
+  peers_.discover();
   state_.peers = peers_.count();
-  if (const auto& predecessor = peers_.predecessor(); predecessor && !finished_)
-    leave_to(*predecessor);
+  if (const auto& earlier = peers_.earlier_duplicate(); earlier && !finished_)
+    finish_as_duplicate_of(*earlier);
 }
 
-void Node::leave_to(const Peer& predecessor) {
-  // Not on the bus: there it would be read as a word of the predecessor's.
+void Node::finish_as_duplicate_of(const Peer& earlier) {
+  // Not published as an event: it would carry the name of the earlier process.
   spdlog::error(
-      "pid {} on {} is already \"{}\" of robot \"{}\"; end it, take another --name, or "
-      "set ERP_DOMAIN to a number of your own",
-      predecessor.pid, predecessor.host, identity_.component, identity_.robot);
+      "pid {} on {} already runs as \"{}\" of robot \"{}\"; end it, choose another --name, or "
+      "set ERP_DOMAIN to an unused number",
+      earlier.pid, earlier.host, identity_.component, identity_.robot);
   finish(2);
 }
 
@@ -183,7 +186,7 @@ void Node::heartbeat() {
   state_.stamp_ns = clock_.now_ns();
   state_.links = 0, state_.missed = 0;
   for (const auto& port : ports_) state_.links += port->matched(), state_.missed += port->missed();
-  look_around();
+  discover();
   if (heartbeat_last_ns_ && now_ns - heartbeat_last_ns_ > heartbeat_ns / 2) {
     state_.rate_Hz = 1e9 * static_cast<double>(state_.steps - steps_at_heartbeat_) /
                      static_cast<double>(now_ns - heartbeat_last_ns_);
@@ -204,7 +207,7 @@ void Node::run_timers() {
   for (auto& periodic : periodics_) {
     if (now_ns < periodic.timer.next_ns()) continue;
     state_.overruns += static_cast<std::uint64_t>(periodic.timer.take(now_ns));
-    periodic.act();
+    periodic.callback();
   }
 }
 
@@ -212,10 +215,10 @@ void Node::wait() {
   std::int64_t due_ns = std::min(heartbeat_due_ns_, start_due_ns_.value_or(heartbeat_due_ns_));
   if (active())
     for (const auto& periodic : periodics_) due_ns = std::min(due_ns, periodic.timer.next_ns());
-  const auto left_ns = std::max<std::int64_t>(0, due_ns - monotonic_ns());
-  const timespec timeout{left_ns / 1'000'000'000, left_ns % 1'000'000'000};
+  const auto remaining_ns = std::max<std::int64_t>(0, due_ns - monotonic_ns());
+  const timespec timeout{remaining_ns / 1'000'000'000, remaining_ns % 1'000'000'000};
   const auto n = active() ? polled_.size() : polled_.size() - watches_.size();
-  for (auto& one : polled_) one.revents = 0;
+  for (auto& entry : polled_) entry.revents = 0;
   ppoll(polled_.data(), n, &timeout, nullptr);
   if (polled_[0].revents) wake_.clear();
   if (polled_[1].revents) finish();
@@ -226,7 +229,7 @@ void Node::serve() {
   gate_.rethrow();
   if (finished_) return;
   for (std::size_t i = 0; i < watches_.size(); ++i)
-    if (polled_[i + 2].revents && active()) watches_[i].act();
+    if (polled_[i + 2].revents && active()) watches_[i].callback();
   lifecycle_in_->poll(true);
   for (const auto& port : ports_)
     if (port.get() != lifecycle_in_ && port->where() == Where::in_loop) port->poll(active());
@@ -234,7 +237,7 @@ void Node::serve() {
 }
 
 int Node::spin() try {
-  const RealTime urgent(in_real_time());
+  const RealTimePriority priority(uses_real_time());
   enter(erp::Lifecycle::inactive);
   gate_.open();
   while (!finished_) {
@@ -243,7 +246,7 @@ int Node::spin() try {
   }
   gate_.close();
   if (active())
-    for (auto& act : deactivate_) act();
+    for (auto& callback : deactivate_) callback();
   enter(erp::Lifecycle::finalized);
   return exit_code_;
 } catch (const std::exception& error) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "components/node/clock.hpp"
-#include "components/node/damper.hpp"
 #include "components/node/histogram.hpp"
+#include "components/node/log_throttle.hpp"
 #include "components/node/options.hpp"
 #include "components/node/peers.hpp"
 #include "components/node/port.hpp"
@@ -18,22 +18,24 @@
 #include "components/node/timer.hpp"
 #include "interfaces/values.hpp"
 
-/// One process on the bus: its ports, its life, its heartbeat.
+/// One process on the bus: its ports, its lifecycle, its heartbeat.
 ///
 ///   unconfigured --constructor--> inactive --activate--> active --finish--> finalized
 ///                                            <-deactivate-        any --throw--> error
 ///
-/// One at a time: handlers run on DDS's thread where their message arrives (or in the loop, if they
-/// ask for it), timers, descriptors and activation inside `spin`; a gate keeps them apart. A
-/// handler must be short: while it runs, nothing else of this process is heard.
+/// Message handlers run on DDS's thread when their message arrives, or in the main loop if
+/// registered with Where::in_loop. Timers, descriptor handlers and activation run inside `spin`. A
+/// gate ensures that only one of them runs at a time. A handler must be short: while it runs, this
+/// process receives nothing else.
 namespace node {
 
 class Node {
  public:
-  /// Whether a robot waits for it: it then runs at real-time priority where it may (real_time.hpp).
-  enum class Urgency { usual, real_time };
+  /// `real_time`: runs at real-time priority if permitted (real_time.hpp), for components in the
+  /// control loop.
+  enum class Scheduling { normal, real_time };
 
-  Node(Options options, std::string robot_name, Urgency urgency = Urgency::real_time);
+  Node(Options options, std::string robot_name, Scheduling scheduling = Scheduling::real_time);
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -48,68 +50,69 @@ class Node {
   Publisher<M>& advertise() {
     return own(std::make_unique<Publisher<M>>(participant_, identity_));
   }
-  /// Handlers are called only while active.
+  /// `handler` is called only while the node is active.
   template <class M>
-  Subscription<M>& subscribe(std::function<void(const M&)> use, int depth = 1,
+  Subscription<M>& subscribe(std::function<void(const M&)> handler, int depth = 1,
                              Where where = Where::on_arrival) {
     return own(std::make_unique<Subscription<M>>(participant_, wake_, gate_, active_, where, depth,
-                                                 identity_, std::move(use)));
+                                                 identity_, std::move(handler)));
   }
-  /// Calls `act` each period of real time while active; late calls as in Timer, those left out
-  /// count as overruns.
-  void every(std::int64_t period_ns, std::function<void()> act, std::int64_t make_up_ns = 0);
-  /// Calls `act` while active whenever the descriptor has something to read.
-  void watch(int descriptor, std::function<void()> act);
-  void on_activate(std::function<void()> act) { activate_.push_back(std::move(act)); }
-  void on_deactivate(std::function<void()> act) { deactivate_.push_back(std::move(act)); }
+  /// Calls `callback` each period of real time while active. Timer defines the handling of late
+  /// calls; skipped calls count as overruns.
+  void every(std::int64_t period_ns, std::function<void()> callback, std::int64_t catch_up_ns = 0);
+  /// Calls `callback` while active whenever the descriptor is readable.
+  void watch(int descriptor, std::function<void()> callback);
+  void on_activate(std::function<void()> callback) { activate_.push_back(std::move(callback)); }
+  void on_deactivate(std::function<void()> callback) { deactivate_.push_back(std::move(callback)); }
 
-  /// Counts one step answering a message stamped `stamp_ns`: rate, age, jitter.
+  /// Counts one step for a message stamped `stamp_ns`; updates rate, age and jitter.
   void count_step(std::int64_t stamp_ns);
-  /// A figure of this component's own, in every heartbeat from now on. Throws std::length_error
-  /// beyond 128 names, or for one longer than 32 characters.
+  /// Adds a named value to every heartbeat from now on. Throws std::length_error beyond 128 names,
+  /// or for a name longer than 32 characters.
   void show(const std::string& name, double value);
-  /// Says a thing once, to the log and on the `event` topic.
+  /// Writes a report to the log and publishes it on the `event` topic; LogThrottle limits repeats.
   void report(erp::Severity severity, const std::string& subject, const std::string& code,
               const std::string& text);
-  /// Ends `spin` after the current handler; no other handler begins.
+  /// Ends `spin` after the current handler; no other handler starts.
   void finish(int exit_code = 0);
-  /// Runs until finished, SIGINT or SIGTERM. Returns the process's exit code: 0; 1 when a handler
-  /// threw; 2 when a namesake was on the bus before us, because two of one part would both drive.
+  /// Runs until `finish`, SIGINT or SIGTERM. Returns the exit code of the process: 0; 1 when a
+  /// handler threw; 2 when a process with the same component name and robot joined the bus earlier,
+  /// because both would send commands.
   int spin();
 
  private:
   struct Periodic {
     Timer timer;
-    std::function<void()> act;
+    std::function<void()> callback;
   };
   struct Watch {
     int descriptor;
-    std::function<void()> act;
+    std::function<void()> callback;
   };
 
   template <class P>
   P& own(std::unique_ptr<P> port) {
-    P& lent = *port;
+    P& reference = *port;
     ports_.push_back(std::move(port));
-    return lent;
+    return reference;
   }
-  Entity join_in_time();
-  bool in_real_time() const;
+  Entity join_with_priority();
+  bool uses_real_time() const;
   void set_lifecycle(erp::Lifecycle lifecycle);
-  /// Sets it and tells everyone.
+  /// Sets the state and publishes it.
   void enter(erp::Lifecycle lifecycle);
-  void obey(const erp::LifecycleCommand& command);
+  void on_lifecycle_command(const erp::LifecycleCommand& command);
   void activate();
   void deactivate();
   void run_timers();
   void wait();
   void serve();
   void heartbeat();
-  void look_around();
-  void leave_to(const Peer& predecessor);
+  void discover();
+  void finish_as_duplicate_of(const Peer& earlier);
 
   Options options_;
-  Urgency urgency_;
+  Scheduling scheduling_;
   Identity identity_;
   Clock clock_;
   int signals_;  // before the participant, whose threads inherit the mask
@@ -121,17 +124,17 @@ class Node {
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Periodic> periodics_;
   std::vector<Watch> watches_;
-  std::vector<pollfd> polled_;  ///< wake, signals, then one a watch
+  std::vector<pollfd> polled_;  ///< wake, signals, then one per watch
   std::vector<std::function<void()>> activate_, deactivate_;
   Publisher<erp::ComponentState>* state_out_;
   Publisher<erp::Event>* event_out_;
   Subscription<erp::LifecycleCommand>* lifecycle_in_;
   erp::Lifecycle lifecycle_ = erp::Lifecycle::unconfigured;
   bool active_ = false;
-  std::optional<std::int64_t> start_due_ns_;  ///< unmanaged: when to become active by itself
+  std::optional<std::int64_t> start_due_ns_;  ///< unmanaged: time of activation
   erp::ComponentState state_;
   Histogram age_, jitter_;
-  Damper damper_;
+  LogThrottle throttle_;
   std::uint64_t steps_at_heartbeat_ = 0;
   std::int64_t heartbeat_due_ns_ = 0, heartbeat_last_ns_ = 0;
   std::int64_t last_step_ns_ = 0, last_interval_ns_ = 0;

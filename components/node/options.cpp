@@ -10,12 +10,13 @@ Options parse_options(int argc, char** argv, const std::string& parameters, int&
   Options options;
   options.type = std::filesystem::path(argv[0]).filename().string();
   std::vector<std::string> settings;
-  CLI::App app(options.type + ": a component of a robot's graph", options.type);
+  CLI::App app(options.type + ": a component of a robot graph", options.type);
   app.footer(parameters.empty() ? "" : "Parameters, for --config and --set:\n" + parameters);
-  app.add_option("--name", options.name, "its name in the graph (default: the program's)");
-  app.add_option("--robot", options.robot, "robot.xml of the robot it works for; needed");
-  app.add_option("--config", options.config, "XML with its parameters");
-  app.add_option("--set", settings, "key=value, overrides one parameter")->allow_extra_args(false);
+  app.add_option("--name", options.name,
+                 "component name in the graph (default: the program's name)");
+  app.add_option("--robot", options.robot, "robot.xml of the robot; required");
+  app.add_option("--config", options.config, "XML file with the parameters");
+  app.add_option("--set", settings, "key=value; overrides one parameter")->allow_extra_args(false);
   const std::map<std::string, erp::Time> times{{"realtime", erp::Time::realtime},
                                                {"lockstep", erp::Time::lockstep},
                                                {"wall", erp::Time::wall}};
@@ -23,11 +24,11 @@ Options parse_options(int argc, char** argv, const std::string& parameters, int&
       ->transform(CLI::CheckedTransformer(times).description(""))
       ->type_name("TIME")
       ->default_str("realtime");
-  app.add_flag("--managed", options.managed, "wait for the launcher before becoming active");
-  app.add_option("--duration", options.duration_s, "devices: end after so many seconds")
+  app.add_flag("--managed", options.managed, "stay inactive until the launcher activates it");
+  app.add_option("--duration", options.duration_s, "devices: end after this time, in s (0: never)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--priority", options.priority, "controllers: the higher number drives");
-  app.add_flag("--check", options.check, "only check --config and --set, then exit");
+  app.add_option("--priority", options.priority, "controllers: the highest number takes control");
+  app.add_flag("--check", options.check, "check --config and --set, then exit");
   exit_code = -1;
   try {
     app.parse(argc, argv);

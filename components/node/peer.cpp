@@ -16,7 +16,7 @@ std::string own_host() {
   return gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
 
-/// A process that has ended but was not waited for is gone too: state Z of proc(5) stat.
+/// False also for a zombie process: state Z of proc(5) stat.
 bool runs(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;

@@ -8,37 +8,38 @@
 
 namespace node {
 
-/// Within this time all who are on the machine are found: measured, and longer where they have to
-/// prove who they are.
+/// Time within which all participants on the machine are discovered; measured. Longer with DDS
+/// Security, which authenticates them first.
 std::int64_t discovery_ns();
 
-/// The other participants on the bus. Where it is protected, only those that have proved who they
-/// are: anybody can say that he is the plant, and was here first.
+/// The other participants on the bus. With DDS Security, only authenticated participants: any
+/// process can announce itself as the plant with an earlier joining time.
 class Peers {
  public:
   Peers(const Entity& participant, Wake& wake, Peer own);
 
-  /// How many there are now, ourselves not counted.
+  /// Number of participants at the last `discover`, without this one.
   std::uint32_t count() const { return count_; }
-  /// One that was here before us under our name and robot. Two of them would both drive.
-  const std::optional<Peer>& predecessor() const { return predecessor_; }
-  /// Those of them that say who they are, and whose process may be alive.
+  /// A peer with our component name and robot that joined before us. Both would send commands.
+  const std::optional<Peer>& earlier_duplicate() const { return earlier_duplicate_; }
+  /// The peers in other processes that may be alive.
   const std::vector<Peer>& known() const { return known_; }
-  void look();
+  /// Reads the current participants from DDS.
+  void discover();
 
  private:
-  void hear_who_is_proved();
-  bool is_proved(const dds_guid_t& participant) const;
+  void update_authenticated();
+  bool is_authenticated(const dds_guid_t& participant) const;
 
   Peer own_;
-  Arrival arrival_;
+  DataCallback callback_;
   dds_guid_t own_key_{};
   Entity reader_;
-  std::vector<Entity> endpoints_;  ///< readers of DDS's topics of them; none on an open bus
-  std::vector<dds_guid_t> proved_;
+  std::vector<Entity> endpoints_;  ///< readers of DDS's endpoint topics; empty without security
+  std::vector<dds_guid_t> authenticated_;
   std::uint32_t count_ = 0;
   std::vector<Peer> known_;
-  std::optional<Peer> predecessor_;
+  std::optional<Peer> earlier_duplicate_;
 };
 
 }  // namespace node

@@ -6,16 +6,16 @@
 #include "components/node/bus.hpp"
 #include "components/node/gate.hpp"
 
-/// The typed ends of a component: what a Node owns and polls.
+/// Typed publishers and subscriptions, which a Node owns and polls.
 namespace node {
 
 /// Where a subscription's handler runs.
 enum class Where {
-  on_arrival,  ///< on DDS's thread, at once: for control
-  in_loop      ///< in the component's loop: for what may take its time
+  on_arrival,  ///< on DDS's thread, immediately: for control
+  in_loop      ///< in the component's main loop: for slow handlers
 };
 
-/// One reader or writer, seen without its type.
+/// Type-erased interface of one reader or writer.
 class Port {
  public:
   virtual ~Port() = default;
@@ -25,13 +25,13 @@ class Port {
   virtual std::uint64_t missed() const { return 0; }
 };
 
-/// Who speaks: filled into every message.
+/// The sender's identity, written into every message.
 struct Identity {
   std::string robot, component;
   int priority = 0;
 };
 
-/// Publishes messages of one type in a component's name.
+/// Publishes messages of one type with the component's identity.
 template <class M>
 class Publisher final : public Port {
  public:
@@ -39,18 +39,18 @@ class Publisher final : public Port {
       : writer_(participant), identity_(identity) {}
 
   void publish(M& message) {
-    sign(message);
+    set_identity(message);
     writer_.write(message);
   }
-  /// Keeps the sequence number the message carries.
+  /// Keeps the sequence number of the message.
   void publish_numbered(M& message) {
-    sign(message);
+    set_identity(message);
     writer_.send(message);
   }
   std::uint32_t matched() const override { return writer_.matched(); }
 
  private:
-  void sign(M& message) const {
+  void set_identity(M& message) const {
     erp::assign(message.robot, identity_.robot);
     if constexpr (requires { message.controller; })
       erp::assign(message.controller, identity_.component);
@@ -67,24 +67,26 @@ class Publisher final : public Port {
   const Identity& identity_;
 };
 
-/// Hands arriving messages of this robot to a function, one at a time.
+/// Passes arriving messages of this robot to a handler, one at a time.
 template <class M>
 class Subscription final : public Port {
  public:
   Subscription(const Entity& participant, Wake& wake, Gate& gate, const bool& deliver, Where where,
-               int depth, const Identity& identity, std::function<void(const M&)> use)
+               int depth, const Identity& identity, std::function<void(const M&)> handler)
       : identity_(identity),
-        use_(std::move(use)),
+        handler_(std::move(handler)),
         gate_(gate),
         deliver_(deliver),
         where_(where),
-        reader_(participant, where == Where::in_loop ? waking(wake) : Arrival{arrived, this},
+        reader_(participant,
+                where == Where::in_loop ? wake_callback(wake) : DataCallback{on_data, this},
                 depth) {}
 
-  /// In the gate: hands over what waits, or drops it while the component is not active.
+  /// Called with the gate locked. Passes available messages to the handler, or drops them if
+  /// `deliver` is false.
   void poll(bool deliver) override {
     reader_.take([&](const M& message) {
-      if (deliver && identity_.robot == message.robot) use_(message);
+      if (deliver && identity_.robot == message.robot) handler_(message);
     });
   }
   Where where() const override { return where_; }
@@ -92,17 +94,17 @@ class Subscription final : public Port {
   std::uint64_t missed() const override { return reader_.missed(); }
 
  private:
-  static void arrived(void* with) {
-    auto& self = *static_cast<Subscription*>(with);
+  static void on_data(void* subscription) {
+    auto& self = *static_cast<Subscription*>(subscription);
     self.gate_.enter([&self] { self.poll(self.deliver_); });
   }
 
   const Identity& identity_;
-  std::function<void(const M&)> use_;
+  std::function<void(const M&)> handler_;
   Gate& gate_;
   const bool& deliver_;
   Where where_;
-  Reader<M> reader_;  // last: messages may arrive as soon as it exists
+  Reader<M> reader_;  // last: messages may arrive as soon as the reader exists
 };
 
 }  // namespace node

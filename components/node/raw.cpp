@@ -11,9 +11,9 @@
 namespace node {
 namespace {
 
-constexpr dds_duration_t type_patience = DDS_MSECS(200);
+constexpr dds_duration_t type_timeout = DDS_MSECS(200);
 
-/// The descriptor of one of our own messages, null for any other type. Cyclone 0.10 could not
+/// The descriptor of a message of this project, null for any other type. Cyclone 0.10 cannot
 /// rebuild these from their type information: their key is a bounded string ("Unsupported").
 template <class... M>
 const dds_topic_descriptor_t* own_type(const std::string& name, std::tuple<M...>*) {
@@ -26,10 +26,10 @@ const dds_topic_descriptor_t* own_type(const std::string& name, std::tuple<M...>
 
 Discovery::Discovery(const Entity& participant, Wake& wake)
     : participant_(participant),
-      arrival_(waking(wake)),
-      participants_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, arrival_)),
-      writers_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, arrival_)),
-      readers_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, arrival_)) {}
+      callback_(wake_callback(wake)),
+      participants_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, callback_)),
+      writers_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, callback_)),
+      readers_(make_builtin_reader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, callback_)) {}
 
 std::string Discovery::participant_name(const dds_guid_t& key) {
   std::string name;
@@ -64,7 +64,7 @@ Descriptor Discovery::type_of(const std::string& topic) {
         return;
       dds_topic_descriptor_t* descriptor = nullptr;
       if (dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant_.id(), type_info,
-                                      type_patience, &descriptor) == DDS_RETCODE_OK)
+                                      type_timeout, &descriptor) == DDS_RETCODE_OK)
         found = Descriptor(descriptor, [](const dds_topic_descriptor_t* d) {
           dds_delete_topic_descriptor(const_cast<dds_topic_descriptor_t*>(d));
         });
@@ -74,9 +74,9 @@ Descriptor Discovery::type_of(const std::string& topic) {
 
 RawReader::RawReader(const Entity& participant, Wake& wake, const dds_topic_descriptor_t& type,
                      const std::string& topic, int depth)
-    : arrival_(std::make_unique<Arrival>(waking(wake))),
+    : callback_(std::make_unique<DataCallback>(wake_callback(wake))),
       topic_(make_topic(participant, type, topic.c_str())),
-      reader_(make_reader(participant, topic_, depth, *arrival_)) {}
+      reader_(make_reader(participant, topic_, depth, *callback_)) {}
 
 std::optional<RawSample> RawReader::next() {
   ddsi_serdata* data = nullptr;

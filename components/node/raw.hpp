@@ -9,14 +9,13 @@
 
 #include "components/node/bus.hpp"
 
-/// Topics whose type is only known once they are met: who writes and reads what, and the samples
-/// as they travelled.
+/// Topics whose type is known only at run time: their writers and readers, and serialized samples.
 namespace node {
 
 /// One writer or reader on the bus.
 struct Endpoint {
   std::string topic, type;
-  std::string component;  ///< the name its participant joined with
+  std::string component;  ///< component name of its participant
   bool writer = false;
   dds_instance_handle_t handle = 0;
 };
@@ -24,14 +23,14 @@ struct Endpoint {
 /// A topic type found on the bus; freed with the last copy.
 using Descriptor = std::shared_ptr<const dds_topic_descriptor_t>;
 
-/// Looks at the bus through DDS's own topics. No daemon.
+/// Lists the endpoints on the bus from DDS's built-in topics. Needs no daemon.
 class Discovery {
  public:
   Discovery(const Entity& participant, Wake& wake);
 
-  /// Every writer and reader that is alive now, also our own process's.
+  /// Every writer and reader that is alive now, including those of this process.
   std::vector<Endpoint> endpoints();
-  /// The type of a topic that somebody in another process writes or reads; null while unknown.
+  /// The type of a topic that another process writes or reads; null while unknown.
   Descriptor type_of(const std::string& topic);
 
  private:
@@ -40,11 +39,11 @@ class Discovery {
   void for_each_endpoint(Use&& use);
 
   const Entity& participant_;
-  Arrival arrival_;
+  DataCallback callback_;
   Entity participants_, writers_, readers_;
 };
 
-/// One sample as it travelled: 4 bytes of encapsulation, then CDR.
+/// One serialized sample: 4 bytes of encapsulation, then CDR.
 struct RawSample {
   std::span<const std::byte> cdr;
   std::int64_t source_ns = 0;  ///< the message's stamp
@@ -64,13 +63,13 @@ class RawReader {
     return any;
   }
   std::uint32_t matched() const;
-  /// Messages DDS itself says it dropped for want of room.
+  /// Messages that DDS reports as lost because its queue was full.
   std::uint64_t lost() const;
 
  private:
   std::optional<RawSample> next();
 
-  std::unique_ptr<Arrival> arrival_;  // stays where it is when the reader is moved
+  std::unique_ptr<DataCallback> callback_;  // its address stays valid when the reader is moved
   std::vector<std::byte> bytes_;
   Entity topic_, reader_;
 };

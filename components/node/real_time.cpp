@@ -5,20 +5,20 @@
 namespace node {
 namespace {
 
-// Chosen: behind ECUs that are processes (hal/ecu), each with a processor to itself.
-constexpr sched_param urgent{.sched_priority = 5};
+// Chosen: lower than ECUs that are processes (hal/ecu), each with a processor to itself.
+constexpr sched_param real_time{.sched_priority = 5};
 
 }  // namespace
 
-RealTime::RealTime(bool wanted) {
+RealTimePriority::RealTimePriority(bool enable) {
   pthread_getschedparam(pthread_self(), &policy_before_, &before_);
-  on_ = wanted && pthread_setschedparam(pthread_self(), SCHED_FIFO, &urgent) == 0;
+  on_ = enable && pthread_setschedparam(pthread_self(), SCHED_FIFO, &real_time) == 0;
 }
 
-RealTime::~RealTime() {
+RealTimePriority::~RealTimePriority() {
   if (on_) pthread_setschedparam(pthread_self(), policy_before_, &before_);
 }
 
-bool may_run_in_real_time() { return RealTime(true).on(); }
+bool may_run_in_real_time() { return RealTimePriority(true).on(); }
 
 }  // namespace node

@@ -1,17 +1,17 @@
 #pragma once
 #include <sched.h>
 
-/// Real-time priority (SCHED_FIFO) of the thread that makes this, and of those that it starts, for as
-/// long as this lives: what a robot waits for runs before whatever else the machine does. Nothing
-/// where it is not wanted, or not permitted.
+/// Real-time priority (SCHED_FIFO) of the current thread, and of threads that it starts, during the
+/// lifetime of this object. The control loop then preempts other programs. Has no effect if not
+/// enabled or not permitted.
 namespace node {
 
-class RealTime {
+class RealTimePriority {
  public:
-  explicit RealTime(bool wanted);
-  ~RealTime();
-  RealTime(const RealTime&) = delete;
-  RealTime& operator=(const RealTime&) = delete;
+  explicit RealTimePriority(bool enable);
+  ~RealTimePriority();
+  RealTimePriority(const RealTimePriority&) = delete;
+  RealTimePriority& operator=(const RealTimePriority&) = delete;
   bool on() const { return on_; }
 
  private:
@@ -20,7 +20,7 @@ class RealTime {
   sched_param before_{};
 };
 
-/// Whether this process may: of root, or `ulimit -r` of 5 or more.
+/// Whether this process is permitted to use it: as root, or with `ulimit -r` of 5 or more.
 bool may_run_in_real_time();
 
 }  // namespace node

@@ -9,29 +9,30 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
 
-/// A component's whole main:  int main(int argc, char** argv) { return
-/// node::run<MyController>(argc, argv); }
+/// The whole main of a component:
+///   int main(int argc, char** argv) { return node::run<MyController>(argc, argv); }
 ///
 /// A component is a class with `Params`, a constructor (Params) or (Params, const erp::Robot&) and
 ///   Out step(const In& in, double dt_s, const node::Latest<More>&… more)
-/// It is stepped once for each In; Out is a message or std::optional of one. In lockstep the step
-/// waits for the `More` that answer the same frame, so a repeated run is identical. Of messages that
-/// several may send, `bool wants(const More&) const` says which count; a class whose joint_state
-/// comes by itself, not once a frame, says so by a member `comes_by_itself`.
-/// Components run at real-time priority where they may; a class that no robot waits for says so by a
-/// member `in_background`.
-/// A constructor (Params, const erp::Robot&, node::Node&) may have more to say than its step returns;
-/// a class that has it and no `step` makes its own ports.
+/// `step` is called once for each In. Out is a message or std::optional of one. In lockstep the call
+/// waits for the `More` messages that answer the same frame, so a repeated run is identical.
+/// Optional members:
+///   bool accepts(const More&) const   selects messages when several components publish them
+///   asynchronous_joint_state          joint_state does not arrive once per frame; do not wait for it
+///   in_background                     run at normal priority: the component is not in the control
+///                                     loop. All others use real-time priority if permitted.
+/// A constructor (Params, const erp::Robot&, node::Node&) gives access to the node, for additional
+/// ports. A class with this constructor and without `step` makes all of its ports itself.
 namespace node {
 
-/// The newest message of a topic that a component reads beside the one that steps it.
+/// The newest message of an additional input topic.
 template <class M>
 struct Latest {
   M message;
   bool received = false;
-  double age_s = 0.0;  ///< since it arrived
+  double age_s = 0.0;  ///< time since arrival
   std::int64_t arrived_ns = 0;
-  std::int64_t period_ns = 0;  ///< between the instants of the last two; 0: there was one
+  std::int64_t period_ns = 0;  ///< difference of the last two stamps; 0 if fewer arrived
   explicit operator bool() const { return received; }
   const M* operator->() const { return &message; }
 };
@@ -55,7 +56,8 @@ class Stepper {
 
   Stepper(Node& node, T& component, Step step)
       : node_(node), component_(component), step_(step), out_(node.advertise<OutMessage>()) {
-    more_ports_ = std::make_tuple(&node.subscribe<More>([this](const More& m) { hear(m); }, 1)...);
+    more_ports_ =
+        std::make_tuple(&node.subscribe<More>([this](const More& m) { on_message(m); }, 1)...);
     node.subscribe<In>([this](const In& in) {
       pending_ = in, waiting_ = true, since_ns_ = monotonic_ns(), try_step();
     });
@@ -65,9 +67,9 @@ class Stepper {
 
  private:
   template <class M>
-  void hear(const M& message) {
-    if constexpr (requires { component_.wants(message); })
-      if (!component_.wants(message)) return;
+  void on_message(const M& message) {
+    if constexpr (requires { component_.accepts(message); })
+      if (!component_.accepts(message)) return;
     auto& latest = std::get<Latest<M>>(more_);
     if (latest.received) latest.period_ns = message.stamp_ns - latest.message.stamp_ns;
     latest.message = message;
@@ -76,29 +78,31 @@ class Stepper {
     try_step();
   }
 
-  /// In lockstep: every other input that somebody writes must be of the frame at hand.
+  /// In lockstep: whether the input M belongs to the current frame or has no publisher.
   template <class M>
-  bool answered() const {
+  bool is_current() const {
     const auto& latest = std::get<Latest<M>>(more_);
-    const auto waits = [&](bool it_came) {
+    const auto must_wait = [&](bool belongs_to_frame) {
       return std::get<Subscription<M>*>(more_ports_)->matched() > 0 &&
-             !(latest.received && it_came);
+             !(latest.received && belongs_to_frame);
     };
-    constexpr bool by_itself = requires { T::comes_by_itself; };
-    if constexpr (requires(M m) { m.answers; }) return !waits(latest->answers >= pending_.sequence);
-    // By its instant: over a gateway frames are numbered otherwise than the simulator's joints.
-    if constexpr (std::same_as<M, erp::JointState> && !by_itself)
-      return !waits(latest->stamp_ns >= pending_.stamp_ns);
-    // Images come evenly, not with each frame: the next is due a period after the last.
+    constexpr bool asynchronous = requires { T::asynchronous_joint_state; };
+    if constexpr (requires(M m) { m.answers; })
+      return !must_wait(latest->answers >= pending_.sequence);
+    // Compares stamps: behind a gateway, frames and the simulator's joint states have different
+    // sequence numbers.
+    if constexpr (std::same_as<M, erp::JointState> && !asynchronous)
+      return !must_wait(latest->stamp_ns >= pending_.stamp_ns);
+    // Images are periodic but not one per frame: the next is due one period after the last.
     if constexpr (std::same_as<M, erp::ImagePoint>)
       return latest.period_ns == 0 ||
-             !waits(latest->stamp_ns + latest.period_ns > pending_.stamp_ns);
+             !must_wait(latest->stamp_ns + latest.period_ns > pending_.stamp_ns);
     return true;
   }
 
   void try_step() {
     if (!waiting_) return;
-    if (node_.clock().lockstep() && !(answered<More>() && ...) &&
+    if (node_.clock().lockstep() && !(is_current<More>() && ...) &&
         monotonic_ns() - since_ns_ < lockstep_patience_ns)
       return;
     waiting_ = false;
@@ -119,17 +123,17 @@ class Stepper {
     } else if (out) {
       send(*out);
     } else if (node_.clock().lockstep()) {
-      OutMessage nothing;  // an empty answer: the others need not wait
-      send(nothing);
+      OutMessage empty;  // an empty answer: the other components do not have to wait
+      send(empty);
     }
   }
   void send(OutMessage& message) {
-    constexpr bool of_the_frame =
+    constexpr bool uses_frame_stamp =
         std::same_as<OutMessage, erp::JointState> || std::same_as<OutMessage, erp::JointTarget>;
-    message.stamp_ns = of_the_frame ? pending_.stamp_ns : node_.clock().now_ns();
+    message.stamp_ns = uses_frame_stamp ? pending_.stamp_ns : node_.clock().now_ns();
     if constexpr (requires { message.answers; }) message.answers = pending_.sequence;
     if constexpr (std::same_as<OutMessage, erp::JointState>) {
-      message.sequence = pending_.sequence;  // of the frame it is about
+      message.sequence = pending_.sequence;  // of the frame that it describes
       out_.publish_numbered(message);
     } else {
       out_.publish(message);
@@ -162,7 +166,7 @@ Params read_params(const Options& options) {
   return params;
 }
 
-/// A component may know more mistakes than its Params do: static void check(const Params&).
+/// A component may define further checks of its parameters: static void check(const Params&).
 template <class T>
 void check(const Options& options) {
   const auto params = read_params<typename T::Params>(options);
@@ -173,8 +177,9 @@ template <class T>
 int run_component(const Options& options) {
   const auto params = read_params<typename T::Params>(options);
   const erp::Robot robot = erp::read_robot(options.robot);
-  constexpr bool waited_for = !requires { T::in_background; };
-  Node node(options, robot.name, waited_for ? Node::Urgency::real_time : Node::Urgency::usual);
+  constexpr bool in_control_loop = !requires { T::in_background; };
+  Node node(options, robot.name,
+            in_control_loop ? Node::Scheduling::real_time : Node::Scheduling::normal);
   T component = [&] {
     if constexpr (std::constructible_from<T, typename T::Params, const erp::Robot&, Node&>)
       return T(params, robot, node);
@@ -192,7 +197,7 @@ int run_component(const Options& options) {
 
 }  // namespace detail
 
-/// Exit codes: 0 ended cleanly, 1 failed, 2 bad usage or input.
+/// Exit codes: 0 success, 1 failure, 2 invalid usage or input.
 template <class T>
 int run(int argc, char** argv) {
   int exit_code = -1;
@@ -201,7 +206,7 @@ int run(int argc, char** argv) {
   try {
     if (options.check) return detail::check<T>(options), 0;
     if (options.robot.empty())
-      throw std::invalid_argument("--robot is missing: name the robot.xml it works for");
+      throw std::invalid_argument("--robot is missing: give the robot.xml of the robot");
     return detail::run_component<T>(options);
   } catch (const xml::Errors& error) {
     std::cerr << error.what() << '\n';

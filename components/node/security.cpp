@@ -22,39 +22,40 @@ using Certificate = std::unique_ptr<X509, decltype(&X509_free)>;
 using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
 
-constexpr auto anew = "write a new folder with erp security make, for all of this robot's machines";
+constexpr auto remake =
+    "write a new folder with erp security make, for all of this robot's machines";
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& what,
                          const std::string& remedy) {
   throw std::invalid_argument(place.string() + ": " + what + "; " + remedy);
 }
 
-void check_there(const fs::path& folder) {
+void check_files(const fs::path& folder) {
   if (!fs::is_directory(folder))
     refuse("ERP_SECURITY=" + folder.string(), "no such folder",
            "erp security make " + folder.string() + " writes one");
   for (const auto* name : {Files::authority, Files::identity, Files::identity_key,
                            Files::governance, Files::permissions}) {
     const fs::path file = folder / name;
-    if (!fs::exists(file)) refuse(file, "is missing", anew);
+    if (!fs::exists(file)) refuse(file, "is missing", remake);
     if (!std::ifstream(file)) refuse(file, "cannot be read", "run as its owner");
   }
 }
 
-/// Who can read a key is whom it names.
-void check_secret(const fs::path& key) {
+/// Anyone who can read a key can impersonate its owner.
+void check_key_permissions(const fs::path& key) {
   struct stat found {};
   if (stat(key.c_str(), &found) != 0 || !(found.st_mode & 077)) return;
   std::ostringstream mode;
-  mode << "may be used by others, mode 0" << std::oct << (found.st_mode & 0777);
+  mode << "is accessible to other users, mode 0" << std::oct << (found.st_mode & 0777);
   refuse(key, mode.str(), "chmod 600 " + key.string());
 }
 
 Certificate certificate_of(const fs::path& file) {
   const Bio text(BIO_new_file(file.c_str(), "r"), BIO_free);
-  Certificate read(PEM_read_bio_X509(text.get(), nullptr, nullptr, nullptr), X509_free);
-  if (!read) refuse(file, "holds no certificate", anew);
-  return read;
+  Certificate certificate(PEM_read_bio_X509(text.get(), nullptr, nullptr, nullptr), X509_free);
+  if (!certificate) refuse(file, "contains no certificate", remake);
+  return certificate;
 }
 
 std::string text_of(const ASN1_TIME* time) {
@@ -65,37 +66,38 @@ std::string text_of(const ASN1_TIME* time) {
   return {text, static_cast<std::size_t>(size)};
 }
 
-void check_in_time(const fs::path& file, const X509* certificate) {
+void check_validity_period(const fs::path& file, const X509* certificate) {
   const ASN1_TIME *from = X509_get0_notBefore(certificate),
                   *until = X509_get0_notAfter(certificate);
-  if (X509_cmp_current_time(until) <= 0) refuse(file, "expired on " + text_of(until), anew);
+  if (X509_cmp_current_time(until) <= 0) refuse(file, "expired on " + text_of(until), remake);
   if (X509_cmp_current_time(from) > 0)
-    refuse(file, "is not valid before " + text_of(from), "set this machine's clock");
+    refuse(file, "is not valid before " + text_of(from), "set the clock of this machine");
 }
 
 void check_certificates(const fs::path& folder) {
   const auto authority = certificate_of(folder / Files::authority);
   const auto identity = certificate_of(folder / Files::identity);
-  check_in_time(folder / Files::authority, authority.get());
-  check_in_time(folder / Files::identity, identity.get());
+  check_validity_period(folder / Files::authority, authority.get());
+  check_validity_period(folder / Files::identity, identity.get());
   if (X509_verify(identity.get(), X509_get0_pubkey(authority.get())) != 1)
-    refuse(folder / Files::identity, "is not of the authority beside it", anew);
+    refuse(folder / Files::identity, "was not issued by the authority in this folder", remake);
   const fs::path key_file = folder / Files::identity_key;
   const Bio text(BIO_new_file(key_file.c_str(), "r"), BIO_free);
   const Key key(PEM_read_bio_PrivateKey(text.get(), nullptr, nullptr, nullptr), EVP_PKEY_free);
   if (!key || X509_check_private_key(identity.get(), key.get()) != 1)
-    refuse(key_file, "is not the key of " + std::string(Files::identity), anew);
+    refuse(key_file, "is not the key of " + std::string(Files::identity), remake);
 }
 
-/// Cyclone's plugins lie beside its library, or, in Debian, in a folder beside it.
+/// Cyclone's plugins are in the folder of its library or, on Debian, in a subfolder of it.
 std::string plugin(const std::string& name) {
   Dl_info library{};
   dladdr(reinterpret_cast<const void*>(&dds_create_domain), &library);
-  const fs::path beside = fs::path(library.dli_fname ? library.dli_fname : "").parent_path();
+  const fs::path folder_of_library =
+      fs::path(library.dli_fname ? library.dli_fname : "").parent_path();
   const std::string file = "libdds_security_" + name + ".so";
-  for (const auto& folder : {beside / "libddsc0debian", beside})
+  for (const auto& folder : {folder_of_library / "libddsc0debian", folder_of_library})
     if (fs::exists(folder / file)) return folder / file;
-  refuse(beside / file, "Cyclone DDS's security plugin is missing",
+  refuse(folder_of_library / file, "Cyclone DDS's security plugin is missing",
          "install Debian's libddsc0debian");
 }
 
@@ -127,8 +129,9 @@ std::string security_folder() {
 std::string security_config() {
   const fs::path folder = security_folder();
   if (folder.empty()) return "";
-  check_there(folder);
-  for (const auto* key : {Files::identity_key, Files::authority_key}) check_secret(folder / key);
+  check_files(folder);
+  for (const auto* key : {Files::identity_key, Files::authority_key})
+    check_key_permissions(folder / key);
   check_certificates(folder);
   const auto file = [&](const std::string& element, const char* name) {
     return "<" + element + ">file:" + escaped(folder / name) + "</" + element + ">";

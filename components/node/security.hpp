@@ -1,32 +1,33 @@
 #pragma once
 #include <string>
 
-/// Who may be on the bus. With ERP_SECURITY=FOLDER only processes that hold a certificate of the
-/// robot's own authority are heard, and what they say is encrypted; `erp security make FOLDER`
+/// DDS Security. With ERP_SECURITY=FOLDER only processes with a certificate of the robot's own
+/// authority can exchange messages, and all messages are encrypted. `erp security make FOLDER`
 /// writes the folder.
 namespace node {
 
-/// What such a folder holds.
+/// The files of a security folder.
 struct SecurityFiles {
-  static constexpr const char* authority = "authority.pem";      ///< of identities and permissions
+  static constexpr const char* authority = "authority.pem";  ///< CA of identities and permissions
   static constexpr const char* authority_key = "authority.key";  ///< not needed to run
   static constexpr const char* identity = "identity.pem";
   static constexpr const char* identity_key = "identity.key";
-  static constexpr const char* governance = "governance.p7s";    ///< what is protected, and how
-  static constexpr const char* permissions = "permissions.p7s";  ///< who may say and hear what
+  static constexpr const char* governance = "governance.p7s";  ///< which data is protected, and how
+  static constexpr const char* permissions =
+      "permissions.p7s";  ///< who may publish and subscribe to what
 };
 
-/// The folder that ERP_SECURITY names, absolute; "" when it is not set.
-/// Throws std::invalid_argument when it is set, but to nothing.
+/// The absolute path of the folder in ERP_SECURITY; "" when the variable is not set.
+/// Throws std::invalid_argument when it is set to an empty string.
 std::string security_folder();
 
 /// Cyclone's configuration for that folder; "" without one. Throws std::invalid_argument with
-/// place, value and remedy for what is missing, out of date, of another authority, or open to
-/// others: who asks for protection never runs without it.
+/// place, value and remedy if a file is missing, expired, of another authority, or a key is
+/// accessible to other users. A process with ERP_SECURITY set never runs without protection.
 std::string security_config();
 
-/// When its identity expires, in words; "" without one. DDS then ends all that the process says
-/// and hears, also in mid-run.
+/// Expiry date of the identity certificate, as text; "" without a folder. At that time DDS ends all
+/// communication of the process, also during a run.
 std::string security_expires();
 
 }  // namespace node

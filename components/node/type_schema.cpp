@@ -61,7 +61,7 @@ std::optional<Kind> primitive(std::uint8_t kind) {
   }
 }
 
-/// Enums travel in 1, 2 or 4 bytes, bitmasks in 1, 2, 4 or 8.
+/// Enums are serialized in 1, 2 or 4 bytes, bitmasks in 1, 2, 4 or 8.
 Kind unsigned_of(unsigned bits) {
   return bits <= 8    ? Kind::uint8
          : bits <= 16 ? Kind::uint16
@@ -73,12 +73,12 @@ class Describer {
  public:
   explicit Describer(const dds_topic_descriptor_t& type) : name_(type.m_typename) {
     if (!type.type_mapping.data || !type.type_mapping.sz)
-      throw std::invalid_argument(name_ +
-                                  ": carries no type information; compile its IDL without -t");
+      throw std::invalid_argument(
+          name_ + ": the descriptor has no type information; compile its IDL without -t");
     const auto mapping = blob(type.type_mapping), information = blob(type.type_information);
     map_.reset(ddsi_typemap_deser(&mapping));
     info_.reset(ddsi_typeinfo_deser(&information));
-    if (!map_ || !info_) throw std::invalid_argument(name_ + ": its type information is damaged");
+    if (!map_ || !info_) throw std::invalid_argument(name_ + ": the type information is damaged");
   }
 
   recording::TypeDescription run() {
@@ -90,7 +90,7 @@ class Describer {
  private:
   [[noreturn]] void refuse(const std::string& why) const {
     throw std::invalid_argument(name_ + ": " + place_ + why +
-                                ", which a ROS 2 message cannot say; record it as IDL alone");
+                                ", which a ROS 2 message cannot represent; record it as IDL alone");
   }
 
   const TypeObject& object(const TypeId& id) const {
@@ -102,17 +102,17 @@ class Describer {
                       sizeof(id._u.equivalence_hash)) == 0)
         return pair.type_object._u.complete;
     }
-    throw std::invalid_argument(name_ + ": " + place_ + "is of a type that is not described");
+    throw std::invalid_argument(name_ + ": " + place_ + "has a type without description");
   }
 
-  /// Adds the structure `id` unless it is there; returns its place.
+  /// Adds the structure `id` if it is new; returns its index.
   std::size_t structure(const TypeId& id) {
     const TypeObject& found = object(id);
-    if (found._d != DDS_XTypes_TK_STRUCTURE) refuse("is no struct");
+    if (found._d != DDS_XTypes_TK_STRUCTURE) refuse("is not a struct");
     const auto& from = found._u.struct_type;
-    const auto [known, fresh] = places_.try_emplace(&found, type_.structures.size());
-    if (!fresh) return known->second;
-    const std::size_t place = known->second;
+    const auto [known, is_new] = indices_.try_emplace(&found, type_.structures.size());
+    if (!is_new) return known->second;
+    const std::size_t index = known->second;
     type_.structures.push_back({recording::ros_name(from.header.detail.type_name), {}});
     place_ = std::string(from.header.detail.type_name) + " ";
     if (!(from.struct_flags & DDS_XTypes_IS_FINAL)) refuse("is not @final");
@@ -123,8 +123,8 @@ class Describer {
     }
     for (std::uint32_t i = 0; i < from.member_seq._length; ++i)
       fields.push_back(member(from.member_seq._buffer[i], from.header.detail.type_name));
-    type_.structures[place].fields = std::move(fields);
-    return place;
+    type_.structures[index].fields = std::move(fields);
+    return index;
   }
 
   Field member(const DDS_XTypes_CompleteStructMember& from, const char* owner) {
@@ -139,7 +139,7 @@ class Describer {
     return field;
   }
 
-  void many(Field& field, Count count, std::uint32_t size) {
+  void set_count(Field& field, Count count, std::uint32_t size) {
     if (field.count == Count::array && count == Count::array) {
       field.size *= size;
       return;
@@ -150,7 +150,8 @@ class Describer {
   }
   template <class Bounds>
   void array(Field& field, const Bounds& bounds) {
-    for (std::uint32_t i = 0; i < bounds._length; ++i) many(field, Count::array, bounds._buffer[i]);
+    for (std::uint32_t i = 0; i < bounds._length; ++i)
+      set_count(field, Count::array, bounds._buffer[i]);
   }
   void string(Field& field, std::uint32_t bound) {
     field.kind = Kind::string;
@@ -168,10 +169,10 @@ class Describer {
       case DDS_XTypes_TI_STRING8_LARGE:
         return string(field, id._u.string_ldefn.bound);
       case DDS_XTypes_TI_PLAIN_SEQUENCE_SMALL:
-        many(field, Count::sequence, id._u.seq_sdefn.bound);
+        set_count(field, Count::sequence, id._u.seq_sdefn.bound);
         return take(*id._u.seq_sdefn.element_identifier, field);
       case DDS_XTypes_TI_PLAIN_SEQUENCE_LARGE:
-        many(field, Count::sequence, id._u.seq_ldefn.bound);
+        set_count(field, Count::sequence, id._u.seq_ldefn.bound);
         return take(*id._u.seq_ldefn.element_identifier, field);
       case DDS_XTypes_TI_PLAIN_ARRAY_SMALL:
         array(field, id._u.array_sdefn.array_bound_seq);
@@ -202,7 +203,7 @@ class Describer {
         field.kind = unsigned_of(found._u.bitmask_type.header.common.bit_bound);
         return;
       case DDS_XTypes_TK_SEQUENCE:
-        many(field, Count::sequence, found._u.sequence_type.header.common.bound);
+        set_count(field, Count::sequence, found._u.sequence_type.header.common.bound);
         return take(found._u.sequence_type.element.common.type, field);
       case DDS_XTypes_TK_ARRAY:
         array(field, found._u.array_type.header.common.bound_seq);
@@ -216,7 +217,7 @@ class Describer {
   std::unique_ptr<ddsi_typemap_t, FreeTypemap> map_;
   std::unique_ptr<ddsi_typeinfo_t, FreeTypeinfo> info_;
   recording::TypeDescription type_;
-  std::map<const TypeObject*, std::size_t> places_;
+  std::map<const TypeObject*, std::size_t> indices_;
 };
 
 }  // namespace

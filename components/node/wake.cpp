@@ -15,7 +15,7 @@ Wake::~Wake() { close(descriptor_); }
 
 void Wake::raise() {
   const std::uint64_t one = 1;
-  // Only a full counter can refuse, and then the loop is awake already.
+  // The write fails only if the counter is full; the loop is then awake already.
   [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 #include <cstdint>
 
-/// What a component sleeps on: DDS listeners and signals raise it, the loop polls its descriptor.
+/// Wakes the main loop of a component: DDS listeners and other threads raise it, the main loop polls
+/// its descriptor.
 namespace node {
 
 class Wake {

@@ -5,12 +5,12 @@
 
 #include "interfaces/values.hpp"
 
-/// Who drives one actuator: among the controllers whose last command is fresh, the one of highest
-/// priority; between equals, whoever drives already.
+/// Selects the owner of one actuator: of the controllers whose last command is not stale, the one
+/// with the highest priority; among equal priorities, the present owner.
 namespace plant {
 
-/// One controller's standing command for one actuator.
-struct Offer {
+/// The last command of one controller for one actuator.
+struct ControllerCommand {
   char controller[33] = "";
   std::int32_t priority = 0;
   erp::Mode mode = erp::Mode::off;
@@ -22,23 +22,23 @@ class Arbiter {
  public:
   static constexpr std::size_t max_controllers = 8;  // chosen
 
-  /// Takes or renews a controller's command. False: more than `max_controllers` are fresh.
-  bool offer(std::string_view controller, std::int32_t priority, erp::Mode mode, double reference,
-             std::int64_t now_ns, std::int64_t stale_ns);
-  /// The driving command, or nullptr when all are stale. Remembers the driver.
-  const Offer* winner(std::int64_t now_ns, std::int64_t stale_ns);
-  std::string_view owner() const { return owner_ < 0 ? "" : offers_[slot(owner_)].controller; }
-  /// True when another controller drives that this one cannot displace.
+  /// Stores the command of a controller. False if `max_controllers` other commands are not stale.
+  bool update(std::string_view controller, std::int32_t priority, erp::Mode mode, double reference,
+              std::int64_t now_ns, std::int64_t stale_ns);
+  /// Selects the owner and returns its command; nullptr when all commands are stale.
+  const ControllerCommand* winner(std::int64_t now_ns, std::int64_t stale_ns);
+  std::string_view owner() const { return owner_ < 0 ? "" : commands_[slot(owner_)].controller; }
+  /// True when another controller is the owner and has at least this priority.
   bool outranked(std::string_view controller, std::int32_t priority) const {
-    return owner_ >= 0 && owner() != controller && offers_[slot(owner_)].priority >= priority;
+    return owner_ >= 0 && owner() != controller && commands_[slot(owner_)].priority >= priority;
   }
 
  private:
   static std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-  Offer* find(std::string_view controller);
-  std::array<Offer, max_controllers> offers_{};
+  ControllerCommand* find(std::string_view controller);
+  std::array<ControllerCommand, max_controllers> commands_{};
   std::size_t count_ = 0;
-  int owner_ = -1;  ///< index into offers_; −1: nobody
+  int owner_ = -1;  ///< index into commands_; −1: no owner
 };
 
 }  // namespace plant

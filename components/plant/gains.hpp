@@ -6,14 +6,14 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/topics.hpp"
 
-/// The gains of one ECU channel as messages; names and order are firmware/core/parameters.h's.
+/// The gains of one ECU channel as messages, with the names and order of firmware/core/parameters.h.
 namespace plant {
 
-/// The whole set, designed from robot.xml; the last value commits it.
+/// All gains, designed from robot.xml; the last value commits the set.
 std::vector<erp::EcuParameterValue> gain_set(const erp::Robot& robot,
                                              const erp::Actuator& actuator);
 
-/// The place of a gain by its name, e.g. `length_gain_V_per_rad`; nothing when there is none.
+/// The index of a gain by its name, e.g. `length_gain_V_per_rad`; std::nullopt for unknown names.
 std::optional<std::size_t> gain_index(std::string_view name);
 
 }  // namespace plant

@@ -13,7 +13,7 @@ Limits::Limits(const erp::Actuator& actuator, const erp::MotorType& motor,
       tension_N_(actuator.max_tension_N) {
   if (tension_N_ > sensors.tension_range_N)
     throw std::invalid_argument(actuator.name + ": max_tension_N " + std::to_string(tension_N_) +
-                                " is beyond its sensor's range of " +
+                                " exceeds the sensor's range of " +
                                 std::to_string(sensors.tension_range_N) + " N");
 }
 
@@ -31,7 +31,7 @@ Checked Limits::check(erp::Mode mode, double reference) const {
     case erp::Mode::off:
       return {Verdict::accepted, 0, {}};
     case erp::Mode::voltage:
-      return within(reference, -supply_V_, supply_V_, "limited to the supply");
+      return within(reference, -supply_V_, supply_V_, "limited to the supply voltage");
     case erp::Mode::length:
       return within(reference, -max_line_m, max_line_m, "limited to the line on the spindle");
     case erp::Mode::current:

@@ -4,11 +4,11 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/values.hpp"
 
-/// What an actuator may be asked for.
+/// Checks the references of an actuator.
 ///
-/// A reference a little outside is brought to the limit, counted and said (`limited`). One that no
-/// sane controller sends — NaN, an unknown mode, a negative force, more than twice the limit — is
-/// refused whole: the old command stays and goes stale.
+/// A reference up to twice the limit is clamped to the limit, counted and reported (`limited`). An
+/// invalid reference (NaN, unknown mode, negative force, more than twice the limit) is refused: the
+/// previous command stays and becomes stale.
 namespace plant {
 
 enum class Verdict { accepted, limited, refused };
@@ -21,13 +21,13 @@ struct Checked {
 
 class Limits {
  public:
-  /// Throws std::invalid_argument when the tension limit exceeds what its sensor can see.
+  /// Throws std::invalid_argument when the tension limit exceeds the range of its sensor.
   Limits(const erp::Actuator& actuator, const erp::MotorType& motor,
          const erp::SensorType& sensors);
   Checked check(erp::Mode mode, double reference) const;
 
-  /// Line the spindle may wind or let out from where it started; chosen: 0.2 m, within the ±8
-  /// turns an ECU's 22-bit length set-point covers.
+  /// Largest change of line length from the start, in m. Chosen; within the ±8 turns of an ECU's
+  /// 22-bit length set-point.
   static constexpr double max_line_m = 0.2;
 
  private:

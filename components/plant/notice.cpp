@@ -5,43 +5,43 @@
 namespace plant {
 namespace {
 
-constexpr std::size_t many = 3;   // chosen
-constexpr std::size_t named = 3;  // chosen
+constexpr std::size_t min_group = 3;  // chosen
+constexpr std::size_t max_names = 3;  // chosen
 
-bool alike(const Notice& a, const Notice& b) {
+bool differ_in_subject_only(const Notice& a, const Notice& b) {
   return a.severity == b.severity && a.code == b.code && a.text == b.text && !a.subject.empty() &&
          !b.subject.empty();
 }
 
 std::string names_of(const std::vector<Notice>& group) {
   std::string names;
-  for (std::size_t i = 0; i < std::min(named, group.size()); ++i)
+  for (std::size_t i = 0; i < std::min(max_names, group.size()); ++i)
     names += (i ? ", " : "") + group[i].subject;
-  return group.size() > named ? names + " …" : names;
+  return group.size() > max_names ? names + " …" : names;
 }
 
-Notice count(const std::vector<Notice>& group, std::size_t actuators) {
-  Notice one = group.front();
+Notice merge(const std::vector<Notice>& group, std::size_t actuators) {
+  Notice merged = group.front();
   const bool all = group.size() == actuators;
-  if (!all) one.text += " (" + names_of(group) + ")";
-  one.subject = (all ? "all " : "") + std::to_string(group.size()) + " actuators";
-  return one;
+  if (!all) merged.text += " (" + names_of(group) + ")";
+  merged.subject = (all ? "all " : "") + std::to_string(group.size()) + " actuators";
+  return merged;
 }
 
 }  // namespace
 
-std::vector<Notice> together(std::vector<Notice> notices, std::size_t actuators) {
-  std::vector<Notice> said;
+std::vector<Notice> merge_similar(std::vector<Notice> notices, std::size_t actuators) {
+  std::vector<Notice> merged;
   while (!notices.empty()) {
     const auto others = std::stable_partition(
         notices.begin(), notices.end(),
-        [first = notices.front()](const Notice& n) { return alike(n, first); });
+        [first = notices.front()](const Notice& n) { return differ_in_subject_only(n, first); });
     std::vector<Notice> group(notices.begin(), std::max(others, notices.begin() + 1));
     notices.erase(notices.begin(), notices.begin() + static_cast<std::ptrdiff_t>(group.size()));
-    if (group.size() >= many) said.push_back(count(group, actuators));
-    else said.insert(said.end(), group.begin(), group.end());
+    if (group.size() >= min_group) merged.push_back(merge(group, actuators));
+    else merged.insert(merged.end(), group.begin(), group.end());
   }
-  return said;
+  return merged;
 }
 
 }  // namespace plant

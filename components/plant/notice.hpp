@@ -7,16 +7,17 @@
 
 namespace plant {
 
-/// Something worth saying once.
+/// A change that is reported once.
 struct Notice {
   erp::Severity severity;
-  std::string subject;  ///< actuator, or how many of them
+  std::string subject;  ///< actuator, or number of actuators
   std::string code;
   std::string text;
 };
 
-/// Notices that say the same of three or more actuators become one that counts them; of fewer than
-/// all `actuators` it names the first. Otherwise in the order given. Pure.
-std::vector<Notice> together(std::vector<Notice> notices, std::size_t actuators);
+/// Merges notices that differ only in the actuator, if there are three or more, into one that states
+/// their number. If they are fewer than `actuators`, the number of all actuators, it also names the
+/// first three. Keeps the order otherwise.
+std::vector<Notice> merge_similar(std::vector<Notice> notices, std::size_t actuators);
 
 }  // namespace plant

@@ -1,93 +1,98 @@
-// What the plant says, once a change: who drives, what was limited or refused, what an ECU reports.
+// The notices of the plant, one per change: owner, limited or refused references, ECU faults, tendons,
+// limbs.
 #include "components/plant/plant.hpp"
 #include "firmware/core/fault_names.h"
 
 namespace plant {
 namespace {
 
-std::string owner_text(const Drive& drive, const std::string& before) {
-  if (!drive.owner().empty()) return "driven by " + std::string(drive.owner());
-  switch (drive.safe_action()) {
+std::string owner_text(const ActuatorChannel& channel, const std::string& before) {
+  if (!channel.owner().empty()) return "driven by " + std::string(channel.owner());
+  switch (channel.safe_action()) {
     case erp::SafeAction::hold:
-      return before + " went stale; holding the line";
+      return before + " became stale; holding the line length";
     case erp::SafeAction::relax:
-      return before + " went stale; relaxing the tendon";
+      return before + " became stale; relaxing the tendon";
     case erp::SafeAction::damp:
-      return before + " went stale; damping";
+      return before + " became stale; damping";
     case erp::SafeAction::none:
       break;
   }
-  return before + " went stale";
+  return before + " became stale";
 }
 
-/// Why a reference was changed or refused; of a controller that may not drive, who does.
-std::string limit_text(const Drive& drive) {
-  if (drive.reason() != outranked_reason) return std::string(drive.reason());
-  return std::string(drive.owner()) +
-         " drives, another controller would like to; the higher --priority wins";
+/// The reason why a reference was limited or refused; names the owner if its priority decided.
+std::string limit_text(const ActuatorChannel& channel) {
+  if (channel.reason() != outranked_reason) return std::string(channel.reason());
+  return std::string(channel.owner()) +
+         " is the owner; refused a command of equal or lower priority, raise its --priority";
 }
 
 }  // namespace
 
-void Plant::notice_tendon(const Drive& drive, Said& said) {
-  if (drive.tendon() == said.tendon) return;
-  said.tendon = drive.tendon();
-  if (said.tendon == Tautness::snapped)
-    notices_.push_back({erp::Severity::fault, drive.name(), "tendon_snapped",
-                        "nothing pulls back however much is wound: off until the driver says off"});
-  if (said.tendon == Tautness::slack && !std::exchange(said.slack, true))
-    notices_.push_back({erp::Severity::warning, drive.name(), "tendon_slack",
-                        "no tension for 16 ms: the slack is wound up slowly"});
+void Plant::notice_tendon(const ActuatorChannel& channel, Reported& reported) {
+  if (channel.tendon() == reported.tendon) return;
+  reported.tendon = channel.tendon();
+  if (reported.tendon == TendonState::snapped)
+    notices_.push_back(
+        {erp::Severity::fault, channel.name(), "tendon_snapped",
+         "no tension after winding up take_up_m: off until its controller commands mode off"});
+  if (reported.tendon == TendonState::slack && !std::exchange(reported.slack, true))
+    notices_.push_back({erp::Severity::warning, channel.name(), "tendon_slack",
+                        "no tension for 16 ms: winding up the slack slowly"});
 }
 
 void Plant::notice_limb(std::size_t actuator) {
-  Said& said = said_[actuator];
-  const std::string& name = drives_[actuator].name();
-  const bool lost = limbs_.lost(actuator), broken = limbs_.broken(actuator) && !lost;
-  if (lost && !said.lost)
+  Reported& reported = reported_[actuator];
+  const std::string& name = channels_[actuator].name();
+  const bool lost = limb_monitor_.lost(actuator),
+             degraded = limb_monitor_.degraded(actuator) && !lost;
+  if (lost && !reported.lost)
     notices_.push_back({erp::Severity::fault, name, "ecu_lost",
-                        "no word of its ECU: off, as far as anyone knows"});
-  if (broken && !said.broken)
+                        "no message from its ECU: its state is unknown; check power and bus"});
+  if (degraded && !reported.degraded)
     notices_.push_back({erp::Severity::warning, name, "limb_broken",
-                        "one that it works with is lost: it drops to its safe action"});
-  said.lost = lost, said.broken = broken;
+                        "another ECU of its limb is lost: taking its safe action"});
+  reported.lost = lost, reported.degraded = degraded;
 }
 
 void Plant::notice_changes() {
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const Drive& drive = drives_[i];
-    Said& said = said_[i];
-    if (said.owner != drive.owner()) {
-      const bool lost = drive.owner().empty();
-      notices_.push_back({lost ? erp::Severity::warning : erp::Severity::info, drive.name(),
-                          lost ? "stale_command" : "owner", owner_text(drive, said.owner)});
-      said.owner = drive.owner();
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const ActuatorChannel& channel = channels_[i];
+    Reported& reported = reported_[i];
+    if (reported.owner != channel.owner()) {
+      const bool lost = channel.owner().empty();
+      notices_.push_back({lost ? erp::Severity::warning : erp::Severity::info, channel.name(),
+                          lost ? "stale_command" : "owner", owner_text(channel, reported.owner)});
+      reported.owner = channel.owner();
     }
-    if (drive.state() != said.state && drive.state() == ECU_STATE_FAULT)
-      notices_.push_back({erp::Severity::fault, drive.name(), "ecu_fault",
+    if (channel.state() != reported.state && channel.state() == ECU_STATE_FAULT)
+      notices_.push_back({erp::Severity::fault, channel.name(), "ecu_fault",
                           ecu_fault_name(frame_.actuators._buffer[i].ecu_fault)});
-    said.state = drive.state();
-    notice_tendon(drive, said);
+    reported.state = channel.state();
+    notice_tendon(channel, reported);
     notice_limb(i);
-    // The first of a row is said; the counters on actuator_owner carry the rest.
-    const bool first = (drive.limited() && !said.limited) || (drive.refused() && !said.refused);
+    // Only the first is reported; actuator_owner publishes the counters.
+    const bool first =
+        (channel.limited() && !reported.limited) || (channel.refused() && !reported.refused);
     if (first)
-      notices_.push_back({erp::Severity::warning, drive.name(), "reference", limit_text(drive)});
-    said.limited = drive.limited(), said.refused = drive.refused();
+      notices_.push_back(
+          {erp::Severity::warning, channel.name(), "reference", limit_text(channel)});
+    reported.limited = channel.limited(), reported.refused = channel.refused();
   }
 }
 
 const erp::ActuatorOwner& Plant::owners() {
   owners_.stamp_ns = frame_.stamp_ns;
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const Drive& drive = drives_[i];
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const ActuatorChannel& channel = channels_[i];
     auto& sample = owners_.actuators._buffer[i];
-    erp::assign(sample.owner, drive.owner());
-    sample.priority = drive.priority();
-    sample.safe_action = static_cast<std::uint8_t>(drive.safe_action());
-    sample.limited = drive.limited();
-    sample.refused = drive.refused();
-    erp::assign_shortened(sample.reason, drive.reason());
+    erp::assign(sample.owner, channel.owner());
+    sample.priority = channel.priority();
+    sample.safe_action = static_cast<std::uint8_t>(channel.safe_action());
+    sample.limited = channel.limited();
+    sample.refused = channel.refused();
+    erp::assign_shortened(sample.reason, channel.reason());
   }
   return owners_;
 }

@@ -7,8 +7,8 @@
 namespace plant {
 namespace {
 
-/// Six times the noise, so that a slack tendon never reads taut.
-TendonWatch::Params watch_of(const erp::SensorType& sensors, const Plant::Params& params) {
+/// The slack threshold is at least six times the noise, so that a slack tendon never appears taut.
+TendonMonitor::Params tendon_params(const erp::SensorType& sensors, const Plant::Params& params) {
   return {std::max(params.slack_N, 6 * sensors.tension_noise_N), params.take_up_m};
 }
 
@@ -17,17 +17,17 @@ TendonWatch::Params watch_of(const erp::SensorType& sensors, const Plant::Params
 Plant::Plant(const Params& params, const erp::Robot& robot)
     : stale_ns_(std::llround(1e9 * params.stale_s)),
       device_lost_ns_(std::llround(1e9 * params.device_lost_s)),
-      limbs_(robot, device_lost_ns_),
+      limb_monitor_(robot, device_lost_ns_),
       boots_(robot.actuators.size(), false),
-      said_(robot.actuators.size()) {
-  for (auto& ecu : drive_at_) ecu.fill(-1);
+      reported_(robot.actuators.size()) {
+  for (auto& ecu : channel_at_) ecu.fill(-1);
   for (auto& ecu : analog_at_) ecu.fill(-1);
-  drives_.reserve(robot.actuators.size());
+  channels_.reserve(robot.actuators.size());
   for (const auto& actuator : robot.actuators) {
-    drive_at_[static_cast<std::size_t>(actuator.ecu)][static_cast<std::size_t>(actuator.channel)] =
-        static_cast<int>(drives_.size());
-    drives_.emplace_back(actuator, robot.motor_of(actuator), robot.sensors_of(actuator),
-                         watch_of(robot.sensors_of(actuator), params));
+    channel_at_[static_cast<std::size_t>(actuator.ecu)]
+               [static_cast<std::size_t>(actuator.channel)] = static_cast<int>(channels_.size());
+    channels_.emplace_back(actuator, robot.motor_of(actuator), robot.sensors_of(actuator),
+                           tendon_params(robot.sensors_of(actuator), params));
     erp::ActuatorSample sample{};
     erp::assign(sample.name, actuator.name);
     sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
@@ -63,37 +63,37 @@ void Plant::add_analogs(const erp::Robot& robot) {
         static_cast<int>(k);
 }
 
-void Plant::sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns) {
-  if (channel.ecu >= drive_at_.size() || channel.channel > 1) return;
-  const int index = drive_at_[channel.ecu][channel.channel];
+void Plant::sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_ns) {
+  if (counts.ecu >= channel_at_.size() || counts.channel > 1) return;
+  const int index = channel_at_[counts.ecu][counts.channel];
   if (index < 0) return;
   const auto i = static_cast<std::size_t>(index);
-  Drive& drive = drives_[i];
+  ActuatorChannel& channel = channels_[i];
   auto& sample = frame_.actuators._buffer[i];
-  sample.valid = channel.fresh ? erp::valid::all : 0;
-  boots_[i] = channel.fresh && channel.state == ECU_STATE_BOOT;
-  if (!channel.fresh) return;
-  limbs_.heard(i, now_ns);
-  const sim::EcuUnits& units = drive.units();
-  drive.observe(static_cast<ecu_state>(channel.state), channel.fault, channel.encoder_counts,
-                units.tension_N(channel.tension_counts), now_ns);
-  sample.ecu_state = channel.state;
-  sample.ecu_fault = channel.fault;
-  sample.mode = static_cast<std::uint8_t>(sim::EcuUnits::mode(channel.request));
-  sample.reference = units.reference(channel.request, channel.setpoint);
-  sample.voltage_V = units.voltage_V(channel.duty_counts);
-  sample.current_A = channel.current_counts * units.current_A_per_count;
-  sample.shaft_rad = units.shaft_rad(channel.encoder_counts);
+  sample.valid = counts.fresh ? erp::valid::all : 0;
+  boots_[i] = counts.fresh && counts.state == ECU_STATE_BOOT;
+  if (!counts.fresh) return;
+  limb_monitor_.on_sample(i, now_ns);
+  const sim::EcuUnits& units = channel.units();
+  channel.observe(static_cast<ecu_state>(counts.state), counts.fault, counts.encoder_counts,
+                  units.tension_N(counts.tension_counts), now_ns);
+  sample.ecu_state = counts.state;
+  sample.ecu_fault = counts.fault;
+  sample.mode = static_cast<std::uint8_t>(sim::EcuUnits::mode(counts.request));
+  sample.reference = units.reference(counts.request, counts.setpoint);
+  sample.voltage_V = units.voltage_V(counts.duty_counts);
+  sample.current_A = counts.current_counts * units.current_A_per_count;
+  sample.shaft_rad = units.shaft_rad(counts.encoder_counts);
   sample.line_m = units.line_m(sample.shaft_rad);
-  sample.tension_N = units.tension_N(channel.tension_counts);
+  sample.tension_N = units.tension_N(counts.tension_counts);
 }
 
-void Plant::sense_analog(const erp::EcuAnalogSample& said) {
-  if (said.ecu >= analog_at_.size() || said.input > 3 || !said.fresh) return;
-  const int index = analog_at_[said.ecu][said.input];
+void Plant::sense_analog(const erp::EcuAnalogSample& counts) {
+  if (counts.ecu >= analog_at_.size() || counts.input > 3 || !counts.fresh) return;
+  const int index = analog_at_[counts.ecu][counts.input];
   if (index < 0) return;
   const Analog& analog = analogs_[static_cast<std::size_t>(index)];
-  const double angle_rad = said.counts * analog.rad_per_count;
+  const double angle_rad = counts.counts * analog.rad_per_count;
   if (analog.joint >= 0) {
     auto& sample = frame_.joints._buffer[analog.joint];
     sample.valid = erp::valid::joint_angle, sample.angle_rad = angle_rad;
@@ -111,38 +111,38 @@ const erp::SensorFrame& Plant::sense(const erp::EcuFrame& frame, std::int64_t no
   for (const auto& channel : erp::samples(frame.channels)) sense_channel(channel, now_ns);
   for (const auto& analog : erp::samples(frame.analogs)) sense_analog(analog);
   last_frame_ns_ = now_ns;
-  device_heard_ = true;
+  device_alive_ = true;
   return frame_;
 }
 
-void Plant::accept(const erp::ActuatorCommand& command, std::int64_t now_ns) {
+void Plant::receive(const erp::ActuatorCommand& command, std::int64_t now_ns) {
   for (const auto& reference : erp::samples(command.actuators)) {
-    Drive* found = nullptr;
-    for (auto& drive : drives_)
-      if (drive.name() == reference.name) found = &drive;
+    ActuatorChannel* found = nullptr;
+    for (auto& channel : channels_)
+      if (channel.name() == reference.name) found = &channel;
     if (found)
-      found->accept(command.controller, command.priority, static_cast<erp::Mode>(reference.mode),
-                    reference.reference, now_ns, stale_ns_);
-    else say_unknown(command.controller, reference.name);
+      found->receive(command.controller, command.priority, static_cast<erp::Mode>(reference.mode),
+                     reference.reference, now_ns, stale_ns_);
+    else report_unknown(command.controller, reference.name);
   }
 }
 
-void Plant::say_unknown(const std::string& controller, const std::string& name) {
-  if (!unknown_said_.insert(controller + " " + name).second) return;
+void Plant::report_unknown(const std::string& controller, const std::string& name) {
+  if (!reported_unknown_.insert(controller + " " + name).second) return;
   std::string known;
-  for (const auto& drive : drives_) known += (known.empty() ? "" : ", ") + drive.name();
+  for (const auto& channel : channels_) known += (known.empty() ? "" : ", ") + channel.name();
   notices_.push_back({erp::Severity::warning, "", "unknown_actuator",
-                      controller + " names \"" + name + "\"; this robot has " + known});
+                      controller + " commands \"" + name + "\"; this robot has " + known});
 }
 
 const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
   const double dt_s =
       last_decision_ns_ ? 1e-9 * static_cast<double>(now_ns - last_decision_ns_) : 0;
   last_decision_ns_ = now_ns;
-  limbs_.look(now_ns);
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    if (limbs_.lost(i)) lose(i);
-    const Demand demand = drives_[i].decide(now_ns, stale_ns_, dt_s, limbs_.broken(i));
+  limb_monitor_.update(now_ns);
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (limb_monitor_.lost(i)) mark_lost(i);
+    const Demand demand = channels_[i].decide(now_ns, stale_ns_, dt_s, limb_monitor_.degraded(i));
     auto& channel = command_.channels._buffer[i];
     channel.request = static_cast<std::uint8_t>(demand.request);
     channel.setpoint = demand.setpoint;
@@ -153,19 +153,19 @@ const erp::EcuCommand& Plant::command(std::int64_t now_ns) {
   return command_;
 }
 
-void Plant::lose(std::size_t actuator) {
-  drives_[actuator].lose();
+void Plant::mark_lost(std::size_t actuator) {
+  channels_[actuator].mark_lost();
   auto& sample = frame_.actuators._buffer[actuator];
   sample.valid = 0;
   sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::unknown);
 }
 
 bool Plant::check_device(std::int64_t now_ns) {
-  if (!device_heard_ || now_ns - last_frame_ns_ <= device_lost_ns_) return false;
-  device_heard_ = false;
-  for (std::size_t i = 0; i < drives_.size(); ++i) lose(i);
+  if (!device_alive_ || now_ns - last_frame_ns_ <= device_lost_ns_) return false;
+  device_alive_ = false;
+  for (std::size_t i = 0; i < channels_.size(); ++i) mark_lost(i);
   notices_.push_back({erp::Severity::fault, "", "device_lost",
-                      "no frame from the device; its ECUs stop by themselves"});
+                      "no frame from the device; its ECUs switch off by themselves"});
   return true;
 }
 

@@ -6,22 +6,23 @@
 #include <string_view>
 #include <vector>
 
-#include "components/plant/drive.hpp"
-#include "components/plant/limbs.hpp"
+#include "components/plant/actuator_channel.hpp"
+#include "components/plant/limb_monitor.hpp"
 #include "components/plant/notice.hpp"
 #include "interfaces/topics.hpp"
 
 /// The robot-independent layer between controllers and any device: units, limits, arbitration by
-/// priority and freshness, the safe action, re-arming. Pure: time comes in, messages come out.
+/// priority and age of the command, safe action, re-arming. Reads no clock and no bus: time and
+/// messages are arguments.
 namespace plant {
 
 class Plant {
  public:
   struct Params {
-    double stale_s = 0.020;        ///< a command older than this no longer drives
-    double device_lost_s = 0.050;  ///< without a word of it for so long, an ECU is lost; or all
-    double slack_N = 0.5;     ///< a tendon below it is slack; at least what its sensor can tell
-    double take_up_m = 0.03;  ///< slack that may be wound up; more, and it has snapped
+    double stale_s = 0.020;        ///< age beyond which a command is ignored
+    double device_lost_s = 0.050;  ///< silence after which an ECU, or the device, is lost
+    double slack_N = 0.5;     ///< tension below which a tendon is slack; at least 6 x sensor noise
+    double take_up_m = 0.03;  ///< slack that is wound up before the tendon counts as snapped
     void visit(auto& v) {
       v("stale_s", stale_s, xml::positive);
       v("device_lost_s", device_lost_s, xml::positive);
@@ -32,60 +33,60 @@ class Plant {
 
   Plant(const Params& params, const erp::Robot& robot);
 
-  /// ECU counts → SI, in the order of robot.xml. Stamp and sequence are the frame's.
+  /// Converts ECU counts to SI, in the order of robot.xml. Copies stamp and sequence of the frame.
   const erp::SensorFrame& sense(const erp::EcuFrame& frame, std::int64_t now_ns);
-  void accept(const erp::ActuatorCommand& command, std::int64_t now_ns);
-  /// Arbitration → ECU terms; answers the last frame. Call once a frame or more often.
+  void receive(const erp::ActuatorCommand& command, std::int64_t now_ns);
+  /// Arbitrates and converts to ECU requests; answers the last frame. Call at least once per frame.
   const erp::EcuCommand& command(std::int64_t now_ns);
   const erp::ActuatorOwner& owners();
-  /// Bits: actuators whose ECU channel waits for its gains (state boot, and heard).
+  /// Whether the actuator's ECU channel reports state boot and therefore needs its gains.
   bool waits_for_gains(std::size_t actuator) const { return boots_[actuator]; }
-  /// Forgets what the device said, if it has been silent for too long. True when it just happened.
+  /// Marks all measurements invalid if the device is silent for too long. True on this transition.
   bool check_device(std::int64_t now_ns);
-  /// What happened since the last call, what befell many actuators alike as one.
+  /// The notices since the last call; equal notices of several actuators are merged.
   std::vector<Notice> take_notices() {
-    return together(std::exchange(notices_, {}), drives_.size());
+    return merge_similar(std::exchange(notices_, {}), channels_.size());
   }
 
  private:
-  struct Said {
+  struct Reported {
     std::string owner;
     ecu_state state = ECU_STATE_BOOT;
-    Tautness tendon = Tautness::taut;
-    bool slack = false;                 ///< was said: once is enough
-    bool lost = false, broken = false;  ///< it, its limb
+    TendonState tendon = TendonState::taut;
+    bool slack = false;                   ///< reported once per run
+    bool lost = false, degraded = false;  ///< of the actuator, of its limb
     std::uint32_t limited = 0, refused = 0;
   };
 
-  void sense_channel(const erp::EcuChannelSample& channel, std::int64_t now_ns);
-  void lose(std::size_t actuator);
+  void sense_channel(const erp::EcuChannelSample& counts, std::int64_t now_ns);
+  void mark_lost(std::size_t actuator);
   void add_analogs(const erp::Robot& robot);
-  void sense_analog(const erp::EcuAnalogSample& said);
-  void say_unknown(const std::string& controller, const std::string& name);
+  void sense_analog(const erp::EcuAnalogSample& counts);
+  void report_unknown(const std::string& controller, const std::string& name);
   void notice_changes();
-  void notice_tendon(const Drive& drive, Said& said);
+  void notice_tendon(const ActuatorChannel& channel, Reported& reported);
   void notice_limb(std::size_t actuator);
 
   std::int64_t stale_ns_, device_lost_ns_;
-  Limbs limbs_;
-  std::vector<Drive> drives_;
+  LimbMonitor limb_monitor_;
+  std::vector<ActuatorChannel> channels_;
   /// An analog input: a joint's sensor or an actuator's potentiometer.
   struct Analog {
     double rad_per_count;
     int joint = -1, actuator = -1;  ///< index of its sample, or −1
   };
   std::vector<Analog> analogs_;
-  std::array<std::array<int, 2>, 128> drive_at_;   ///< [ecu][channel] → index or −1
-  std::array<std::array<int, 4>, 128> analog_at_;  ///< [ecu][input] → index or −1
+  std::array<std::array<int, 2>, 128> channel_at_;  ///< [ecu][channel] → index or −1
+  std::array<std::array<int, 4>, 128> analog_at_;   ///< [ecu][input] → index or −1
   std::vector<bool> boots_;
-  std::vector<Said> said_;
+  std::vector<Reported> reported_;
   erp::SensorFrame frame_;
   erp::EcuCommand command_;
   erp::ActuatorOwner owners_;
   std::int64_t last_frame_ns_ = 0, last_decision_ns_ = 0;
-  bool device_heard_ = false;
+  bool device_alive_ = false;
   std::vector<Notice> notices_;
-  std::set<std::string> unknown_said_;  ///< controller and actuator: said once
+  std::set<std::string> reported_unknown_;  ///< controller and actuator: reported once
 };
 
 }  // namespace plant

@@ -9,11 +9,11 @@ namespace plant {
 namespace {
 
 constexpr std::int64_t device_check_ns =
-    1'000'000;                              // the device is lost 50 … 51 ms after its last word
+    1'000'000;  // the device is lost 50 … 51 ms after its last message
 constexpr std::uint64_t owner_period = 50;  // frames: owners are published at 10 Hz
 constexpr std::uint64_t gains_period = 50;  // frames between attempts to set gains
 
-/// Each channel takes over its gains together, with the last of them.
+/// Sets `commit` on the last value of each channel, so that the channel applies its gains at once.
 void commit_last(erp::EcuParameter& parameters) {
   std::set<std::pair<int, int>> committed;
   for (auto i = parameters.values._length; i-- > 0;) {
@@ -39,21 +39,22 @@ PlantNode::PlantNode(const Params& params, const erp::Robot& robot, node::Node& 
   node.subscribe<erp::GainCommand>([this](const auto& m) { on_gains(m); });
   node.subscribe<erp::EcuFrame>([this](const auto& m) { on_frame(m); });
   node.every(device_check_ns, [this] {
-    if (node_.clock().lockstep() ? owes_answer_ && all_answered()
+    if (node_.clock().lockstep() ? answer_pending_ && all_answered()
                                  : plant_.check_device(node_.clock().now_ns()))
       answer();
   });
 }
 
 void PlantNode::on_frame(const erp::EcuFrame& frame) {
-  if (owes_answer_ && !node_.clock().lockstep()) answer();
+  if (answer_pending_ && !node_.clock().lockstep()) answer();
   // A lockstep device repeats a frame whose answer it missed.
-  if (heard_ && node_.clock().lockstep() && frame.sequence == frame_) return repeat_answer();
+  if (frame_received_ && node_.clock().lockstep() && frame.sequence == frame_)
+    return repeat_answer();
   node_.clock().advance(frame.stamp_ns);
   frame_ = frame.sequence;
-  heard_ = true;
-  owes_answer_ = true;
-  owed_since_ns_ = node::monotonic_ns();
+  frame_received_ = true;
+  answer_pending_ = true;
+  pending_since_ns_ = node::monotonic_ns();
   auto sensed = plant_.sense(frame, node_.clock().now_ns());
   sensor_out_.publish_numbered(sensed);
   if (frames_++ % gains_period == 0) send_gains();
@@ -63,14 +64,14 @@ void PlantNode::on_frame(const erp::EcuFrame& frame) {
 }
 
 void PlantNode::on_command(const erp::ActuatorCommand& command) {
-  plant_.accept(command, node_.clock().now_ns());
+  plant_.receive(command, node_.clock().now_ns());
   const auto known = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& a) {
     return a.controller == command.controller;
   });
   if (known == answers_.end()) answers_.push_back({command.controller, command.answers});
   else known->answers = command.answers;
-  if (!owes_answer_) {
-    if (!node_.clock().lockstep() && heard_) answer();
+  if (!answer_pending_) {
+    if (!node_.clock().lockstep() && frame_received_) answer();
     return;
   }
   if (!node_.clock().lockstep() || all_answered()) answer();
@@ -80,18 +81,18 @@ bool PlantNode::all_answered() const {
   const auto answered = static_cast<std::size_t>(std::count_if(
       answers_.begin(), answers_.end(), [&](const Answer& a) { return a.answers >= frame_; }));
   return answered >= command_in_->matched() ||
-         node::monotonic_ns() - owed_since_ns_ > node::lockstep_patience_ns;
+         node::monotonic_ns() - pending_since_ns_ > node::lockstep_patience_ns;
 }
 
 void PlantNode::answer() {
   auto command = plant_.command(node_.clock().now_ns());
   ecu_out_.publish(command);
-  owes_answer_ = false;
-  say_notices();
+  answer_pending_ = false;
+  report_notices();
 }
 
 void PlantNode::repeat_answer() {
-  if (!owes_answer_) answer();
+  if (!answer_pending_) answer();
 }
 
 void PlantNode::on_gains(const erp::GainCommand& command) {
@@ -100,7 +101,7 @@ void PlantNode::on_gains(const erp::GainCommand& command) {
     const auto actuator = std::find(names_.begin(), names_.end(), gain.name);
     const auto index = gain_index(gain.parameter);
     if (actuator == names_.end() || !index || !std::isfinite(gain.value)) {
-      refuse_gain(gain);
+      report_refused_gain(gain);
       continue;
     }
     auto& value = gains_[static_cast<std::size_t>(actuator - names_.begin())][*index];
@@ -114,8 +115,8 @@ void PlantNode::on_gains(const erp::GainCommand& command) {
   if (out.values._length) parameter_out_.publish(out);
 }
 
-/// A gain that is refused again and again is said once.
-void PlantNode::refuse_gain(const erp::GainValue& gain) {
+/// Reports each refused gain once.
+void PlantNode::report_refused_gain(const erp::GainValue& gain) {
   const std::string parameter = gain.parameter, name = gain.name;
   if (!refused_gains_.insert(name + "." + parameter).second) return;
   const bool number = std::isfinite(gain.value);
@@ -133,7 +134,7 @@ void PlantNode::send_gains() {
   if (out.values._length) parameter_out_.publish(out);
 }
 
-void PlantNode::say_notices() {
+void PlantNode::report_notices() {
   for (const auto& notice : plant_.take_notices())
     node_.report(notice.severity, notice.subject, notice.code, notice.text);
 }

@@ -8,9 +8,9 @@
 
 /// The plant on the bus.
 ///
-/// Real time: a controller's command goes to the device as it arrives; a frame that no controller
-/// answered before the next one is answered by the plant alone, so the ECUs hear from it each tick.
-/// Lockstep: a frame is answered once every controller on the bus has answered it.
+/// Real time: a controller's command is passed to the device as soon as it arrives. If no controller
+/// answers a frame before the next frame, the plant answers it, so the ECUs receive a command in
+/// each period. Lockstep: the plant answers a frame once every controller has answered it.
 namespace plant {
 
 class PlantNode {
@@ -25,9 +25,9 @@ class PlantNode {
   bool all_answered() const;
   void answer();
   void repeat_answer();
-  void refuse_gain(const erp::GainValue& gain);
+  void report_refused_gain(const erp::GainValue& gain);
   void send_gains();
-  void say_notices();
+  void report_notices();
   void publish_owners();
 
   struct Answer {
@@ -38,17 +38,17 @@ class PlantNode {
   node::Node& node_;
   Plant plant_;
   std::vector<std::string> names_;
-  std::vector<std::vector<erp::EcuParameterValue>> gains_;  ///< one list an actuator
+  std::vector<std::vector<erp::EcuParameterValue>> gains_;  ///< one list per actuator
   node::Publisher<erp::SensorFrame>& sensor_out_;
   node::Publisher<erp::EcuCommand>& ecu_out_;
   node::Publisher<erp::EcuParameter>& parameter_out_;
   node::Publisher<erp::ActuatorOwner>& owner_out_;
   node::Subscription<erp::ActuatorCommand>* command_in_;
   std::vector<Answer> answers_;
-  std::set<std::string> refused_gains_;  ///< said already
+  std::set<std::string> refused_gains_;  ///< already reported
   std::uint64_t frame_ = 0, frames_ = 0;
-  bool heard_ = false, owes_answer_ = false;
-  std::int64_t owed_since_ns_ = 0;
+  bool frame_received_ = false, answer_pending_ = false;
+  std::int64_t pending_since_ns_ = 0;
 };
 
 }  // namespace plant

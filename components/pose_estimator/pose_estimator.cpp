@@ -8,7 +8,7 @@
 namespace pose {
 namespace {
 
-const double quantum = 1 / std::sqrt(12.0);  // σ of rounding, of a count
+const double quantum = 1 / std::sqrt(12.0);  // σ of quantization, in counts
 
 }  // namespace
 
@@ -35,16 +35,16 @@ erp::JointState PoseEstimator::step(const erp::SensorFrame& frame, double dt_s,
                                     const node::Latest<erp::JointState>& capture,
                                     const node::Latest<erp::ImuFrame>& imus) {
   if (dt_s > 0) filter_.predict(dt_s, tension_N_);
-  hear(frame, dt_s);
-  see_tendons();
-  if (params_.joint_sensors) see_joints(frame);
-  see_capture(capture);
-  if (params_.imus) see_imus(imus);
-  filter_.settle();
+  read_sensors(frame, dt_s);
+  update_from_tendons();
+  if (params_.joint_sensors) update_from_joints(frame);
+  update_from_capture(capture);
+  if (params_.imus) update_from_imus(imus);
+  filter_.apply_correction();
   return estimate();
 }
 
-void PoseEstimator::hear(const erp::SensorFrame& frame, double dt_s) {
+void PoseEstimator::read_sensors(const erp::SensorFrame& frame, double dt_s) {
   constexpr auto needed = erp::valid::shaft | erp::valid::tension;
   for (Tendon& tendon : tendons_) tendon.known = false;
   for (const erp::ActuatorSample& sample : erp::samples(frame.actuators)) {
@@ -58,12 +58,12 @@ void PoseEstimator::hear(const erp::SensorFrame& frame, double dt_s) {
   }
 }
 
-void PoseEstimator::see_tendons() {
+void PoseEstimator::update_from_tendons() {
   length_rate_m_per_s_.noalias() = filter_.model().jacobian() * filter_.speed_rad_per_s();
   for (std::size_t a = 0; a < tendons_.size(); ++a) {
     const Tendon& t = tendons_[a];
     const auto i = static_cast<Eigen::Index>(a);
-    if (!t.known) continue;  // the tension of a moment ago is the best there is
+    if (!t.known) continue;  // keeps the last known tension
     tension_N_[i] = t.tension_N;
     if (t.tension_N < params_.slack_N) continue;
     const double rate = length_rate_m_per_s_[i] + t.law.radius_m * t.speed_rad_per_s;
@@ -72,36 +72,36 @@ void PoseEstimator::see_tendons() {
     const double length_m = t.law.length_m(spring_N, t.shaft_rad);
     const double sigma_m = std::hypot(t.tension_sigma_N / t.law.spring.slope_N_per_m(stretch_m),
                                       t.shaft_sigma_rad * t.law.radius_m, params_.model_m);
-    filter_.see_length(static_cast<int>(a), length_m, sigma_m);
+    filter_.update_length(static_cast<int>(a), length_m, sigma_m);
   }
 }
 
 /// Sensors of revolute joints.
-void PoseEstimator::see_joints(const erp::SensorFrame& frame) {
+void PoseEstimator::update_from_joints(const erp::SensorFrame& frame) {
   for (const erp::JointSample& sample : erp::samples(frame.joints))
     for (std::size_t j = 0; j < names_.size(); ++j) {
-      const bool is_it =
+      const bool matches =
           names_.list()[j].name == sample.name && names_.list()[j].type == erp::JointType::revolute;
-      if (!is_it || !(sample.valid & erp::valid::joint_angle)) continue;
+      if (!matches || !(sample.valid & erp::valid::joint_angle)) continue;
       for (const erp::JointSensor& sensor : robot_.joint_sensors)
         if (sensor.joint == sample.name)
-          filter_.see_joint(static_cast<int>(j), {sample.angle_rad},
-                            std::hypot(sensor.noise_rad, quantum * 2 * std::numbers::pi /
-                                                             std::exp2(sensor.bits_per_rev)));
+          filter_.update_joint(static_cast<int>(j), {sample.angle_rad},
+                               std::hypot(sensor.noise_rad, quantum * 2 * std::numbers::pi /
+                                                                std::exp2(sensor.bits_per_rev)));
     }
 }
 
-/// Each picture once.
-void PoseEstimator::see_capture(const node::Latest<erp::JointState>& capture) {
+/// Uses each capture message once.
+void PoseEstimator::update_from_capture(const node::Latest<erp::JointState>& capture) {
   if (!capture || capture.arrived_ns == captured_ns_) return;
   captured_ns_ = capture.arrived_ns;
   if (!names_.read(capture.message, captured_)) return;
   for (std::size_t j = 0; j < captured_.size(); ++j)
-    filter_.see_joint(static_cast<int>(j), captured_[j].position, params_.capture_rad);
+    filter_.update_joint(static_cast<int>(j), captured_[j].position, params_.capture_rad);
 }
 
-/// Each frame once.
-void PoseEstimator::see_imus(const node::Latest<erp::ImuFrame>& imus) {
+/// Uses each IMU frame once.
+void PoseEstimator::update_from_imus(const node::Latest<erp::ImuFrame>& imus) {
   if (!imus || imus.arrived_ns == turned_ns_) return;
   turned_ns_ = imus.arrived_ns;
   for (const erp::ImuSample& sample : erp::samples(imus->imus))
@@ -109,11 +109,13 @@ void PoseEstimator::see_imus(const node::Latest<erp::ImuFrame>& imus) {
       const erp::Imu& unit = robot_.imus[k];
       if (unit.name != sample.name) continue;
       const double counts = std::exp2(unit.bits);
-      filter_.see_turning(imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.turning_rad_per_s),
-                          std::hypot(unit.turning_noise_rad_per_s,
-                                     quantum * 2 * unit.turning_range_rad_per_s / counts));
-      filter_.see_up(imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.acceleration_m_per_s2),
-                     std::hypot(unit.acceleration_noise_m_per_s2, params_.jerked_m_per_s2));
+      filter_.update_angular_velocity(
+          imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.turning_rad_per_s),
+          std::hypot(unit.turning_noise_rad_per_s,
+                     quantum * 2 * unit.turning_range_rad_per_s / counts));
+      filter_.update_gravity(imu_bodies_[k],
+                             Eigen::Map<const sim::Vec3>(sample.acceleration_m_per_s2),
+                             std::hypot(unit.acceleration_noise_m_per_s2, params_.jerked_m_per_s2));
     }
 }
 

@@ -4,26 +4,26 @@
 #include "components/pose_estimator/pose_filter.hpp"
 #include "sim/model/actuator/tendon.hpp"
 
-/// The pose, computed back from the actuators' sensors (paper, 2.3): joint_state from sensor_frame.
+/// Estimates the pose from the actuators' sensors (paper, 2.3): joint_state from sensor_frame.
 ///
 ///   l̂_a = L_R + L_K0 − r θ + Δx,   f(Δx) = F − D (dl/dt + r ω)       eqs 1, 2, 4, solved for l
 ///
-/// from what encoder and force sensor say; a slack tendon says nothing. What the lengths are worth:
+/// from encoder and force sensor. Slack tendons are skipped. The variance of a length is
 ///
-///   σ_l² = (σ_F / f′)² + σ_θ² r² + σ_model²        sensors of robot.xml, and `model_m`
+///   σ_l² = (σ_F / f′)² + σ_θ² r² + σ_model²        noise of robot.xml's sensors, and `model_m`
 ///
-/// Encoders count from where the robot was switched on: it must then stand in its starting pose.
+/// Encoders count from power-up: the robot must then be in its starting pose.
 namespace pose {
 
 class PoseEstimator {
  public:
   struct Params : FilterOptions {
-    double model_m = 0.0002;     ///< what the tendon's law and its routing are off by; chosen
-    double slack_N = 1;          ///< below, a tendon says nothing; chosen
-    bool joint_sensors = false;  ///< whether sensors of the joints are used as well
+    double model_m = 0.0002;     ///< σ_model, error of the tendon's law and routing; chosen
+    double slack_N = 1;          ///< tendons with less tension are skipped; chosen
+    bool joint_sensors = false;  ///< also use joint sensors
     double capture_rad = 0;      ///< σ of motion_capture's joint_state; 0: not used
-    bool imus = false;           ///< whether inertial units are used as well
-    double jerked_m_per_s2 = 3;  ///< σ of what accelerates them, beside gravity; chosen
+    bool imus = false;           ///< also use inertial units
+    double jerked_m_per_s2 = 3;  ///< σ of their acceleration without gravity; chosen
     void visit(auto& v) {
       v("acceleration_rad_per_s2", acceleration_rad_per_s2, xml::positive);
       v("start_rad", start_rad, xml::positive);
@@ -38,12 +38,12 @@ class PoseEstimator {
     }
   };
 
-  static constexpr bool comes_by_itself = true;  ///< motion_capture's joint_state
+  static constexpr bool asynchronous_joint_state = true;  ///< motion_capture's joint_state
 
-  /// Throws std::invalid_argument for an inertial unit on a body that there is not.
+  /// Throws std::invalid_argument for an inertial unit on a body that does not exist.
   PoseEstimator(const Params& params, const erp::Robot& robot);
 
-  bool wants(const erp::JointState& state) const {
+  bool accepts(const erp::JointState& state) const {
     return params_.capture_rad > 0 && std::string_view(state.source) == "motion_capture";
   }
   erp::JointState step(const erp::SensorFrame& frame, double dt_s,
@@ -60,11 +60,11 @@ class PoseEstimator {
     double tension_N = 0, shaft_rad = 0, speed_rad_per_s = 0;
     bool known = false;
   };
-  void hear(const erp::SensorFrame& frame, double dt_s);
-  void see_tendons();
-  void see_joints(const erp::SensorFrame& frame);
-  void see_capture(const node::Latest<erp::JointState>& capture);
-  void see_imus(const node::Latest<erp::ImuFrame>& imus);
+  void read_sensors(const erp::SensorFrame& frame, double dt_s);
+  void update_from_tendons();
+  void update_from_joints(const erp::SensorFrame& frame);
+  void update_from_capture(const node::Latest<erp::JointState>& capture);
+  void update_from_imus(const node::Latest<erp::ImuFrame>& imus);
   erp::JointState estimate();
 
   Params params_;

@@ -30,7 +30,7 @@ PoseFilter::PoseFilter(const erp::Robot& robot, const FilterOptions& options)
   p_.diagonal().tail(n).setConstant(options.start_rad_per_s * options.start_rad_per_s);
 }
 
-// ---- time ----
+// ---- prediction ----
 
 void PoseFilter::predict(double dt_s, const Vector& tension_N) {
   const Eigen::Index n = speed_.size();
@@ -67,7 +67,7 @@ void PoseFilter::accelerate(double dt_s, const Vector& tension_N) {
   speed_ += dt_s * torque_;
 }
 
-/// q ← q ⊕ by; velocities as they are.
+/// q ← q ⊕ by; also copies the velocities.
 void PoseFilter::turn(const Eigen::Ref<const Vector>& by) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const int first = model_.skeleton().first_of(static_cast<int>(j));
@@ -81,15 +81,15 @@ void PoseFilter::turn(const Eigen::Ref<const Vector>& by) {
   }
 }
 
-// ---- sights ----
+// ---- updates ----
 
-bool PoseFilter::see_length(int actuator, double length_m, double sigma_m) {
+bool PoseFilter::update_length(int actuator, double length_m, double sigma_m) {
   row_.setZero();
   row_.head(speed_.size()) = model_.jacobian().row(actuator);
-  return see(row_, length_m - model_.length_m()[actuator], sigma_m);
+  return update(row_, length_m - model_.length_m()[actuator], sigma_m);
 }
 
-bool PoseFilter::see_joint(int joint, const std::array<double, 4>& position, double sigma_rad) {
+bool PoseFilter::update_joint(int joint, const std::array<double, 4>& position, double sigma_rad) {
   const auto j = static_cast<std::size_t>(joint);
   const int first = model_.skeleton().first_of(joint);
   if (first < 0) return false;
@@ -98,66 +98,67 @@ bool PoseFilter::see_joint(int joint, const std::array<double, 4>& position, dou
   for (int d = 0; d < std::min(sim::coordinates_of(joints_[j].type), 3); ++d) {
     row_.setZero();
     row_[first + d] = 1;
-    all = see(row_, way[static_cast<std::size_t>(d)], sigma_rad) && all;
+    all = update(row_, way[static_cast<std::size_t>(d)], sigma_rad) && all;
   }
   return all;
 }
 
-/// S_d's turn in a body's own axes.
+/// Rotation axis of S_d in a body's own axes.
 sim::Vec3 PoseFilter::axis_on(int body, int coordinate) const {
   const auto& pose = model_.skeleton().poses()[static_cast<std::size_t>(body)];
   return pose.rotation.transpose() * model_.skeleton().axis(coordinate).head<3>();
 }
 
-/// ω of the body that a coordinate's joint is on.
-sim::Vec3 PoseFilter::carried_rad_per_s(int coordinate) const {
+/// ω of the parent body of a coordinate's joint.
+sim::Vec3 PoseFilter::parent_angular_rad_per_s(int coordinate) const {
   const int parent = parents_[static_cast<std::size_t>(coordinate)];
   if (parent < 0) return sim::Vec3::Zero();
   return model_.skeleton().twists()[static_cast<std::size_t>(parent)].angular_rad_per_s;
 }
 
-bool PoseFilter::see_turning(int body, const sim::Vec3& turning_rad_per_s, double sigma) {
+bool PoseFilter::update_angular_velocity(int body, const sim::Vec3& turning_rad_per_s,
+                                         double sigma) {
   const auto b = static_cast<std::size_t>(body);
   const auto& skeleton = model_.skeleton();
   const Eigen::Matrix3d into = skeleton.poses()[b].rotation.transpose();
-  const sim::Vec3 apart = turning_rad_per_s - into * skeleton.twists()[b].angular_rad_per_s;
+  const sim::Vec3 innovation = turning_rad_per_s - into * skeleton.twists()[b].angular_rad_per_s;
   bool all = true;
   for (int axis = 0; axis < 3; ++axis) {
     row_.setZero();
     for (const int d : skeleton.movers(body)) {
       const sim::Vec3 turns = skeleton.axis(d).head<3>();
       row_[speed_.size() + d] = (into * turns)[axis];
-      row_[d] = (into * carried_rad_per_s(d).cross(turns))[axis];
+      row_[d] = (into * parent_angular_rad_per_s(d).cross(turns))[axis];
     }
-    all = see(row_, apart[axis], sigma) && all;
+    all = update(row_, innovation[axis], sigma) && all;
   }
   return all;
 }
 
-bool PoseFilter::see_up(int body, const sim::Vec3& force_m_per_s2, double sigma) {
+bool PoseFilter::update_gravity(int body, const sim::Vec3& force_m_per_s2, double sigma) {
   const auto& pose = model_.skeleton().poses()[static_cast<std::size_t>(body)];
   const sim::Vec3 up = -(pose.rotation.transpose() * gravity_m_per_s2_);
   bool all = true;
   for (int axis = 0; axis < 3; ++axis) {
     row_.setZero();
     for (const int d : model_.skeleton().movers(body)) row_[d] = up.cross(axis_on(body, d))[axis];
-    all = see(row_, force_m_per_s2[axis] - up[axis], sigma) && all;
+    all = update(row_, force_m_per_s2[axis] - up[axis], sigma) && all;
   }
   return all;
 }
 
-/// `apart`: seen less predicted, at the pose that δ is counted from.
-bool PoseFilter::see(const Vector& h, double apart, double sigma) {
-  const double left = apart - h.dot(error_);
+/// `innovation`: measured minus predicted, at the pose relative to which δ is defined.
+bool PoseFilter::update(const Vector& h, double innovation, double sigma) {
+  const double residual = innovation - h.dot(error_);
   gain_.noalias() = p_ * h;
   const double variance = h.dot(gain_) + sigma * sigma;
-  if (!(left * left <= options_.gate * options_.gate * variance)) return false;
-  error_ += (left / variance) * gain_;
+  if (!(residual * residual <= options_.gate * options_.gate * variance)) return false;
+  error_ += (residual / variance) * gain_;
   p_.noalias() -= (1 / variance) * gain_ * gain_.transpose();
   return true;
 }
 
-void PoseFilter::settle() {
+void PoseFilter::apply_correction() {
   const Eigen::Index n = speed_.size();
   speed_ += error_.tail(n);
   turn(error_.head(n));

@@ -6,11 +6,11 @@
 #include "sim/control/motor_inverse.hpp"
 #include "sim/model/actuator/spring.hpp"
 
-/// The pieces of puller-follower control (paper, 5.2): who pulls, how taut the follower is kept, and
-/// what voltage makes a tension follow.
+/// The elements of puller-follower control (paper, 5.2): the tensions of puller and follower, the
+/// reference tension, and the voltage that makes a tension follow its reference.
 namespace control {
 
-/// Tensions of a pair: the puller's carries the torque, the follower's is the reference tension.
+/// Tensions of a pair: the puller applies the torque, the follower keeps the reference tension.
 ///
 ///   F_follower = F_ref,   F_puller = F_ref + |τ| / arm of the puller
 ///
@@ -20,15 +20,15 @@ struct Pair {
 
   bool positive_pulls(double torque_Nm) const { return torque_Nm >= 0; }
   std::array<double, 2> tensions_N(double torque_Nm, double reference_N) const {
-    // Both at the reference turn the joint too, where their arms differ.
-    const double own_Nm = reference_N * (arm_m[0] - arm_m[1]), left_Nm = torque_Nm - own_Nm;
-    return {reference_N + std::max(0.0, left_Nm) / arm_m[0],
-            reference_N + std::max(0.0, -left_Nm) / arm_m[1]};
+    // With different moment arms the reference tension itself causes a torque.
+    const double own_Nm = reference_N * (arm_m[0] - arm_m[1]), net_Nm = torque_Nm - own_Nm;
+    return {reference_N + std::max(0.0, net_Nm) / arm_m[0],
+            reference_N + std::max(0.0, -net_Nm) / arm_m[1]};
   }
 };
 
-/// The reference tension: low where one of the two clearly pulls, raised around a change of roles,
-/// which it begins before the change, as far as the torque's slope tells.
+/// The reference tension: low while one muscle clearly pulls, raised around a change of roles. It
+/// rises before the change, predicted from the rate of the torque.
 ///
 ///   s = max over 0 … lead of (1 − |τ + t dτ/dt| / τ_w)₊²(3 − 2 …),   F_ref = low + s (high − low)
 struct ReferenceTension {
@@ -43,31 +43,31 @@ struct ReferenceTension {
   }
 };
 
-/// Input–output linearisation of one tension: with the voltage of the motor's inverse, F obeys
+/// Input–output linearisation of one tension: with the voltage of the inverse motor model, F obeys
 ///
 ///   F̈ = F̈_d + 2 b (Ḟ_d − Ḟ) + b² (F_d − F),     Ḟ = κ (dl/dt + r ω),  F̈ = κ (d²l/dt² + r ω̇)
 ///
-/// κ the spring's slope at F; its change and the damper are left out.
+/// κ is the spring's stiffness at F. Its rate of change and the damper are neglected.
 class TensionLinearisation {
  public:
   TensionLinearisation(const sim::MotorInverse& motor, const sim::Spring& spring,
                        double bandwidth_per_s)
       : motor_(motor), spring_(spring), b_(bandwidth_per_s) {}
 
-  struct Seen {
+  struct Measured {
     double tension_N, speed_rad_per_s, length_rate_m_per_s, length_acceleration_m_per_s2;
   };
-  struct Wanted {
+  struct Desired {
     double tension_N, rate_N_per_s, acceleration_N_per_s2;
   };
 
-  double voltage_V(const Seen& seen, const Wanted& wanted) const {
+  double voltage_V(const Measured& seen, const Desired& desired) const {
     const double slope = spring_.slope_N_per_m(spring_.stretch_m(std::max(0.0, seen.tension_N)));
     const double r = motor_.radius_m();
     const double rate = slope * (seen.length_rate_m_per_s + r * seen.speed_rad_per_s);
-    const double acceleration = wanted.acceleration_N_per_s2 +
-                                2 * b_ * (wanted.rate_N_per_s - rate) +
-                                b_ * b_ * (wanted.tension_N - seen.tension_N);
+    const double acceleration = desired.acceleration_N_per_s2 +
+                                2 * b_ * (desired.rate_N_per_s - rate) +
+                                b_ * b_ * (desired.tension_N - seen.tension_N);
     return motor_.voltage_V(seen.tension_N, seen.speed_rad_per_s,
                             (acceleration / slope - seen.length_acceleration_m_per_s2) / r);
   }

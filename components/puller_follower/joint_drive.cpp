@@ -8,8 +8,8 @@
 namespace control {
 namespace {
 
-// As the plant has it, which takes slack up then.
-constexpr double slack_N = 0.5, hangs_s = 0.016;
+// The values of the plant, which then takes up the slack.
+constexpr double slack_N = 0.5, slack_limit_s = 0.016;
 constexpr double lever_m = 1e-4;  // chosen: below, a tendon runs through the joint's axis
 
 /// The actuators that turn a hinge, the one towards positive angles first.
@@ -22,8 +22,8 @@ std::array<std::size_t, 2> antagonists(const erp::Robot& robot, const sim::Muscu
     if (std::abs(row[hinge.coordinate]) < lever_m) continue;
     if ((row.array().abs() >= lever_m).count() > 1)
       throw std::invalid_argument("actuator \"" + robot.actuators[a].name +
-                                  "\" turns more than one joint: puller-follower control knows "
-                                  "none such; there is computed_force");
+                                  "\" turns more than one joint; puller-follower control "
+                                  "needs one joint per muscle; use computed_force");
     found.push_back(a);
   }
   const auto lever = [&](std::size_t k) {
@@ -31,16 +31,16 @@ std::array<std::size_t, 2> antagonists(const erp::Robot& robot, const sim::Muscu
   };
   if (found.size() != 2 || lever(0) * lever(1) > 0)
     throw std::invalid_argument("joint \"" + hinge.name + "\" of robot \"" + robot.name +
-                                "\" has not exactly two antagonists; there is computed_force");
-  if (lever(0) > 0) std::swap(found[0], found[1]);  // it turns where it gets shorter
+                                "\" needs exactly two antagonists; use computed_force");
+  if (lever(0) > 0) std::swap(found[0], found[1]);  // a tendon turns the joint so that it shortens
   return {found[0], found[1]};
 }
 
-void add(const std::string& name, erp::Mode mode, double wanted, erp::ActuatorCommand& message) {
+void add(const std::string& name, erp::Mode mode, double desired, erp::ActuatorCommand& message) {
   erp::ActuatorReference reference{};
   erp::assign(reference.name, name);
   reference.mode = static_cast<std::uint8_t>(mode);
-  reference.reference = wanted;
+  reference.reference = desired;
   erp::append(message.actuators, reference);
 }
 
@@ -61,13 +61,13 @@ JointDrive::JointDrive(const erp::Robot& robot, const sim::Musculoskeletal& mode
       tendons_{tendon_of(robot, antagonists(robot, model, hinge)[0]),
                tendon_of(robot, antagonists(robot, model, hinge)[1])} {}
 
-bool JointDrive::hear(const erp::SensorFrame& frame, double dt_s) {
+bool JointDrive::read_sensors(const erp::SensorFrame& frame, double dt_s) {
   constexpr auto needed = erp::valid::shaft | erp::valid::tension;
   for (Tendon& tendon : tendons_) {
-    const auto said = erp::samples(frame.actuators);
+    const auto samples = erp::samples(frame.actuators);
     const auto found =
-        std::ranges::find_if(said, [&](const auto& s) { return tendon.name == s.name; });
-    const bool valid = found != said.end() && (found->valid & needed) == needed;
+        std::ranges::find_if(samples, [&](const auto& s) { return tendon.name == s.name; });
+    const bool valid = found != samples.end() && (found->valid & needed) == needed;
     if (valid) {
       const bool moves = tendon.seen && dt_s > 0;
       tendon.speed_rad_per_s = moves ? (found->shaft_rad - tendon.shaft_rad) / dt_s : 0;
@@ -81,8 +81,8 @@ bool JointDrive::hear(const erp::SensorFrame& frame, double dt_s) {
   return tendons_[0].seen && tendons_[1].seen;
 }
 
-bool JointDrive::hangs() const {
-  return std::ranges::any_of(tendons_, [](const Tendon& t) { return t.slack_s > hangs_s; });
+bool JointDrive::is_slack() const {
+  return std::ranges::any_of(tendons_, [](const Tendon& t) { return t.slack_s > slack_limit_s; });
 }
 
 double JointDrive::torque_Nm(const sim::Musculoskeletal& model) const {
@@ -93,12 +93,12 @@ double JointDrive::torque_Nm(const sim::Musculoskeletal& model) const {
 
 void JointDrive::begin(double torque_Nm) {
   const double slacker_N = std::min(tendons_[0].tension_N, tendons_[1].tension_N);
-  torque_ = {torque_Nm}, raised_N_ = std::max(params_.low_N, slacker_N), reference_ = {raised_N_};
+  torque_ = {torque_Nm}, target_N_ = std::max(params_.low_N, slacker_N), reference_ = {target_N_};
 }
 
 void JointDrive::stop() {
   for (Tendon& tendon : tendons_) tendon.stopped_m = tendon.line_m;
-  strain_ = 0;
+  saturation_ = 0;
 }
 
 void JointDrive::brake(const sim::Musculoskeletal& model, erp::ActuatorCommand& message) const {
@@ -112,8 +112,8 @@ void JointDrive::follow(double torque_Nm, double dt_s) {
   torque_.follow(torque_Nm, dt_s, params_.smooth_s);
   const ReferenceTension raised{params_.low_N, params_.high_N, params_.width_Nm, params_.lead_s};
   const double most_N = params_.raise_N_per_s * dt_s;
-  raised_N_ += std::clamp(raised.of(torque_.value, torque_.rate) - raised_N_, -most_N, most_N);
-  reference_.follow(raised_N_, dt_s, params_.raise_s);
+  target_N_ += std::clamp(raised.of(torque_.value, torque_.rate) - target_N_, -most_N, most_N);
+  reference_.follow(target_N_, dt_s, params_.raise_s);
 }
 
 void JointDrive::drive(double torque_Nm, double acceleration, const sim::Musculoskeletal& model,
@@ -129,19 +129,19 @@ void JointDrive::drive(double torque_Nm, double acceleration, const sim::Musculo
     const double share = pulls ? (k == 0 ? 1 : -1) / pair.arm_m[k] : 0;  // dF_d/dτ
     within = command(k, tension_N[k], share, speed, levers_m[k], acceleration, message) && within;
   }
-  strain_ += dt_s / (1 + dt_s) * ((within ? 0 : 1) - strain_);
+  saturation_ += dt_s / (1 + dt_s) * ((within ? 0 : 1) - saturation_);
 }
 
 bool JointDrive::command(std::size_t which, double tension_N, double share, double speed,
                          double lever_m, double acceleration, erp::ActuatorCommand& message) const {
   const Tendon& t = tendons_[which];
-  const TensionLinearisation::Wanted wanted{std::min(tension_N, t.most_N),
-                                            reference_.rate + share * torque_.rate,
-                                            reference_.acceleration + share * torque_.acceleration};
-  const double asked_V = t.law.voltage_V(
-      {t.tension_N, t.speed_rad_per_s, lever_m * speed, lever_m * acceleration}, wanted);
-  add(t.name, erp::Mode::voltage, std::clamp(asked_V, -t.supply_V, t.supply_V), message);
-  return std::abs(asked_V) <= t.supply_V;
+  const TensionLinearisation::Desired desired{
+      std::min(tension_N, t.most_N), reference_.rate + share * torque_.rate,
+      reference_.acceleration + share * torque_.acceleration};
+  const double voltage_V = t.law.voltage_V(
+      {t.tension_N, t.speed_rad_per_s, lever_m * speed, lever_m * acceleration}, desired);
+  add(t.name, erp::Mode::voltage, std::clamp(voltage_V, -t.supply_V, t.supply_V), message);
+  return std::abs(voltage_V) <= t.supply_V;
 }
 
 /// Two first-order lags in a row: value, and its first and second derivative.

@@ -5,52 +5,53 @@
 #include "components/puller_follower/antagonists.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/topics.hpp"
-#include "sim/model/actuator/musculoskeletal.hpp"
 #include "sim/control/loop_shaping/joint_loops.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
 
-/// A hinge's two tendons, driven so that they give a torque: the second step of puller-follower
-/// control (paper, 5.2 and Fig. 7a).
+/// Drives a hinge's two tendons so that they apply a torque: step 2 of puller-follower control
+/// (paper, 5.2 and Fig. 7a).
 namespace control {
 
-/// How taut a pair is kept, and how fast tensions follow.
+/// Reference tension of a pair, and dynamics of the tensions.
 struct DriveParams {
   double low_N = 4, high_N = 15;  ///< reference tension away from and at a change of roles; chosen
-  double width_Nm = 0.15;         ///< of the torque, around a change; chosen
-  double lead_s = 0.3;            ///< how long before the change; chosen
-  double raise_N_per_s = 40;      ///< how fast it rises and falls: the line that takes; chosen
-  double raise_s = 0.05;          ///< how gently that begins and ends; chosen
-  double smooth_s = 0.01;         ///< of the torque; chosen
-  double tension_per_s = 60;      ///< b of the tensions; chosen
-  double brake_s = 0.05;          ///< g of the brake; chosen
+  double width_Nm = 0.15;         ///< torque range of a change of roles; chosen
+  double lead_s = 0.3;            ///< how long before a change the rise begins; chosen
+  double raise_N_per_s = 40;      ///< largest rate of the reference tension; chosen
+  double raise_s = 0.05;          ///< smoothing time of the reference; chosen
+  double smooth_s = 0.01;         ///< smoothing time of the torque; chosen
+  double tension_per_s = 60;      ///< bandwidth b of the tensions; chosen
+  double brake_s = 0.05;          ///< damping g of the brake; chosen
 };
 
 class JointDrive {
  public:
-  /// Throws std::invalid_argument where the hinge has not exactly two antagonists that turn no
-  /// other joint.
+  /// Throws std::invalid_argument unless the hinge has exactly two antagonists that turn no other
+  /// joint.
   JointDrive(const erp::Robot& robot, const sim::Musculoskeletal& model,
              const sim::loop_shaping::Hinge& hinge, const DriveParams& params);
 
-  /// False: tension or shaft of a tendon is not known.
-  bool hear(const erp::SensorFrame& frame, double dt_s);
-  /// One of its tendons has been slack for longer than a follower may let go.
-  bool hangs() const;
-  /// What its tendons give now.
+  /// False: tension or shaft angle of a tendon is not known.
+  bool read_sensors(const erp::SensorFrame& frame, double dt_s);
+  /// True if one of the tendons has been slack for more than 16 ms.
+  bool is_slack() const;
+  /// Torque that the tendons apply now.
   double torque_Nm(const sim::Musculoskeletal& model) const;
-  /// From that torque, and as taut as it is.
+  /// Starts at this torque and at the current smaller tension.
   void begin(double torque_Nm);
-  /// Adds both voltages. `acceleration`: that of the joint under this torque, rad/s².
+  /// Adds both voltages to the command. `acceleration`: the joint's under this torque, in rad/s².
   void drive(double torque_Nm, double acceleration, const sim::Musculoskeletal& model, double dt_s,
              erp::ActuatorCommand& command);
 
-  /// Its motors were asked for more than their supply for much of the last second: it has outrun
-  /// them, and a loop around motors that cannot follow swings.
-  bool outrun() const { return strain_ > 0.4; }  // chosen: a catch of 0.2 kg stays below
-  /// Its lines stay where they are now, but give and take as the joint moves: damping that slow
-  /// motors can give.
+  /// True if the commanded voltage exceeded the supply for much of the last second. A closed loop
+  /// with saturated motors oscillates.
+  bool is_saturated() const {
+    return saturation_ > 0.4;
+  }  // chosen: attaching a load of 0.2 kg stays below
+  /// Braking: the lines keep their current length, plus damping that slow motors can apply.
   ///
   ///   line = line₀ − g dl/dt
-  void stop();
+  void stop();  ///< stores the current line lengths as line₀
   void brake(const sim::Musculoskeletal& model, erp::ActuatorCommand& command) const;
 
  private:
@@ -81,8 +82,8 @@ class JointDrive {
   int coordinate_;
   std::array<Tendon, 2> tendons_;  ///< [0] pulls towards positive angles
   Smooth torque_, reference_;
-  double raised_N_ = 0;
-  double strain_ = 0;  ///< share of the last second
+  double target_N_ = 0;
+  double saturation_ = 0;  ///< share of the last second with saturated motors
 };
 
 }  // namespace control

@@ -28,7 +28,7 @@ class Linearised : public JointLaw {
                             double dt_s) override {
     sum_ += dt_s * errors.error_rad;
     bound();
-    acceleration_ = errors.wanted_rad_per_s2 + params_.kd_per_s * errors.error_rad_per_s +
+    acceleration_ = errors.desired_rad_per_s2 + params_.kd_per_s * errors.error_rad_per_s +
                     params_.kp_per_s2 * errors.error_rad + params_.ki_per_s3 * sum_;
     torque_ = dynamics.bias;
     torque_.noalias() += dynamics.inertia * acceleration_;
@@ -53,21 +53,21 @@ class LoopShaping : public JointLaw {
 
   void begin(const VectorXd& torque_Nm, const Dynamics& dynamics) override {
     sim::loop_shaping::align(dynamics.inertia, hinges_, params_.shape, alignment_);
-    asked_ = torque_Nm - params_.gravity * dynamics.gravity;
+    output_ = torque_Nm - params_.gravity * dynamics.gravity;
     factor_.compute(alignment_);
-    factor_.solveInPlace(asked_);
-    rest_.noalias() = holding_ * asked_;
+    factor_.solveInPlace(output_);
+    rest_.noalias() = holding_ * output_;
     loops_.begin(rest_);
   }
   const VectorXd& torque_Nm(const JointErrors& errors, const Dynamics& dynamics,
                             double dt_s) override {
-    // Frames that were lost: what is known now was so since.
+    // After lost frames the current error is applied to each missed period.
     const long periods = std::clamp(std::lround(dt_s / period_s), 1L, 5L);
-    for (long k = 0; k < periods; ++k) asked_ = loops_.step(errors.error_rad);
+    for (long k = 0; k < periods; ++k) output_ = loops_.step(errors.error_rad);
     sim::loop_shaping::align(dynamics.inertia, hinges_, params_.shape, alignment_);
     torque_ = params_.gravity * dynamics.gravity;
-    torque_.noalias() += alignment_ * asked_;
-    torque_.noalias() += params_.feedforward * (dynamics.inertia * errors.wanted_rad_per_s2);
+    torque_.noalias() += alignment_ * output_;
+    torque_.noalias() += params_.feedforward * (dynamics.inertia * errors.desired_rad_per_s2);
     return torque_;
   }
 
@@ -80,9 +80,9 @@ class LoopShaping : public JointLaw {
         holding_(loops.holding()),
         alignment_(model.coordinates(), model.coordinates()),
         factor_(model.coordinates()),
-        asked_(VectorXd::Zero(model.coordinates())),
+        output_(VectorXd::Zero(model.coordinates())),
         rest_(VectorXd::Zero(holding_.rows())),
-        torque_(asked_) {}
+        torque_(output_) {}
 
   static constexpr double period_s = 0.002;  ///< of sensor frames
   LawParams params_;
@@ -90,7 +90,7 @@ class LoopShaping : public JointLaw {
   sim::loop_shaping::Sampled loops_;
   Eigen::MatrixXd holding_, alignment_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  VectorXd asked_, rest_, torque_;
+  VectorXd output_, rest_, torque_;
 };
 
 class Pd : public JointLaw {
@@ -124,7 +124,7 @@ std::unique_ptr<JointLaw> law_of(Law law, const LawParams& params, sim::Musculos
       try {
         return std::make_unique<LoopShaping>(params, model);
       } catch (const std::domain_error& error) {
-        throw std::invalid_argument(std::string("no loops of that shape: ") + error.what() +
+        throw std::invalid_argument(std::string("the loops cannot be shaped: ") + error.what() +
                                     "; give a lower crossover_Hz or more lead");
       }
     case Law::pd:

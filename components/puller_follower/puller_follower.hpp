@@ -5,24 +5,24 @@
 
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
+#include "components/puller_follower/disturbance_observer.hpp"
 #include "components/puller_follower/joint_drive.hpp"
 #include "components/puller_follower/joint_laws.hpp"
-#include "components/puller_follower/unmodelled.hpp"
 
 /// Puller-follower control of hinges with two antagonists each (paper, 5.2 and Fig. 7): the puller
-/// answers for the joint's angle, the follower for its own tension; the two change roles.
+/// controls the joint's angle, the follower its own tension; the two change roles.
 ///
-///   1  angles → torques    a law of joint_laws.hpp, and the joints' friction at the wanted speed
-///   2  torque → voltages   of both motors, joint by joint: joint_drive.hpp, antagonists.hpp
+///   1  angles → torques    a law of joint_laws.hpp, plus joint friction at the desired speed
+///   2  torque → voltages   of both motors of each joint: joint_drive.hpp, antagonists.hpp
 ///
-/// The second step needs how the joints are about to move: a = H⁻¹ (τ − C − τ_G − τ_f) and what else
-/// they seem to accelerate by, unmodelled.hpp: under a load tendons would go slack without it.
+/// Step 2 needs the joints' accelerations: a = H⁻¹ (τ − C − τ_G − τ_f) plus the estimate of
+/// disturbance_observer.hpp. Without that estimate tendons would go slack under a load.
 ///
-/// Control begins from where the joints are, as they move and with the torque that acts, and leads
-/// them onto the target: at first, when frames have been missing, and when a tendon has hung slack.
-/// While one hangs, which the plant then takes up, the joints are held where that began. A joint that
-/// outruns its motors, under a load or after a machine stood still, is braked until all are at rest:
-/// a loop around motors that cannot follow would swing it from stop to stop.
+/// Control starts at the current joint positions, velocities and torques, and guides the joints to
+/// the target. It restarts after missing frames and after a tendon was slack. While a tendon is
+/// slack, the plant takes it up, and the joints are held. A joint whose motors saturate, under a
+/// load or after the machine stopped, is braked until all joints are at rest: a closed loop with
+/// saturated motors would oscillate between the joint stops.
 namespace control {
 
 class PullerFollower {
@@ -30,14 +30,14 @@ class PullerFollower {
   struct Params {
     xml::Place place;
     Law law = Law::linearised;
-    std::string loops;  ///< of loop_shaping: a file of JointShape, relative to the config; its
-                        ///< smooth_s counts then
+    /// Of loop_shaping: a file of JointShape, relative to the config; its smooth_s counts then.
+    std::string loops;
     LawParams laws;
     DriveParams drives;
     double friction = 1;           ///< share of robot.xml's joint friction that is compensated
-    std::string source = "sim";    ///< whose joint_state is believed
-    double stale_s = 0.05;         ///< older states and targets are no longer followed; chosen
-    double start_rad_per_s = 0.5;  ///< about how fast joints are led onto the target; chosen
+    std::string source = "sim";    ///< source of the joint_state that is used
+    double stale_s = 0.05;         ///< older states and targets are rejected; chosen
+    double start_rad_per_s = 0.5;  ///< approximate speed of the approach to the target; chosen
     void visit(auto& v) {
       v("law", law);
       v("low_N", drives.low_N, xml::at_least_zero);
@@ -65,30 +65,30 @@ class PullerFollower {
 
   /// Throws std::invalid_argument as hinges_of, JointDrive and law_of.
   PullerFollower(const Params& params, const erp::Robot& robot);
-  /// As a component: it says when it brakes.
+  /// As a component, which reports when it brakes.
   PullerFollower(const Params& params, const erp::Robot& robot, node::Node& node)
       : PullerFollower(params, robot) {
     node_ = &node;
   }
 
-  bool wants(const erp::JointState& state) const { return params_.source == state.source; }
-  /// Nothing while joints, tendons or target are not known or stale: the plant then takes its safe
+  bool accepts(const erp::JointState& state) const { return params_.source == state.source; }
+  /// nullopt if joints, tendons or target are unknown or stale: the plant then takes its safe
   /// action. No heap from the second step on.
   std::optional<erp::ActuatorCommand> step(const erp::SensorFrame& frame, double dt_s,
                                            const node::Latest<erp::JointState>& state,
                                            const node::Latest<erp::JointTarget>& target);
 
  private:
-  enum class Phase { silent, brakes, holds, leads };
-  bool hear(const erp::SensorFrame& frame, double dt_s);
+  enum class Phase { idle, braking, holding, tracking };
+  bool read_sensors(const erp::SensorFrame& frame, double dt_s);
   Phase next() const;
-  erp::ActuatorCommand brake(bool goes_on, double dt_s);
-  void say_outrun() const;
-  erp::ActuatorCommand lead(bool goes_on, double dt_s);
+  erp::ActuatorCommand brake(bool continues, double dt_s);
+  void report_saturation() const;
+  erp::ActuatorCommand track(bool continues, double dt_s);
   void begin();
-  void compare();
-  void find_torques(double dt_s);
-  void find_acceleration(double dt_s);
+  void update_errors();
+  void compute_torques(double dt_s);
+  void compute_acceleration(double dt_s);
 
   Params params_;
   joints::Names names_;
@@ -97,16 +97,17 @@ class PullerFollower {
   std::vector<JointDrive> drives_;
   std::unique_ptr<JointLaw> law_;
   std::vector<sim::JointReading> now_;
-  std::vector<sim::JointMotion> wanted_, held_;
+  std::vector<sim::JointMotion> desired_, held_;
   JointErrors errors_;
   Dynamics dynamics_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd acting_Nm_, torque_Nm_, friction_Nm_;  ///< by the tendons, asked for, of joints
+  /// Torques: of the tendons, commanded, of joint friction.
+  Eigen::VectorXd acting_Nm_, torque_Nm_, friction_Nm_;
   Eigen::VectorXd acceleration_;
-  Unmodelled unmodelled_;
-  Phase phase_ = Phase::silent;
-  sim::CatchUp onto_target_;
-  double led_s_ = 0, rested_s_ = 0;  ///< since it began; while it brakes
+  DisturbanceObserver disturbance_;
+  Phase phase_ = Phase::idle;
+  sim::CatchUp catch_up_;
+  double tracking_s_ = 0, rest_s_ = 0;  ///< time since tracking began; time at rest while braking
   node::Node* node_ = nullptr;
 };
 

@@ -11,7 +11,7 @@
 namespace reference {
 namespace {
 
-constexpr double missing_s = 0.05;  // chosen: so long without a frame, and the robot went on alone
+constexpr double missing_s = 0.05;  // chosen: longer gaps between frames count as missing frames
 
 std::vector<sim::TimedPose> poses_of(const JointPlayer::Params& params, const erp::Robot& robot) {
   const auto folder = std::filesystem::path(params.place.file).parent_path();
@@ -28,7 +28,7 @@ void check_range(const sim::JointPath& path, std::span<const erp::Joint> joints)
   if (!out) return;
   const erp::Joint& joint = joints[out->joint];
   throw std::invalid_argument(
-      fmt::format("at {:.2f} s the way takes joint \"{}\" to {:.3f} rad, out of {} … {}: halt in "
+      fmt::format("at {:.2f} s the path moves joint \"{}\" to {:.3f} rad, outside {} … {}; stop in "
                   "the poses (via=\"rest\"), or keep them farther from its stops",
                   out->time_s, joint.name, out->at_rad, joint.min_rad, joint.max_rad));
 }
@@ -48,29 +48,29 @@ std::optional<erp::JointTarget> JointPlayer::step(const erp::SensorFrame& frame,
   if (!state || !names_.read(state.message, frame.stamp_ns, now_)) return std::nullopt;
   const bool missed = dt_s > missing_s;
   catching_up_s_ += dt_s;
-  there_ = there_ || (begun_ && catching_up_s_ >= catch_up_.duration_s());
-  if (there_ && !missed) path_s_ += dt_s;
-  lead();
-  if (!begun_ || missed || joints::apart_rad(now_, led_) > params_.lost_rad) pick_up();
+  on_path_ = on_path_ || (begun_ && catching_up_s_ >= catch_up_.duration_s());
+  if (on_path_ && !missed) path_s_ += dt_s;
+  update_reference();
+  if (!begun_ || missed || joints::apart_rad(now_, reference_) > params_.lost_rad) begin_catch_up();
   erp::JointTarget target;
-  names_.write(led_, target);
+  names_.write(reference_, target);
   return target;
 }
 
-/// Where the joints shall be now.
-void JointPlayer::lead() {
+/// Computes the current reference.
+void JointPlayer::update_reference() {
   if (params_.loop && path_s_ > path_.end_s()) path_s_ -= path_.end_s() - path_.begin_s();
-  path_.at(path_s_, led_);
-  catch_up_.add(catching_up_s_, led_);
+  path_.at(path_s_, reference_);
+  catch_up_.add(catching_up_s_, reference_);
 }
 
-/// From where the robot is and as it moves, onto the path.
-void JointPlayer::pick_up() {
-  path_.at(path_s_, led_);
-  catch_up_ = joints::onto(now_, led_, params_.start_rad_per_s);
+/// Starts a transition from the robot's current position and velocity to the path.
+void JointPlayer::begin_catch_up() {
+  path_.at(path_s_, reference_);
+  catch_up_ = joints::catch_up(now_, reference_, params_.start_rad_per_s);
   catching_up_s_ = 0;
   begun_ = true;
-  lead();
+  update_reference();
 }
 
 }  // namespace reference

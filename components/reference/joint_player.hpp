@@ -8,13 +8,14 @@
 #include "sim/control/pose_plan.hpp"
 #include "sim/model/skeleton/catch_up.hpp"
 
-/// Leads the joints through the poses of a file with the least jerk, with a halt in each or without.
+/// Guides the joints through the poses of a file with minimum jerk, with or without a stop in each
+/// pose.
 ///
-/// It begins where the robot is, and goes from there to the first pose no faster than
-/// `start_rad_per_s`. Should the robot be farther than `lost_rad` from where it was led, because it
-/// was moved, or is another one since a restart, or should frames have been missing, as when the
-/// plant was away, it is led on from where it is and as it moves: catch_up.hpp. The way's time stands
-/// still while frames are missing, and until the first pose is reached.
+/// It begins at the robot's current position and moves from there to the first pose at no more than
+/// `start_rad_per_s`. If the robot is farther than `lost_rad` from the reference (it was moved or
+/// restarted), or after missing frames (the plant was absent), the motion resumes from the robot's
+/// current position and velocity: catch_up.hpp. The path time does not advance during missing
+/// frames and before the first pose is reached.
 namespace reference {
 
 class JointPlayer {
@@ -22,9 +23,10 @@ class JointPlayer {
   struct Params {
     xml::Place place;
     std::string file;               ///< poses.csv, relative to the config that names it
-    sim::Via via = sim::Via::rest;  ///< whether it halts in each pose
-    bool loop = false;  ///< from the last pose to the first, as far as they are apart in time
-    std::string source = "sim";    ///< whose joint_state says where the robot is
+    sim::Via via = sim::Via::rest;  ///< whether the motion stops in each pose
+    /// Repeat; from the last pose to the first in the time between the first two.
+    bool loop = false;
+    std::string source = "sim";    ///< source of the joint_state that is used
     double start_rad_per_s = 0.5;  ///< chosen
     double lost_rad = 0.6;         ///< chosen
     void visit(auto& v) {
@@ -37,27 +39,27 @@ class JointPlayer {
     }
   };
 
-  /// Throws std::invalid_argument as poses_of, and where a way between two poses leaves a joint's
-  /// range; recording::RecordingError.
+  /// Throws std::invalid_argument as poses_of, and if the path leaves a joint's range;
+  /// recording::RecordingError.
   JointPlayer(const Params& params, const erp::Robot& robot);
 
-  bool wants(const erp::JointState& state) const { return params_.source == state.source; }
-  /// Nothing before the robot's joints are known.
+  bool accepts(const erp::JointState& state) const { return params_.source == state.source; }
+  /// nullopt before the robot's joints are known.
   std::optional<erp::JointTarget> step(const erp::SensorFrame& frame, double dt_s,
                                        const node::Latest<erp::JointState>& state);
 
  private:
-  void lead();
-  void pick_up();
+  void update_reference();
+  void begin_catch_up();
 
   Params params_;
   joints::Names names_;
   sim::JointPath path_;
   sim::CatchUp catch_up_;
   std::vector<sim::JointReading> now_;
-  std::vector<sim::JointMotion> led_;
-  bool begun_ = false, there_ = false;     ///< there: on the way, once
-  double path_s_ = 0, catching_up_s_ = 0;  ///< since either began
+  std::vector<sim::JointMotion> reference_;
+  bool begun_ = false, on_path_ = false;   ///< on_path_: the first pose has been reached
+  double path_s_ = 0, catching_up_s_ = 0;  ///< time on the path; time since the catch-up began
 };
 
 }  // namespace reference

@@ -9,8 +9,8 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/topics.hpp"
 
-/// Plays a trajectory file or test signals, one answer a sensor frame.
-/// `reference` sends them to the plant as commands, `target` to controllers that follow.
+/// Plays a trajectory file or test signals, one message per sensor frame. `reference` sends them to
+/// the plant as commands, `target` sends them to controllers as targets.
 namespace reference {
 
 struct Params {
@@ -30,7 +30,7 @@ class Reference {
  public:
   using Params = reference::Params;
 
-  /// Throws std::invalid_argument when an actuator is not of this robot.
+  /// Throws std::invalid_argument if the robot does not have an actuator.
   Reference(const Params& params, const erp::Robot& robot) : params_(params) {
     if (!params_.file.empty())
       trajectory_ = Trajectory(
@@ -57,7 +57,7 @@ class Reference {
     for (const auto& known : robot.actuators)
       if (known.name == actuator) return;
     throw std::invalid_argument("reference: robot \"" + robot.name + "\" has no actuator \"" +
-                                actuator + "\"");
+                                actuator + "\"; name one of its actuators");
   }
   static void add(OutMessage& out, const std::string& name, erp::Mode mode, double value) {
     erp::ActuatorReference reference{};

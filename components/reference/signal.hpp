@@ -9,7 +9,7 @@
 /// One test signal for one actuator, t seconds after the component began:
 ///
 ///   constant   offset
-///   step       offset, from start_s on offset + amplitude
+///   step       offset; from start_s on offset + amplitude
 ///   sine       offset + amplitude sin(2π f (t − start_s))
 ///   sweep      the same, f rising linearly from frequency_Hz to end_frequency_Hz in duration_s
 namespace reference {
@@ -22,8 +22,8 @@ struct Signal {
   std::string actuator;
   erp::Mode mode = erp::Mode::force;
   Shape shape = Shape::constant;
-  double offset = 0, amplitude = 0;    ///< V, m, A or N, after `mode`
-  double start_s = 0, duration_s = 0;  ///< duration 0: without end; afterwards the offset stands
+  double offset = 0, amplitude = 0;    ///< in V, m, A or N, depending on `mode`
+  double start_s = 0, duration_s = 0;  ///< duration 0: unlimited; the offset applies afterwards
   double frequency_Hz = 1, end_frequency_Hz = 1;
 
   void visit(auto& v) {

@@ -25,7 +25,8 @@ Trajectory::Column column_of(const recording::Table& table, const std::string& a
     column.mode.push_back(static_cast<erp::Mode>(std::lround(mode->values[row])));
   }
   if (column.time_s.empty())
-    throw std::invalid_argument(file + ": \"" + actuator + "\" has no row with mode and reference");
+    throw std::invalid_argument(file + ": \"" + actuator +
+                                "\" has no row with both mode and reference; add one");
   return column;
 }
 
@@ -35,7 +36,9 @@ Trajectory::Trajectory(const std::string& file) {
   const auto table = recording::read_table(file);
   for (const auto& actuator : table.owners("reference"))
     columns_.push_back(column_of(table, actuator, file));
-  if (columns_.empty()) throw std::invalid_argument(file + ": no column \"<actuator>.reference\"");
+  if (columns_.empty())
+    throw std::invalid_argument(file +
+                                ": no column \"<actuator>.reference\"; add one per actuator");
   duration_s_ = table.find("time_s")->values.back();
 }
 

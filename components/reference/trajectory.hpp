@@ -5,14 +5,14 @@
 #include "interfaces/values.hpp"
 
 /// A trajectory file: CSV with `time_s` and, per actuator, `<a>.mode` and `<a>.reference`;
-/// linear between rows, the first and last row stand outside.
+/// linear between rows. Before the first and after the last row the value is constant.
 namespace reference {
 
 class Trajectory {
  public:
   struct Column {
     std::string actuator;
-    std::vector<double> time_s, value;  ///< empty cells left out
+    std::vector<double> time_s, value;  ///< without empty cells
     std::vector<erp::Mode> mode;
     double at(double t_s) const;
     erp::Mode mode_at(double t_s) const;

@@ -8,24 +8,24 @@
 namespace replay {
 namespace {
 
-/// A field's number; 0 when a recording of another version lacks it.
+/// The value of a numeric field; 0 if the recording is of a version without that field.
 template <class T>
 T number(const recording::Members& members, const char* name) {
   const auto* value = members.find(name);
   return value && value->number() ? static_cast<T>(*value->number()) : T{};
 }
 
-bool truth(const recording::Members& members, const char* name) {
+bool boolean(const recording::Members& members, const char* name) {
   const auto* value = members.find(name);
-  const bool* held = value ? std::get_if<bool>(&value->data) : nullptr;
-  return held && *held;
+  const bool* data = value ? std::get_if<bool>(&value->data) : nullptr;
+  return data && *data;
 }
 
 erp::EcuChannelSample channel_of(const recording::Members& m) {
   erp::EcuChannelSample channel{};
   channel.ecu = number<std::uint8_t>(m, "ecu");
   channel.channel = number<std::uint8_t>(m, "channel");
-  channel.fresh = truth(m, "fresh");
+  channel.fresh = boolean(m, "fresh");
   channel.state = number<std::uint8_t>(m, "state");
   channel.fault = number<std::uint8_t>(m, "fault");
   channel.request = number<std::uint8_t>(m, "request");
@@ -41,7 +41,7 @@ erp::EcuAnalogSample analog_of(const recording::Members& m) {
   erp::EcuAnalogSample analog{};
   analog.ecu = number<std::uint8_t>(m, "ecu");
   analog.input = number<std::uint8_t>(m, "input");
-  analog.fresh = truth(m, "fresh");
+  analog.fresh = boolean(m, "fresh");
   analog.counts = number<std::int32_t>(m, "counts");
   return analog;
 }
@@ -50,7 +50,7 @@ erp::EcuAnalogSample analog_of(const recording::Members& m) {
 
 Frames::Frames(const std::string& file) {
   if (file.empty())
-    throw std::invalid_argument("replay: no recording is named; give --set file=RECORDING.mcap");
+    throw std::invalid_argument("replay: the recording is missing; give --set file=RECORDING.mcap");
   const recording::McapReader reader(file);
   reader.for_each([&](const recording::Message& message) {
     if (message.channel.topic != erp::Topic<erp::EcuFrame>::name) return;
@@ -61,7 +61,7 @@ Frames::Frames(const std::string& file) {
     messages_.emplace_back(message.data.begin(), message.data.end());
   });
   if (messages_.empty())
-    throw std::invalid_argument(file + ": holds no ecu_frame; record one with the logger");
+    throw std::invalid_argument(file + ": contains no ecu_frame; record one with the logger");
 }
 
 erp::EcuFrame Frames::at(std::size_t k) const {

@@ -7,9 +7,10 @@ namespace replay {
 namespace {
 
 constexpr std::int64_t poll_ns = 1'000'000;
-constexpr std::int64_t repeat_ns = 200'000'000;  // chosen: lockstep, for an answer that got lost
+constexpr std::int64_t repeat_ns =
+    200'000'000;  // chosen: lockstep, repeats a frame whose answer was lost
 
-/// How many frames fit into a run of `duration_s`; 0 means all.
+/// The number of frames in a run of `duration_s`; all frames if it is 0.
 std::size_t end_of(const Frames& frames, double duration_s) {
   if (duration_s <= 0) return frames.size();
   const auto limit = frames.at(0).stamp_ns + std::llround(1e9 * duration_s);
@@ -28,7 +29,7 @@ ReplayNode::ReplayNode(const Params& params, const erp::Robot&, node::Node& node
       end_(end_of(frames_, node.options().duration_s)),
       recorded_start_ns_(frames_.at(0).stamp_ns) {
   node.on_activate([this] {
-    began_ns_ = node::monotonic_ns();
+    start_ns_ = node::monotonic_ns();
     if (node_.clock().lockstep()) play_next();
   });
   node.subscribe<erp::EcuCommand>([this](const erp::EcuCommand& command) {
@@ -37,20 +38,20 @@ ReplayNode::ReplayNode(const Params& params, const erp::Robot&, node::Node& node
   });
   if (node.clock().lockstep())
     node.every(repeat_ns, [this] {
-      if (next_ > 0 && node::monotonic_ns() - said_ns_ > repeat_ns) say_frame();
+      if (next_ > 0 && node::monotonic_ns() - published_ns_ > repeat_ns) publish_frame();
     });
   else node.every(poll_ns, [this] { play_due(); });
 }
 
-void ReplayNode::say_frame() {
-  said_ns_ = node::monotonic_ns();
+void ReplayNode::publish_frame() {
+  published_ns_ = node::monotonic_ns();
   frame_out_.publish_numbered(frame_);
 }
 
 void ReplayNode::play_due() {
   while (next_ <= end_) {
     if (next_ < end_ &&
-        frames_.at(next_).stamp_ns - recorded_start_ns_ > node::monotonic_ns() - began_ns_)
+        frames_.at(next_).stamp_ns - recorded_start_ns_ > node::monotonic_ns() - start_ns_)
       return;
     play_next();
   }
@@ -63,7 +64,7 @@ void ReplayNode::play_next() {
     if (node_.clock().lockstep())
       frame_.stamp_ns -= recorded_start_ns_, node_.clock().advance(frame_.stamp_ns);
     else frame_.stamp_ns = node_.clock().now_ns();
-    say_frame();
+    publish_frame();
   }
   ++next_;
   if (finished || next_ % 50 == 0) {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "components/node/ask.hpp"
+#include "components/node/controller_helpers.hpp"
 #include "interfaces/xml/document.hpp"
-#include "sim/learning/training_loop/keep.hpp"
-#include "sim/learning/sensorimotor/learnt_file.hpp"
+#include "sim/learning/sensorimotor/learned_map_file.hpp"
+#include "sim/learning/training_loop/checkpoint.hpp"
 
 namespace control {
 namespace {
@@ -23,12 +23,12 @@ Session session_of(const Sensorimotor::Params& params, const erp::Robot& robot, 
   SessionOptions options = params.experiment.session;
   options.seed = static_cast<std::uint64_t>(params.experiment.seed);
   auto goals = goals_of(params.experiment, eye.senses());
-  if (params.learnt.empty()) return {options, Learnt(eye.senses(), muscles), std::move(goals)};
+  if (params.learned.empty()) return {options, LearnedMap(eye.senses(), muscles), std::move(goals)};
   options.twitches = 0;
-  const auto file = xml::read<LearntFile>(xml::resolved(params.learnt, params.place.file));
+  const auto file = xml::read<LearnedMapFile>(xml::resolved(params.learned, params.place.file));
   auto before = goals_of(file, eye.senses());
   for (Goal& goal : before) goal.errors.clear();
-  return {options, learnt_of(file, eye.senses(), muscles), std::move(before)};
+  return {options, learned_map_of(file, eye.senses(), muscles), std::move(before)};
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ Sensorimotor::Sensorimotor(const Params& params, const erp::Robot& robot, node::
       eye_(eye_of(params, robot)),
       session_(session_of(params, robot, eye_)) {}
 
-/// The largest spot of each camera; an instant at which one sees none is not seen.
+/// Uses the largest spot of each camera. Skips the instant if a camera has no spot.
 void Sensorimotor::see(const erp::ImagePoint& points) {
   Eigen::VectorXd senses = Eigen::VectorXd::Zero(eye_.senses());
   std::vector<double> largest_px(static_cast<std::size_t>(eye_.senses()) / 2);
@@ -65,51 +65,55 @@ erp::ActuatorCommand Sensorimotor::step(const erp::SensorFrame& frame, double dt
   const Eigen::VectorXd& motors_N = session_.motors_N(time_s_);
   erp::ActuatorCommand command;
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
-    node::ask(command, robot_.actuators[a].name, erp::Mode::force,
-              robot_.actuators[a].tendon.pretension_N + motors_N[static_cast<Eigen::Index>(a)]);
+    node::append_reference(
+        command, robot_.actuators[a].name, erp::Mode::force,
+        robot_.actuators[a].tendon.pretension_N + motors_N[static_cast<Eigen::Index>(a)]);
   }
-  tell();
+  report_progress();
   return command;
 }
 
-void Sensorimotor::tell() {
+void Sensorimotor::report_progress() {
   const auto& goals = session_.goals();
-  const auto tries = static_cast<std::size_t>(params_.experiment.session.tries);
-  while (goals_told_ < goals.size() && tries > 0 && goals[goals_told_].errors.size() == tries) {
-    const auto& errors = goals[goals_told_++].errors;
-    node_.report(erp::Severity::info, "goal " + std::to_string(goals_told_), "tried",
-                 fmt::format("{} of {}: error {:.4f} at first, {:.4f} at last", goals_told_,
-                             goals.size(), errors.front(), errors.back()));
-    node_.show("goals", static_cast<double>(goals_told_));
+  const auto trials = static_cast<std::size_t>(params_.experiment.session.trials);
+  while (goals_reported_ < goals.size() && trials > 0 &&
+         goals[goals_reported_].errors.size() == trials) {
+    const auto& errors = goals[goals_reported_++].errors;
+    node_.report(erp::Severity::info, "goal " + std::to_string(goals_reported_), "tried",
+                 fmt::format("{} of {}: error {:.4f} in the first trial, {:.4f} in the last",
+                             goals_reported_, goals.size(), errors.front(), errors.back()));
+    node_.show("goals", static_cast<double>(goals_reported_));
     write();
   }
-  if (session_.blind() > 0 && !blind_told_) {
-    blind_told_ = true;
-    node_.report(erp::Severity::warning, params_.source, "blind",
-                 "nothing is seen where it matters: tries are begun again; is there an eye in the "
-                 "graph, and the marker in all of its images?");
-  }
-  if (session_.limited() > 0 && !limited_told_) {
-    limited_told_ = true;
+  if (session_.unseen() > 0 && !unseen_reported_) {
+    unseen_reported_ = true;
     node_.report(
-        erp::Severity::warning, "most_N", "limited",
-        fmt::format("a try asked a muscle for more than {:.0f} N above rest: all its forces "
-                    "are scaled down to that; the goal may be out of reach",
-                    params_.experiment.session.most_N));
+        erp::Severity::warning, params_.source, "blind",
+        "the marker was not seen during the averaging time; trials restart. Check that the graph "
+        "has an eye and that the marker is in all of its images");
   }
-  if (session_.done() && !done_told_) {
-    done_told_ = true;
-    node_.report(erp::Severity::info, "session", "done", "all goals are tried; the muscles rest");
+  if (session_.limited() > 0 && !limited_reported_) {
+    limited_reported_ = true;
+    node_.report(erp::Severity::warning, "most_N", "limited",
+                 fmt::format("a trial exceeded {:.0f} N above rest at a muscle; all its forces are "
+                             "scaled down to that limit. The goal may be out of reach",
+                             params_.experiment.session.most_N));
+  }
+  if (session_.done() && !done_reported_) {
+    done_reported_ = true;
+    node_.report(erp::Severity::info, "session", "done",
+                 "all goals are finished; the muscles rest");
     write();
   }
 }
 
 void Sensorimotor::write() const {
   if (params_.save.empty()) return;
-  node::write_or_report(
-      node_, xml::resolved(params_.save, params_.place.file), [&](const std::string& file) {
-        sim::training_loop::keep(file, xml::write(file_of(session_.learnt(), session_.goals())));
-      });
+  node::write_or_report(node_, xml::resolved(params_.save, params_.place.file),
+                        [&](const std::string& file) {
+                          sim::training_loop::write_checkpoint(
+                              file, xml::write(file_of(session_.learned(), session_.goals())));
+                        });
 }
 
 }  // namespace control

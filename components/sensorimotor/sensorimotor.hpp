@@ -6,11 +6,12 @@
 #include "sim/learning/sensorimotor/experiment.hpp"
 #include "sim/learning/sensorimotor/eye.hpp"
 
-/// Reaching in a camera's image, learnt on the live graph (paper, 5.4 and Fig. 9): twitches, then
-/// tries at each goal; or tries alone, with what was learnt before.
+/// Learns reaching in a camera image on the live graph (paper, 5.4 and Fig. 9): twitches, then
+/// trials at each goal; or only trials, with a map learned before.
 ///
-/// Muscles at rest pull with robot.xml's pretension; what is learnt comes on top, by the ECUs' force
-/// laws. When all is done they rest. What is learnt is written after each goal.
+/// Muscles at rest pull with robot.xml's pretension; the forces of the map are added to it, as
+/// references of the ECUs' force laws. After the last goal the muscles rest. The map is written
+/// after each goal.
 namespace control {
 
 class Sensorimotor {
@@ -18,30 +19,30 @@ class Sensorimotor {
   struct Params {
     xml::Place place;
     sim::sensorimotor::Experiment experiment;
-    std::string learnt;          ///< learnt.xml to begin with, beside this file: no twitches then
-    std::string save;            ///< where what is learnt goes; "": nowhere
-    std::string source = "eye";  ///< whose image_point is believed
-    double stale_s = 0.1;        ///< of images older than the frame by more nothing is seen; chosen
+    std::string learned;         ///< initial map, relative to this file; then there are no twitches
+    std::string save;            ///< file to which the map is written; "": none
+    std::string source = "eye";  ///< source of the image_point that is used
+    double stale_s = 0.1;        ///< images older than the frame by more are rejected; chosen
     void visit(auto& v) {
       experiment.visit(v);
       v("stale_s", stale_s, xml::positive);
-      v("learnt", learnt);
+      v("learnt", learned);
       v("save", save);
       v("source", source);
     }
   };
 
-  /// Throws xml::Errors of the view and of what was learnt, std::invalid_argument as Eye and
-  /// learnt_of do.
+  /// Throws xml::Errors of the view and of the map, std::invalid_argument as Eye and learned_map_of
+  /// do.
   Sensorimotor(const Params& params, const erp::Robot& robot, node::Node& node);
 
-  bool wants(const erp::ImagePoint& points) const { return params_.source == points.source; }
+  bool accepts(const erp::ImagePoint& points) const { return params_.source == points.source; }
   erp::ActuatorCommand step(const erp::SensorFrame& frame, double dt_s,
                             const node::Latest<erp::ImagePoint>& points);
 
  private:
   void see(const erp::ImagePoint& points);
-  void tell();
+  void report_progress();
   void write() const;
 
   Params params_;
@@ -51,8 +52,8 @@ class Sensorimotor {
   sim::sensorimotor::Session session_;
   double time_s_ = 0;
   std::int64_t seen_ns_ = 0;
-  std::size_t goals_told_ = 0;
-  bool done_told_ = false, blind_told_ = false, limited_told_ = false;
+  std::size_t goals_reported_ = 0;
+  bool done_reported_ = false, unseen_reported_ = false, limited_reported_ = false;
 };
 
 }  // namespace control

@@ -7,10 +7,10 @@ namespace sim {
 BusFront::BusFront(const std::string& where, const erp::Robot& robot, VirtualEcus& ecus)
     : routes_(robot), buses_(erp::open_buses(robot, where)), ecus_(robot, ecus.channels()) {}
 
-bool BusFront::hear(std::size_t bus) {
+bool BusFront::receive(std::size_t bus) {
   std::array<erp::CanFrame, 64> frames;
   while (const auto n = buses_[bus]->receive(frames, 0))
-    for (std::size_t i = 0; i < n; ++i) ecus_.hear(frames[i]);
+    for (std::size_t i = 0; i < n; ++i) ecus_.receive(frames[i]);
   return ecus_.answered();
 }
 

@@ -8,21 +8,21 @@
 #include "hal/can/robot_ecus.hpp"
 #include "sim/world/virtual_ecus.hpp"
 
-/// The simulated robot behind its CAN buses: the virtual ECUs speak frames instead of DDS.
+/// The simulated robot on its CAN buses: the virtual ECUs exchange frames instead of DDS messages.
 namespace sim {
 
 class BusFront {
  public:
-  /// `where` as erp::open_buses takes it, and throws.
+  /// `where` as in erp::open_buses; throws as that function.
   BusFront(const std::string& where, const erp::Robot& robot, VirtualEcus& ecus);
 
   std::size_t buses() const { return buses_.size(); }
   int descriptor(std::size_t bus) const { return buses_[bus]->fd(); }
-  /// Takes everything that waits on a bus. True when every ECU has its answer to the last tick.
-  bool hear(std::size_t bus);
-  void say_boot() { send(ecus_.boot(FRAME_RESET_POWER)); }
-  void say(const erp::EcuFrame& tick) { send(ecus_.report(tick)); }
-  void say_again() { send(ecus_.again()); }
+  /// Receives all waiting frames of a bus. True when every ECU has its answer to the last tick.
+  bool receive(std::size_t bus);
+  void send_boot() { send(ecus_.boot(FRAME_RESET_POWER)); }
+  void send_tick(const erp::EcuFrame& tick) { send(ecus_.report(tick)); }
+  void repeat_tick() { send(ecus_.repeat()); }
 
  private:
   void send(std::span<const erp::CanFrame> frames);

@@ -10,10 +10,11 @@ namespace sim {
 namespace {
 
 constexpr std::int64_t tick_ns = 2'000'000;       // the ECUs' period
-constexpr std::int64_t make_up_ns = 200'000'000;  // chosen: realtime, lateness worth making up
-constexpr std::int64_t repeat_ns = 200'000'000;   // chosen: lockstep, for an answer that got lost
-constexpr std::uint64_t pose_period = 10;         // ticks: pictures at 50 Hz
-constexpr std::uint64_t clock_period = 50;        // ticks: 10 Hz
+constexpr std::int64_t make_up_ns = 200'000'000;  // chosen: realtime, largest delay that is made up
+constexpr std::int64_t repeat_ns =
+    200'000'000;                            // chosen: lockstep, repetition if an answer is lost
+constexpr std::uint64_t pose_period = 10;   // ticks: body poses at 50 Hz
+constexpr std::uint64_t clock_period = 50;  // ticks: 10 Hz
 
 constexpr double tick_s = 1e-9 * tick_ns;
 
@@ -21,7 +22,7 @@ int substeps_of(const SimNode::Params& params) {
   const int substeps = static_cast<int>(std::lround(params.physics_Hz * tick_s));
   if (std::abs(substeps / tick_s - params.physics_Hz) > 1e-6)
     throw std::invalid_argument("physics_Hz=" + xml::write_number(params.physics_Hz) +
-                                " is no multiple of 500; give 500, 1000, 1500 …");
+                                " is not a multiple of 500; give 500, 1000, 1500 …");
   return substeps;
 }
 
@@ -48,140 +49,141 @@ std::uint64_t ticks_in(double duration_s) {
 SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node)
     : node_(node),
       world_(robot, world_options(params)),
-      mishaps_(params.mishaps, robot),
-      grasps_(params.grasps, world_),
+      faults_(params.faults, robot),
+      loads_(params.loads, world_),
       ecus_(robot, ecu_options(params)),
       imus_(world_, static_cast<std::uint64_t>(params.seed), tick_s),
       joints_out_(node.advertise<erp::JointState>()),
       bodies_out_(node.advertise<erp::BodyPose>()),
       end_ticks_(ticks_in(node.options().duration_s)) {
-  if (mishaps_.needs_separate_ecus() && !params.ecus_outside())
+  if (faults_.needs_separate_ecus() && !params.has_external_ecus())
     throw std::invalid_argument(
-        "hang, busy and bus_off befall ECUs that are programs of their own: give converter_port, "
-        "and start `ecu`");
-  if (!mishaps_.empty()) ecus_.suffer(&mishaps_);
-  if (params.ecus_outside()) serve_outside(params, robot);
+        "the faults hang, busy and bus_off need ECUs that run as separate programs: "
+        "give converter_port, and start `ecu`");
+  if (!faults_.empty()) ecus_.inject(&faults_);
+  if (params.has_external_ecus()) serve_external(params, robot);
   else if (params.bus.empty()) join_bus_as_device();
-  else stand_behind(params.bus, robot);
-  if (!bus_ && !outside_) clock_out_ = &node.advertise<erp::Clock>();
+  else open_bus_front(params.bus, robot);
+  if (!bus_ && !external_) clock_out_ = &node.advertise<erp::Clock>();
   if (!robot.imus.empty()) imus_out_ = &node.advertise<erp::ImuFrame>();
   erp::assign(imu_frame_.robot, robot.name);
   erp::assign(imu_frame_.source, "sim");
   node.on_activate([this] {
     began_ns_ = node::monotonic_ns();
     ecus_.measure(world_);
-    if (outside_) outside_->measure(world_);
-    if (bus_) bus_->say_boot();
-    measure_and_say();
+    if (external_) external_->measure(world_);
+    if (bus_) bus_->send_boot();
+    measure_and_publish();
   });
   node.on_deactivate([this] { publish_clock(at_end()); });
   if (node.clock().lockstep())
     node.every(repeat_ns, [this] {
-      if (!outside_ && node::monotonic_ns() - said_ns_ > repeat_ns) say_again();
+      if (!external_ && node::monotonic_ns() - published_ns_ > repeat_ns) repeat_frame();
     });
   else
     node.every(
-        tick_ns / steps_a_tick(), [this] { step(); }, outside_ ? 0 : make_up_ns);
+        tick_ns / steps_a_tick(), [this] { step(); }, external_ ? 0 : make_up_ns);
 }
 
 void SimNode::join_bus_as_device() {
   frame_out_ = &node_.advertise<erp::EcuFrame>();
   parameter_in_ =
-      &node_.subscribe<erp::EcuParameter>([this](const auto& m) { ecus_.accept(m); }, 8);
+      &node_.subscribe<erp::EcuParameter>([this](const auto& m) { ecus_.receive(m); }, 8);
   node_.subscribe<erp::EcuCommand>([this](const auto& m) { on_command(m); });
 }
 
-void SimNode::stand_behind(const std::string& bus, const erp::Robot& robot) {
+void SimNode::open_bus_front(const std::string& bus, const erp::Robot& robot) {
   bus_ = std::make_unique<BusFront>(bus, robot, ecus_);
   for (std::size_t k = 0; k < bus_->buses(); ++k)
     node_.watch(bus_->descriptor(k), [this, k] {
-      const bool answered = bus_->hear(k);
+      const bool answered = bus_->receive(k);
       if (answered && node_.clock().lockstep()) tick();
     });
 }
 
-void SimNode::serve_outside(const Params& params, const erp::Robot& robot) {
-  OutsideEcus::Options options{params.converter_port, params.converter_lines};
+void SimNode::serve_external(const Params& params, const erp::Robot& robot) {
+  ExternalEcus::Options options{params.converter_port, params.converter_lines};
   options.seed = static_cast<std::uint64_t>(params.seed);
   options.lockstep = node_.clock().lockstep();
-  outside_ = std::make_unique<OutsideEcus>(robot, options);
-  if (!mishaps_.empty()) outside_->suffer(&mishaps_);
-  for (const int descriptor : outside_->descriptors())
-    node_.watch(descriptor, [this] { hear_outside(); });
+  external_ = std::make_unique<ExternalEcus>(robot, options);
+  if (!faults_.empty()) external_->inject(&faults_);
+  for (const int descriptor : external_->descriptors())
+    node_.watch(descriptor, [this] { receive_external(); });
 }
 
-/// In lockstep the world moves on when every ECU wants it to.
-void SimNode::hear_outside() {
-  if (!outside_->hear()) return;
+/// In lockstep the world advances when every ECU has requested the next readings.
+void SimNode::receive_external() {
+  if (!external_->receive()) return;
   for (int k = 0; k < steps_a_tick(); ++k) step();
-  if (!at_end()) outside_->begin_turn();
+  if (!at_end()) external_->begin_turn();
 }
 
-/// Who has come and who has gone, of the ECUs outside.
-void SimNode::say_outside() {
-  const int alive = outside_->alive();
-  if (alive == alive_said_) return;
-  node_.report(alive > alive_said_ ? erp::Severity::info : erp::Severity::warning, "ecus",
+/// Reports changes of the number of connected external ECUs.
+void SimNode::report_external() {
+  const int alive = external_->alive();
+  if (alive == alive_reported_) return;
+  node_.report(alive > alive_reported_ ? erp::Severity::info : erp::Severity::warning, "ecus",
                "outside",
                std::to_string(alive) + " of " + std::to_string(world_.robot().ecus().size()) +
                    " ECUs are connected");
-  alive_said_ = alive;
+  alive_reported_ = alive;
 }
 
 void SimNode::on_command(const erp::EcuCommand& command) {
-  // Gains sent before this command are waiting already: they come first, in every run alike.
+  // Gains sent before this command are already waiting: they are applied first, in every run.
   parameter_in_->poll(true);
-  if (!node_.clock().lockstep()) return ecus_.accept(command);
+  if (!node_.clock().lockstep()) return ecus_.receive(command);
   if (command.answers != frame_.sequence) return;
-  ecus_.accept(command);
+  ecus_.receive(command);
   tick();
 }
 
-/// ECUs outside have the world move in steps between their periods. They cannot run faster to make
-/// up for lost time with it: what they miss, it misses.
-int SimNode::steps_a_tick() const { return outside_ ? OutsideEcus::steps_a_tick : 1; }
+/// With external ECUs the world advances in steps between their periods. They cannot run faster to
+/// make up for a delay, so the world does not either.
+int SimNode::steps_a_tick() const { return external_ ? ExternalEcus::steps_a_tick : 1; }
 
 void SimNode::step() {
-  if (outside_ && !outside_->step(world_)) return;
+  if (external_ && !external_->step(world_)) return;
   if (++steps_ % steps_a_tick() == 0) tick();
 }
 
 void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
-  for (const Mishap* begun : mishaps_.beginning(world_.time_s(), tick_s))
-    node_.report(erp::Severity::info, begun->on, "mishap",
-                 xml::Codec<MishapKind>::write(begun->kind));
-  for (const Grasp* changed : grasps_.befall(world_))
-    node_.report(erp::Severity::info, changed->body, "grasp",
-                 (changed->holds(world_.time_s()) ? "takes up " : "lets go ") +
-                     xml::Codec<double>::write(changed->mass_kg) + " kg");
-  if (outside_) say_outside();
+  for (const InjectedFault* fault : faults_.beginning(world_.time_s(), tick_s))
+    node_.report(erp::Severity::info, fault->on, "mishap",
+                 xml::Codec<FaultKind>::write(fault->kind));
+  for (const AttachedLoad* load : loads_.update(world_))
+    node_.report(erp::Severity::info, load->body, "grasp",
+                 (load->is_attached(world_.time_s()) ? "attached " : "detached ") +
+                     xml::Codec<double>::write(load->mass_kg) + " kg");
+  if (external_) report_external();
   else ecus_.tick(world_);
   watch_world();
   ++ticks_;
   if (at_end()) node_.finish();
-  else measure_and_say();
+  else measure_and_publish();
 }
 
-void SimNode::measure_and_say() {
+void SimNode::measure_and_publish() {
   node_.clock().advance(static_cast<std::int64_t>(ticks_) * tick_ns);
   frame_.sequence = ticks_;
   frame_.stamp_ns = node_.clock().now_ns();
-  if (!outside_) ecus_.fill(frame_), say_frame();  // first: the control loop waits for it
+  if (!external_)
+    ecus_.fill(frame_), publish_frame();  // first, because the control loop waits for it
   publish_truth();
   publish_imus();
   if (ticks_ % clock_period == 0) publish_clock(false);
 }
 
-void SimNode::say_frame() {
-  said_ns_ = node::monotonic_ns();
-  if (bus_) bus_->say(frame_);
+void SimNode::publish_frame() {
+  published_ns_ = node::monotonic_ns();
+  if (bus_) bus_->send_tick(frame_);
   else frame_out_->publish_numbered(frame_);
 }
 
-void SimNode::say_again() {
-  said_ns_ = node::monotonic_ns();
-  if (bus_) bus_->say_again();
+void SimNode::repeat_frame() {
+  published_ns_ = node::monotonic_ns();
+  if (bus_) bus_->repeat_tick();
   else frame_out_->publish_numbered(frame_);
 }
 
@@ -198,40 +200,44 @@ void SimNode::publish_truth() {
 
 void SimNode::publish_imus() {
   if (!imus_out_) return;
-  imus_.look(world_);
+  imus_.sample(world_);
   while (imus_.next(imu_frame_)) imus_out_->publish(imu_frame_);
 }
 
-void SimNode::say_once(std::size_t actuator, const std::string& code, const std::string& text) {
-  if (!said_.emplace(actuator, code).second) return;
+void SimNode::report_once(std::size_t actuator, const std::string& code, const std::string& text) {
+  if (!reported_.emplace(actuator, code).second) return;
   const auto& actuators = world_.robot().actuators;
   node_.report(erp::Severity::warning, actuator < actuators.size() ? actuators[actuator].name : "",
                code, text);
 }
 
-/// What the simulation cannot do, said once; without finite velocities it ends.
+/// Reports numerical problems once each; ends the simulation if velocities are not finite.
 void SimNode::watch_world() {
   const std::size_t count = world_.robot().actuators.size();
   for (std::size_t k = 0; k < count; ++k) {
     const Rope* rope = world_.rope(static_cast<int>(k));
-    if (rope && rope->troubles() > 0)
-      say_once(k, "rope_unstable",
-               "the rope did not come to rest within a step: do not trust this tendon from here "
-               "on; give it a softer line, a shorter step (physics_Hz), or remove <rope>");
-    if (!rope && world_.path(static_cast<int>(k)).pierced() >= 0)
-      say_once(k, "point_in_pulley",
-               "a point of its path came inside the pulley beside it, which it now passes by: the "
-               "tendon's length has leapt; move the point or the pulley");
+    if (rope && rope->failed_steps() > 0)
+      report_once(
+          k, "rope_unstable",
+          "the rope did not converge within a step: this tendon is unreliable from now on; give "
+          "it a softer line or a shorter step (physics_Hz), or remove <rope>");
+    if (!rope && world_.path(static_cast<int>(k)).penetrated_pulley() >= 0)
+      report_once(
+          k, "point_in_pulley",
+          "a point of its path entered the adjacent pulley, which the path now bypasses: the "
+          "tendon length has jumped; move the point or the pulley");
   }
-  if (world_.unsettled() > 0)
-    say_once(count, "step_unsettled", "the forces of a step did not settle; give a shorter step");
-  if (world_.sound()) return;
-  node_.report(erp::Severity::fault, "", "not_finite",
-               "the velocities are no longer finite numbers; the simulation ends");
+  if (world_.unconverged_steps() > 0)
+    report_once(count, "step_unsettled",
+                "the forces of a step did not converge; give a shorter step (physics_Hz)");
+  if (world_.is_finite()) return;
+  node_.report(
+      erp::Severity::fault, "", "not_finite",
+      "the velocities are not finite; the simulation ends; give a shorter step (physics_Hz)");
   node_.finish(1);
 }
 
-/// Behind a bus the gateway is the device, whose time counts.
+/// On CAN buses the gateway is the device and publishes the clock.
 void SimNode::publish_clock(bool finished) {
   if (!clock_out_) return;
   erp::Clock clock;

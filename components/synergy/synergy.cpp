@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 
-#include "components/node/ask.hpp"
+#include "components/node/controller_helpers.hpp"
 #include "interfaces/xml/document.hpp"
-#include "sim/learning/training_loop/dice.hpp"
-#include "sim/learning/training_loop/keep.hpp"
+#include "sim/learning/training_loop/checkpoint.hpp"
+#include "sim/learning/training_loop/random_stream.hpp"
 
 namespace control {
 namespace {
@@ -55,36 +55,39 @@ std::optional<Vec3> Synergy::hand_m(const node::Latest<erp::BodyPose>& bodies) c
   return std::nullopt;
 }
 
-/// First of all, and where the robot may have been left on its own.
-void Synergy::lead_back(double dt_s) {
+/// Returns the lines to the start: at the beginning, and after a gap in the frames.
+void Synergy::begin_return(double dt_s) {
   if (trial_)
     node_.report(erp::Severity::warning, target(), "begun_again",
-                 fmt::format("no frames for {:.2f} s", dt_s));
+                 fmt::format("no frames for {:.2f} s; the trial restarts", dt_s));
   trial_.reset();
   way_.emplace(file_.times, time_s_, line_m_);
 }
 
-/// True as well where nobody says where the hand is.
+/// Also true if the hand position is unknown.
 bool Synergy::in_place(const std::optional<Vec3>& hand_m) {
   const double off_m = hand_m ? (*hand_m - sim::vec(file_.rest_m)).norm() : 0;
   const bool in_place = off_m <= back_m;
-  if (!in_place && !waiting_)
-    node_.report(erp::Severity::warning, target(), "displaced",
-                 fmt::format("the hand is {:.0f} mm from where plans were learnt to begin, at most "
-                             "{:.0f} are allowed: no plan begins until the robot is set right",
-                             1e3 * off_m, 1e3 * back_m));
-  waiting_ = !in_place;
+  if (!in_place && !displaced_)
+    node_.report(
+        erp::Severity::warning, target(), "displaced",
+        fmt::format(
+            "the hand is {:.0f} mm from the start position of the training, at most {:.0f} mm are "
+            "allowed; no plan begins until the robot is repositioned",
+            1e3 * off_m, 1e3 * back_m));
+  displaced_ = !in_place;
   return in_place;
 }
 
 void Synergy::begin() {
   Blend blend = bank_.blend(sim::vec(params_.targets[target_].at_m));
   credits_ = std::move(blend.credits), seen_ = true;
-  trial_.emplace(std::move(blend.plan), file_.times, params_.noise,
-                 sim::training_loop::dice(static_cast<std::uint64_t>(params_.seed), target_)());
+  trial_.emplace(
+      std::move(blend.plan), file_.times, params_.noise,
+      sim::training_loop::random_stream(static_cast<std::uint64_t>(params_.seed), target_)());
 }
 
-void Synergy::watch(const std::optional<Vec3>& hand_m) {
+void Synergy::track_hand(const std::optional<Vec3>& hand_m) {
   if (hand_m) trial_->see(time_s_, *hand_m);
   seen_ = seen_ && hand_m;
   if (trial_->done()) end();
@@ -92,62 +95,65 @@ void Synergy::watch(const std::optional<Vec3>& hand_m) {
 
 void Synergy::end() {
   if (seen_) {
-    Taught taught = taught_by(*trial_, file_.bottle, sim::vec(file_.rest_m),
-                              sim::vec(params_.targets[target_].at_m));
-    tell(taught);
-    if (!params_.save.empty()) learn(std::move(taught));
+    TrialResult result = result_of(*trial_, file_.bottle, sim::vec(file_.rest_m),
+                                   sim::vec(params_.targets[target_].at_m));
+    report_result(result);
+    if (!params_.save.empty()) learn(std::move(result));
   } else {
     node_.report(erp::Severity::info, target(), "tried",
-                 "not judged: \"" + params_.source + "\" did not say where the hand was");
+                 "not evaluated: \"" + params_.source + "\" did not report the hand position");
   }
   trial_.reset();
   node_.show("targets", static_cast<double>(++target_));
   if (target_ == params_.targets.size())
-    node_.report(erp::Severity::info, "targets", "done", "all are tried");
+    node_.report(erp::Severity::info, "targets", "done", "all targets are finished");
 }
 
-void Synergy::tell(const Taught& taught) {
-  const Outcome& outcome = taught.outcome;
-  ++judged_, struck_ += outcome.struck;
-  const char* said = outcome.struck ? "struck" : "missed";
-  node_.report(erp::Severity::info, target(), said,
-               fmt::format("{}, {:.0f} mm between hand and bottle at the nearest, reward {:.2f}, "
-                           "came back to {:.0f} mm; {} of {} struck",
-                           said, 1e3 * outcome.nearest_m, outcome.reward, 1e3 * taught.off_m,
-                           struck_, judged_));
+void Synergy::report_result(const TrialResult& result) {
+  const Outcome& outcome = result.outcome;
+  ++evaluated_, struck_ += outcome.struck;
+  const char* outcome_name = outcome.struck ? "struck" : "missed";
+  node_.report(
+      erp::Severity::info, target(), outcome_name,
+      fmt::format(
+          "{}: smallest distance of hand and bottle {:.0f} mm, reward {:.2f}, distance from the "
+          "start after the return {:.0f} mm; {} of {} struck",
+          outcome_name, 1e3 * outcome.nearest_m, outcome.reward, 1e3 * result.off_m, struck_,
+          evaluated_));
 }
 
-void Synergy::learn(Taught taught) {
-  bank_.credit(credits_, taught.credit);
-  if (taught.plan) bank_.add(std::move(*taught.plan));
+void Synergy::learn(TrialResult result) {
+  bank_.credit(credits_, result.credit);
+  if (result.plan) bank_.add(std::move(*result.plan));
   bank_.trim();
-  node::write_or_report(
-      node_, xml::resolved(params_.save, params_.place.file),
-      [&](const std::string& file) { sim::training_loop::keep(file, text_of(file_, bank_)); });
+  node::write_or_report(node_, xml::resolved(params_.save, params_.place.file),
+                        [&](const std::string& file) {
+                          sim::training_loop::write_checkpoint(file, text_of(file_, bank_));
+                        });
 }
 
 erp::ActuatorCommand Synergy::step(const erp::SensorFrame& frame, double dt_s,
                                    const node::Latest<erp::BodyPose>& bodies) {
-  constexpr double most_gap_s = 0.1;  // without frames; chosen
+  constexpr double most_gap_s = 0.1;  // longest gap without frames; chosen
   read(frame);
   time_s_ += dt_s;
-  if (!begun_ || dt_s > most_gap_s) begun_ = true, lead_back(dt_s);
+  if (!begun_ || dt_s > most_gap_s) begun_ = true, begin_return(dt_s);
   const auto hand = hand_m(bodies);
-  if (trial_) watch(hand);
+  if (trial_) track_hand(hand);
   if (way_ && way_->done(time_s_)) way_.reset();
   if (!way_ && !trial_ && target_ < params_.targets.size() && in_place(hand)) begin();
   if (way_) return command(way_->at(time_s_));
   return command(trial_ ? trial_->step(time_s_) : start_m_);
 }
 
-/// Muscles that no plan drives stay as long as they were at the start.
+/// Lines of muscles without a weight keep their length at the start.
 erp::ActuatorCommand Synergy::command(const Eigen::VectorXd& line_m) const {
-  std::vector<double> wanted_m(robot_.actuators.size());
+  std::vector<double> desired_m(robot_.actuators.size());
   for (std::size_t m = 0; m < muscles_.size(); ++m)
-    wanted_m[muscles_[m]] = line_m[static_cast<Eigen::Index>(m)];
+    desired_m[muscles_[m]] = line_m[static_cast<Eigen::Index>(m)];
   erp::ActuatorCommand command;
-  for (std::size_t a = 0; a < wanted_m.size(); ++a) {
-    node::ask(command, robot_.actuators[a].name, erp::Mode::length, wanted_m[a]);
+  for (std::size_t a = 0; a < desired_m.size(); ++a) {
+    node::append_reference(command, robot_.actuators[a].name, erp::Mode::length, desired_m[a]);
   }
   return command;
 }

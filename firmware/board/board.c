@@ -11,14 +11,14 @@ void ecu_board_init(ecu_board* board, const board_fitted* fitted, frame_reset_ca
                 fitted_channel(board, fitted, 1), fitted->analog_inputs);
   board->link.serial = fitted->serial;
   board->turn = 0;
-  ecu_link_say_boot(&board->link, cause, boot);
+  ecu_link_pack_boot(&board->link, cause, boot);
 }
 
-void ecu_board_hear(ecu_board* board, const bus_frame* frame) {
-  (void)ecu_link_hear(&board->link, frame);
+void ecu_board_receive(ecu_board* board, const bus_frame* frame) {
+  (void)ecu_link_receive(&board->link, frame);
 }
 
-/* The potentiometer of a channel hangs on the analog input that its gains name. */
+/* The potentiometer of a channel is on the analog input given by its gains. */
 static ecu_inputs inputs_of(const ecu_channel* channel, const board_readings* readings,
                             unsigned k) {
   ecu_inputs inputs = readings->channel[k];
@@ -45,7 +45,7 @@ unsigned ecu_board_period(ecu_board* board, const board_period* period, int16_t*
     board->report.analog_counts[k] = period->readings.analog[k];
   board->turn = period->readings.turn;
   ecu_link_tick(&board->link);
-  return ecu_link_say(&board->link, &board->report, false, frames);
+  return ecu_link_pack(&board->link, &board->report, false, frames);
 }
 
 bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last) {
@@ -57,5 +57,5 @@ bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last) {
 }
 
 unsigned ecu_board_repeat(ecu_board* board, bus_frame* frames) {
-  return ecu_link_say(&board->link, &board->report, true, frames);
+  return ecu_link_pack(&board->link, &board->report, true, frames);
 }

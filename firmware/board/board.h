@@ -1,15 +1,15 @@
-/* The main loop of an ECU, without what is particular to a board: what was read goes in, duties and
- * frames come out. A board adds converters, PWM, a CAN controller, a 2 ms timer and a watchdog:
+/* The main loop of an ECU, independent of the board: readings in, duties and frames out. A board adds
+ * converters, PWM, a CAN controller, a 2 ms timer and a watchdog:
  *
  *   at reset:         ecu_board_init(&board, &fitted, cause, &frame); send frame
- *   on a frame:       ecu_board_hear(&board, &frame)
+ *   on a frame:       ecu_board_receive(&board, &frame)
  *   every 2 ms:       count = ecu_board_period(&board, &period, duty, frames); send them; kick
  *   watchdog, 10 ms:  PWM off by hardware, reset
  *
  * A simulated robot may run in lockstep: it waits for its ECUs, and they wait for their host. Then
- * a period passes only once the last one has been answered and there are new readings:
+ * the next period runs only after the previous one has been answered and new readings are there:
  *
- *   every 2 ms:       if ecu_board_awaits_host: now and then ecu_board_repeat; kick
+ *   every 2 ms:       if ecu_board_awaits_host: occasionally ecu_board_repeat; kick
  *                     else read converters; if not ecu_board_awaits_robot: a period as above
  */
 #ifndef ERP_FIRMWARE_BOARD_H
@@ -20,7 +20,7 @@
 extern "C" {
 #endif
 
-/* What is soldered on. */
+/* The equipment of the board. */
 typedef struct {
   uint8_t ecu;           /* address, 0 .. 126 */
   uint8_t channels;      /* bit k: channel k drives a motor */
@@ -28,24 +28,23 @@ typedef struct {
   uint32_t serial;       /* 24 bits */
 } board_fitted;
 
-/* All converters, once. */
+/* One reading of all converters. */
 typedef struct {
   ecu_inputs channel[2]; /* potentiometer_counts are taken from `analog` instead */
   int32_t analog[ECU_ANALOG_INPUTS];
-  uint8_t
-      turn; /* of a robot in lockstep, 1 .. 255, another with each reading; 0: it does not wait */
+  uint8_t turn; /* lockstep: 1 .. 255, changes with each reading; 0: no lockstep */
 } board_readings;
 
 typedef struct {
   board_readings readings;
-  bool overran; /* the last period's work was not done when this one began */
-  bool bus_off; /* the CAN controller has left the bus */
+  bool overran; /* the last period's work was not finished when this one began */
+  bool bus_off; /* the CAN controller is in bus-off */
 } board_period;
 
 typedef struct {
   ecu_channel channel[2];
   ecu_link link;
-  ecu_report report; /* of the period at hand */
+  ecu_report report; /* of the current period */
   uint8_t turn;      /* of the readings it was computed from */
 } ecu_board;
 
@@ -53,22 +52,22 @@ typedef struct {
 void ecu_board_init(ecu_board* board, const board_fitted* fitted, frame_reset_cause cause,
                     bus_frame* boot);
 
-void ecu_board_hear(ecu_board* board, const bus_frame* frame);
+void ecu_board_receive(ecu_board* board, const bus_frame* frame);
 
-/* One control period. Fills both duties, 0 for a channel that is not fitted, and at most
+/* One control period. Sets both duties (0 for a channel that is not fitted) and at most
  * ECU_LINK_FRAMES_MAX frames; returns how many. */
 unsigned ecu_board_period(ecu_board* board, const board_period* period, int16_t* duty,
                           bus_frame* frames);
 
-/* In lockstep: whether the last period's answer has not come, and whether there is nothing new to
+/* In lockstep: whether the last period is still unanswered, and whether there are no new readings to
  * compute from. */
 bool ecu_board_awaits_host(const ecu_board* board, const board_readings* last);
 bool ecu_board_awaits_robot(const ecu_board* board, const board_readings* last);
 
-/* The last period once more, whole, for an answer that got lost. Returns how many frames. */
+/* Packs the whole last period again, in case its answer was lost. Returns the number of frames. */
 unsigned ecu_board_repeat(ecu_board* board, bus_frame* frames);
-#define ECU_BOARD_REPEAT_PERIODS 50u /* 100 ms of waiting for the host; chosen */
-#define ECU_BOARD_ASK_PERIODS 10u    /* 20 ms of waiting for the robot; chosen */
+#define ECU_BOARD_REPEAT_PERIODS 50u  /* 100 ms of waiting for the host; chosen */
+#define ECU_BOARD_REQUEST_PERIODS 10u /* 20 ms of waiting for the robot; chosen */
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
-/* What an ECU has still to say, when its controller takes frames more slowly than they come:
- * an EMERGENCY waits until it is out; of all else only the newest period is worth saying. */
+/* Frames waiting to be sent, for a controller that sends more slowly than frames are produced: an
+ * EMERGENCY waits until it is sent; of all other frames only those of the newest period are kept. */
 #ifndef ERP_FIRMWARE_OUTBOX_H
 #define ERP_FIRMWARE_OUTBOX_H
 #include "firmware/core/link.h"
@@ -11,18 +11,18 @@ extern "C" {
 #define OUTBOX_EMERGENCIES_MAX 4u
 #define OUTBOX_FRAMES_MAX (OUTBOX_EMERGENCIES_MAX + ECU_LINK_FRAMES_MAX)
 
-/* Zero it first. */
+/* Initialize to zero. */
 typedef struct {
   bus_frame frames[OUTBOX_FRAMES_MAX];
   uint8_t count;
-  uint32_t dropped; /* frames that gave way, since boot */
+  uint32_t dropped; /* frames replaced before they were sent, since boot */
 } ecu_outbox;
 
-/* Adds what a period has to say, most urgent first, at most ECU_LINK_FRAMES_MAX. What is left of
- * earlier periods gives way, but for the oldest OUTBOX_EMERGENCIES_MAX emergencies. */
+/* Adds the frames of a period, highest priority first, at most ECU_LINK_FRAMES_MAX. They replace the
+ * frames of earlier periods, except the oldest OUTBOX_EMERGENCIES_MAX emergencies. */
 void outbox_put(ecu_outbox* outbox, const bus_frame* frames, unsigned count);
 
-/* The next frame to send, or null; and that it has been taken. */
+/* outbox_next: the next frame to send, or null. outbox_sent: removes it after it was taken. */
 const bus_frame* outbox_next(const ecu_outbox* outbox);
 void outbox_sent(ecu_outbox* outbox);
 

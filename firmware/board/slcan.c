@@ -9,7 +9,7 @@ static int digit_of(char c) {
   return -1;
 }
 
-/* Reads `digits` digits. Returns -1 when one of them is none. */
+/* Reads `digits` digits. Returns -1 when a character is not a digit. */
 static int32_t number_at(const char* text, unsigned digits) {
   int32_t value = 0;
   for (unsigned i = 0; i < digits; ++i) {

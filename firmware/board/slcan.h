@@ -1,9 +1,9 @@
-/* The text protocol of serial CAN adapters (LAWICEL, "slcan"), which Linux's slcan driver speaks:
- * an ECU on a serial line looks like an adapter with one node behind it.
+/* The text protocol of serial CAN adapters (LAWICEL, "slcan"), as used by Linux's slcan driver. An
+ * ECU on a serial line behaves like an adapter with one node on its bus.
  *
  *   tIIIDdd…dd\r   a classic frame: identifier of 3 hexadecimal digits, size of 1, its bytes
  *   O\r  C\r       the host opens and closes the channel
- *   Sn\r …         bit rate and the like: of no meaning on a serial line, passed over
+ *   Sn\r …         bit rate and similar commands: no meaning on a serial line, ignored
  */
 #ifndef ERP_FIRMWARE_SLCAN_H
 #define ERP_FIRMWARE_SLCAN_H
@@ -17,18 +17,18 @@ extern "C" {
 
 typedef enum { SLCAN_NOTHING, SLCAN_FRAME, SLCAN_OPEN, SLCAN_CLOSE } slcan_event;
 
-/* What has been read of a line so far. Zero it first. */
+/* The part of a line read so far. Initialize to zero. */
 typedef struct {
   char line[SLCAN_LINE_MAX];
   uint8_t have;
-  bool too_long;       /* the line at hand is passed over to its end */
-  uint32_t unreadable; /* lines that began as a frame and were none */
+  bool too_long;       /* the rest of the current line is ignored */
+  uint32_t unreadable; /* lines that start like a frame but are not one */
 } slcan_reader;
 
-/* Takes one byte; `frame` is filled when it ends one. */
+/* Processes one byte; `frame` is set when the byte completes a frame. */
 slcan_event slcan_take(slcan_reader* reader, uint8_t byte, bus_frame* frame);
 
-/* Writes a frame as text, no null at its end. Returns how long, at most SLCAN_LINE_MAX. */
+/* Writes a frame as text, without terminating null. Returns the length, at most SLCAN_LINE_MAX. */
 unsigned slcan_write(char* text, const bus_frame* frame);
 
 #ifdef __cplusplus

@@ -3,7 +3,7 @@
 #define SYNC 0xA5u
 #define READINGS_BYTES (2u + 2u * 12u + 4u * ECU_ANALOG_INPUTS)
 #define DRIVE_BYTES 5u
-#define MISHAP_BYTES 4u
+#define FAULT_BYTES 4u
 #define SAMPLE_BYTES 2u
 
 /* ---- packing ---- */
@@ -58,10 +58,10 @@ unsigned wire_pack_sample(uint8_t* bytes, uint8_t ecu, uint8_t turn) {
   return end(&c);
 }
 
-unsigned wire_pack_mishap(uint8_t* bytes, uint8_t ecu, const wire_mishap* mishap) {
-  cursor c = begin(bytes, WIRE_MISHAP, MISHAP_BYTES, ecu);
-  put(&c, 1, mishap->kind);
-  put(&c, 2, mishap->periods);
+unsigned wire_pack_fault(uint8_t* bytes, uint8_t ecu, const wire_fault* fault) {
+  cursor c = begin(bytes, WIRE_FAULT, FAULT_BYTES, ecu);
+  put(&c, 1, fault->kind);
+  put(&c, 2, fault->periods);
   return end(&c);
 }
 
@@ -73,8 +73,8 @@ static unsigned size_of(uint8_t kind) {
       return READINGS_BYTES;
     case WIRE_DRIVE:
       return DRIVE_BYTES;
-    case WIRE_MISHAP:
-      return MISHAP_BYTES;
+    case WIRE_FAULT:
+      return FAULT_BYTES;
     case WIRE_SAMPLE:
       return SAMPLE_BYTES;
     default:
@@ -130,8 +130,8 @@ void wire_unpack_drive(const wire_reader* reader, int16_t* duty) {
 
 uint8_t wire_sample_turn(const wire_reader* reader) { return reader->bytes[4]; }
 
-void wire_unpack_mishap(const wire_reader* reader, wire_mishap* mishap) {
+void wire_unpack_fault(const wire_reader* reader, wire_fault* fault) {
   const uint8_t* at = reader->bytes + 4;
-  mishap->kind = (uint8_t)get(&at, 1);
-  mishap->periods = (uint16_t)get(&at, 2);
+  fault->kind = (uint8_t)get(&at, 1);
+  fault->periods = (uint16_t)get(&at, 2);
 }

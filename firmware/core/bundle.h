@@ -1,12 +1,13 @@
-/* CAN FD: one frame of up to 64 bytes carries up to six classic ones, whole.
+/* CAN FD: one frame of up to 64 bytes carries up to six complete classic frames.
  *
- *   bundle identifier = identifier of the first frame in it
+ *   bundle identifier = identifier of its first frame
  *   data              = per frame: identifier 16 (low byte first), then its 8 bytes
- *   size              = the next one that CAN FD has; what is left over is 0xFF
+ *   size              = the next size that CAN FD supports; padding is 0xFF
  *
- * So a frame means the same on either bus, and carries its own check value. Frames go together
- * that are of one function (the host's COMMANDs to many ECUs) or of one ECU (all it says in a
- * period); one that is more urgent begins a bundle, for the identifier is its priority.
+ * A frame has the same meaning on either bus and carries its own check value. Frames share a bundle
+ * if they have the same function (the host's COMMANDs to many ECUs) or come from the same ECU (its
+ * frames of one period). A frame of higher priority than the first one begins a new bundle, because
+ * the bundle's identifier is its priority.
  */
 #ifndef ERP_FIRMWARE_BUNDLE_H
 #define ERP_FIRMWARE_BUNDLE_H
@@ -28,13 +29,13 @@ typedef struct {
 /* The size on the bus of a bundle of `frames`, 1 to BUNDLE_FRAMES_MAX: 12, 20, 32, 48, 64, 64. */
 uint8_t bundle_size(unsigned frames);
 
-/* Whether `frame` may go with those in the bundle. */
+/* Whether `frame` may be added to the bundle. */
 bool bundle_takes(const bus_bundle* bundle, const bus_frame* frame);
 
-/* Packs the first frames of `frames` that go together, at least one. Returns how many. */
+/* Packs as many of the first frames as may share a bundle, at least one. Returns how many. */
 unsigned bundle_pack(bus_bundle* bundle, const bus_frame* frames, unsigned count);
 
-/* Unpacks into `frames`, room for BUNDLE_FRAMES_MAX. Returns how many; 0: no bundle of ours. */
+/* Unpacks into `frames`, room for BUNDLE_FRAMES_MAX. Returns how many; 0: not a valid bundle. */
 unsigned bundle_unpack(const bus_bundle* bundle, bus_frame* frames);
 
 #ifdef __cplusplus

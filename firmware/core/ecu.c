@@ -28,7 +28,8 @@ void ecu_overran(ecu_channel* channel, bool overran) {
 
 /* ---- commands ---- */
 
-/* Within low .. high, give or take half a quantum: what rounds to the limit is not beyond it. */
+/* Within low .. high, with half a quantization step of tolerance: a value that rounds to the limit
+ * is accepted. */
 static bool within(int32_t setpoint, float quantum, float low, float high) {
   const float value = (float)setpoint * quantum, slack = 0.501f * quantum;
   return value >= low - slack && value <= high + slack;
@@ -63,7 +64,7 @@ static float applied_V(const ecu_channel* c) {
   return GAIN(c, SUPPLY) * (float)c->duty / (float)ECU_DUTY_MAX;
 }
 
-/* A law takes over at the voltage that is applied now: 0 after arming. */
+/* A new law starts at the voltage that is applied now: 0 after arming. */
 static void start_law(ecu_channel* channel, ecu_request request, int32_t setpoint) {
   const float error_A = (float)setpoint / 1000.0f - channel->sensed.current_A;
   if (request == ECU_REQUEST_CURRENT)
@@ -93,7 +94,7 @@ static bool arm(ecu_channel* channel) {
   return true;
 }
 
-/* A clear that comes late, and was meant for another fault, clears nothing. */
+/* A late clear that refers to another fault has no effect. */
 static bool clear(ecu_channel* channel, int32_t fault) {
   if (channel->state == ECU_STATE_FAULT && fault != (int32_t)channel->fault) return false;
   ecu_apply(channel, ECU_EVENT_CLEAR);
@@ -150,7 +151,7 @@ static float law_V(ecu_channel* c) {
   }
 }
 
-/* The law's voltage, limited, to the nearest PWM count; no number is no voltage. */
+/* The law's voltage, limited and rounded to PWM counts; 0 if it is not a number. */
 static int16_t drive(ecu_channel* c) {
   const float voltage_V = law_limit_current_V(
       law_V(c), c->sensed.speed_rad_per_s, GAIN(c, RESISTANCE), GAIN(c, BACK_EMF),

@@ -1,17 +1,17 @@
 /* One actuator channel of an electronic control unit: state machine, safety, control laws.
  *
  *   every 2 ms:  duty = ecu_tick(&channel, &inputs)        reads converters, returns PWM
- *   on a frame:  ecu_command(&channel, request, setpoint)  what to follow next
+ *   on a frame:  ecu_command(&channel, request, setpoint)  request and set-point to apply
  *   on a frame:  ecu_parameter(&channel, index, value, commit)
  *
  * C11, no heap, no OS, no library but <stdint.h>, <stdbool.h>; single-precision arithmetic.
- * The same object code runs on the microcontroller, in the virtual ECU and in the simulator.
+ * The same source runs on the microcontroller, in the process `ecu` and in the simulator.
  *
  *   boot --gains committed--> idle --arm--> armed --set-point--> running --arm--> armed
  *            idle, armed, running --fault--> fault (PWM 0, latched) --clear--> idle
  *            armed, running --off--> idle
  *
- * In boot nothing can fault: there are no gains to judge a reading by, and PWM is 0.
+ * In boot no fault can occur: there are no gains to judge a reading by, and PWM is 0.
  */
 #ifndef ERP_FIRMWARE_ECU_H
 #define ERP_FIRMWARE_ECU_H
@@ -28,9 +28,9 @@ extern "C" {
 #endif
 
 #define ECU_DUTY_MAX 1023         /* PWM counts at full supply, either sign; chosen: 11 bits */
-#define ECU_WARN_TICKS 10u        /* 20 ms without a command: warn */
+#define ECU_WARN_TICKS 10u        /* 20 ms without a command: warning */
 #define ECU_TIMEOUT_TICKS 25u     /* 50 ms without a command: trip */
-#define ECU_BAD_SETPOINTS_TRIP 5u /* insane set-points in a row */
+#define ECU_BAD_SETPOINTS_TRIP 5u /* out-of-range set-points in a row */
 #define ECU_OVERRUNS_TRIP 3u      /* control periods overrun in a row */
 
 typedef enum {
@@ -42,11 +42,11 @@ typedef enum {
   ECU_STATE_COUNT
 } ecu_state;
 
-/* What a command asks; set-points are integers in the quantum given. A request is a level, not an
- * edge: it is repeated every period, and to repeat it is harmless. */
+/* The request of a command; set-points are integers in the unit given. A request is a level, not an
+ * edge: the host repeats it every period, and repetition is harmless. */
 typedef enum {
   ECU_REQUEST_OFF = 0,
-  ECU_REQUEST_CLEAR = 1,   /* leave fault; the set-point is the ecu_fault that is meant */
+  ECU_REQUEST_CLEAR = 1,   /* leave fault; the set-point is the ecu_fault to clear */
   ECU_REQUEST_ARM = 2,     /* ready, PWM 0 */
   ECU_REQUEST_VOLTAGE = 3, /* mV */
   ECU_REQUEST_LENGTH = 4,  /* encoder counts; P law on the motor encoder */
@@ -57,52 +57,53 @@ typedef enum {
 typedef struct {
   ecu_state state;
   ecu_fault fault;
-  ecu_request request; /* what it follows: off in boot, idle and fault, arm when armed */
+  ecu_request request; /* in effect: off in boot, idle and fault, arm when armed */
   int32_t setpoint;    /* 0 unless running */
   uint32_t ticks_since_command;
   uint32_t bad_setpoints;                  /* in a row */
-  uint32_t rejected_setpoints;             /* ever */
-  uint32_t rejected_commits;               /* ever */
-  float gains[ECU_PARAMETER_COUNT];        /* in force */
+  uint32_t rejected_setpoints;             /* since initialization */
+  uint32_t rejected_commits;               /* since initialization */
+  float gains[ECU_PARAMETER_COUNT];        /* in effect */
   float gains_staged[ECU_PARAMETER_COUNT]; /* written, not yet committed */
-  uint64_t written;                        /* bits: parameters staged or in force */
-  bool staged_spoilt;                      /* a value of the staged set was refused or lost */
-  bool gains_complete;                     /* a set is in force */
+  uint64_t written;                        /* bits: parameters staged or in effect */
+  bool staged_invalid;                     /* a value of the staged set was rejected or lost */
+  bool gains_complete;                     /* a set is in effect */
   ecu_sensed sensed;
   ecu_strain strain;
   law_current_memory current_memory;
   int16_t duty;
-  uint32_t overruns;          /* ever */
+  uint32_t overruns;          /* since initialization */
   uint32_t overruns_in_a_row; /* control periods */
 } ecu_channel;
 
 void ecu_init(ecu_channel* channel);
 
-/* A fresh command. Returns false when it is not followed. A set-point outside the limits or an
- * unknown request is counted, and the old one stays until it times out; five in a row trip. A mode
- * in boot, idle or fault is counted and ignored; arm in boot or fault is ignored. */
+/* Processes a fresh command. Returns false when it is not accepted. A set-point outside the limits
+ * or an unknown request is counted, and the previous set-point stays in effect until it times out;
+ * five in a row trip. A mode request in boot, idle or fault is counted and ignored; arm in boot or
+ * fault is ignored. */
 bool ecu_command(ecu_channel* channel, ecu_request request, int32_t setpoint);
 
-/* Stages one parameter; with `commit` the staged set comes into force as a whole, if every
- * parameter has been written once and the set is sane (gains.c lists what that means). Returns
- * false when it was rejected: then no value of the set comes into force, the rest of the set is
- * refused up to and with its commit, and the set has to be written again. */
+/* Stages one parameter. With `commit` the staged set takes effect as a whole, if every parameter has
+ * been written once and the set is plausible (is_sane in gains.c). Returns false when the parameter
+ * or the set is rejected: then no value of the set takes effect, the rest of the set is rejected up
+ * to and including its commit, and the set must be written again. */
 bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit);
 
-/* Drops the values staged since the last commit: a new set begins. */
+/* Drops the values staged since the last commit; a new set begins. */
 void ecu_discard_parameters(ecu_channel* channel);
 
-/* Tells that a value of the set being staged was lost on its way: its commit will be refused. */
-void ecu_spoil_parameters(ecu_channel* channel);
+/* Reports that a value of the staged set was lost in transit: its commit will be rejected. */
+void ecu_invalidate_staged(ecu_channel* channel);
 
 /* One control period. Returns the PWM duty, -ECU_DUTY_MAX .. ECU_DUTY_MAX. */
 int16_t ecu_tick(ecu_channel* channel, const ecu_inputs* inputs);
 
-/* Forces the fault state from outside (corrupt frames, watchdogs). The first cause stays. */
+/* Forces the fault state from outside (corrupt frames, watchdogs). The first cause is kept. */
 void ecu_trip(ecu_channel* channel, ecu_fault fault);
 
-/* Tells, once a period, whether the control loop of the last one was still at work when the next
- * began. The third such period in a row trips. */
+/* To be called once per period: whether the control loop of the previous period was still running
+ * when this one began. The third such period in a row trips. */
 void ecu_overran(ecu_channel* channel, bool overran);
 
 /* Armed or running, and 20 ms or more without a command. */

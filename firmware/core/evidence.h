@@ -1,4 +1,4 @@
-/* What judging sensors and strain has in common; inside firmware/core only. */
+/* Helpers shared by sensing.c and strain.c; inside firmware/core only. */
 #ifndef ERP_FIRMWARE_EVIDENCE_H
 #define ERP_FIRMWARE_EVIDENCE_H
 #include <stdbool.h>
@@ -9,7 +9,7 @@
 /* One of the `gains` in scope. */
 #define GAIN(id) (gains[ECU_PARAMETER_##id])
 
-/* Periods in a row for which something holds. */
+/* Counts the consecutive periods in which `holds` is true. */
 static inline uint32_t count_if(bool holds, uint32_t ticks) { return holds ? ticks + 1u : 0u; }
 
 #endif

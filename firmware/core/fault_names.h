@@ -1,4 +1,4 @@
-/* What each ecu_fault is called, for people; host only, the ECU sends numbers. */
+/* The text of each ecu_fault; host only, the ECU sends numbers. */
 #ifndef ERP_FIRMWARE_FAULT_NAMES_H
 #define ERP_FIRMWARE_FAULT_NAMES_H
 #include "firmware/core/faults.h"

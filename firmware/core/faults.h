@@ -1,4 +1,4 @@
-/* Why a channel tripped: one list, from which come the numbers on the bus and the words for people.
+/* Why a channel tripped: one list that gives the numbers on the bus and the texts for people.
  * Numbers are part of the wire format, four bits: append only. */
 #ifndef ERP_FIRMWARE_FAULTS_H
 #define ERP_FIRMWARE_FAULTS_H

@@ -89,73 +89,74 @@ static int32_t take_setpoint(cursor* c) {
 
 /* ---- the frames ---- */
 
-void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* said) {
+void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* content) {
   cursor c = {0, 0};
-  put(&c, 1, said->boot);
-  put(&c, 1, said->channel);
-  put(&c, 4, said->fault);
-  put(&c, 4, said->reset_cause);
-  put(&c, 6, said->version);
-  put(&c, 32, said->tick);
+  put(&c, 1, content->boot);
+  put(&c, 1, content->channel);
+  put(&c, 4, content->fault);
+  put(&c, 4, content->reset_cause);
+  put(&c, 6, content->version);
+  put(&c, 32, content->tick);
   seal(frame, FRAME_EMERGENCY, ecu, &c);
 }
 
-bool frame_unpack_emergency(const bus_frame* frame, frame_emergency* said) {
+bool frame_unpack_emergency(const bus_frame* frame, frame_emergency* content) {
   cursor c;
   if (!unseal(frame, FRAME_EMERGENCY, FRAME_EMERGENCY, &c)) return false;
-  said->boot = take_bit(&c);
-  said->channel = take8(&c, 1);
-  said->fault = take8(&c, 4);
-  said->reset_cause = take8(&c, 4);
-  said->version = take8(&c, 6);
-  said->tick = take(&c, 32);
+  content->boot = take_bit(&c);
+  content->channel = take8(&c, 1);
+  content->fault = take8(&c, 4);
+  content->reset_cause = take8(&c, 4);
+  content->version = take8(&c, 6);
+  content->tick = take(&c, 32);
   return true;
 }
 
-void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* said) {
+void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* content) {
   cursor c = {0, 0};
   for (int k = 0; k < 2; ++k) {
-    put(&c, 3, said->channel[k].request);
-    put_setpoint(&c, said->channel[k].setpoint);
+    put(&c, 3, content->channel[k].request);
+    put_setpoint(&c, content->channel[k].setpoint);
   }
-  put(&c, 3, said->answers);
-  put(&c, 3, said->count);
+  put(&c, 3, content->answers);
+  put(&c, 3, content->count);
   seal(frame, FRAME_COMMAND, ecu, &c);
 }
 
-bool frame_unpack_command(const bus_frame* frame, frame_command* said) {
+bool frame_unpack_command(const bus_frame* frame, frame_command* content) {
   cursor c;
   if (!unseal(frame, FRAME_COMMAND, FRAME_COMMAND, &c)) return false;
   for (int k = 0; k < 2; ++k) {
-    said->channel[k].request = take8(&c, 3);
-    said->channel[k].setpoint = take_setpoint(&c);
+    content->channel[k].request = take8(&c, 3);
+    content->channel[k].setpoint = take_setpoint(&c);
   }
-  said->answers = take8(&c, 3);
-  said->count = take8(&c, 3);
+  content->answers = take8(&c, 3);
+  content->count = take8(&c, 3);
   return true;
 }
 
-void frame_pack_status(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_status* said) {
+void frame_pack_status(bus_frame* frame, uint8_t ecu, uint8_t channel,
+                       const frame_status* content) {
   cursor c = {0, 0};
-  const bool running = said->state == ECU_STATE_RUNNING;
-  put(&c, 16, said->encoder_low);
-  put(&c, 12, (uint32_t)saturate(said->current_counts, -2048, 2047));
-  put(&c, 12, (uint32_t)saturate(said->tension_counts, 0, 4095));
+  const bool running = content->state == ECU_STATE_RUNNING;
+  put(&c, 16, content->encoder_low);
+  put(&c, 12, (uint32_t)saturate(content->current_counts, -2048, 2047));
+  put(&c, 12, (uint32_t)saturate(content->tension_counts, 0, 4095));
   put(&c, 1, running);
   if (running) {
-    put(&c, 11, (uint32_t)saturate(said->duty, -ECU_DUTY_MAX, ECU_DUTY_MAX));
+    put(&c, 11, (uint32_t)saturate(content->duty, -ECU_DUTY_MAX, ECU_DUTY_MAX));
   } else {
-    put(&c, 3, said->state);
-    put(&c, 4, said->fault);
-    put(&c, 3, said->request);
-    put(&c, 1, said->warning);
+    put(&c, 3, content->state);
+    put(&c, 4, content->fault);
+    put(&c, 3, content->request);
+    put(&c, 1, content->warning);
   }
-  put(&c, 1, said->follows);
-  put(&c, 3, said->counter);
+  put(&c, 1, content->follows);
+  put(&c, 3, content->counter);
   seal(frame, channel ? FRAME_STATUS_1 : FRAME_STATUS_0, ecu, &c);
 }
 
-bool frame_unpack_status(const bus_frame* frame, frame_status* said) {
+bool frame_unpack_status(const bus_frame* frame, frame_status* content) {
   cursor c;
   if (!unseal(frame, FRAME_STATUS_0, FRAME_STATUS_1, &c)) return false;
   frame_status s = {.encoder_low = (uint16_t)take(&c, 16)};
@@ -173,88 +174,90 @@ bool frame_unpack_status(const bus_frame* frame, frame_status* said) {
   }
   s.follows = take_bit(&c);
   s.counter = take8(&c, 3);
-  const bool meant = s.duty >= -ECU_DUTY_MAX && s.state < ECU_STATE_COUNT;
-  if (meant) *said = s;
-  return meant;
+  const bool valid = s.duty >= -ECU_DUTY_MAX && s.state < ECU_STATE_COUNT;
+  if (valid) *content = s;
+  return valid;
 }
 
-void frame_pack_analog(bus_frame* frame, uint8_t ecu, const frame_analog* said) {
+void frame_pack_analog(bus_frame* frame, uint8_t ecu, const frame_analog* content) {
   cursor c = {0, 0};
-  put(&c, 1, said->page);
-  put(&c, 2, said->present);
-  for (int k = 0; k < 2; ++k) put(&c, 24, (uint32_t)saturate(said->counts[k], -8388608, 8388607));
-  put(&c, 3, said->counter);
+  put(&c, 1, content->page);
+  put(&c, 2, content->present);
+  for (int k = 0; k < 2; ++k)
+    put(&c, 24, (uint32_t)saturate(content->counts[k], -8388608, 8388607));
+  put(&c, 3, content->counter);
   seal(frame, FRAME_ANALOG, ecu, &c);
 }
 
-bool frame_unpack_analog(const bus_frame* frame, frame_analog* said) {
+bool frame_unpack_analog(const bus_frame* frame, frame_analog* content) {
   cursor c;
   if (!unseal(frame, FRAME_ANALOG, FRAME_ANALOG, &c)) return false;
-  said->page = take8(&c, 1);
-  said->present = take8(&c, 2);
-  for (int k = 0; k < 2; ++k) said->counts[k] = take_signed(&c, 24);
-  said->counter = take8(&c, 3);
+  content->page = take8(&c, 1);
+  content->present = take8(&c, 2);
+  for (int k = 0; k < 2; ++k) content->counts[k] = take_signed(&c, 24);
+  content->counter = take8(&c, 3);
   return true;
 }
 
-void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_health* said) {
+void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel,
+                       const frame_health* content) {
   cursor c = {0, 0};
-  put(&c, 1, said->page);
-  put(&c, 3, said->counter);
-  if (said->page == 0) {
-    put(&c, 32, (uint32_t)said->encoder_counts);
-    put(&c, 1, said->warning);
-    put(&c, 8, said->lost);
-    put(&c, 8, said->corrupt);
+  put(&c, 1, content->page);
+  put(&c, 3, content->counter);
+  if (content->page == 0) {
+    put(&c, 32, (uint32_t)content->encoder_counts);
+    put(&c, 1, content->warning);
+    put(&c, 8, content->lost);
+    put(&c, 8, content->corrupt);
   } else {
-    put(&c, 3, said->request);
-    put_setpoint(&c, said->setpoint);
-    put(&c, 16, said->rejected);
-    put(&c, 8, said->refused_gain_sets);
+    put(&c, 3, content->request);
+    put_setpoint(&c, content->setpoint);
+    put(&c, 16, content->rejected);
+    put(&c, 8, content->refused_gain_sets);
   }
   seal(frame, channel ? FRAME_HEALTH_1 : FRAME_HEALTH_0, ecu, &c);
 }
 
-bool frame_unpack_health(const bus_frame* frame, frame_health* said) {
+bool frame_unpack_health(const bus_frame* frame, frame_health* content) {
   cursor c;
   if (!unseal(frame, FRAME_HEALTH_0, FRAME_HEALTH_1, &c)) return false;
-  *said = (frame_health){.page = take8(&c, 1)};
-  said->counter = take8(&c, 3);
-  if (said->page == 0) {
-    said->encoder_counts = (int32_t)take(&c, 32);
-    said->warning = take_bit(&c);
-    said->lost = take8(&c, 8);
-    said->corrupt = take8(&c, 8);
+  *content = (frame_health){.page = take8(&c, 1)};
+  content->counter = take8(&c, 3);
+  if (content->page == 0) {
+    content->encoder_counts = (int32_t)take(&c, 32);
+    content->warning = take_bit(&c);
+    content->lost = take8(&c, 8);
+    content->corrupt = take8(&c, 8);
   } else {
-    said->request = take8(&c, 3);
-    said->setpoint = take_setpoint(&c);
-    said->rejected = (uint16_t)take(&c, 16);
-    said->refused_gain_sets = take8(&c, 8);
+    content->request = take8(&c, 3);
+    content->setpoint = take_setpoint(&c);
+    content->rejected = (uint16_t)take(&c, 16);
+    content->refused_gain_sets = take8(&c, 8);
   }
   return true;
 }
 
-void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* said) {
+void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* content) {
   cursor c = {0, 0};
   uint32_t value;
-  memcpy(&value, &said->value, sizeof value);
-  put(&c, 1, said->channel);
-  put(&c, 6, said->index);
-  put(&c, 1, said->commit);
-  put(&c, 8, said->position);
+  memcpy(&value, &content->value, sizeof value);
+  put(&c, 1, content->channel);
+  put(&c, 6, content->index);
+  put(&c, 1, content->commit);
+  put(&c, 8, content->position);
   put(&c, 32, value);
   seal(frame, FRAME_PARAMETER, ecu, &c);
 }
 
-bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* said) {
+bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* content) {
   cursor c;
   if (!unseal(frame, FRAME_PARAMETER, FRAME_PARAMETER, &c)) return false;
-  said->channel = take8(&c, 1);
-  said->index = take8(&c, 6);
-  said->commit = take_bit(&c);
-  said->position = take8(&c, 8);
+  content->channel = take8(&c, 1);
+  content->index = take8(&c, 6);
+  content->commit = take_bit(&c);
+  content->position = take8(&c, 8);
   const uint32_t value = take(&c, 32);
-  memcpy(&said->value, &value, sizeof value);
+  memcpy(&content->value, &value, sizeof value);
   return true;
 }
 
@@ -268,28 +271,28 @@ bool frame_unpack_discover(const bus_frame* frame) {
   return unseal(frame, FRAME_DISCOVER, FRAME_DISCOVER, &c);
 }
 
-void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* said) {
+void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* content) {
   cursor c = {0, 0};
-  put(&c, 6, said->version);
-  put(&c, 2, said->channels);
-  put(&c, 4, said->analog_inputs);
-  put(&c, 4, said->reset_cause);
-  put(&c, 24, said->serial);
+  put(&c, 6, content->version);
+  put(&c, 2, content->channels);
+  put(&c, 4, content->analog_inputs);
+  put(&c, 4, content->reset_cause);
+  put(&c, 24, content->serial);
   seal(frame, FRAME_HELLO, ecu, &c);
 }
 
-bool frame_unpack_hello(const bus_frame* frame, frame_hello* said) {
+bool frame_unpack_hello(const bus_frame* frame, frame_hello* content) {
   cursor c;
   if (!unseal(frame, FRAME_HELLO, FRAME_HELLO, &c)) return false;
-  said->version = take8(&c, 6);
-  said->channels = take8(&c, 2);
-  said->analog_inputs = take8(&c, 4);
-  said->reset_cause = take8(&c, 4);
-  said->serial = take(&c, 24);
+  content->version = take8(&c, 6);
+  content->channels = take8(&c, 2);
+  content->analog_inputs = take8(&c, 4);
+  content->reset_cause = take8(&c, 4);
+  content->serial = take(&c, 24);
   return true;
 }
 
-uint8_t frame_ahead(uint8_t heard, uint8_t last) { return (uint8_t)(heard - last) & 7u; }
+uint8_t frame_ahead(uint8_t received, uint8_t last) { return (uint8_t)(received - last) & 7u; }
 
 int32_t frame_unwrap(int32_t last, uint16_t low) {
   const int16_t moved = (int16_t)(uint16_t)(low - (uint16_t)last);

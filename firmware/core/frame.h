@@ -1,11 +1,12 @@
-/* What an ECU says and hears on CAN: classic frames, 11-bit identifiers, 8 bytes, once and here.
+/* The frames between ECUs and host on CAN: classic frames, 11-bit identifiers, 8 bytes. Only this
+ * file and frame.c define their layout.
  *
- *   identifier = function (4 bits) << 7 | ecu (7 bits); the lower number wins the bus
+ *   identifier = function (4 bits) << 7 | ecu (7 bits); the lower number has priority on the bus
  *
  * Bit fields are little endian, packed in the order given from bit 0 of byte 0; byte 7 is CRC-8
  * (polynomial 0x2F, start and final XOR 0xFF: AUTOSAR's CRC8H2F, Hamming distance 4 at this
  * length) over the identifier's two bytes, low first, and bytes 0..6. A frame of another size or
- * with another check value is corrupt and says nothing. (s) marks a signed field.
+ * with another check value is corrupt and is ignored. (s) marks a signed field.
  *
  *   EMERGENCY  1     ECU -> host  kind 1, channel 1, fault 4, reset cause 4, version 6, tick 32
  *   COMMAND    2     host -> ECU  request 3, set-point 22 (s); the same for channel 1;
@@ -20,18 +21,19 @@
  *                                   page 1:  request 3, set-point 22 (s), rejected 16,
  *                                            refused gain sets 8
  *   PARAMETER  8     host -> ECU  channel 1, index 6, commit 1, position 8, float32
- *   DISCOVER   9     host -> ECU  nothing; to one address, or to 127: everyone
+ *   DISCOVER   9     host -> ECU  no data; to one address, or to 127: all ECUs
  *   HELLO      10    ECU -> host  version 6, channels 2, analog inputs 4, reset cause 4, serial 24
  *
- * Counters. Every period an ECU counts one up, modulo 8; all its frames of that period carry the
- * number. COMMANDs to an ECU are counted modulo 8 as well, so that one that is late or comes twice
- * neither moves anything nor feeds the watchdog; and each says in `answers` the counter of the
- * newest STATUS it was computed from, by which lockstep knows which tick was answered.
+ * Counters. An ECU increments its counter every period, modulo 8; all its frames of that period
+ * carry it. COMMANDs to an ECU are counted modulo 8 as well, so that a late or repeated command
+ * neither takes effect nor resets the watchdog. `answers` in a COMMAND is the counter of the newest
+ * STATUS that the command was computed from; lockstep uses it to match commands with ticks.
  *
- * Outside running the duty is 0, so its bits carry the state: boot and fault codes need no frame
- * of their own. EMERGENCY says the same at once, with the highest priority, and boots are said by
- * it alone. The encoder's upper half comes in HEALTH; the receiver unwraps the rest, which stays
- * right while a channel turns less than 32768 counts between two frames heard.
+ * In every state except running the duty is 0, so its bits carry the state: boot and fault codes
+ * need no frame of their own. EMERGENCY reports a fault at once, with the highest priority; a boot
+ * is reported by EMERGENCY only. The upper half of the encoder count is sent in HEALTH; the receiver
+ * unwraps the lower half, which is correct while a channel turns less than 32768 counts between two
+ * received frames.
  */
 #ifndef ERP_FIRMWARE_FRAME_H
 #define ERP_FIRMWARE_FRAME_H
@@ -46,10 +48,10 @@ extern "C" {
 
 #define FRAME_VERSION 3u
 #define FRAME_ECUS 127u                  /* addresses 0 .. 126 */
-#define FRAME_EVERYONE 127u              /* the address of a DISCOVER that all ECUs answer */
+#define FRAME_EVERYONE 127u              /* address of a DISCOVER that all ECUs answer */
 #define FRAME_SETPOINT_MAX 2097151       /* 22 bits signed; -2097152 is reserved: */
-#define FRAME_SETPOINT_REFUSED INT32_MIN /* one that did not fit; the ECU rejects it */
-#define FRAME_REQUEST_NONE 7u            /* this channel is not spoken to */
+#define FRAME_SETPOINT_REFUSED INT32_MIN /* a set-point that does not fit; the ECU rejects it */
+#define FRAME_REQUEST_NONE 7u            /* no command for this channel */
 
 /* One classic frame as it goes over the bus. */
 typedef struct {
@@ -79,17 +81,17 @@ typedef enum {
 } frame_reset_cause;
 
 typedef struct {
-  bool boot;           /* true: it has just booted; false: a channel has tripped */
+  bool boot;           /* true: the ECU has booted; false: a channel has tripped */
   uint8_t channel;     /* of the fault */
   uint8_t fault;       /* ecu_fault */
   uint8_t reset_cause; /* frame_reset_cause of the boot */
-  uint8_t version;     /* FRAME_VERSION it speaks */
+  uint8_t version;     /* FRAME_VERSION of the ECU */
   uint32_t tick;       /* periods since boot */
 } frame_emergency;
 
 typedef struct {
   uint8_t request;  /* ecu_request or FRAME_REQUEST_NONE */
-  int32_t setpoint; /* its quantum is the request's, see ecu.h */
+  int32_t setpoint; /* in the unit of the request, see ecu.h */
 } frame_channel_command;
 
 typedef struct {
@@ -104,9 +106,9 @@ typedef struct {
   uint16_t tension_counts; /* 0..4095, saturated */
   uint8_t state;           /* ecu_state */
   int16_t duty;            /* 0 unless running */
-  uint8_t fault, request;  /* request: not sent while running, then FRAME_REQUEST_NONE */
-  bool warning;            /* not sent while running, then false */
-  bool follows;            /* the newest command this channel heard was accepted */
+  uint8_t fault, request;  /* request: FRAME_REQUEST_NONE while running (not sent) */
+  bool warning;            /* false while running (not sent) */
+  bool follows;            /* the newest command that this channel received was accepted */
   uint8_t counter;         /* 0..7 */
 } frame_status;
 
@@ -118,13 +120,13 @@ typedef struct {
 } frame_analog;
 
 typedef struct {
-  uint8_t page; /* 0: the first line below, 1: the second; the other one is 0 */
+  uint8_t page; /* 0: the fields of the first group, 1: those of the second; the others are 0 */
   uint8_t counter;
-  int32_t encoder_counts; /* whole */
+  int32_t encoder_counts; /* full count */
   bool warning;
   uint8_t lost, corrupt; /* commands since boot, modulo 256 */
   uint8_t request;
-  int32_t setpoint;          /* what the channel follows */
+  int32_t setpoint;          /* in effect */
   uint16_t rejected;         /* set-points since boot, modulo 65536 */
   uint8_t refused_gain_sets; /* since boot, modulo 256 */
 } frame_health;
@@ -132,49 +134,49 @@ typedef struct {
 typedef struct {
   uint8_t channel, index;
   bool commit;
-  uint8_t position; /* 0 begins a set, then 1, 2 .. 255, 1 ..; a gap spoils the set */
+  uint8_t position; /* 0 begins a set, then 1, 2 .. 255, 1 ..; a gap invalidates the set */
   float value;
 } frame_parameter;
 
 typedef struct {
-  uint8_t version;       /* FRAME_VERSION it speaks */
+  uint8_t version;       /* FRAME_VERSION of the ECU */
   uint8_t channels;      /* bit k: channel k is fitted */
   uint8_t analog_inputs; /* bit k: input k has a sensor */
   uint8_t reset_cause;   /* frame_reset_cause of its last boot */
-  uint32_t serial;       /* lower 24 bits of the board's number; 0: it has none */
+  uint32_t serial;       /* lower 24 bits of the board's serial number; 0: none */
 } frame_hello;
 
 uint16_t frame_identifier(frame_function function, uint8_t ecu);
 frame_function frame_function_of(const bus_frame* frame);
 uint8_t frame_ecu_of(const bus_frame* frame);
 uint8_t frame_crc8(const uint8_t* bytes, unsigned count);
-/* Size and check value are right. */
+/* Whether size and check value are right. */
 bool frame_is_intact(const bus_frame* frame);
 
-/* Packing fills `frame` whole. Unpacking returns false, and leaves the result alone, when the
- * frame is corrupt, is of another function, or holds a value that no sender means. */
-void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* said);
-bool frame_unpack_emergency(const bus_frame* frame, frame_emergency* said);
-void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* said);
-bool frame_unpack_command(const bus_frame* frame, frame_command* said);
-void frame_pack_status(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_status* said);
-bool frame_unpack_status(const bus_frame* frame, frame_status* said);
-void frame_pack_analog(bus_frame* frame, uint8_t ecu, const frame_analog* said);
-bool frame_unpack_analog(const bus_frame* frame, frame_analog* said);
-void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_health* said);
-bool frame_unpack_health(const bus_frame* frame, frame_health* said);
-void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* said);
-bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* said);
+/* Packing sets all of `frame`. Unpacking returns false and leaves the result unchanged when the
+ * frame is corrupt, has another function, or holds a value that no sender uses. */
+void frame_pack_emergency(bus_frame* frame, uint8_t ecu, const frame_emergency* content);
+bool frame_unpack_emergency(const bus_frame* frame, frame_emergency* content);
+void frame_pack_command(bus_frame* frame, uint8_t ecu, const frame_command* content);
+bool frame_unpack_command(const bus_frame* frame, frame_command* content);
+void frame_pack_status(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_status* content);
+bool frame_unpack_status(const bus_frame* frame, frame_status* content);
+void frame_pack_analog(bus_frame* frame, uint8_t ecu, const frame_analog* content);
+bool frame_unpack_analog(const bus_frame* frame, frame_analog* content);
+void frame_pack_health(bus_frame* frame, uint8_t ecu, uint8_t channel, const frame_health* content);
+bool frame_unpack_health(const bus_frame* frame, frame_health* content);
+void frame_pack_parameter(bus_frame* frame, uint8_t ecu, const frame_parameter* content);
+bool frame_unpack_parameter(const bus_frame* frame, frame_parameter* content);
 void frame_pack_discover(bus_frame* frame, uint8_t ecu);
 bool frame_unpack_discover(const bus_frame* frame);
-void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* said);
-bool frame_unpack_hello(const bus_frame* frame, frame_hello* said);
+void frame_pack_hello(bus_frame* frame, uint8_t ecu, const frame_hello* content);
+bool frame_unpack_hello(const bus_frame* frame, frame_hello* content);
 
-/* How many counters of 8 `heard` is ahead of `last`. From FRAME_LATE on it is behind instead. */
+/* By how many counts, modulo 8, `received` is ahead of `last`; FRAME_LATE or more: behind it. */
 #define FRAME_LATE 6u
-uint8_t frame_ahead(uint8_t heard, uint8_t last);
+uint8_t frame_ahead(uint8_t received, uint8_t last);
 
-/* The whole count nearest to `last` whose lower half is `low`. */
+/* The full count nearest to `last` whose lower half is `low`. */
 int32_t frame_unwrap(int32_t last, uint16_t low);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* The gains of a channel: written one by one, in force all at once. */
+/* The gains of a channel: staged one by one, take effect together. */
 #include <float.h>
 
 #include "firmware/core/ecu.h"
@@ -9,8 +9,8 @@ static const uint64_t all_written = ((uint64_t)1 << ECU_PARAMETER_COUNT) - 1u;
 
 static bool is_finite(float x) { return x >= -FLT_MAX && x <= FLT_MAX; } /* false for NaN */
 
-/* What would make a conversion, a limit or a trip level meaningless, or turn a loop's sign. The
- * state feedback gains may have either sign: Ackermann's formula decides. */
+/* False for values that make a conversion, a limit or a trip level meaningless, or reverse the sign
+ * of a loop. State feedback gains may have either sign: Ackermann's formula determines it. */
 static bool is_sane(const float* g) {
   static const uint8_t above_zero[] = {
       ECU_PARAMETER_SUPPLY,        ECU_PARAMETER_SHAFT_SCALE,        ECU_PARAMETER_CURRENT_SCALE,
@@ -39,13 +39,13 @@ static void copy(float* to, const float* from) {
 void ecu_discard_parameters(ecu_channel* channel) {
   copy(channel->gains_staged, channel->gains);
   channel->written = channel->gains_complete ? all_written : 0u;
-  channel->staged_spoilt = false;
+  channel->staged_invalid = false;
 }
 
-void ecu_spoil_parameters(ecu_channel* channel) { channel->staged_spoilt = true; }
+void ecu_invalidate_staged(ecu_channel* channel) { channel->staged_invalid = true; }
 
 static bool commit_staged(ecu_channel* channel) {
-  const bool whole = !channel->staged_spoilt && channel->written == all_written;
+  const bool whole = !channel->staged_invalid && channel->written == all_written;
   if (!whole || !is_sane(channel->gains_staged)) {
     ecu_discard_parameters(channel);
     ++channel->rejected_commits;
@@ -63,8 +63,8 @@ bool ecu_parameter(ecu_channel* channel, uint8_t index, float value, bool commit
     channel->gains_staged[index] = value;
     channel->written |= (uint64_t)1 << index;
   } else {
-    ecu_spoil_parameters(channel);
+    ecu_invalidate_staged(channel);
   }
   if (commit) return commit_staged(channel);
-  return readable && !channel->staged_spoilt;
+  return readable && !channel->staged_invalid;
 }

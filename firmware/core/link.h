@@ -1,10 +1,10 @@
-/* One ECU on the bus: frames heard drive its two channels, and after each period it says what it
+/* One ECU on the bus. Received frames command its two channels; after each period it sends what it
  * measured. Used by the microcontroller's main loop and by the virtual ECUs of the simulator.
  *
- *   on a frame:   ecu_link_hear(&link, &frame)
+ *   on a frame:   ecu_link_receive(&link, &frame)
  *   every 2 ms:   duty = ecu_tick(...) for each channel
  *                 ecu_link_tick(&link)
- *                 count = ecu_link_say(&link, &said, false, frames)
+ *                 count = ecu_link_pack(&link, &report, false, frames)
  */
 #ifndef ERP_FIRMWARE_LINK_H
 #define ERP_FIRMWARE_LINK_H
@@ -15,33 +15,33 @@ extern "C" {
 #endif
 
 #define ECU_CORRUPT_TRIP 5u    /* corrupt frames in a row: ECU_FAULT_CORRUPT */
-#define ECU_HEALTH_TICKS 25u   /* one HEALTH frame every 50 ms; a round takes 200 ms */
+#define ECU_HEALTH_TICKS 25u   /* one HEALTH frame every 50 ms; a rotation takes 200 ms */
 #define ECU_LINK_FRAMES_MAX 11 /* 2 EMERGENCY, HELLO, 4 HEALTH, 2 ANALOG, 2 STATUS */
 #define ECU_ANALOG_INPUTS 4
 
 typedef struct {
   uint8_t ecu;             /* address, 0..127 */
   uint8_t analog_inputs;   /* bit k: input k has a sensor */
-  ecu_channel* channel[2]; /* lent; null where none is fitted */
+  ecu_channel* channel[2]; /* not owned; null where none is fitted */
   uint32_t tick;           /* periods since boot */
-  uint32_t serial;         /* of the board, 24 bits; its owner sets it */
+  uint32_t serial;         /* of the board, 24 bits; set by the owner */
   uint8_t reset_cause;     /* frame_reset_cause */
-  /* heard */
-  bool has_heard;
-  bool answered;      /* a command computed from this tick's STATUS has come */
+  /* received */
+  bool has_received;
+  bool answered;      /* a command computed from this tick's STATUS has arrived */
   uint8_t last_count; /* of a COMMAND */
   bool follows[2];
-  bool set_open[2]; /* PARAMETERs were heard since the last commit */
+  bool set_open[2]; /* PARAMETERs were received since the last commit */
   uint8_t last_position[2];
   uint32_t corrupt_in_a_row;
   uint32_t lost, late, repeated, corrupt; /* since boot */
-  /* said */
-  bool asked_for_hello;
-  bool said_fault[2];
+  /* sent */
+  bool hello_requested;
+  bool reported_fault[2];
   uint8_t health_turn;
 } ecu_link;
 
-/* What one period gives to say. */
+/* The data of one period to be sent. */
 typedef struct {
   ecu_state state;
   ecu_fault fault;
@@ -58,25 +58,26 @@ typedef struct {
 void ecu_link_init(ecu_link* link, uint8_t ecu, ecu_channel* channel_0, ecu_channel* channel_1,
                    uint8_t analog_inputs);
 
-/* Takes one frame off the bus. Returns true when it was for this ECU and was used; a repeated or
- * late command, a corrupt frame or another's frame changes no channel (but see ECU_CORRUPT_TRIP).
- */
-bool ecu_link_hear(ecu_link* link, const bus_frame* frame);
+/* Processes one frame from the bus. Returns true when it was for this ECU and was used. A repeated or
+ * late command, a corrupt frame or a frame for another ECU changes no channel (exception:
+ * ECU_CORRUPT_TRIP). */
+bool ecu_link_receive(ecu_link* link, const bus_frame* frame);
 
-/* Begins a period: counts up, nothing answered yet. */
+/* Begins a period: increments the counter; no command has answered it yet. */
 void ecu_link_tick(ecu_link* link);
 
-/* A channel as its last tick left it. */
+/* The state of a channel after its last tick. */
 ecu_reading ecu_reading_of(const ecu_channel* channel);
 
-/* The frames of this period, STATUS last, at most ECU_LINK_FRAMES_MAX. `whole` adds HELLO and every
- * HEALTH page: for the first period, to say a period again, and whenever a host has asked. */
-unsigned ecu_link_say(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames);
+/* Packs the frames of this period, STATUS last, at most ECU_LINK_FRAMES_MAX. `whole` adds HELLO and
+ * all HEALTH pages: for the first period, to repeat a period, and after a DISCOVER. */
+unsigned ecu_link_pack(ecu_link* link, const ecu_report* report, bool whole, bus_frame* frames);
 
-/* The one frame to say after a reset. */
-void ecu_link_say_boot(ecu_link* link, frame_reset_cause cause, bus_frame* frame);
+/* Packs the one frame to send after a reset. */
+void ecu_link_pack_boot(ecu_link* link, frame_reset_cause cause, bus_frame* frame);
 
-/* Tells, once a period, whether the CAN controller is off the bus: then both channels trip. */
+/* To be called once per period: whether the CAN controller is in bus-off; if so, both channels
+ * trip. */
 void ecu_link_bus(ecu_link* link, bool off);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-/* The numbers an ECU channel is given before it may be armed: one list, from which come the enum,
- * the names and the frame indices. Order is part of the wire format: append only. */
+/* The parameters that an ECU channel needs before it may be armed. One list gives the enum, the names
+ * and the frame indices. Its order is part of the wire format: append only. */
 #ifndef ERP_FIRMWARE_PARAMETERS_H
 #define ERP_FIRMWARE_PARAMETERS_H
 
@@ -12,8 +12,8 @@
   X(TENSION_COUNTS_MAX, tension_counts_max)                                                  \
   X(RESISTANCE, resistance_ohm)     /* for the current limit: V = R i + K_E N w */           \
   X(BACK_EMF, back_emf_V_s_per_rad) /* at the gearbox output: K_E N */                       \
-  X(CURRENT_LIMIT, current_limit_A) /* what the law may ask for */                           \
-  X(CURRENT_TRIP, current_trip_A)   /* where the channel trips */                            \
+  X(CURRENT_LIMIT, current_limit_A) /* largest current that a law may drive */               \
+  X(CURRENT_TRIP, current_trip_A)   /* trip level */                                         \
   X(TENSION_LIMIT, tension_limit_N) /* set-points above are rejected */                      \
   X(TENSION_TRIP, tension_trip_N)                                                            \
   X(SHAFT_MIN, shaft_min_rad) /* length set-points outside are rejected */                   \
@@ -26,15 +26,15 @@
   X(FORCE_K_SPEED, force_gain_V_s_per_rad)                                                   \
   X(FORCE_K_TENSION, force_gain_V_per_N)                                                     \
   X(FORCE_PREFILTER, force_prefilter_V_per_N)                                                \
-  X(TENSION_ZERO, tension_zero_counts)            /* live zero: what a slack tendon reads */ \
-  X(CURRENT_STUCK_SPEED, current_stuck_rad_per_s) /* 0: a still reading is believed */       \
+  X(TENSION_ZERO, tension_zero_counts)            /* live zero: reading of a slack tendon */ \
+  X(CURRENT_STUCK_SPEED, current_stuck_rad_per_s) /* 0: no check for a stuck reading */      \
   X(TENSION_STUCK_SPEED, tension_stuck_rad_per_s)                                            \
   X(WIPER_INPUT, wiper_input)         /* which analog input of the ECU */                    \
   X(WIPER_SCALE, wiper_rad_per_count) /* potentiometer on the gearbox shaft */               \
   X(WIPER_COUNTS_MAX, wiper_counts_max)                                                      \
   X(WIPER_TOLERANCE, wiper_tolerance_rad)       /* 0: none is fitted */                      \
-  X(CURRENT_CONTINUOUS, current_continuous_A)   /* what the motor bears for ever */          \
-  X(OVERLOAD_LIMIT, overload_A2_s)              /* 0: not judged */                          \
+  X(CURRENT_CONTINUOUS, current_continuous_A)   /* permissible continuous motor current */   \
+  X(OVERLOAD_LIMIT, overload_A2_s)              /* 0: no check */                            \
   X(TEMPERATURE_SCALE, temperature_C_per_count) /* 0: none is fitted */                      \
   X(TEMPERATURE_ZERO, temperature_zero_C)                                                    \
   X(TEMPERATURE_DERATE, temperature_derate_C)                                                \

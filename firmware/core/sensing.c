@@ -10,19 +10,20 @@ static bool current_at_rail(const float* gains, const ecu_inputs* inputs) {
   return magnitude((float)inputs->current_counts) >= GAIN(CURRENT_COUNTS_MAX);
 }
 
-/* Without a live zero, tension 0 is a slack tendon and no rail. */
+/* Without a live zero, tension 0 is a slack tendon and not a rail. */
 static bool tension_at_rail(const float* gains, const ecu_inputs* inputs) {
   const float counts = (float)inputs->tension_counts, half_zero = 0.5f * GAIN(TENSION_ZERO);
   return counts >= GAIN(TENSION_COUNTS_MAX) || counts < half_zero;
 }
 
-/* Slack and noise may read a little less than a live zero; no tendon pushes. */
+/* With a slack tendon, noise may bring the reading slightly below the live zero; a tendon does not
+ * push. */
 static float tension_of(const float* gains, const ecu_inputs* inputs) {
   const float counts = (float)inputs->tension_counts - GAIN(TENSION_ZERO);
   return counts > 0.0f ? counts * GAIN(TENSION_SCALE) : 0.0f;
 }
 
-/* No motor turns at twice the speed that its supply gives it without load. */
+/* No motor turns at twice its no-load speed at this supply. */
 static bool speed_at_rail(const float* gains, float speed_rad_per_s) {
   return GAIN(BACK_EMF) * magnitude(speed_rad_per_s) > 2.0f * GAIN(SUPPLY);
 }
@@ -46,15 +47,15 @@ static void convert(ecu_sensed* s, const float* gains, const ecu_inputs* inputs)
 
 /* ---- evidence ---- */
 
-/* Ticks of turning without a change; standing still is no evidence either way. */
+/* Ticks of rotation without a change; standstill is no evidence either way. */
 static uint32_t same_for(uint32_t ticks, bool same, float speed_rad_per_s, float from_rad_per_s) {
   if (!same || from_rad_per_s <= 0.0f) return 0u;
   return magnitude(speed_rad_per_s) >= from_rad_per_s ? ticks + 1u : ticks;
 }
 
-static void look_for_stuck(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
+static void check_stuck(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
   const bool same_current = inputs->current_counts == s->inputs.current_counts;
-  const bool taut = tension_of(gains, inputs) > 0.0f; /* cut off at 0, a reading may well rest */
+  const bool taut = tension_of(gains, inputs) > 0.0f; /* clipped at 0, a reading may be constant */
   const bool same_tension = taut && inputs->tension_counts == s->inputs.tension_counts;
   s->same_current_ticks =
       same_for(s->same_current_ticks, same_current, s->speed_rad_per_s, GAIN(CURRENT_STUCK_SPEED));
@@ -62,7 +63,7 @@ static void look_for_stuck(ecu_sensed* s, const float* gains, const ecu_inputs* 
       same_for(s->same_tension_ticks, same_tension, s->speed_rad_per_s, GAIN(TENSION_STUCK_SPEED));
 }
 
-static void look_at_encoder(ecu_sensed* s, const float* gains, float applied_V) {
+static void check_encoder(ecu_sensed* s, const float* gains, float applied_V) {
   const float emf_V = applied_V - GAIN(RESISTANCE) * s->current_A;
   const float seen_V = GAIN(BACK_EMF) * s->speed_rad_per_s;
   const bool turns = magnitude(emf_V) > 0.75f * GAIN(RESISTANCE) * GAIN(CURRENT_LIMIT);
@@ -70,8 +71,8 @@ static void look_at_encoder(ecu_sensed* s, const float* gains, float applied_V) 
   s->lag_ticks = count_if(GAIN(BACK_EMF) > 0.0f && turns && unseen, s->lag_ticks);
 }
 
-/* Beyond its range a potentiometer stays at its end, and says nothing. */
-static void look_at_potentiometer(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
+/* Beyond its range a potentiometer stays at its end and gives no information. */
+static void check_potentiometer(ecu_sensed* s, const float* gains, const ecu_inputs* inputs) {
   const float counts = (float)inputs->potentiometer_counts;
   if (GAIN(WIPER_TOLERANCE) <= 0.0f || counts <= 0.0f || counts >= GAIN(WIPER_COUNTS_MAX)) {
     s->apart_ticks = 0u;
@@ -96,9 +97,9 @@ static ecu_fault worst(const ecu_sensed* s) {
 ecu_fault ecu_sense(ecu_sensed* sensed, const float* gains, const ecu_inputs* inputs,
                     float applied_V) {
   convert(sensed, gains, inputs);
-  if (sensed->has_inputs) look_for_stuck(sensed, gains, inputs);
-  look_at_encoder(sensed, gains, applied_V);
-  look_at_potentiometer(sensed, gains, inputs);
+  if (sensed->has_inputs) check_stuck(sensed, gains, inputs);
+  check_encoder(sensed, gains, applied_V);
+  check_potentiometer(sensed, gains, inputs);
   return worst(sensed);
 }
 

@@ -19,7 +19,7 @@ static const ecu_state table[ECU_STATE_COUNT][ECU_EVENT_COUNT] = {
 
 ecu_state ecu_next_state(ecu_state state, ecu_event event) { return table[state][event]; }
 
-/* Everything but running drives nothing and remembers nothing. */
+/* In every state except running the channel drives nothing and its law has no memory. */
 static void rest(ecu_channel* channel) {
   channel->request = channel->state == ARMED ? ECU_REQUEST_ARM : ECU_REQUEST_OFF;
   channel->setpoint = 0;

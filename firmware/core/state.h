@@ -17,10 +17,10 @@ typedef enum {
   ECU_EVENT_COUNT
 } ecu_event;
 
-/* Which state an event leads to. */
+/* The state after an event. */
 ecu_state ecu_next_state(ecu_state state, ecu_event event);
 
-/* Takes the transition, with what belongs to entering the new state. */
+/* Performs the transition, including the actions on entering the new state. */
 void ecu_apply(ecu_channel* channel, ecu_event event);
 
 #ifdef __cplusplus

@@ -10,7 +10,7 @@
 
 #include "hal/can/bus.hpp"
 
-/// The back ends of `open_bus`, and what they share; inside hal/can only.
+/// The back ends of `open_bus` and their common parts; inside hal/can only.
 namespace erp::can {
 
 std::unique_ptr<CanBus> open_socketcan(const std::string& interface, const BusOptions& options);

@@ -15,7 +15,7 @@ void BusKeeper::post(std::span<const CanFrame> frames, std::int64_t now_ns) {
   else outbox_.flush(*bus_, now_ns);
 }
 
-std::span<const BusNotice> BusKeeper::mind(std::int64_t now_ns) {
+std::span<const BusNotice> BusKeeper::supervise(std::int64_t now_ns) {
   notices_.clear();
   const BusCounters now = bus_->counters();
   if (now.state != state_) notice_state(now.state);
@@ -30,23 +30,22 @@ void BusKeeper::notice_state(BusState state) {
   state_ = state;
   switch (state) {
     case BusState::active:
-      return say(Severity::info, "bus_active", "the bus is well again");
+      return notify(Severity::info, "bus_active", "the bus is error-active again");
     case BusState::warning:
-      return say(Severity::warning, "bus_warning", "many errors: look at cable and terminators");
+      return notify(Severity::warning, "bus_warning", "error-warning: check cable and terminators");
     case BusState::passive:
-      return say(Severity::warning, "bus_passive",
-                 "so many errors that the controller holds back: look at cable and terminators");
+      return notify(Severity::warning, "bus_passive", "error-passive: check cable and terminators");
     case BusState::off:
-      return say(Severity::fault, "bus_off",
-                 "the controller has left the bus; nothing is sent, its ECUs stop by themselves");
+      return notify(Severity::fault, "bus_off",
+                    "bus-off: no frame is sent; the ECUs stop after their command timeout");
     case BusState::down:
-      return say(Severity::fault, "bus_down",
-                 "the interface is down; bring it up: ip link set … up type can bitrate …");
+      return notify(Severity::fault, "bus_down",
+                    "the interface is down; bring it up: ip link set … up type can bitrate …");
   }
 }
 
-/// Nobody there to acknowledge: frames are taken and never leave, or the controller says so and
-/// nothing is heard.
+/// No node acknowledges: accepted frames are not sent, or the controller reports missing
+/// acknowledgements and no frame is received.
 bool BusKeeper::is_stuck(const BusCounters& now, std::int64_t now_ns) {
   const std::uint64_t left = now.sent - bus_->in_flight();
   if (!left_ns_ || left != left_ || bus_->in_flight() == 0) left_ns_ = now_ns;
@@ -60,9 +59,9 @@ bool BusKeeper::is_stuck(const BusCounters& now, std::int64_t now_ns) {
 
 void BusKeeper::notice_stuck(bool stuck) {
   if (stuck && !stuck_)
-    say(Severity::fault, "not_acknowledged",
-        "no frame leaves for 20 ms: the cable is open, or no ECU has power");
-  if (!stuck && stuck_) say(Severity::info, "acknowledged", "frames leave again");
+    notify(Severity::fault, "not_acknowledged",
+           "no frame sent for 20 ms; check that the cable is connected and an ECU has power");
+  if (!stuck && stuck_) notify(Severity::info, "acknowledged", "frames are sent again");
   stuck_ = stuck;
   if (stuck_) outbox_.drop();
 }
@@ -72,18 +71,18 @@ void BusKeeper::recover(std::int64_t now_ns) {
     case BusRecovery::Do::nothing:
       return;
     case BusRecovery::Do::give_up:
-      return say(Severity::fault, "bus_off_latched",
-                 "off again after three restarts: it stays off until the gateway is restarted");
+      return notify(Severity::fault, "bus_off_latched",
+                    "bus-off after three restarts; restart the gateway to use this bus again");
     case BusRecovery::Do::restart:
       break;
   }
   try {
     bus_->restart();
-    say(Severity::warning, "bus_restarted",
-        "restart " + std::to_string(recovery_.restarts()) + " of " +
-            std::to_string(BusRecovery::most_restarts));
+    notify(Severity::warning, "bus_restarted",
+           "restart " + std::to_string(recovery_.restarts()) + " of " +
+               std::to_string(BusRecovery::most_restarts));
   } catch (const std::runtime_error& error) {
-    say(Severity::fault, "bus_restart", error.what());
+    notify(Severity::fault, "bus_restart", error.what());
   }
 }
 

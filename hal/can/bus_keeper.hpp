@@ -13,18 +13,18 @@
 
 namespace erp {
 
-/// Something worth saying about a bus.
+/// A change in the condition of a bus, to be reported.
 struct BusNotice {
   Severity severity;
   std::string code, text;
 };
 
-/// One bus as the gateway keeps it: what waits for it, how it is, and what brings it back.
+/// One bus of the gateway: transmit queue, supervision and recovery.
 ///
-///  - error-warning, error-passive: said.
-///  - bus-off: what waits is dropped, nothing is sent; restarted as `bus_recovery.hpp` has it.
-///  - nothing leaves for 20 ms: said (cable open, no ECU powered); what waits is dropped.
-///  - down: said; used again when somebody brings it up.
+///  - error-warning, error-passive: reported.
+///  - bus-off: the queue is dropped, nothing is sent; restarts as in `bus_recovery.hpp`.
+///  - no frame leaves for 20 ms: reported (cable open, no ECU powered); the queue is dropped.
+///  - down: reported; used again after someone brings the interface up.
 ///
 /// No clock: time is an argument.
 class BusKeeper {
@@ -45,17 +45,17 @@ class BusKeeper {
   void record(const std::string& file);
   /// Sends frames, now or as soon as there is room.
   void post(std::span<const CanFrame> frames, std::int64_t now_ns);
-  /// Sends what waits; call when the bus was readable.
+  /// Sends queued frames; call when the bus was readable.
   void flush(std::int64_t now_ns) { post({}, now_ns); }
-  /// Looks after the bus; call every millisecond or so. Valid until the next call.
-  std::span<const BusNotice> mind(std::int64_t now_ns);
+  /// Checks the bus; call about every millisecond. The result is valid until the next call.
+  std::span<const BusNotice> supervise(std::int64_t now_ns);
 
  private:
   void notice_state(BusState state);
   bool is_stuck(const BusCounters& now, std::int64_t now_ns);
   void notice_stuck(bool stuck);
   void recover(std::int64_t now_ns);
-  void say(Severity severity, std::string code, std::string text) {
+  void notify(Severity severity, std::string code, std::string text) {
     notices_.push_back({severity, std::move(code), std::move(text)});
   }
 
@@ -65,9 +65,9 @@ class BusKeeper {
   Outbox outbox_;
   BusRecovery recovery_;
   BusState state_ = BusState::active;
-  std::uint64_t left_ = 0;                      ///< frames that have left
-  std::optional<std::int64_t> left_ns_;         ///< when the last did, or none was in flight
-  std::optional<std::int64_t> alone_since_ns_;  ///< of a first frame without acknowledgement
+  std::uint64_t left_ = 0;                      ///< frames seen on the wire
+  std::optional<std::int64_t> left_ns_;         ///< time of the last, or when none was in flight
+  std::optional<std::int64_t> alone_since_ns_;  ///< time of the first missing acknowledgement
   BusCounters last_;
   bool stuck_ = false;
   std::vector<BusNotice> notices_;

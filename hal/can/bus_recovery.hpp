@@ -3,16 +3,16 @@
 
 namespace erp {
 
-/// When to restart a bus that is off: at once, then 100 ms after the last attempt, three times in
-/// all; then it stays off, for what fails three times is to be looked at. Ten seconds on the bus
-/// (chosen) earn the attempts back. Pure.
+/// Decides when to restart a bus in bus-off: at once, then 100 ms after the last attempt, three times
+/// in all. Then the bus stays off, because a fault that persists needs inspection. After ten seconds
+/// without bus-off (chosen) the attempts are available again. Pure.
 class BusRecovery {
  public:
   enum class Do { nothing, restart, give_up };
   static constexpr int most_restarts = 3;
   static constexpr std::int64_t apart_ns = 100'000'000, well_ns = 10'000'000'000;
 
-  /// Call every millisecond or so. `give_up` is said once.
+  /// Call about every millisecond. Returns `give_up` once.
   Do step(bool off, std::int64_t now_ns) {
     if (!off) {
       if (restarts_ > 0 && now_ns - last_ns_ > well_ns) restarts_ = 0;

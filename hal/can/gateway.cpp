@@ -9,10 +9,10 @@ namespace {
 static_assert(ECU_PARAMETER_COUNT < 63, "a parameter's index has 6 bits on the bus");
 constexpr std::uint8_t no_parameter = 63;
 
-/// As it goes over the bus. What no ECU knows becomes a set-point that every ECU refuses.
-frame_channel_command on_the_bus(const EcuChannelCommand& asked) {
-  if (asked.request > ECU_REQUEST_FORCE) return {ECU_REQUEST_VOLTAGE, FRAME_SETPOINT_REFUSED};
-  return {asked.request, asked.setpoint};
+/// The command as sent on the bus. An unknown request becomes a set-point that every ECU rejects.
+frame_channel_command on_the_bus(const EcuChannelCommand& requested) {
+  if (requested.request > ECU_REQUEST_FORCE) return {ECU_REQUEST_VOLTAGE, FRAME_SETPOINT_REFUSED};
+  return {requested.request, requested.setpoint};
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ void Gateway::add(const Actuator& actuator) {
   if (index >= 0)
     throw std::invalid_argument("actuator \"" + actuator.name + "\": ECU " +
                                 std::to_string(actuator.ecu) + " channel " +
-                                std::to_string(actuator.channel) + " is another's already");
+                                std::to_string(actuator.channel) + " is already in use");
   index = static_cast<int>(channels_.size());
   ecu.in_use = true;
   Channel& channel = channels_.emplace_back();
@@ -57,7 +57,7 @@ void Gateway::add(const AnalogInput& used) {
   int& index = ecu.analog.at(static_cast<std::size_t>(used.input));
   if (index >= 0)
     throw std::invalid_argument(used.reader + ": ECU " + std::to_string(used.ecu) + " input " +
-                                std::to_string(used.input) + " is another's already");
+                                std::to_string(used.input) + " is already in use");
   index = static_cast<int>(analogs_.size());
   ecu.in_use = true;
   analogs_.push_back({ecu.address, static_cast<std::uint8_t>(used.input), false});
@@ -65,12 +65,12 @@ void Gateway::add(const AnalogInput& used) {
          EcuAnalogSample{.ecu = ecu.address, .input = static_cast<std::uint8_t>(used.input)});
 }
 
-bool Gateway::understands(int ecu) const {
+bool Gateway::is_compatible(int ecu) const {
   return ecu >= 0 && ecu < static_cast<int>(FRAME_ECUS) &&
-         ecus_[static_cast<std::size_t>(ecu)].speaks_ours;
+         ecus_[static_cast<std::size_t>(ecu)].version_matches;
 }
 
-bool Gateway::introduced(int ecu) const {
+bool Gateway::is_identified(int ecu) const {
   return ecu >= 0 && ecu < static_cast<int>(FRAME_ECUS) &&
          ecus_[static_cast<std::size_t>(ecu)].hello.has_value();
 }
@@ -80,10 +80,10 @@ bool Gateway::introduced(int ecu) const {
 std::span<const CanFrame> Gateway::commands(const EcuCommand& message) {
   commands_.clear();
   for (Ecu& ecu : ecus_) ecu.has_command = false;
-  for (const EcuChannelCommand& asked : samples(message.channels)) {
-    const bool known =
-        asked.ecu < FRAME_ECUS && asked.channel < 2 && ecus_[asked.ecu].channel[asked.channel] >= 0;
-    if (known) fill_in(ecus_[asked.ecu], asked);
+  for (const EcuChannelCommand& requested : samples(message.channels)) {
+    const bool known = requested.ecu < FRAME_ECUS && requested.channel < 2 &&
+                       ecus_[requested.ecu].channel[requested.channel] >= 0;
+    if (known) fill_in(ecus_[requested.ecu], requested);
     else ++counters_.unknown_channels;
   }
   for (Ecu& ecu : ecus_) {
@@ -94,15 +94,15 @@ std::span<const CanFrame> Gateway::commands(const EcuCommand& message) {
   return commands_;
 }
 
-void Gateway::fill_in(Ecu& ecu, const EcuChannelCommand& asked) {
+void Gateway::fill_in(Ecu& ecu, const EcuChannelCommand& requested) {
   if (!ecu.has_command) ecu.command = {{{FRAME_REQUEST_NONE, 0}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
   ecu.has_command = true;
-  ecu.command.channel[asked.channel] = on_the_bus(asked);
-  channels_[static_cast<std::size_t>(ecu.channel[asked.channel])].sent =
-      ecu.command.channel[asked.channel];
+  ecu.command.channel[requested.channel] = on_the_bus(requested);
+  channels_[static_cast<std::size_t>(ecu.channel[requested.channel])].sent =
+      ecu.command.channel[requested.channel];
 }
 
-/// What it answers, as far as that is still known, and its own number.
+/// Sets the counter that the command answers, if still known, and the number of the command.
 void Gateway::number(Ecu& ecu, std::uint64_t answered_sequence) {
   const Past& past = past_[answered_sequence % past_.size()];
   const bool known = past.sequence == answered_sequence && answered_sequence != 0;
@@ -114,31 +114,32 @@ void Gateway::number(Ecu& ecu, std::uint64_t answered_sequence) {
 
 std::span<const CanFrame> Gateway::parameters(const EcuParameter& message) {
   parameters_.clear();
-  for (const EcuParameterValue& asked : samples(message.values)) {
-    const bool known =
-        asked.ecu < FRAME_ECUS && asked.channel < 2 && ecus_[asked.ecu].channel[asked.channel] >= 0;
+  for (const EcuParameterValue& requested : samples(message.values)) {
+    const bool known = requested.ecu < FRAME_ECUS && requested.channel < 2 &&
+                       ecus_[requested.ecu].channel[requested.channel] >= 0;
     if (!known) {
       ++counters_.unknown_channels;
       continue;
     }
-    Channel& channel = channels_[static_cast<std::size_t>(ecus_[asked.ecu].channel[asked.channel])];
-    const frame_parameter said{asked.channel, std::min(asked.index, no_parameter), asked.commit,
-                               channel.next_position, asked.value};
-    frame_pack_parameter(&parameters_.emplace_back(), asked.ecu, &said);
-    const int next = said.position == 255 ? 1 : said.position + 1;
-    channel.next_position = static_cast<std::uint8_t>(asked.commit ? 0 : next);
+    Channel& channel =
+        channels_[static_cast<std::size_t>(ecus_[requested.ecu].channel[requested.channel])];
+    const frame_parameter content{requested.channel, std::min(requested.index, no_parameter),
+                                  requested.commit, channel.next_position, requested.value};
+    frame_pack_parameter(&parameters_.emplace_back(), requested.ecu, &content);
+    const int next = content.position == 255 ? 1 : content.position + 1;
+    channel.next_position = static_cast<std::uint8_t>(requested.commit ? 0 : next);
   }
   return parameters_;
 }
 
 // ---- ticks ----
 
-Heard Gateway::finish(bool closed_early) {
+FrameResult Gateway::finish(bool closed_early) {
   if (missing_ == 0) {
     close_tick();
-    return Heard::tick;
+    return FrameResult::tick;
   }
-  return closed_early ? Heard::tick : Heard::nothing;
+  return closed_early ? FrameResult::tick : FrameResult::nothing;
 }
 
 void Gateway::close_tick() {

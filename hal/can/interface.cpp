@@ -17,8 +17,8 @@ void restart_interface(const std::string& interface) {
   if (can_do_restart(name) == 0) return;
   if (can_do_stop(name) == 0 && can_do_start(name) == 0) return;
   throw std::runtime_error("cannot restart interface \"" + interface +
-                           "\": allow the gateway to (`setcap cap_net_admin+ep` on its program), "
-                           "or restart it yourself: `ip link set " +
+                           "\": permit it (`setcap cap_net_admin+ep` on the gateway program) "
+                           "or restart it by hand: `ip link set " +
                            interface + " down`, then up");
 }
 

@@ -2,15 +2,15 @@
 #include <optional>
 #include <string>
 
-/// A CAN network interface as a thing of its own, over netlink (libsocketcan); inside hal/can only.
+/// Control of a CAN network interface over netlink (libsocketcan); inside hal/can only.
 namespace erp::can {
 
-/// Nominal bit rate; nothing for an interface that has none, as virtual ones do.
+/// Nominal bit rate; empty for an interface without one, such as a virtual one.
 std::optional<double> bitrate_per_s(const std::string& interface);
 
-/// Ends bus-off: restarts the controller or, where the driver refuses (slcan), takes the interface
-/// down and up again, which a bound socket survives. What waited in the kernel's queue is gone.
-/// Throws std::runtime_error: usually for want of the right CAP_NET_ADMIN.
+/// Ends bus-off: restarts the controller or, if the driver refuses that (slcan), takes the interface
+/// down and up again, which a bound socket survives. Frames in the kernel's queue are lost.
+/// Throws std::runtime_error, usually because CAP_NET_ADMIN is missing.
 void restart_interface(const std::string& interface);
 
 }  // namespace erp::can

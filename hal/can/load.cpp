@@ -13,7 +13,7 @@ namespace {
 
 constexpr double period_s = 0.002;
 
-/// What one ECU says in a period.
+/// Frames that one ECU sends in a period.
 struct Words {
   int channels = 0;
   std::array<bool, 2> analog_page{};
@@ -36,7 +36,7 @@ double bundles_time_s(int frames, const BusPlan& bus) {
   return time_s;
 }
 
-/// Of frames that go together: one after the other, or in bundles.
+/// Time for several frames: one after the other, or in bundles.
 double time_s(int frames, const BusPlan& bus) {
   if (bus.data_bitrate_per_s) return bundles_time_s(frames, bus);
   return frames * frame_time_s(8, bus.bitrate_per_s);
@@ -47,9 +47,9 @@ BusLoad load_of(const BusPlan& bus, const std::map<int, Words>& ecus) {
   BusLoad load{bus.name, static_cast<int>(bus.ecus.size())};
   load.period_s = time_s(load.ecus, bus);
   for (const int ecu : bus.ecus) {
-    const auto said = ecus.find(ecu);
-    if (said == ecus.end()) continue;
-    const int frames = said->second.frames();
+    const auto content = ecus.find(ecu);
+    if (content == ecus.end()) continue;
+    const int frames = content->second.frames();
     load.period_s +=
         time_s(frames, bus) * (1 - health_share) + time_s(frames + 1, bus) * health_share;
   }

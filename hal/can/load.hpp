@@ -4,9 +4,9 @@
 
 #include "interfaces/robot/robot.hpp"
 
-/// How full a robot's buses get, from robot.xml alone.
+/// Predicted load of a robot's buses, from robot.xml alone.
 ///
-/// Worst case of a frame, every stuff bit there:
+/// Worst-case length of a frame, with all stuff bits:
 ///
 ///   classic, 11-bit identifier, n bytes:  g = 34 + 8 n;  bits = g + 13 + ⌊(g − 1)/4⌋
 ///     8 bytes: 135 bits (Davis et al., Real-Time Systems 35, 2007, eq. 1)
@@ -14,31 +14,31 @@
 ///     next frame, at the nominal rate; 5 + 8 n, a quarter of it stuffed, 4 of stuff count, CRC 17
 ///     (21 above 16 bytes) with 6 (7) fixed stuff bits, at the data rate (ISO 11898-1:2015)
 ///
-/// Each 2 ms: a COMMAND an ECU; of each ECU a STATUS a channel and an ANALOG for each pair of
-/// inputs; each 50 ms a HEALTH.
+/// Every 2 ms: a COMMAND to each ECU; from each ECU a STATUS per channel and an ANALOG for each pair
+/// of inputs. Every 50 ms: a HEALTH.
 namespace erp {
 
 struct BusLoad {
   std::string bus;
   int ecus = 0;
-  double share = 0;     ///< of the bus's time, worst case; 1 is full
-  double period_s = 0;  ///< that the frames of one 2 ms period take
+  double share = 0;     ///< of the bus's time, worst case; 1: fully loaded
+  double period_s = 0;  ///< time on the bus of the frames of one 2 ms period
 };
 
-/// What PARAMETERs, EMERGENCYs and repeated frames need is left free; chosen.
+/// The rest is reserved for PARAMETERs, EMERGENCYs and repeated frames; chosen.
 inline constexpr double most_load = 0.9;
 
 double frame_time_s(std::size_t bytes, double bitrate_per_s);
 double fd_frame_time_s(std::size_t bytes, double bitrate_per_s, double data_bitrate_per_s);
 
-/// One for each of `robot.buses()`.
+/// One per bus of `robot.buses()`.
 std::vector<BusLoad> bus_loads(const Robot& robot);
 
 /// One line, "left: 4 ECUs, 82 % of its time".
 std::string to_string(const BusLoad& load);
 
-/// Throws xml::Errors for planned buses above `most_load`, with place, load and remedy. A robot
-/// without a plan passes: it may never see a bus.
+/// Throws xml::Errors for planned buses above `most_load`, with place, load and remedy. Accepts a
+/// robot without a bus plan, because it may be used without a bus.
 void refuse_overload(const Robot& robot);
 
 }  // namespace erp

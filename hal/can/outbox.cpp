@@ -36,7 +36,7 @@ void Outbox::flush(CanBus& bus, std::int64_t now_ns) {
   if (flush_commands(bus)) flush_others(bus);
 }
 
-/// True when none is left waiting.
+/// Returns true when no COMMAND is left.
 bool Outbox::flush_commands(CanBus& bus) {
   if (waiting_.empty()) return true;
   going_.clear();

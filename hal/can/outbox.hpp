@@ -7,29 +7,29 @@
 
 namespace erp {
 
-/// What waits to be handed to one bus. Of the COMMANDs to an ECU only the newest waits, and not
-/// longer than a tick: a set-point must never come out late. Everything else waits in order, after
-/// them. So a bus that is slow, full or cut off costs age, not a burst of stale commands.
+/// Transmit queue of one bus. Only the newest COMMAND to an ECU is kept, for at most one tick, because
+/// a set-point must not be sent late. All other frames wait in order, behind the COMMANDs. A bus that
+/// is slow, full or disconnected therefore loses commands; it does not send a burst of old ones.
 ///
-/// Pure: time is an argument, in nanoseconds of any clock. At time 0, which is lockstep's, nothing
-/// ages and nothing overtakes: all runs are alike, however slow the bus.
+/// Pure: time is an argument, in nanoseconds of any clock. At time 0, which lockstep uses, frames do
+/// not age or overtake: all runs are identical, however slow the bus.
 class Outbox {
  public:
-  static constexpr std::int64_t max_age_ns = 2'000'000;  ///< of a COMMAND: a tick
-  static constexpr std::size_t most_others = 4096;       ///< chosen: all gains of a robot once
+  static constexpr std::int64_t max_age_ns = 2'000'000;  ///< of a COMMAND: one tick
+  static constexpr std::size_t most_others = 4096;       ///< chosen: one gain set of a whole robot
 
   Outbox();
 
   void put(std::span<const CanFrame> frames, std::int64_t now_ns);
-  /// Hands over what the bus takes.
+  /// Sends as many frames as the bus accepts.
   void flush(CanBus& bus, std::int64_t now_ns);
-  /// Forgets everything that waits.
+  /// Discards all queued frames.
   void drop();
   bool empty() const { return waiting_.empty() && others_.empty(); }
 
-  std::uint64_t replaced() const { return replaced_; }  ///< COMMANDs by newer ones
-  std::uint64_t expired() const { return expired_; }    ///< COMMANDs that grew too old
-  std::uint64_t dropped() const { return dropped_; }    ///< others: no room, or by `drop`
+  std::uint64_t replaced() const { return replaced_; }  ///< COMMANDs replaced by newer ones
+  std::uint64_t expired() const { return expired_; }    ///< COMMANDs discarded because of their age
+  std::uint64_t dropped() const { return dropped_; }    ///< other frames: no room, or by `drop`
 
  private:
   struct Waiting {
@@ -41,8 +41,8 @@ class Outbox {
   bool flush_commands(CanBus& bus);
   void flush_others(CanBus& bus);
 
-  std::vector<Waiting> waiting_;  ///< COMMANDs, one an ECU
-  std::vector<CanFrame> going_;   ///< their frames, side by side
+  std::vector<Waiting> waiting_;  ///< COMMANDs, one per ECU
+  std::vector<CanFrame> going_;   ///< their frames, contiguous
   std::vector<CanFrame> others_;
   std::uint64_t replaced_ = 0, expired_ = 0, dropped_ = 0;
 };

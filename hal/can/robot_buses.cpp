@@ -17,14 +17,14 @@ std::string counted_up(const std::string& text, std::size_t add) {
   const auto last = text.find_last_of("0123456789");
   if (last == std::string::npos || last + 1 != text.size())
     throw std::invalid_argument("bus \"" + text +
-                                "\" does not end in a number that could count up from bus to bus; "
-                                "give one for each, separated by spaces");
+                                "\" does not end in a number that can increase from bus to bus; "
+                                "give one specification per bus, separated by spaces");
   const auto before = text.find_last_not_of("0123456789");
   const std::size_t begin = before == std::string::npos ? 0 : before + 1;
   return text.substr(0, begin) + std::to_string(std::stoull(text.substr(begin)) + add);
 }
 
-/// Where the bus's rate can be known it must be the plan's: at another nobody understands anybody.
+/// If the bit rate is known it must equal the planned one; nodes at different rates cannot communicate.
 void check_rate(const BusPlan& plan, const std::string& where) {
   if (!where.starts_with(kernel_bus)) return;
   const std::string interface = where.substr(kernel_bus.size());
@@ -39,7 +39,7 @@ void check_rate(const BusPlan& plan, const std::string& where) {
 
 }  // namespace
 
-// ---- which ----
+// ---- routes ----
 
 BusRoutes::BusRoutes(const Robot& robot) {
   for (const BusPlan& plan : robot.buses()) {
@@ -48,7 +48,8 @@ BusRoutes::BusRoutes(const Robot& robot) {
     ecus_.push_back(plan.ecus);
   }
   sorted_.resize(names_.size());
-  for (auto& frames : sorted_) frames.reserve(4096);  // a robot's gains, once; then never more
+  for (auto& frames : sorted_)
+    frames.reserve(4096);  // one gain set of a robot: no allocation later
 }
 
 void BusRoutes::sort(std::span<const CanFrame> frames) {
@@ -61,16 +62,17 @@ void BusRoutes::sort(std::span<const CanFrame> frames) {
   }
 }
 
-// ---- where ----
+// ---- opening ----
 
-std::vector<std::string> bus_words(const std::string& where, std::size_t buses) {
+std::vector<std::string> bus_specifications(const std::string& where, std::size_t buses) {
   const auto parts = xml::split(where);
   std::vector<std::string> words(parts.begin(), parts.end());
   if (words.size() == buses) return words;
   if (words.size() != 1)
-    throw std::invalid_argument("robot.xml plans " + std::to_string(buses) + " buses, \"" + where +
-                                "\" names " + std::to_string(words.size()) +
-                                "; give one for each, or one whose last number counts up");
+    throw std::invalid_argument(
+        "robot.xml plans " + std::to_string(buses) + " buses, \"" + where + "\" names " +
+        std::to_string(words.size()) +
+        "; give one per bus, or one whose last number increases from bus to bus");
   if (words[0].starts_with(trace)) return words;
   for (std::size_t k = 1; k < buses; ++k) words.push_back(counted_up(words[0], k));
   return words;
@@ -79,7 +81,7 @@ std::vector<std::string> bus_words(const std::string& where, std::size_t buses) 
 std::vector<std::unique_ptr<CanBus>> open_buses(const Robot& robot, const std::string& where,
                                                 std::size_t window) {
   const auto plans = robot.buses();
-  const auto words = bus_words(where, plans.size());
+  const auto words = bus_specifications(where, plans.size());
   std::vector<std::unique_ptr<CanBus>> buses;
   for (std::size_t k = 0; k < words.size(); ++k) {
     BusOptions options;

@@ -8,10 +8,10 @@
 #include "hal/can/bus.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// A robot's CAN buses: which ECU hangs on which, and where each is opened.
+/// A robot's CAN buses: which ECU is on which bus, and where each bus is opened.
 namespace erp {
 
-/// Which of a robot's buses a frame belongs on.
+/// Assigns frames to a robot's buses.
 class BusRoutes {
  public:
   explicit BusRoutes(const Robot& robot);
@@ -20,9 +20,9 @@ class BusRoutes {
   std::span<const int> ecus(std::size_t bus) const { return ecus_[bus]; }
   std::size_t bus_of(int ecu) const { return bus_of_[static_cast<std::size_t>(ecu)]; }
 
-  /// Sorts frames by their ECU's bus, keeping order; a DISCOVER to everyone goes on each.
+  /// Sorts frames by their ECU's bus and keeps their order; a DISCOVER to all ECUs goes on each bus.
   void sort(std::span<const CanFrame> frames);
-  /// Of the last `sort`.
+  /// The frames of the last `sort` for one bus.
   std::span<const CanFrame> on(std::size_t bus) const { return sorted_[bus]; }
 
  private:
@@ -32,16 +32,16 @@ class BusRoutes {
   std::vector<std::vector<CanFrame>> sorted_;
 };
 
-/// Opens the buses of `robot.buses()`, in order. `where` gives a specification of `open_bus` for
-/// each, separated by spaces; or one for several, whose last number counts up from bus to bus:
+/// Opens the buses of `robot.buses()`, in order. `where` gives one specification of `open_bus` per
+/// bus, separated by spaces, or one for all, whose last number increases from bus to bus:
 /// socketcan:can0 is can0, can1 … ; udp:239.255.42.1:20000 is port 20000, 20001 … A `trace:` serves
-/// them all, as their first. `window` frames an ECU may be in flight (0: no bound).
-/// Throws std::invalid_argument when the number is wrong, a bus does not run at robot.xml's bit
-/// rate, and as open_bus does.
+/// all buses, as the first one. `window` frames per ECU may be in flight (0: no limit).
+/// Throws std::invalid_argument when the number of specifications is wrong or a bus does not run at
+/// robot.xml's bit rate, and as open_bus does.
 std::vector<std::unique_ptr<CanBus>> open_buses(const Robot& robot, const std::string& where,
                                                 std::size_t window = 0);
 
-/// One specification a bus, as above.
-std::vector<std::string> bus_words(const std::string& where, std::size_t buses);
+/// One specification per bus, as above.
+std::vector<std::string> bus_specifications(const std::string& where, std::size_t buses);
 
 }  // namespace erp

@@ -7,7 +7,7 @@
 namespace erp {
 namespace {
 
-/// What robot.xml connects to one ECU.
+/// The channels and inputs of one ECU, from robot.xml.
 struct Wiring {
   std::array<ecu_channel*, 2> channel{};
   unsigned analog_inputs = 0;
@@ -21,7 +21,7 @@ std::map<int, Wiring> wiring_of(const Robot& robot, std::span<ecu_channel* const
     if (slot)
       throw std::invalid_argument("actuator \"" + actuator.name + "\": ECU " +
                                   std::to_string(actuator.ecu) + " channel " +
-                                  std::to_string(actuator.channel) + " is another's already");
+                                  std::to_string(actuator.channel) + " is already in use");
     slot = channels[i];
   }
   for (const AnalogInput& used : robot.analog_inputs())
@@ -72,57 +72,57 @@ const ecu_link* RobotEcus::link(int address) const {
   return index < 0 ? nullptr : &ecus_[static_cast<std::size_t>(index)].link;
 }
 
-bool RobotEcus::hear(const CanFrame& frame) {
+bool RobotEcus::receive(const CanFrame& frame) {
   if (frame_ecu_of(&frame) == FRAME_EVERYONE) {
-    for (Ecu& ecu : ecus_) ecu_link_hear(&ecu.link, &frame);
+    for (Ecu& ecu : ecus_) ecu_link_receive(&ecu.link, &frame);
     return true;
   }
   Ecu* ecu = find(frame_ecu_of(&frame));
-  return ecu && ecu_link_hear(&ecu->link, &frame);
+  return ecu && ecu_link_receive(&ecu->link, &frame);
 }
 
 std::span<const CanFrame> RobotEcus::report(const EcuFrame& tick) {
   for (Ecu& ecu : ecus_) ecu_link_tick(&ecu.link);
   take(tick);
-  return say(ecus_.empty() || ecus_.front().link.tick == 1);
+  return pack(ecus_.empty() || ecus_.front().link.tick == 1);
 }
 
 void RobotEcus::take(const EcuFrame& tick) {
-  for (Ecu& ecu : ecus_) ecu.spoke = !ecu.link.channel[0] && !ecu.link.channel[1];
+  for (Ecu& ecu : ecus_) ecu.sent = !ecu.link.channel[0] && !ecu.link.channel[1];
   for (const EcuChannelSample& sample : samples(tick.channels)) {
     Ecu* ecu = find(sample.ecu);
     if (!ecu || sample.channel > 1) continue;
     ecu->report.channel[sample.channel] = reading_of(sample);
-    ecu->spoke = ecu->spoke || sample.fresh;
+    ecu->sent = ecu->sent || sample.fresh;
   }
   for (const EcuAnalogSample& sample : samples(tick.analogs))
     if (Ecu* ecu = find(sample.ecu); ecu && sample.input < ECU_ANALOG_INPUTS)
       ecu->report.analog_counts[sample.input] = sample.counts;
 }
 
-std::span<const CanFrame> RobotEcus::again() { return say(true); }
+std::span<const CanFrame> RobotEcus::repeat() { return pack(true); }
 
-std::span<const CanFrame> RobotEcus::say(bool whole) {
+std::span<const CanFrame> RobotEcus::pack(bool whole) {
   frames_.clear();
-  std::array<CanFrame, ECU_LINK_FRAMES_MAX> said;
+  std::array<CanFrame, ECU_LINK_FRAMES_MAX> content;
   for (Ecu& ecu : ecus_) {
-    if (!ecu.spoke) continue;
-    const unsigned count = ecu_link_say(&ecu.link, &ecu.report, whole, said.data());
-    frames_.insert(frames_.end(), said.begin(), said.begin() + count);
+    if (!ecu.sent) continue;
+    const unsigned count = ecu_link_pack(&ecu.link, &ecu.report, whole, content.data());
+    frames_.insert(frames_.end(), content.begin(), content.begin() + count);
   }
   return frames_;
 }
 
 std::span<const CanFrame> RobotEcus::boot(frame_reset_cause cause) {
   frames_.clear();
-  for (Ecu& ecu : ecus_) ecu_link_say_boot(&ecu.link, cause, &frames_.emplace_back());
+  for (Ecu& ecu : ecus_) ecu_link_pack_boot(&ecu.link, cause, &frames_.emplace_back());
   return frames_;
 }
 
 bool RobotEcus::answered() const {
   return std::all_of(ecus_.begin(), ecus_.end(), [](const Ecu& ecu) {
     const bool commanded = ecu.link.channel[0] || ecu.link.channel[1];
-    return !commanded || !ecu.spoke || ecu.link.answered;
+    return !commanded || !ecu.sent || ecu.link.answered;
   });
 }
 

@@ -16,7 +16,7 @@ class SocketCanBus final : public CanBus {
   SocketCanBus(const std::string& interface, const BusOptions& options)
       : interface_(interface), options_(options), socket_(open_raw(interface, options)) {}
 
-  /// In bus-off the kernel takes frames and forgets them: then they are refused here.
+  /// In bus-off the kernel accepts frames and discards them; therefore they are rejected here.
   std::size_t send(std::span<const CanFrame> frames) override {
     std::size_t taken = 0;
     while (taken < frames.size() && counters_.state != BusState::off) {
@@ -50,7 +50,7 @@ class SocketCanBus final : public CanBus {
  private:
   void enter(BusState state) {
     counters_.state = state;
-    if (counters_.off()) in_flight_ = 0;  // what was there is lost
+    if (counters_.off()) in_flight_ = 0;  // those frames are lost
   }
 
   // ---- sending ----
@@ -79,7 +79,7 @@ class SocketCanBus final : public CanBus {
     return options_.window - std::min(options_.window, in_flight_);
   }
 
-  /// Fills message `i`; returns how many frames went into it.
+  /// Fills message `i`; returns how many frames it contains.
   std::size_t pack(std::span<const CanFrame> frames, std::size_t i) {
     canfd_frame& out = outgoing_.frames[i];
     out.flags = 0;
@@ -130,7 +130,7 @@ class SocketCanBus final : public CanBus {
       for (const CanFrame& frame : frames.first(count))
         sink_->frame(frame, clock_.stamp_ns(seen.kernel_ns, seen.hardware_ns), own);
     if (own) return;
-    if (counters_.off()) enter(BusState::active);  // who hears others is on
+    if (counters_.off()) enter(BusState::active);  // receiving frames means on the bus
     counters_.received += count;
     counters_.unreadable += count == 0;
     filled += count;
@@ -144,7 +144,7 @@ class SocketCanBus final : public CanBus {
     enter(state_after(error, counters_.state));
   }
 
-  /// The classic frames in what was received; 0: none of ours.
+  /// Number of classic frames in the received message; 0: not our format.
   static std::size_t read(const canfd_frame& in, unsigned size, std::span<CanFrame> frames) {
     const auto id = static_cast<std::uint16_t>(in.can_id & CAN_SFF_MASK);
     if (size == CANFD_MTU) {
@@ -170,7 +170,7 @@ class SocketCanBus final : public CanBus {
   Descriptor socket_;
   Batch outgoing_, incoming_;
   std::array<CanFrame, Batch::size * BUNDLE_FRAMES_MAX> storage_;  ///< of the last batch
-  std::span<CanFrame> waiting_;                                    ///< its frames not yet taken
+  std::span<CanFrame> waiting_;                                    ///< its frames not yet returned
   std::size_t in_flight_ = 0;
   StampClock clock_;
   FrameSink* sink_ = nullptr;

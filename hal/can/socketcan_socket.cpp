@@ -38,7 +38,7 @@ void set(const Descriptor& socket, int level, int option, const Value& value) {
     throw std::runtime_error(std::string("cannot set up the CAN socket: ") + std::strerror(errno));
 }
 
-/// Of a socket bound to an interface that is down: ENETDOWN, while bind itself succeeds.
+/// A socket bound to an interface that is down reports ENETDOWN; bind itself succeeds.
 int pending_error(const Descriptor& socket) {
   int error = 0;
   socklen_t size = sizeof error;
@@ -54,11 +54,11 @@ void require_fd(const Descriptor& socket, const std::string& interface) {
   if (!knows || request.ifr_mtu < static_cast<int>(CANFD_MTU))
     throw std::runtime_error("interface \"" + interface +
                              "\" does not carry CAN FD; `ip link set " + interface +
-                             " up type can bitrate 1000000 dbitrate 5000000 fd on`, or leave "
-                             "data_bitrate_per_s out of robot.xml's can_bus");
+                             " up type can bitrate 1000000 dbitrate 5000000 fd on`, or remove "
+                             "data_bitrate_per_s from robot.xml's can_bus");
 }
 
-/// Own frames come back as well: room for both, beyond the usual bound where we may.
+/// Own frames are received as well: room for both, beyond the usual limit if permitted.
 void make_room(const Descriptor& socket) {
   const int bytes = 4 << 20;
   if (::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
@@ -87,11 +87,11 @@ Descriptor open_raw(const std::string& interface, const BusOptions& options) {
   where.can_ifindex = static_cast<int>(index_of(interface));
   choose_what_comes(socket, options);
   make_room(socket);
-  // A driver that confirms at once still fills the kernel's queue: this bounds our share of it.
+  // A driver that confirms at once still fills the kernel's queue; this limits our share of it.
   if (options.window > 0)
     set(socket, SOL_SOCKET, SO_SNDBUF, static_cast<int>(options.window * kernel_bytes_a_frame / 2));
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0)
-    throw std::invalid_argument("\"" + interface + "\" is no CAN interface (" +
+    throw std::invalid_argument("\"" + interface + "\" is not a CAN interface (" +
                                 std::strerror(errno) + "); `ip -br link show type can` lists them");
   if (pending_error(socket) == ENETDOWN)
     throw std::runtime_error("interface \"" + interface + "\" is down; `ip link set " + interface +

@@ -8,18 +8,18 @@
 
 #include "hal/can/backends.hpp"
 
-/// The kernel's side of a SocketCAN bus: a raw socket set up as we need it, and what comes out of
-/// it; inside hal/can only.
+/// The socket of a SocketCAN bus: its setup, and the metadata of received messages; inside hal/can
+/// only.
 namespace erp::can {
 
-/// A raw socket on `interface`: 11-bit data frames, error frames, own frames as they were sent,
-/// stamps, and the count of what the kernel dropped. `options.window` also bounds what the kernel
-/// keeps of ours. Throws std::invalid_argument or std::runtime_error, with the remedy.
+/// A raw socket on `interface`: 11-bit data frames, error frames, echo of own frames, timestamps, and
+/// the kernel's count of dropped frames. `options.window` also limits the kernel's send buffer.
+/// Throws std::invalid_argument or std::runtime_error, with the remedy.
 Descriptor open_raw(const std::string& interface, const BusOptions& options);
 
-/// What came along with a frame.
+/// Metadata of a received frame.
 struct Circumstances {
-  std::int64_t kernel_ns = 0, hardware_ns = 0;  ///< since 1970; hardware: of the controller's clock
+  std::int64_t kernel_ns = 0, hardware_ns = 0;  ///< since 1970; hardware: the controller's clock
   std::uint32_t dropped = 0;                    ///< by the kernel since the socket was opened
 };
 Circumstances circumstances_of(msghdr& message);
@@ -31,7 +31,7 @@ class Batch {
   Batch();
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
-  /// Room for everything again: a receive leaves lengths behind.
+  /// Resets the buffer lengths that a receive has changed.
   void lend();
 
   std::array<canfd_frame, size> frames{};

@@ -4,16 +4,16 @@
 
 namespace erp::can {
 
-/// Puts a CAN controller's own clock on the system's, by the smallest delay seen:
+/// Aligns a CAN controller's clock with the system clock, by the smallest delay observed:
 ///
 ///   t = t_hw + min (t_kernel − t_hw)   over the last one to two spans
 ///
-/// The kernel stamps a frame when the driver hands it over, never before it was on the wire; the
-/// least late of many frames tells the offset. Spans of 10 s (chosen) keep up with clocks that
-/// drift: 50 ppm are 0.5 ms a span.
+/// The kernel stamps a frame when the driver hands it over, never before it was on the wire; the frame
+/// with the smallest delay determines the offset. Spans of 10 s (chosen) follow clocks that drift:
+/// 50 ppm are 0.5 ms per span.
 class StampClock {
  public:
-  /// When a frame was on the wire; without a hardware stamp (0) it is the kernel's.
+  /// Time at which a frame was on the wire; without a hardware stamp (0) the kernel's time.
   std::int64_t stamp_ns(std::int64_t kernel_ns, std::int64_t hardware_ns) {
     if (hardware_ns == 0) return kernel_ns;
     const std::int64_t offset_ns = kernel_ns - hardware_ns;

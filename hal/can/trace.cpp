@@ -28,7 +28,7 @@ std::optional<CanFrame> parse_frame(const std::string& text) {
   return frame;
 }
 
-/// Since 1970, and within 64 bits of ns: `nan` and `inf` are numbers to scanf, and no times.
+/// A time since 1970 that fits 64 bits of ns. scanf also accepts `nan` and `inf`, which are not times.
 bool is_stamp(double time_s) { return time_s >= 0 && time_s < 9.2e9; }
 
 using Line = std::array<char, 96>;
@@ -72,7 +72,7 @@ TraceWriter::TraceWriter(const std::string& file, std::string interface)
     : file_(std::fopen(file.c_str(), "w")), interface_(std::move(interface)) {
   if (!file_)
     throw std::runtime_error("trace \"" + file + "\": " + std::strerror(errno) +
-                             "; give a file in a folder that may be written");
+                             "; give a file in a writable folder");
 }
 
 void TraceWriter::frame(const CanFrame& frame, std::int64_t stamp_ns, bool) {

@@ -9,8 +9,8 @@
 #include "hal/can/backends.hpp"
 #include "hal/can/trace.hpp"
 
-// A trace as a bus: what ECUs said comes again at the pace of the recording, from the first
-// `receive` on; what is sent goes nowhere.
+// A trace as a bus: the frames of ECUs are received at the pace of the recording, which starts at the
+// first `receive`; sent frames are discarded.
 namespace erp::can {
 namespace {
 
@@ -27,7 +27,7 @@ std::vector<TraceLine> read_trace(const std::string& name) {
     if (const auto found = parse_trace_line(line); found && !is_from_host(found->frame))
       lines.push_back(*found);
   if (lines.empty())
-    throw std::runtime_error("holds no frame of an ECU; give a file of `candump -L`");
+    throw std::runtime_error("contains no frame of an ECU; give a file of `candump -L`");
   const auto earlier = [](const TraceLine& a, const TraceLine& b) { return a.time_s < b.time_s; };
   std::ranges::stable_sort(lines, earlier);
   return lines;
@@ -39,7 +39,7 @@ class TraceBus final : public CanBus {
       : lines_(read_trace(file)), timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK)) {
     if (timer_.get() < 0)
       throw std::runtime_error(std::string("no timer: ") + std::strerror(errno));
-    arm({0, 0}, {0, step_ns});  // once: for a first `receive`
+    arm({0, 0}, {0, step_ns});  // one step, for the first `receive`
   }
 
   std::size_t send(std::span<const CanFrame> frames) override {
@@ -52,7 +52,7 @@ class TraceBus final : public CanBus {
     pass_time();
     std::size_t filled = 0;
     while (filled < frames.size() && next_ < lines_.size() && is_due(lines_[next_]))
-      frames[filled++] = say(lines_[next_++]);
+      frames[filled++] = frame_of(lines_[next_++]);
     counters_.received += filled;
     return filled;
   }
@@ -62,13 +62,13 @@ class TraceBus final : public CanBus {
   void record(FrameSink* sink) override { sink_ = sink; }
 
  private:
-  static constexpr long step_ns = 500'000;  ///< of its pace; chosen
+  static constexpr long step_ns = 500'000;  ///< resolution of the replay; chosen
 
   bool is_due(const TraceLine& line) const {
     return line.time_s - lines_.front().time_s <= 1e-9 * step_ns * static_cast<double>(steps_);
   }
 
-  /// The timer says how many steps have passed: no clock is read, none gets lost.
+  /// The timer reports how many steps have passed; no clock is read and no step is lost.
   void pass_time() {
     std::uint64_t steps = 0;
     if (::read(timer_.get(), &steps, sizeof steps) <= 0) return;
@@ -77,7 +77,7 @@ class TraceBus final : public CanBus {
     playing_ = true;
   }
 
-  CanFrame say(const TraceLine& line) {
+  CanFrame frame_of(const TraceLine& line) {
     if (sink_) sink_->frame(line.frame, std::llround(line.time_s * 1e9), false);
     return line.frame;
   }

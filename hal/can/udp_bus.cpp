@@ -53,17 +53,17 @@ class UdpBus final : public CanBus {
       : receiver_(udp_socket()), sender_(udp_socket()), group_(address(group, port)) {
     set(receiver_, SOL_SOCKET, SO_REUSEADDR, 1, "cannot share the port");
     set(receiver_, SOL_SOCKET, SO_RCVBUF, 1 << 20, "cannot set the receive buffer");
-    set(receiver_, SOL_SOCKET, SO_TIMESTAMPNS, 1, "cannot stamp what is received");
+    set(receiver_, SOL_SOCKET, SO_TIMESTAMPNS, 1, "cannot enable receive timestamps");
     bind_to(receiver_, group_);
     set(receiver_, IPPROTO_IP, IP_ADD_MEMBERSHIP, ip_mreq{group, loopback()},
         "cannot join the group on loopback");
     set(sender_, IPPROTO_IP, IP_MULTICAST_IF, loopback(), "cannot send on loopback");
-    set(sender_, IPPROTO_IP, IP_MULTICAST_LOOP, 1, "cannot be heard on this machine");
-    set(sender_, IPPROTO_IP, IP_MULTICAST_TTL, 0, "cannot keep to this machine");
+    set(sender_, IPPROTO_IP, IP_MULTICAST_LOOP, 1, "cannot enable multicast loopback");
+    set(sender_, IPPROTO_IP, IP_MULTICAST_TTL, 0, "cannot limit multicast to this machine");
     bind_to(sender_, address(loopback(), 0));
     socklen_t size = sizeof own_;
     if (::getsockname(sender_.get(), reinterpret_cast<sockaddr*>(&own_), &size) != 0)
-      fail("cannot know its own port");
+      fail("cannot read the port of the socket");
   }
 
   std::size_t send(std::span<const CanFrame> frames) override {
@@ -108,7 +108,7 @@ class UdpBus final : public CanBus {
                     sizeof group_) == static_cast<ssize_t>(size);
   }
 
-  /// Takes one datagram off the socket; false when none is there. Own ones are passed over.
+  /// Receives one datagram; false when none is waiting. Ignores own datagrams.
   bool receive_datagram() {
     std::array<std::uint8_t, datagram_bytes + 1> datagram;
     alignas(cmsghdr) std::array<char, 64> control;
@@ -139,7 +139,7 @@ class UdpBus final : public CanBus {
     return 0;
   }
 
-  /// The frames of a datagram, in `storage_`; none: it is not ours.
+  /// The frames of a datagram, in `storage_`; empty: not our format.
   std::span<CanFrame> unpack(std::span<const std::uint8_t> datagram) {
     const bool ours = datagram.size() > header_bytes && datagram.size() <= datagram_bytes &&
                       (datagram.size() - header_bytes) % frame_bytes == 0 &&
@@ -165,7 +165,7 @@ class UdpBus final : public CanBus {
   Descriptor receiver_, sender_;
   sockaddr_in group_, own_{};
   std::array<CanFrame, frames_per_datagram> storage_;  ///< of the last datagram
-  std::span<CanFrame> waiting_;                        ///< its frames not yet taken
+  std::span<CanFrame> waiting_;                        ///< its frames not yet returned
   FrameSink* sink_ = nullptr;
   BusCounters counters_;
 };

@@ -5,12 +5,12 @@
 #include <iostream>
 #include <map>
 
-#include "hal/ecu/power.hpp"
 #include "hal/can/robot_buses.hpp"
+#include "hal/ecu/power.hpp"
 #include "interfaces/robot/robot.hpp"
 
-// ecu: a robot's ECUs as processes of this machine, on the robot's buses, their converters wired
-// to a simulated robot.
+// ecu: a robot's ECUs as processes of this machine, on the robot's buses, with the converters of a
+// simulated robot.
 namespace {
 
 struct Request {
@@ -26,7 +26,8 @@ sockaddr_in address_of(const std::string& text) {
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   if (port < 1 || port > 65535 ||
       ::inet_pton(AF_INET, text.substr(0, colon).c_str(), &address.sin_addr) != 1)
-    throw std::invalid_argument("--converters " + text + ": give ADDRESS:PORT, as 127.0.0.1:21000");
+    throw std::invalid_argument("--converters " + text +
+                                ": give ADDRESS:PORT, for example 127.0.0.1:21000");
   return address;
 }
 
@@ -46,7 +47,7 @@ std::map<int, board_fitted> fitted_on(const erp::Robot& robot) {
 board::Rack rack_of(const Request& request) {
   const erp::Robot robot = erp::read_robot(request.robot);
   const auto plans = robot.buses();
-  const auto words = erp::bus_words(request.bus, plans.size());
+  const auto words = erp::bus_specifications(request.bus, plans.size());
   const erp::BusRoutes routes(robot);
   const sockaddr_in converters = address_of(request.converters);
   board::Rack rack;
@@ -72,11 +73,12 @@ int main(int argc, char** argv) {
       "(sim with converter_port). Kill one, and it comes back as after a brown-out.",
       "ecu");
   app.add_option("--robot", request.robot, "robot.xml")->required();
-  app.add_option("--bus", request.bus, "socketcan:IFACE, udp:GROUP:PORT; of several buses one each")
+  app.add_option("--bus", request.bus,
+                 "socketcan:IFACE, udp:GROUP:PORT; for several buses one each")
       ->capture_default_str();
   app.add_option("--converters", request.converters, "where the simulated robot listens")
       ->capture_default_str();
-  app.add_option("--only", request.only, "addresses; without it all ECUs of the robot");
+  app.add_option("--only", request.only, "addresses; default: all ECUs of the robot");
   CLI11_PARSE(app, argc, argv);
   try {
     return board::run_rack(rack_of(request));

@@ -23,9 +23,9 @@ namespace board {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000, restart_ns = 20 * ms;
-/// Of work: the watchdog bites 10 ms after the last kick, of which up to a period was rest.
+/// Processor time: the watchdog resets 10 ms after the last kick, of which up to one period is idle.
 constexpr std::int64_t watchdog_ns = 8 * ms;
-constexpr int could_not_run = 1, unplugged = 3;  // exit codes of an ECU's process
+constexpr int could_not_run = 1, robot_gone = 3;  // exit codes of an ECU's process
 
 std::int64_t read_clock_ns(clockid_t clock) {
   timespec time{};
@@ -34,20 +34,20 @@ std::int64_t read_clock_ns(clockid_t clock) {
 }
 std::int64_t now_ns() { return read_clock_ns(CLOCK_MONOTONIC); }
 
-/// An ECU has a processor to itself: ahead of others here, where that is allowed.
-void go_ahead(int priority) {
-  const sched_param wanted{priority};
-  (void)::sched_setscheduler(0, SCHED_FIFO, &wanted);
+/// An ECU has a processor of its own; here it runs before other programs, if that is permitted.
+void set_real_time_priority(int priority) {
+  const sched_param param{priority};
+  (void)::sched_setscheduler(0, SCHED_FIFO, &param);
 }
 constexpr int program_priority = 10, circuit_priority = 20;
 
-/// One ECU: its process while it has power.
+/// One ECU: its process, while it has power.
 class Ecu {
  public:
   explicit Ecu(const Rack::Slot& slot) : slot_(slot) {}
 
   bool on() const { return pid_ > 0; }
-  bool wanted() const { return on() || due_ns_; }
+  bool pending_or_on() const { return on() || due_ns_; }
   pid_t pid() const { return pid_; }
 
   void start(frame_reset_cause cause) {
@@ -63,15 +63,15 @@ class Ecu {
     std::fflush(stdout);
   }
 
-  /// Restarts it when that is due; resets it when it hangs.
-  void mind() {
+  /// Restarts the process when due; resets it when it hangs.
+  void supervise() {
     if (due_ns_ && now_ns() >= *due_ns_) start(due_cause_);
     if (!on()) return;
     std::array<char, 64> kicks;
     bool kicked = false;
     while (::read(kicks_, kicks.data(), kicks.size()) > 0) kicked = true;
-    if (kicked || !kicked_) worked_ns_ = worked(), kicked_ = kicked_ || kicked;
-    if (kicked_ && worked() - worked_ns_ >= watchdog_ns) reset_by_watchdog();
+    if (kicked || !kicked_) time_at_kick_ns_ = processor_time_ns(), kicked_ = kicked_ || kicked;
+    if (kicked_ && processor_time_ns() - time_at_kick_ns_ >= watchdog_ns) reset_by_watchdog();
   }
 
   void has_ended(int status) {
@@ -80,8 +80,9 @@ class Ecu {
     pid_ = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == could_not_run) return;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    const bool without_supply = !hung_ && (signal == SIGKILL || signal == SIGTERM ||
-                                           (WIFEXITED(status) && WEXITSTATUS(status) == unplugged));
+    const bool without_supply =
+        !hung_ && (signal == SIGKILL || signal == SIGTERM ||
+                   (WIFEXITED(status) && WEXITSTATUS(status) == robot_gone));
     due_cause_ = without_supply ? FRAME_RESET_BROWN_OUT : FRAME_RESET_WATCHDOG;
     due_ns_ = now_ns() + restart_ns;
     std::printf("ecu %d: %s\n", slot_.fitted.ecu,
@@ -96,7 +97,7 @@ class Ecu {
   }
 
  private:
-  /// The PWM pins fall to 0 by hardware, whatever the program does.
+  /// Hardware sets PWM to 0, independent of the program.
   void release_pwm() const {
     const std::array<std::int16_t, 2> off{};
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
@@ -119,20 +120,20 @@ class Ecu {
 
   [[noreturn]] void become_program(frame_reset_cause cause, int kick) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    go_ahead(program_priority);
+    set_real_time_priority(program_priority);
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     try {
       run(slot_.fitted, slot_.place, cause, kick);
-      ::_exit(unplugged);
+      ::_exit(robot_gone);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "ecu %d: %s\n", slot_.fitted.ecu, error.what());
     }
     ::_exit(could_not_run);
   }
 
-  std::int64_t worked() const {
+  std::int64_t processor_time_ns() const {
     clockid_t clock;
     return ::clock_getcpuclockid(pid_, &clock) == 0 ? read_clock_ns(clock) : 0;
   }
@@ -141,7 +142,7 @@ class Ecu {
   pid_t pid_ = 0;
   int kicks_ = -1;
   bool kicked_ = false, hung_ = false;
-  std::int64_t worked_ns_ = 0;  ///< processor time at the last kick
+  std::int64_t time_at_kick_ns_ = 0;  ///< processor time at the last kick
   std::optional<std::int64_t> due_ns_;
   frame_reset_cause due_cause_ = FRAME_RESET_POWER;
 };
@@ -165,17 +166,17 @@ void collect(std::vector<Ecu>& ecus) {
 
 int run_rack(const Rack& rack) {
   const int signals = ending_signals();
-  go_ahead(circuit_priority);
+  set_real_time_priority(circuit_priority);
   std::vector<Ecu> ecus(rack.slots.begin(), rack.slots.end());
   for (Ecu& ecu : ecus) ecu.start(FRAME_RESET_POWER);
-  const auto wanted = [](const Ecu& ecu) { return ecu.wanted(); };
+  const auto is_needed = [](const Ecu& ecu) { return ecu.pending_or_on(); };
   pollfd ended{signals, POLLIN, 0};
   const timespec often{0, 500'000};
-  while (::ppoll(&ended, 1, &often, nullptr) == 0 && std::ranges::any_of(ecus, wanted)) {
-    for (Ecu& ecu : ecus) ecu.mind();
+  while (::ppoll(&ended, 1, &often, nullptr) == 0 && std::ranges::any_of(ecus, is_needed)) {
+    for (Ecu& ecu : ecus) ecu.supervise();
     collect(ecus);
   }
-  const bool ran = std::ranges::any_of(ecus, wanted);
+  const bool ran = std::ranges::any_of(ecus, is_needed);
   for (Ecu& ecu : ecus) ecu.switch_off();
   ::close(signals);
   return ran ? 0 : 1;

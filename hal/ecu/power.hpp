@@ -6,12 +6,12 @@
 
 #include "hal/ecu/program.hpp"
 
-/// What surrounds the microcontrollers: supply, reset circuit, watchdog and PWM stage of each.
+/// The hardware around the microcontrollers: supply, reset circuit, watchdog and PWM stage of each.
 ///
-///   ended by SIGKILL, SIGTERM   its supply broke down: PWM off, restarted after 20 ms, says so
-///   the robot is gone           the same
-///   ended otherwise, or it worked 10 ms without a kick   its watchdog: PWM off, restarted, says so
-///   ended by an error it told   stays off
+///   ended by SIGKILL, SIGTERM      loss of supply: PWM off, restart after 20 ms, cause reported
+///   the robot no longer answers    the same
+///   ended otherwise, or no kick for 10 ms of work    watchdog: PWM off, restart, cause reported
+///   ended with an error message    stays off
 namespace board {
 
 struct Rack {
@@ -22,7 +22,7 @@ struct Rack {
   std::vector<Slot> slots;
 };
 
-/// Powers all ECUs until SIGINT or SIGTERM. Returns 0, or 1 when none could run.
+/// Runs all ECUs until SIGINT or SIGTERM. Returns 0, or 1 when none could run.
 int run_rack(const Rack& rack);
 
 }  // namespace board

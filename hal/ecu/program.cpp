@@ -31,8 +31,8 @@ int converter_socket(const sockaddr_in& robot) {
   return fd;
 }
 
-/// What this program has worked. Not the time it was kept from working by others on this machine,
-/// which no ECU has beside it.
+/// Processor time of this program, without the time that other programs of this machine took: an ECU
+/// has no other programs.
 std::int64_t worked_ns() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -47,49 +47,49 @@ class Program {
         bus_(erp::open_bus(place.bus, place.bus_options)),
         converters_(converter_socket(place.converters)),
         timer_(period_timer()) {
-    wait_for_power();
+    wait_for_robot();
     erp::CanFrame boot;
     ecu_board_init(&board_, &fitted, cause, &boot);
     bus_->send({&boot, 1});
   }
 
-  /// False: the robot is gone.
+  /// Returns false when the robot no longer answers.
   bool wait_and_serve() {
     std::array<pollfd, 3> ready{
         {{bus_->fd(), POLLIN, 0}, {converters_, POLLIN, 0}, {timer_, POLLIN, 0}}};
     ::poll(ready.data(), ready.size(), -1);
-    if (ready[0].revents) hear();
+    if (ready[0].revents) receive();
     if (ready[1].revents) read_converters();
     std::uint64_t periods = 0;
-    if (::read(timer_, &periods, sizeof periods) > 0) mind_the_time();
-    return silent_periods_ < (period_.readings.turn ? lockstep_periods : unplugged_periods);
+    if (::read(timer_, &periods, sizeof periods) > 0) on_timer();
+    return silent_periods_ < (period_.readings.turn ? lockstep_periods : robot_gone_periods);
   }
 
  private:
-  static constexpr int unplugged_periods = 50;    ///< without a reading: 100 ms; chosen
-  static constexpr int lockstep_periods = 5'000;  ///< where partners may take their time
+  static constexpr int robot_gone_periods = 50;   ///< without a reading: 100 ms; chosen
+  static constexpr int lockstep_periods = 5'000;  ///< in lockstep: 10 s; chosen
 
-  /// Calls for the robot until it answers: before that there is nothing to run on.
-  void wait_for_power() {
+  /// Requests readings until the robot answers; the ECU boots then.
+  void wait_for_robot() {
     pollfd answer{converters_, POLLIN, 0};
     do {
-      say({});
-      asked_ = false;
-      ask();
+      send_duties({});
+      requested_ = false;
+      request_readings();
     } while (::poll(&answer, 1, 8) <= 0);
   }
 
-  /// Asks for the readings of the next period; in lockstep once the host has answered this one.
-  void ask() {
-    if (asked_ || ecu_board_awaits_host(&board_, &period_.readings)) return;
+  /// Requests the readings of the next period; in lockstep after the host has answered this one.
+  void request_readings() {
+    if (requested_ || ecu_board_awaits_host(&board_, &period_.readings)) return;
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_sample(bytes.data(), fitted_.ecu, period_.readings.turn);
     (void)::send(converters_, bytes.data(), size, 0);
-    asked_ = true;
+    requested_ = true;
   }
 
-  /// What may have got lost is said again.
-  void mind_the_time() {
+  /// Repeats what may have been lost.
+  void on_timer() {
     kick();
     if (ecu_board_awaits_host(&board_, &period_.readings)) {
       silent_periods_ = 0;
@@ -97,20 +97,20 @@ class Program {
       return;
     }
     for_host_ = 0;
-    if (++silent_periods_ % ECU_BOARD_ASK_PERIODS == 0) asked_ = false;
-    ask();
+    if (++silent_periods_ % ECU_BOARD_REQUEST_PERIODS == 0) requested_ = false;
+    request_readings();
   }
   void repeat() {
     std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
     bus_->send(std::span(frames).first(ecu_board_repeat(&board_, frames.data())));
   }
 
-  void hear() {
+  void receive() {
     std::array<erp::CanFrame, 64> frames;
     while (const auto count = bus_->receive(frames, 0))
       for (std::size_t i = 0; i < count && bus_off_periods_ == 0; ++i)
-        ecu_board_hear(&board_, &frames[i]);
-    ask();
+        ecu_board_receive(&board_, &frames[i]);
+    request_readings();
   }
 
   void read_converters() {
@@ -121,39 +121,39 @@ class Program {
 
   void take(wire_kind kind) {
     if (kind == WIRE_READINGS) wire_unpack_readings(&reader_, &period_.readings), pass_period();
-    if (kind != WIRE_MISHAP) return;
-    wire_mishap mishap;
-    wire_unpack_mishap(&reader_, &mishap);
-    if (mishap.kind == WIRE_MISHAP_HANG)
+    if (kind != WIRE_FAULT) return;
+    wire_fault fault;
+    wire_unpack_fault(&reader_, &fault);
+    if (fault.kind == WIRE_FAULT_HANG)
       for (volatile bool for_ever = true; for_ever;) continue;
-    if (mishap.kind == WIRE_MISHAP_BUSY) busy_periods_ = mishap.periods;
-    if (mishap.kind == WIRE_MISHAP_BUS_OFF) bus_off_periods_ = mishap.periods;
+    if (fault.kind == WIRE_FAULT_BUSY) busy_periods_ = fault.periods;
+    if (fault.kind == WIRE_FAULT_BUS_OFF) bus_off_periods_ = fault.periods;
   }
 
-  /// The simulated robot gives readings each 2 ms of its own time: that is this ECU's clock.
+  /// The simulated robot sends readings every 2 ms of simulated time; this is the ECU's clock.
   void pass_period() {
     silent_periods_ = 0;
-    asked_ = false;
-    if (ecu_board_awaits_robot(&board_, &period_.readings)) return;  // said again
+    requested_ = false;
+    if (ecu_board_awaits_robot(&board_, &period_.readings)) return;  // repeated readings
     const std::int64_t began_ns = worked_ns();
     std::array<erp::CanFrame, ECU_LINK_FRAMES_MAX> frames;
     std::array<std::int16_t, 2> duty;
     period_.bus_off = bus_off_periods_ > 0;
     const unsigned count = ecu_board_period(&board_, &period_, duty.data(), frames.data());
-    say(duty);
+    send_duties(duty);
     if (bus_off_periods_ == 0) bus_->send(std::span(frames).first(count));
     while (busy_periods_ > 0 && worked_ns() - began_ns < period_ns) continue;
     if (busy_periods_ > 0) --busy_periods_;
     if (bus_off_periods_ > 0) --bus_off_periods_;
     period_.overran = worked_ns() - began_ns >= period_ns;
-    ask();
+    request_readings();
   }
 
-  /// Both PWM outputs to the robot, and a kick to the watchdog.
-  void say(const std::array<std::int16_t, 2>& duty) {
+  /// Sends both PWM duties to the robot and kicks the watchdog.
+  void send_duties(const std::array<std::int16_t, 2>& duty) {
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size = wire_pack_drive(bytes.data(), fitted_.ecu, duty.data());
-    (void)::send(converters_, bytes.data(), size, 0);  // no robot there yet: it is said again
+    (void)::send(converters_, bytes.data(), size, 0);  // no robot yet: the next period sends again
     kick();
   }
   void kick() { (void)!::write(kick_, "", 1); }
@@ -165,9 +165,9 @@ class Program {
   std::unique_ptr<erp::CanBus> bus_;
   int converters_, timer_;
   wire_reader reader_{};
-  bool asked_ = false;      ///< for readings
-  int silent_periods_ = 0;  ///< since the robot gave some
-  unsigned for_host_ = 0;   ///< periods waited for it, in lockstep
+  bool requested_ = false;  ///< readings
+  int silent_periods_ = 0;  ///< since the last readings
+  unsigned for_host_ = 0;   ///< periods waited for the host, in lockstep
   unsigned busy_periods_ = 0, bus_off_periods_ = 0;
 };
 

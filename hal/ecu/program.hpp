@@ -6,9 +6,9 @@
 #include "firmware/board/board.h"
 #include "hal/can/bus.hpp"
 
-/// The firmware's main loop as a process of this machine: a real bus, and converters at the other end
-/// of a datagram (firmware/board/wire.h). Their readings, each 2 ms of the simulated robot's time,
-/// are its clock.
+/// The firmware's main loop as a process of this machine: a real bus, and converters of a simulated
+/// robot, reached by datagrams (firmware/board/wire.h). Their readings arrive every 2 ms of simulated
+/// time and are its clock.
 namespace board {
 
 struct Place {
@@ -17,9 +17,8 @@ struct Place {
   sockaddr_in converters{};  ///< where the simulated robot listens
 };
 
-/// Waits for the robot, runs, and returns when the robot is gone: no reading for 100 ms. Each
-/// period it writes a byte to `kick`: who reads it is the watchdog. Throws std::runtime_error
-/// without a bus.
+/// Waits for the robot, runs, and returns when no reading has arrived for 100 ms. Writes a byte to
+/// `kick` every period, for the watchdog. Throws std::runtime_error if the bus cannot be opened.
 void run(const board_fitted& fitted, const Place& place, frame_reset_cause cause, int kick);
 
 }  // namespace board

@@ -6,8 +6,8 @@
 
 namespace sim {
 
-/// Calls work(k) for each k < count on some threads; the first exception comes back to the caller
-/// when all have ended.
+/// Calls work(k) for each k < count on several threads. When all have ended, rethrows the exception
+/// of the smallest k, if any.
 template <class Work>
 void in_parallel(std::size_t count, int threads, Work work) {
   std::atomic<std::size_t> next = 0;

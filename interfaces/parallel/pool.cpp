@@ -5,7 +5,7 @@
 
 #include "interfaces/parallel/in_parallel.hpp"
 #ifdef ERP_WITH_MPI
-#include "interfaces/parallel/machines.hpp"
+#include "interfaces/parallel/mpi_pool.hpp"
 #endif
 
 namespace sim {
@@ -26,10 +26,10 @@ std::unique_ptr<Pool> make_pool(int threads) {
   const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
   if (!size || std::atoi(size) < 2) return std::make_unique<Threads>(threads);
 #ifdef ERP_WITH_MPI
-  return std::make_unique<Machines>(threads);
+  return std::make_unique<MpiPool>(threads);
 #else
   throw std::invalid_argument(
-      "this erp was built without MPI; install libopenmpi-dev and build it again, or do without "
+      "this erp was built without MPI; install libopenmpi-dev and build again, or run it without "
       "mpirun");
 #endif
 }

@@ -5,23 +5,24 @@
 #include <string>
 #include <vector>
 
-/// Where the parts of a work are done: on threads, or on those of several machines as well.
+/// Distributes the parts of a computation over threads, or over processes on several machines.
 ///
-/// Under `mpirun` each process runs the same program on the same input; they share out the parts of
-/// each `map` and all get all of its numbers, so that they stay alike. Only the first one writes.
+/// Under `mpirun` each process runs the same program on the same input. The processes divide the
+/// parts of each `map`, and all receive all of its numbers, so that their states stay equal. Only
+/// the first process writes files and prints.
 namespace sim {
 
 class Pool {
  public:
   using Numbers = std::vector<double>;
   virtual ~Pool() = default;
-  /// work(k) of each k < count, in their order. An exception comes back when all have ended.
+  /// Returns work(k) for each k < count, in order. Rethrows an exception when all parts have ended.
   virtual std::vector<Numbers> map(std::size_t count,
                                    const std::function<Numbers(std::size_t)>& work) const = 0;
-  /// This process is the one that writes files and prints.
+  /// Whether this process writes files and prints.
   virtual bool first() const { return true; }
-  /// What the first one says.
-  virtual std::string from_first(std::string said) const { return said; }
+  /// Returns the text of the first process, in every process.
+  virtual std::string broadcast(std::string text) const { return text; }
 };
 
 class Threads final : public Pool {
@@ -34,12 +35,13 @@ class Threads final : public Pool {
   int count_;
 };
 
-/// By a pool, or by so many threads where there is none.
+/// Uses the pool, or this number of threads if `pool` is null.
 std::vector<Pool::Numbers> map(const Pool* pool, int threads, std::size_t count,
                                const std::function<Pool::Numbers(std::size_t)>& work);
 
-/// Of all that `mpirun` has started, if it has, with so many threads each; else these threads. One
-/// a process. Throws std::invalid_argument under mpirun where this was built without MPI.
+/// A pool of all processes that `mpirun` started, with `threads` threads each; without mpirun a pool
+/// of threads. Create at most one per process. Throws std::invalid_argument under mpirun if built
+/// without MPI.
 std::unique_ptr<Pool> make_pool(int threads);
 
 }  // namespace sim

@@ -9,7 +9,7 @@
 
 #include "interfaces/recording/error.hpp"
 
-/// Little-endian bytes, as MCAP lays them out.
+/// Little-endian encoding of MCAP.
 namespace recording {
 
 using Bytes = std::vector<std::byte>;
@@ -34,11 +34,11 @@ inline void put(Bytes& out, std::string_view characters) {
   put(out, view(characters));
 }
 
-/// Reads forward through bytes of a file and never past them.
+/// Reads forward through the bytes of a file, with bounds checks.
 class ByteReader {
  public:
-  /// `origin` is where in the file the bytes stand; in a decompressed chunk (`inside`), where the
-  /// chunk stands. Both views are lent.
+  /// `origin` is the position of the bytes in the file; for a decompressed chunk (`inside`), the
+  /// position of the chunk. Both views must outlive the reader.
   ByteReader(ByteView bytes, std::string_view path, std::uint64_t origin, bool inside = false)
       : bytes_(bytes), path_(path), origin_(origin), inside_(inside) {}
 
@@ -62,7 +62,7 @@ class ByteReader {
     at_ += taken.size();
     return taken;
   }
-  /// A reader of the next `size` bytes alone.
+  /// A reader of the next `size` bytes only.
   ByteReader part(std::uint64_t size, const char* what) {
     const std::uint64_t start = place();
     return {take(size, what), path_, start, inside_};
@@ -72,7 +72,8 @@ class ByteReader {
   std::size_t at() const { return at_; }
   std::uint64_t place() const { return inside_ ? origin_ : origin_ + at_; }
   [[noreturn]] void fail(const std::string& what) const {
-    throw error_at(path_, place(), what + (inside_ ? " (inside this chunk)" : ""), mend(path_));
+    throw error_at(path_, place(), what + (inside_ ? " (inside this chunk)" : ""),
+                   recover_remedy(path_));
   }
 
  private:

@@ -58,10 +58,9 @@ class Decoder {
     const bool fixed = field.count == Count::array;
     const std::uint64_t count = fixed ? field.size : raw<std::uint32_t>();
     if (!fixed && field.size && count > field.size)
-      fail("holds " + std::to_string(count) + " elements, at most " + std::to_string(field.size));
+      fail("has " + std::to_string(count) + " elements, at most " + std::to_string(field.size));
     if (count > (bytes_.size() - at_) / std::max<std::size_t>(1, least_bytes(type_, field)))
-      fail("says it holds " + std::to_string(count) +
-           " elements, more than the message has room for");
+      fail("declares " + std::to_string(count) + " elements, more than the message contains");
     Values values;
     values.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t i = 0; i < count; ++i) values.push_back(one(field));
@@ -119,11 +118,11 @@ class Decoder {
     return value;
   }
 
-  /// Primitives are aligned to their own size, counted from behind the encapsulation.
+  /// Primitives are aligned to their own size, counted from the end of the encapsulation.
   template <class T>
   T raw() {
     const std::size_t start = 4 + (at_ - 4 + sizeof(T) - 1) / sizeof(T) * sizeof(T);
-    if (start > bytes_.size() || sizeof(T) > bytes_.size() - start) fail("is cut off");
+    if (start > bytes_.size() || sizeof(T) > bytes_.size() - start) fail("is truncated");
     std::array<std::byte, sizeof(T)> raw_bytes;
     std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(start), sizeof(T), raw_bytes.begin());
     if (swap_) std::ranges::reverse(raw_bytes);
@@ -134,7 +133,7 @@ class Decoder {
   [[noreturn]] void fail(const std::string& what) const {
     throw RecordingError(type_.name() + (field_ ? "." + field_->name : "") + ": byte " +
                          std::to_string(at_) + ": " + what +
-                         "; the message and its schema do not belong together");
+                         "; the message does not match its schema");
   }
 
   const TypeDescription& type_;

@@ -4,7 +4,7 @@
 
 #include "interfaces/robot/robot.hpp"
 
-/// The columns that a robot's frames fill (table.hpp), in the order in which they are written:
+/// The columns of a robot's frames (table.hpp), in the order in which they are written:
 /// six signals of each actuator, then each joint that has an angle or a quaternion.
 namespace recording {
 
@@ -12,7 +12,7 @@ inline constexpr const char* actuator_signals[] = {"mode",      "reference", "vo
                                                    "current_A", "shaft_rad", "tension_N"};
 inline constexpr const char* quaternion_parts[] = {"qw", "qx", "qy", "qz"};
 
-/// One for a revolute joint, four for a spherical one.
+/// One column for a revolute joint, four for a spherical one.
 inline std::vector<std::string> columns_of(const erp::Joint& joint) {
   std::vector<std::string> names;
   if (joint.type == erp::JointType::revolute) names.push_back(joint.name + ".angle_rad");
@@ -21,7 +21,7 @@ inline std::vector<std::string> columns_of(const erp::Joint& joint) {
   return names;
 }
 
-/// time_s comes before them.
+/// All columns of a robot except time_s, which comes first.
 inline std::vector<std::string> columns_of(const erp::Robot& robot) {
   std::vector<std::string> names;
   for (const erp::Actuator& a : robot.actuators)

@@ -21,30 +21,30 @@ Bytes decompress(ByteView bytes, const std::string& compression, std::uint64_t s
                  const ByteReader& place) {
   if (compression.empty()) {
     if (bytes.size() != size)
-      place.fail("an uncompressed chunk says it holds " + std::to_string(size) + " bytes and has " +
+      place.fail("an uncompressed chunk declares " + std::to_string(size) + " bytes and has " +
                  std::to_string(bytes.size()));
     return {bytes.begin(), bytes.end()};
   }
   if (compression != "zstd")
     place.fail("a chunk is compressed with \"" + compression.substr(0, 16) +
-               "\", known are none and zstd");
+               "\", supported are none and zstd");
   const auto declared = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  if (size > largest_chunk_bytes)
-    place.fail("a chunk says it holds " + std::to_string(size) + " bytes, at most " +
-               std::to_string(largest_chunk_bytes) + " are accepted");
+  if (size > max_chunk_bytes)
+    place.fail("a chunk declares " + std::to_string(size) + " bytes, at most " +
+               std::to_string(max_chunk_bytes) + " are accepted");
   if (declared != size && declared != ZSTD_CONTENTSIZE_UNKNOWN)
     place.fail("a chunk's size and that of its zstd frame differ");
   Bytes out(static_cast<std::size_t>(size));
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(got)) place.fail(std::string("zstd: ") + ZSTD_getErrorName(got));
-  if (got != size) place.fail("a chunk holds fewer bytes than it says");
+  if (got != size) place.fail("a chunk contains fewer bytes than it declares");
   return out;
 }
 
 Bytes decompress_start(ByteView bytes, const std::string& compression, std::uint64_t size) {
   if (compression.empty()) return {bytes.begin(), bytes.end()};
   if (compression != "zstd") return {};
-  Bytes out(static_cast<std::size_t>(std::min(size, largest_chunk_bytes)));
+  Bytes out(static_cast<std::size_t>(std::min(size, max_chunk_bytes)));
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
                                                                           ZSTD_freeDStream);
   ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};

@@ -5,10 +5,11 @@
 
 namespace recording {
 
-/// Refused above this size: a lying length must not take the machine's memory. chosen
-inline constexpr std::uint64_t largest_chunk_bytes = std::uint64_t{256} << 20;
+/// Largest accepted size, so that a wrong length cannot exhaust the memory. Chosen.
+inline constexpr std::uint64_t max_chunk_bytes = std::uint64_t{256} << 20;
 
-/// zstd at a level that keeps up with any robot's bus. Throws RecordingError when zstd refuses.
+/// Compresses with zstd; the default level is fast enough for a robot's bus. Throws RecordingError
+/// when zstd fails.
 Bytes compress_zstd(ByteView bytes, int level = 1);
 
 /// The records of a chunk: `compression` is "" or "zstd". Throws RecordingError at `place` when
@@ -16,7 +17,7 @@ Bytes compress_zstd(ByteView bytes, int level = 1);
 Bytes decompress(ByteView bytes, const std::string& compression, std::uint64_t size,
                  const ByteReader& place);
 
-/// As much of a chunk as its first bytes give; for a chunk whose end never reached the disk.
+/// Decompresses as much of a chunk as possible; for a chunk that is truncated in the file.
 Bytes decompress_start(ByteView bytes, const std::string& compression, std::uint64_t size);
 
 }  // namespace recording

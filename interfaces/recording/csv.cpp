@@ -65,7 +65,7 @@ class Parser {
   void take_quoted(Cell& cell, std::size_t column) {
     rest_.remove_prefix(1);
     for (;;) {
-      if (rest_.empty()) fail(column, "a quoted cell does not end", "close it with \"");
+      if (rest_.empty()) fail(column, "a quoted cell is not closed", "close it with \"");
       const char c = rest_.front();
       rest_.remove_prefix(1);
       if (c == '"' && !rest_.starts_with('"')) return;
@@ -99,8 +99,7 @@ class Parser {
     const std::string& name = cell.text;
     const std::string_view signal = signal_of(name);
     const auto& known = known_signals();
-    if (table_.find(name))
-      fail(cell.column, "column \"" + name + "\" stands there twice", "remove one");
+    if (table_.find(name)) fail(cell.column, "column \"" + name + "\" occurs twice", "remove one");
     constexpr std::array other_times{"t", "time", "time_ms", "time_us", "time_ns"};
     if (std::ranges::find(other_times, name) != other_times.end())
       fail(cell.column, "unknown column " + xml::quote(name), "name it time_s, in seconds");
@@ -113,7 +112,7 @@ class Parser {
     table_.columns.push_back({name, {}});
   }
 
-  /// Of that owner, the signals that there are.
+  /// The signals of that owner that the table contains.
   static std::vector<std::string> known_of(const std::string& name, std::string_view signal) {
     const std::string owner = name.substr(0, name.size() - signal.size());
     std::vector<std::string> all;

@@ -5,14 +5,14 @@
 #include "interfaces/recording/cdr.hpp"
 #include "interfaces/recording/table.hpp"
 
-/// A decoded message's fields by name; one that is not there reads as nothing.
+/// Fields of a decoded message by name; a missing field gives NaN, 0 or an empty text.
 namespace recording {
 
 inline double number_in(const Members& members, std::string_view field) {
   const Value* value = members.find(field);
   return value ? value->number().value_or(not_taken) : not_taken;
 }
-/// Flags; none where the field is no number of 32 bits.
+/// Bit flags; 0 if the field is not a 32-bit number.
 inline std::uint32_t flags_in(const Members& members, std::string_view field) {
   const double number = number_in(members, field);
   return number >= 0 && number <= 0xFFFF'FFFF ? static_cast<std::uint32_t>(number) : 0;

@@ -17,7 +17,7 @@ OutputFile::OutputFile(std::string path, bool replace)
   if (descriptor_ >= 0) return;
   const int error = errno;
   if (error == EEXIST)
-    throw RecordingError(path_ + ": there is a file already; move it away or choose another name");
+    throw RecordingError(path_ + ": the file exists already; move it or choose another name");
   fail("create", error);
 }
 
@@ -38,8 +38,8 @@ void OutputFile::append(ByteView bytes) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) {
       const int error = errno;
-      const auto whole = static_cast<off_t>(size_);
-      if (::ftruncate(descriptor_, whole) == 0) ::lseek(descriptor_, whole, SEEK_SET);
+      const auto size = static_cast<off_t>(size_);
+      if (::ftruncate(descriptor_, size) == 0) ::lseek(descriptor_, size, SEEK_SET);
       fail("write", error);
     }
     done += static_cast<std::size_t>(n);
@@ -49,7 +49,7 @@ void OutputFile::append(ByteView bytes) {
 }
 
 void OutputFile::sync() {
-  // EINVAL: a pipe or a device, which has nothing to wait for.
+  // EINVAL: a pipe or a device, which cannot be synchronized.
   if (::fdatasync(descriptor_) < 0 && errno != EINVAL && errno != EROFS) fail("sync", errno);
 }
 
@@ -77,7 +77,7 @@ InputFile::~InputFile() { ::close(descriptor_); }
 Bytes InputFile::read(std::uint64_t offset, std::uint64_t size) const {
   if (offset > size_ || size > size_ - offset)
     throw error_at(path_, offset, "the file ends here, " + std::to_string(size) + " bytes early",
-                   mend(path_));
+                   recover_remedy(path_));
   Bytes out(static_cast<std::size_t>(size));
   std::size_t done = 0;
   while (done < out.size()) {
@@ -87,7 +87,7 @@ Bytes InputFile::read(std::uint64_t offset, std::uint64_t size) const {
     if (n <= 0)
       throw error_at(path_, offset + done,
                      n < 0 ? std::strerror(errno) : "the file became shorter while it was read",
-                     "read a copy that nobody writes");
+                     "read a copy");
     done += static_cast<std::size_t>(n);
   }
   return out;

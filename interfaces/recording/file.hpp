@@ -6,18 +6,18 @@
 
 namespace recording {
 
-/// A file that only grows, and is whole at every moment: an append that fails is taken back.
-/// Every error throws RecordingError with path and the system's reason.
+/// A file for appending. A failed append is undone, so the file always ends with a complete append.
+/// Every error throws RecordingError with path and system error.
 class OutputFile {
  public:
-  /// `replace`: overwrite what stands there; otherwise an existing file is refused.
+  /// `replace`: overwrite an existing file; otherwise it is refused.
   OutputFile(std::string path, bool replace);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   void append(ByteView bytes);
-  void sync();   ///< waits until the disk has it
+  void sync();   ///< waits until the data is on the disk
   void close();  ///< sync, then close
   std::uint64_t size() const { return size_; }
   std::uint32_t crc() const { return crc_; }  ///< of everything appended
@@ -32,7 +32,7 @@ class OutputFile {
   std::uint32_t crc_ = 0;
 };
 
-/// A file read by place.
+/// A file with random read access.
 class InputFile {
  public:
   explicit InputFile(std::string path);

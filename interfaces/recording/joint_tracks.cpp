@@ -32,7 +32,7 @@ std::string list(const std::set<std::string>& names) {
 
 }  // namespace
 
-JointTracks joint_tracks(const McapReader& recording, const std::string& who) {
+JointTracks joint_tracks(const McapReader& recording, const std::string& source) {
   std::map<std::uint16_t, TypeDescription> types;
   for (const auto& [id, channel] : recording.channels()) {
     const auto schema = recording.schemas().find(channel.schema_id);
@@ -41,19 +41,19 @@ JointTracks joint_tracks(const McapReader& recording, const std::string& who) {
       types[channel.schema_id] = parse_ros2msg(schema->second.name, schema->second.data);
   }
   JointTracks tracks;
-  std::set<std::string> there;
+  std::set<std::string> sources;
   recording.for_each([&](const Message& message) {
     const auto type = types.find(message.channel.schema_id);
     if (type == types.end()) return;
     const Members members = decode_cdr(type->second, message.data);
     const bool target = message.channel.topic == target_topic;
-    const std::string whose = target ? target_topic : text_in(members, "source");
-    there.insert(whose);
-    if (whose == who) take(members, target ? "answers" : "sequence", tracks);
+    const std::string message_source = target ? target_topic : text_in(members, "source");
+    sources.insert(message_source);
+    if (message_source == source) take(members, target ? "answers" : "sequence", tracks);
   });
   if (!tracks.empty()) return tracks;
-  throw RecordingError(recording.path() + ": holds no joints of \"" + who + "\"; there are " +
-                       list(there));
+  throw RecordingError(recording.path() + ": contains no joints of \"" + source +
+                       "\"; recorded sources: " + list(sources));
 }
 
 }  // namespace recording

@@ -4,20 +4,20 @@
 #include <map>
 #include <string>
 
-/// Where joints were, or should have been, frame by frame.
+/// Measured or desired joint positions, by frame.
 namespace recording {
 
 class McapReader;
 
 struct JointTrack {
   int dof = 0;  ///< 1: position[0] is an angle, rad; 3: a unit quaternion w x y z
-  std::map<std::uint64_t, std::array<double, 4>> at;  ///< by the frame's sequence
+  std::map<std::uint64_t, std::array<double, 4>> at;  ///< by sequence of the frame
 };
-using JointTracks = std::map<std::string, JointTrack>;  ///< by joint
+using JointTracks = std::map<std::string, JointTrack>;  ///< by joint name
 
-/// What joint_target asked for ("joint_target"), or the joint_state of a source: "sim",
-/// "pose_estimator", "motion_capture". Of frames said twice, the last. Throws RecordingError where
-/// there is none such, naming those there are.
-JointTracks joint_tracks(const McapReader& recording, const std::string& who);
+/// The positions of joint_target (`source` "joint_target") or of joint_state by its source: "sim",
+/// "pose_estimator", "motion_capture". For a repeated frame, the last message applies. Throws
+/// RecordingError with the recorded sources when there is no such source.
+JointTracks joint_tracks(const McapReader& recording, const std::string& source);
 
 }  // namespace recording

@@ -12,10 +12,10 @@
 namespace recording {
 namespace {
 
-constexpr std::size_t most_cached_bytes = std::size_t{256} << 20;  // chosen
+constexpr std::size_t max_cached_bytes = std::size_t{256} << 20;  // chosen
 
-/// Loads regions and keeps the last used ones, so that a recording whose chunks all overlap in
-/// time still fits into memory.
+/// Loads regions and keeps the most recently used ones, so that a recording whose chunks all overlap
+/// in time needs limited memory.
 class Cache {
  public:
   Cache(const InputFile& file, const std::vector<Region>& regions)
@@ -29,7 +29,7 @@ class Cache {
     }
     recent_.emplace_front(i, load(file_, regions_[i]));
     bytes_ += recent_.front().second.records.size();
-    while (bytes_ > most_cached_bytes && recent_.size() > 1) {
+    while (bytes_ > max_cached_bytes && recent_.size() > 1) {
       bytes_ -= recent_.back().second.records.size();
       recent_.pop_back();
     }
@@ -44,7 +44,7 @@ class Cache {
   std::size_t bytes_ = 0;
 };
 
-/// Where one region is being read.
+/// Read position in one region.
 struct Cursor {
   std::shared_ptr<const MessageIndex> messages;
   std::size_t region, next;
@@ -104,10 +104,10 @@ void McapReader::for_each(const std::function<void(const Message&)>& use) const 
 void McapReader::emit(const LoadedRegion& region, std::size_t i,
                       const std::function<void(const Message&)>& use) const {
   ByteView data;
-  const bool there = i < region.messages.size();
-  const MessageHead head = there ? region.message(i, path(), data) : MessageHead{};
+  const bool exists = i < region.messages.size();
+  const MessageHead head = exists ? region.message(i, path(), data) : MessageHead{};
   const auto channel = contents_.channels.find(head.channel_id);
-  if (!there || channel == contents_.channels.end())
+  if (!exists || channel == contents_.channels.end())
     throw RecordingError(path() + ": the file changed while it was read; read a copy");
   use({channel->second, head.sequence, head.log_time_ns, head.publish_time_ns, data});
 }
@@ -120,7 +120,7 @@ Recovered recover(const std::string& in, const std::string& out) {
   try {
     copy(reader, writer);
   } catch (...) {
-    std::remove(out.c_str());  // half a recording must not look like a whole one
+    std::remove(out.c_str());  // an incomplete copy must not look like a complete recording
     throw;
   }
   recovered.messages = writer.message_count();

@@ -7,7 +7,7 @@
 
 namespace recording {
 
-/// One recorded message; all of it lent for the length of the callback.
+/// One recorded message; valid during the callback only.
 struct Message {
   const Channel& channel;
   std::uint32_t sequence;
@@ -15,12 +15,12 @@ struct Message {
   ByteView data;
 };
 
-/// Reads an MCAP file of any writer (compression none or zstd), with or without its end.
+/// Reads an MCAP file of any program (compression none or zstd), complete or truncated.
 class McapReader {
  public:
-  /// Walks the whole file and checks its checksums. Throws RecordingError (path, byte, what,
-  /// remedy) when it is damaged or no MCAP; a file that only ends too early is read as far as
-  /// it goes and is not `complete`.
+  /// Scans the whole file and verifies its checksums. Throws RecordingError (path, byte, what,
+  /// remedy) when it is damaged or not an MCAP file. A truncated file is read up to its end and is
+  /// not `complete`.
   explicit McapReader(std::string path) : McapReader(std::move(path), false) {}
 
   bool complete() const { return contents_.complete; }
@@ -34,8 +34,8 @@ class McapReader {
   }
   const std::string& path() const { return file_.path(); }
 
-  /// Every message in the order of log times; of equal times, in the order of the file.
-  /// Holds chunks that overlap in time in memory, up to 256 MB of them.
+  /// Calls `use` for every message in the order of log times; equal times in the order of the file.
+  /// Keeps chunks that overlap in time in memory, up to 256 MB.
   void for_each(const std::function<void(const Message&)>& use) const;
 
  protected:
@@ -52,12 +52,12 @@ class McapReader {
 
 struct Recovered {
   std::uint64_t messages = 0, attachments = 0;
-  std::vector<std::string> problems;  ///< what could not be read, and where
+  std::vector<std::string> problems;  ///< unreadable parts, with their places
 };
 
-/// Copies everything that can be read of `in` into the new, complete file `out`. A chunk whose
-/// checksum fails is left out whole: a gap is better than a wrong number.
-/// Throws RecordingError when `in` is no MCAP file, or `out` exists or cannot be written.
+/// Copies everything readable in `in` to the new, complete file `out`. Omits a chunk whose checksum
+/// fails: a gap is better than a wrong number.
+/// Throws RecordingError when `in` is not an MCAP file, or `out` exists or cannot be written.
 Recovered recover(const std::string& in, const std::string& out);
 
 }  // namespace recording

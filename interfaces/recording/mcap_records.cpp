@@ -162,7 +162,7 @@ void put_attachment(Bytes& out, const Attachment& attachment) {
 }
 
 Attachment get_attachment(ByteReader& in) {
-  ByteReader whole = in;
+  ByteReader body = in;
   Attachment attachment;
   attachment.log_time_ns = in.integer<std::uint64_t>("an attachment's log time");
   attachment.create_time_ns = in.integer<std::uint64_t>("an attachment's creation time");
@@ -170,10 +170,10 @@ Attachment get_attachment(ByteReader& in) {
   attachment.media_type = in.characters("an attachment's media type");
   const ByteView data =
       in.take(in.integer<std::uint64_t>("an attachment's length"), "an attachment");
-  const ByteView summed = whole.take(in.at() - whole.at(), "an attachment");
+  const ByteView summed = body.take(in.at() - body.at(), "an attachment");
   const auto crc = in.integer<std::uint32_t>("an attachment's checksum");
   if (crc != 0 && crc != crc32_of(summed))
-    whole.fail("the checksum of the attachment \"" + attachment.name + "\" does not match");
+    body.fail("the checksum of the attachment \"" + attachment.name + "\" does not match");
   attachment.data = text(data);
   return attachment;
 }
@@ -204,7 +204,7 @@ Metadata get_metadata(ByteReader& in) {
 }
 
 std::uint32_t crc32_of(ByteView bytes, std::uint32_t before) {
-  if (bytes.empty()) return before;  // zlib takes a null pointer for a request to start anew
+  if (bytes.empty()) return before;  // zlib resets the checksum for a null pointer
   return static_cast<std::uint32_t>(
       crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }

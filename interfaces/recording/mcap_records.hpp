@@ -8,7 +8,7 @@
 
 #include "interfaces/recording/bytes.hpp"
 
-/// MCAP 0's records, after the specification at mcap.dev: u8 op, u64 length of the body, body.
+/// Records of MCAP 0, from the specification at mcap.dev: u8 op, u64 length of the body, body.
 /// Times are ns since 1970, or simulated time.
 namespace recording {
 
@@ -35,14 +35,14 @@ enum class Op : std::uint8_t {
 
 using TextMap = std::map<std::string, std::string>;
 
-/// How a channel's messages are to be read; for `ros2msg`, `data` is its text.
+/// Type of a channel's messages; for the encoding `ros2msg`, `data` is the schema text.
 struct Schema {
   std::uint16_t id = 0;
   std::string name, encoding, data;
   bool operator==(const Schema&) const = default;
 };
 
-/// One writer of one topic: the numbers of its messages follow each other.
+/// One writer of one topic; its messages have consecutive sequence numbers.
 struct Channel {
   std::uint16_t id = 0, schema_id = 0;
   std::string topic, message_encoding;
@@ -68,7 +68,7 @@ struct ChunkIndex {
   std::map<std::uint16_t, std::uint64_t> index_offsets;
 };
 
-/// A file that travels with the recording.
+/// A file attached to the recording.
 struct Attachment {
   std::uint64_t log_time_ns = 0, create_time_ns = 0;
   std::string name, media_type;
@@ -86,7 +86,7 @@ struct Metadata {
 
 using MessageIndex = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  ///< log time, offset
 
-/// Starts a record; `end_record` fills in its length. Returns where the record starts.
+/// Starts a record and returns its position; `end_record` fills in its length.
 std::size_t begin_record(Bytes& out, Op op);
 void end_record(Bytes& out, std::size_t start);
 
@@ -102,12 +102,12 @@ void put_metadata(Bytes& out, const Metadata& metadata);
 
 Schema get_schema(ByteReader& in);
 Channel get_channel(ByteReader& in);
-MessageHead get_message(ByteReader& in);  ///< what is left in `in` is the message
+MessageHead get_message(ByteReader& in);  ///< the remaining bytes of `in` are the message
 ChunkHead get_chunk(ByteReader& in, ByteView& records);
 Attachment get_attachment(ByteReader& in);  ///< checks its CRC
 Metadata get_metadata(ByteReader& in);
 
-/// zlib's crc32, the checksum of every MCAP record that has one.
+/// zlib's crc32, which MCAP uses for all checksums.
 std::uint32_t crc32_of(ByteView bytes, std::uint32_t before = 0);
 
 }  // namespace recording

@@ -7,8 +7,8 @@
 namespace recording {
 namespace {
 
-/// Notes where messages stand in `region.records`; stops at the first record that is not whole
-/// when the region is cut, throws there otherwise.
+/// Stores the positions of the messages in `region.records`. At an incomplete record it stops if the
+/// region is cut, and throws otherwise.
 void index_messages(LoadedRegion& region, std::string_view path, bool cut) {
   ByteReader in(region.records, path, region.origin, true);
   try {
@@ -35,7 +35,7 @@ Bytes unpack_start(ByteReader in) {
   return decompress_start(in.rest(), compression, size);
 }
 
-bool is_sound(Op op, ByteReader in) {
+bool is_valid(Op op, ByteReader in) {
   try {
     ByteView records;
     switch (op) {
@@ -60,7 +60,7 @@ bool is_sound(Op op, ByteReader in) {
   }
 }
 
-bool is_sound_at(const InputFile& file, std::uint64_t place) {
+bool is_valid_at(const InputFile& file, std::uint64_t place) {
   if (file.size() - place < record_head_bytes) return false;
   const Bytes start = file.read(place, record_head_bytes);
   ByteReader in(start, file.path(), place);
@@ -68,7 +68,7 @@ bool is_sound_at(const InputFile& file, std::uint64_t place) {
   const std::uint64_t body = place + record_head_bytes;
   if (head.length > file.size() - body) return false;
   const Bytes bytes = file.read(body, head.length);
-  return is_sound(head.op, ByteReader(bytes, file.path(), body));
+  return is_valid(head.op, ByteReader(bytes, file.path(), body));
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ LoadedRegion load(const InputFile& file, const Region& region) {
   return loaded;
 }
 
-std::uint64_t next_sound_record(const InputFile& file, std::uint64_t from) {
+std::uint64_t next_valid_record(const InputFile& file, std::uint64_t from) {
   constexpr std::uint64_t window = 1u << 16;
   for (std::uint64_t base = from; base < file.size(); base += window) {
     const Bytes bytes = file.read(base, std::min(window, file.size() - base));
@@ -125,7 +125,7 @@ std::uint64_t next_sound_record(const InputFile& file, std::uint64_t from) {
       const Op op = static_cast<Op>(bytes[i]);
       if (op != Op::schema && op != Op::channel && op != Op::chunk && op != Op::attachment)
         continue;
-      if (is_sound_at(file, base + i)) return base + i;
+      if (is_valid_at(file, base + i)) return base + i;
     }
   }
   return file.size();

@@ -6,9 +6,9 @@
 
 namespace recording {
 
-/// A stretch of file with messages: a chunk, or messages between chunks.
+/// A part of a file with messages: a chunk, or messages between chunks.
 struct Region {
-  std::uint64_t offset = 0, length = 0;  ///< of its records in the file, heads included
+  std::uint64_t offset = 0, length = 0;  ///< of its records in the file, including their heads
   std::uint64_t first_ns = 0, last_ns = 0;
   std::uint64_t messages = 0;
   bool chunk = false;
@@ -16,7 +16,7 @@ struct Region {
   void count(const MessageHead& head);
 };
 
-/// A region's records, decompressed, and where each message stands in them, by log time.
+/// The decompressed records of a region, and the positions of its messages, by log time.
 struct LoadedRegion {
   Bytes records;
   MessageIndex messages;  ///< log time, offset of the message's record
@@ -26,7 +26,8 @@ struct LoadedRegion {
   MessageHead message(std::size_t i, std::string_view path, ByteView& data) const;
 };
 
-/// Throws RecordingError when the region is damaged. Of a cut one, what is there of it.
+/// Loads a region; of a truncated one, its complete messages. Throws RecordingError when the region is
+/// damaged.
 LoadedRegion load(const InputFile& file, const Region& region);
 
 struct RecordHead {
@@ -35,11 +36,11 @@ struct RecordHead {
 };
 RecordHead get_record_head(ByteReader& in);
 
-/// The decompressed records of the chunk whose body `in` is; checks size and checksum.
+/// The decompressed records of a chunk with the body `in`; verifies size and checksum.
 Bytes unpack(ByteReader in);
 
-/// Where, from `from` on, the next record stands that is whole beyond doubt: a schema, channel,
-/// attachment or chunk whose inner lengths fill it exactly. The end of the file when none does.
-std::uint64_t next_sound_record(const InputFile& file, std::uint64_t from);
+/// Position of the first valid record at or after `from`: a schema, channel, attachment or chunk whose
+/// inner lengths fill it exactly. The end of the file if there is none.
+std::uint64_t next_valid_record(const InputFile& file, std::uint64_t from);
 
 }  // namespace recording

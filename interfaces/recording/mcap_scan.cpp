@@ -9,7 +9,7 @@ constexpr std::uint64_t longest_loose_region = 1u << 20;
 
 class Scanner {
  public:
-  /// `known`: schemas and channels found by an earlier walk, used when their own record is damaged.
+  /// `known`: schemas and channels found by an earlier pass, used when their own record is damaged.
   Scanner(const InputFile& file, bool tolerant, Contents known = {})
       : file_(file), tolerant_(tolerant) {
     contents_.schemas = std::move(known.schemas);
@@ -77,7 +77,7 @@ bool Scanner::step() {
   } catch (const RecordingError& error) {
     if (!tolerant_) throw;
     contents_.problems.emplace_back(error.what());
-    at_ = std::min(next_sound_record(file_, at_ + 1), std::max(end, at_ + 1));
+    at_ = std::min(next_valid_record(file_, at_ + 1), std::max(end, at_ + 1));
   }
   return true;
 }
@@ -160,7 +160,7 @@ void Scanner::take_loose(ByteReader in, Region region) {
   count(head);
 }
 
-/// Takes a chunk's messages whole or not at all.
+/// Takes all messages of a chunk, or none.
 void Scanner::take_chunk(ByteReader in, Region region) {
   const Bytes records = unpack(in);
   std::vector<MessageHead> heads;
@@ -186,7 +186,7 @@ void Scanner::check_footer(ByteReader in, std::uint64_t length) {
   in.integer<std::uint64_t>("the summary offsets' place");
   const auto crc = in.integer<std::uint32_t>("the summary's checksum");
   const std::uint64_t end = at_ + record_head_bytes + length;
-  if (start > at_) place.fail("the footer says that the summary starts behind it");
+  if (start > at_) place.fail("the summary starts after the footer, according to the footer");
   if (start != 0 && crc != 0 &&
       crc != crc32_of(file_.read(start, at_ + record_head_bytes + 16 - start)))
     place.fail("the summary's checksum does not match");
@@ -203,19 +203,17 @@ void Scanner::cut(const std::string& what, std::uint64_t place) {
     contents_.truncation = file_.path() + ": byte " + std::to_string(place) + ": " + what;
 }
 
-/// A record that reaches beyond the end: the recorder was killed, or the length is wrong.
+/// Handles a record that extends beyond the end: the recorder was killed, or the length is wrong.
 bool Scanner::end_early(const RecordHead& head) {
-  cut("the file ends inside a record that says it is " + std::to_string(head.length) +
-          " bytes long",
-      at_);
+  cut("the file ends inside a record of " + std::to_string(head.length) + " bytes", at_);
   if (!tolerant_) return false;
-  const std::uint64_t next = next_sound_record(file_, at_ + 1);
+  const std::uint64_t next = next_valid_record(file_, at_ + 1);
   if (next == file_.size() && head.op == Op::chunk) take_cut_chunk();
   at_ = next;
   return next < file_.size();
 }
 
-/// The messages at the start of a chunk whose end never reached the disk.
+/// Takes the complete messages at the start of a truncated chunk.
 void Scanner::take_cut_chunk() {
   Region region{.offset = at_, .length = file_.size() - at_, .chunk = true, .cut = true};
   std::vector<MessageHead> heads;
@@ -227,7 +225,7 @@ void Scanner::take_cut_chunk() {
       require_channel(heads.back(), ByteReader({}, file_.path(), at_));
     }
   } catch (const RecordingError&) {
-    return;  // not even the chunk's head is there, or it is no chunk
+    return;  // the chunk's head is incomplete, or it is not a chunk
   }
   for (const auto& head : heads) region.count(head), count(head);
   if (!heads.empty()) contents_.regions.push_back(region);
@@ -237,7 +235,7 @@ void Scanner::take_cut_chunk() {
 
 Contents scan(const InputFile& file, bool tolerant) {
   Contents contents = Scanner(file, tolerant).run();
-  // The summary repeats schemas and channels: what was lost in front may be found at the end.
+  // The summary repeats schemas and channels, so lost definitions may be found at the end.
   if (!contents.problems.empty()) return Scanner(file, true, std::move(contents)).run();
   return contents;
 }
@@ -246,7 +244,7 @@ void ChannelStatistics::count(const MessageHead& head) {
   first_ns = messages ? std::min(first_ns, head.log_time_ns) : head.log_time_ns;
   last_ns = std::max(last_ns, head.log_time_ns);
   if (messages++ > 0) {
-    // MCAP keeps 32 bits of the number: more than half their range ahead is a step back.
+    // MCAP stores 32 bits of the number: a step of more than half their range is a step back.
     const std::uint32_t step = head.sequence - last_sequence;
     if (step > 0x8000'0000u) ++restarts;
     else if (step > 1) missing += step - 1;

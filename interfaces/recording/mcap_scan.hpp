@@ -5,16 +5,16 @@
 
 #include "interfaces/recording/mcap_region.hpp"
 
-/// One walk over an MCAP file, from its first byte to its last: what is in it and whether it is
-/// whole. Uses neither summary nor index, so a file that lost its end reads like any other.
+/// One pass over an MCAP file: lists its contents and determines whether it is complete. Uses neither
+/// summary nor index, so truncated files are read by the same code.
 namespace recording {
 
-/// What passed through one channel, in the order of the file.
+/// Statistics of the messages of one channel, in the order of the file.
 struct ChannelStatistics {
   std::uint64_t messages = 0;
   std::uint64_t first_ns = 0, last_ns = 0;
-  std::uint64_t missing = 0;   ///< numbers that were skipped
-  std::uint64_t restarts = 0;  ///< times the numbers began again
+  std::uint64_t missing = 0;   ///< skipped sequence numbers
+  std::uint64_t restarts = 0;  ///< number of times that the sequence restarted
   std::uint32_t last_sequence = 0;
   void count(const MessageHead& head);
 };
@@ -29,12 +29,12 @@ struct Contents {
   std::map<std::uint16_t, ChannelStatistics> statistics;
   std::uint64_t chunks = 0, messages = 0;
   bool complete = false;
-  std::string truncation;             ///< why not complete: place and what
-  std::vector<std::string> problems;  ///< damage that was stepped over (tolerant scans)
+  std::string truncation;             ///< why the file is not complete: place and reason
+  std::vector<std::string> problems;  ///< damage that was skipped (tolerant scans)
 };
 
-/// `tolerant`: damage is noted and stepped over; otherwise it throws RecordingError. A file that
-/// merely ends too early is no damage: `complete` is false and `truncation` says where.
+/// `tolerant`: stores damage in `problems` and skips it; otherwise damage throws RecordingError. A
+/// truncated file is not damage: `complete` is then false and `truncation` contains the place.
 Contents scan(const InputFile& file, bool tolerant = false);
 
 }  // namespace recording

@@ -9,10 +9,10 @@
 namespace recording {
 namespace {
 
-/// Stamps further apart are of two clocks (simulated and wall time in one recording), and say
-/// nothing about how long a chunk has been open. chosen
+/// Larger differences of stamps come from two clocks (simulated and wall time in one recording) and do
+/// not measure how long a chunk has been open. Chosen.
 constexpr std::uint64_t another_clock_ns = 3'600'000'000'000;
-constexpr std::uint16_t most_ids = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint16_t max_ids = std::numeric_limits<std::uint16_t>::max();
 
 void put_summary_offset(Bytes& out, Op op, std::uint64_t start, std::uint64_t length) {
   if (length == 0) return;
@@ -55,7 +55,7 @@ void McapWriter::append(const Bytes& bytes) {
 }
 
 std::uint16_t McapWriter::add_schema(std::string name, std::string encoding, std::string data) {
-  if (schema_count_ == most_ids) throw RecordingError(path() + ": more than 65535 types");
+  if (schema_count_ == max_ids) throw RecordingError(path() + ": more than 65535 types");
   const Schema schema{static_cast<std::uint16_t>(schema_count_ + 1), std::move(name),
                       std::move(encoding), std::move(data)};
   Bytes record;
@@ -69,7 +69,7 @@ std::uint16_t McapWriter::add_channel(std::string topic, std::string message_enc
                                       std::uint16_t schema_id, TextMap metadata) {
   if (schema_id > schema_count_)
     throw std::invalid_argument("no schema has the id " + std::to_string(schema_id));
-  if (channel_count_ == most_ids) throw RecordingError(path() + ": more than 65535 writers");
+  if (channel_count_ == max_ids) throw RecordingError(path() + ": more than 65535 writers");
   const Channel channel{static_cast<std::uint16_t>(channel_count_ + 1), schema_id, std::move(topic),
                         std::move(message_encoding), std::move(metadata)};
   Bytes record;
@@ -213,7 +213,7 @@ void McapWriter::close() {
   put_summary(out);
   put(out, std::as_bytes(std::span(magic)));
   append(out);
-  failed_ = true;  // until the disk says that it has everything
+  failed_ = true;  // until the data is on the disk
   file_.close();
   failed_ = false;
 }

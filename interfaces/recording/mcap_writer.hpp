@@ -12,19 +12,19 @@ enum class Compression { none, zstd };
 
 struct McapOptions {
   Compression compression = Compression::zstd;
-  std::size_t chunk_bytes = 1u << 20;           ///< a chunk is closed when it is this large, chosen
-  std::uint64_t chunk_span_ns = 1'000'000'000;  ///< or spans this much log time
-  bool replace = false;                         ///< overwrite a file that stands there
+  std::size_t chunk_bytes = 1u << 20;           ///< size at which a chunk is closed, chosen
+  std::uint64_t chunk_span_ns = 1'000'000'000;  ///< span of log time at which it is closed
+  bool replace = false;                         ///< overwrite an existing file
 };
 
-/// Writes an MCAP file: chunks with indexes, attachments, a summary. What is not in a closed
-/// chunk yet is in memory only; `flush` puts it on the disk.
-/// Every method throws RecordingError (path, the system's reason) when the disk refuses; the file
-/// then ends with its last whole record and takes nothing more.
+/// Writes an MCAP file: chunks with indexes, attachments, a summary. The current chunk is in memory
+/// until it is closed; `flush` writes it to the disk.
+/// Every method throws RecordingError (path, system error) when writing fails; the file then ends with
+/// its last complete record and accepts no further data.
 class McapWriter {
  public:
   explicit McapWriter(std::string path, McapOptions options = {});
-  /// Closes; says on standard error when that fails. Call `close` to know.
+  /// Closes the file; prints an error to standard error if that fails. Call `close` to detect it.
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
@@ -42,7 +42,7 @@ class McapWriter {
   void attach(std::string name, std::string media_type, std::string data);
   void add_metadata(const Metadata& metadata);
 
-  /// Closes the chunk and waits until the disk has it.
+  /// Closes the chunk and waits until it is on the disk.
   void flush();
   /// Writes the summary and the footer. Nothing can be added afterwards; a second call does
   /// nothing.
@@ -54,7 +54,8 @@ class McapWriter {
  private:
   struct Chunk {
     Bytes records;
-    std::uint64_t first_ns = 0, start_ns = 0, end_ns = 0;  ///< of the first message, least, most
+    std::uint64_t first_ns = 0, start_ns = 0,
+                  end_ns = 0;  ///< log time of the first message, minimum, maximum
     std::map<std::uint16_t, MessageIndex> index;
   };
   void append(const Bytes& bytes);

@@ -15,7 +15,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// Takes the text up to `end` (or all of it) from the front, and `end` with it.
+/// Removes and returns the text before `end` (or all of it); also removes `end`.
 std::string_view cut_front(std::string_view& text, char end) {
   const auto at = text.find(end);
   const std::string_view front = text.substr(0, at);
@@ -36,7 +36,7 @@ std::optional<Kind> primitive(std::string_view name) {
   return std::nullopt;
 }
 
-/// "package/Type" and "package/msg/Type" are one name.
+/// "package/Type" and "package/msg/Type" are the same name.
 std::string full_name(std::string_view name) {
   const auto slash = name.rfind('/');
   if (slash == name.npos || name.find("/msg/") != name.npos) return std::string(name);
@@ -62,7 +62,7 @@ class Parser {
   }
 
  private:
-  static constexpr const char* remedy = "the schema does not describe a message that can be read";
+  static constexpr const char* remedy = "the schema does not describe a readable message";
   struct Reference {
     std::size_t structure, field;
     std::string name;
@@ -113,7 +113,7 @@ class Parser {
     type_.structures.back().fields.push_back(std::move(field));
   }
 
-  /// "tension_N [N]": the name before ROS 2's rules made it `tension_n`, and the unit.
+  /// "tension_N [N]": the original name of the field `tension_n`, and its unit.
   static void take_comment(std::string_view comment, Field& field) {
     const std::string_view word = comment.substr(0, comment.find_first_of(blanks));
     const std::string_view rest = trimmed(comment.substr(word.size()));
@@ -121,7 +121,7 @@ class Parser {
     const std::string_view unit = has_name ? rest : comment;
     if (unit.starts_with('[') && unit.ends_with(']') && unit.size() > 2)
       field.unit = unit.substr(1, unit.size() - 2);
-    else if (!unit.empty()) return;  // a person's sentence
+    else if (!unit.empty()) return;  // an ordinary comment
     if (!has_name) return;
     const std::string plain = ros_field_name(word);
     const bool same = field.name.starts_with(plain) &&

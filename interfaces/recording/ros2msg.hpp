@@ -6,10 +6,9 @@
 
 namespace recording {
 
-/// Reads `ros2msg` schema text, dependencies (`===`, `MSG: package/Type`) included; constants,
-/// default values and comments are passed over, but for ros2msg_text's own of name and unit.
-/// `name` is the schema's, "package/msg/Type". Throws RecordingError with name, line, value,
-/// remedy.
+/// Parses `ros2msg` schema text with its dependencies (`===`, `MSG: package/Type`). Ignores constants,
+/// default values and comments, except the comments of ros2msg_text with name and unit. `name` is the
+/// name of the schema, "package/msg/Type". Throws RecordingError with name, line, value, remedy.
 TypeDescription parse_ros2msg(std::string_view name, std::string_view text);
 
 }  // namespace recording

@@ -52,7 +52,7 @@ Table read_table(const std::string& path, const TableOptions& options) {
     throw RecordingError(path + ": byte 0: this is not an MCAP file; is it the right one?");
   constexpr char xml = '<';
   if (!start.empty() && static_cast<char>(start[0]) == xml)
-    throw RecordingError(path + ": byte 0: this is XML, no recording; give a .mcap or .csv");
+    throw RecordingError(path + ": byte 0: this is XML, not a recording; give a .mcap or .csv");
   return parse_csv(path, text(file.read(0, file.size())));
 }
 

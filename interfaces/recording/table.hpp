@@ -4,24 +4,24 @@
 #include <string_view>
 #include <vector>
 
-/// A recording as a table to compute with: one row a cycle, one column a signal.
+/// A recording as a table: one row per cycle, one column per signal.
 ///
-///   time_s                    since the first row
+///   time_s                    time since the first row
 ///   sequence                  of the frame: the device's tick (on request)
-///   <a>.mode                  what the ECU followed (erp::Mode as a number; a word in CSV)
+///   <a>.mode                  mode of the ECU (erp::Mode as a number; a name in CSV)
 ///   <a>.reference             V, m (change of line length since the start), A or N, by mode
-///   <a>.voltage_V             as the ECU commanded it
+///   <a>.voltage_V             commanded by the ECU
 ///   <a>.current_A
 ///   <a>.shaft_rad             gearbox output, positive = winding up
 ///   <a>.tension_N
 ///   <a>.line_m                change of line length since the start (on request)
-///   <a>.target_mode, .target  what a planner asked for in answer to this row's frame (on request)
-///   ecu<e>.<c>.sent_request, .sent, .followed_request, .followed   of a channel, in its counts:
-///                             what was sent to it last before this row, and what it followed in it
-///                             (on request, from MCAP)
+///   <a>.target_mode, .target  desired by a planner in answer to this row's frame (on request)
+///   ecu<e>.<c>.sent_request, .sent, .followed_request, .followed   of a channel, in its counts: the
+///                             last set-point sent to it before this row, and the one that it
+///                             followed in this row (on request, from MCAP)
 ///   <j>.angle_rad             a revolute joint
 ///   <j>.qw … <j>.qz           a spherical joint
-///   <d>.control_V             of a drive: what its controller said, until the next row
+///   <d>.control_V             of a drive: control signal from this row to the next
 ///   <d>.position_m            of a drive's slide; <d>.position_rad of its shaft
 ///   <d>.reference_m, .reference_rad, .pulse_V   of a drive; pulses are part of control_V
 namespace recording {
@@ -41,32 +41,32 @@ struct Table {
   std::vector<std::string> owners(std::string_view signal) const;
 };
 
-/// The signals that a column's name may end in, "mode" first.
+/// The valid signals at the end of a column's name, "mode" first.
 const std::vector<std::string_view>& known_signals();
 /// "flexor.tension_N" → "tension_N"; the whole name when it has no dot.
 std::string_view signal_of(std::string_view column);
 bool holds_mode(std::string_view column);
-/// Before the signal, in the columns of a channel of an ECU: "ecu0.1".
+/// Prefix of the columns of an ECU channel: "ecu0.1".
 std::string channel_name(int ecu, int channel);
 
 struct TableOptions {
-  std::string robot;       ///< empty: the only one in the recording
-  bool sequences = false;  ///< with sequence, from MCAP
-  bool lines = false;      ///< with <a>.line_m
-  bool targets = false;    ///< with <a>.target_mode and <a>.target
-  bool sent = false;       ///< with what the ECUs were sent and followed
-  /// Where spherical joints come from; empty: motion_capture if recorded, else sim.
+  std::string robot;       ///< empty: the only robot in the recording
+  bool sequences = false;  ///< include sequence, from MCAP
+  bool lines = false;      ///< include <a>.line_m
+  bool targets = false;    ///< include <a>.target_mode and <a>.target
+  bool sent = false;       ///< include sent and followed set-points
+  /// Source of spherical joints; empty: motion_capture if recorded, else sim.
   std::string pose_source;
 };
 
-/// Reads a recording (MCAP) or a table (CSV), by its first bytes. Throws RecordingError with place,
-/// value, remedy.
+/// Reads a recording (MCAP) or a table (CSV); detects the format by the first bytes. Throws
+/// RecordingError with place, value, remedy.
 Table read_table(const std::string& path, const TableOptions& options = {});
 
 class McapReader;
-/// One row per sensor_frame, in the order of stamps. A joint that sensor_frame does not carry and
-/// that is spherical comes from joint_state: its last sample stamped after the row before and not
-/// after this row. An actuator_target is joined where its `answers` is the frame's sequence.
+/// One row per sensor_frame, in the order of stamps. A spherical joint that is not in sensor_frame
+/// comes from joint_state: its last sample stamped after the previous row and not after this row. An
+/// actuator_target is joined to the row whose sequence equals its `answers`.
 Table table_of(const McapReader& recording, const TableOptions& options = {});
 
 }  // namespace recording

@@ -14,11 +14,11 @@
 namespace recording {
 namespace {
 
-/// A signal and where its sample and its valid bit stand in a message.
+/// A signal, its field in a sample, and its valid bit.
 struct Source {
   const char* signal;
   const char* field;
-  unsigned valid;  ///< 0: always there
+  unsigned valid;  ///< 0: no valid bit
 };
 constexpr Source actuator_sources[] = {{"mode", "mode", 0},
                                        {"reference", "reference", 0},
@@ -42,11 +42,11 @@ struct Target {
   std::uint64_t answers, log_time_ns;
 };
 
-/// What the plant sent to one channel of an ECU, and what that says it follows, in its counts.
+/// A set-point of one ECU channel, in its counts: sent by the plant, or reported as followed.
 struct SetPoint {
   std::string channel;
   double request, counts;
-  std::uint64_t sequence;  ///< of the frame that is answered, or in which it is said
+  std::uint64_t sequence;  ///< of the frame that is answered, or that reports it
 };
 
 struct Pose {
@@ -61,7 +61,7 @@ class Builder {
     for (const auto& [id, channel] : recording.channels()) {
       const auto schema = recording.schemas().find(channel.schema_id);
       if (schema == recording.schemas().end() || schema->second.encoding != "ros2msg") continue;
-      if (!wanted(channel.topic) || types_.contains(channel.schema_id)) continue;
+      if (!is_needed(channel.topic) || types_.contains(channel.schema_id)) continue;
       types_[channel.schema_id] = parse_ros2msg(schema->second.name, schema->second.data);
     }
   }
@@ -69,9 +69,9 @@ class Builder {
   Table run() {
     recording_.for_each([&](const Message& message) { take(message); });
     if (rows_.empty())
-      throw RecordingError(recording_.path() + ": holds no sensor_frame" +
+      throw RecordingError(recording_.path() + ": contains no sensor_frame" +
                            (options_.robot.empty() ? "" : " of robot \"" + options_.robot + "\"") +
-                           "; see what it holds with: erp log info " + recording_.path());
+                           "; list its contents with: erp log info " + recording_.path());
     join_targets();
     join_set_points();
     join_poses();
@@ -79,7 +79,7 @@ class Builder {
   }
 
  private:
-  bool wanted(const std::string& topic) const {
+  bool is_needed(const std::string& topic) const {
     return topic == "sensor_frame" || topic == "joint_state" ||
            (options_.targets && topic == "actuator_target") ||
            (options_.sent && (topic == "ecu_command" || topic == "ecu_frame"));
@@ -88,9 +88,9 @@ class Builder {
   void take(const Message& message) {
     const std::string& topic = message.channel.topic;
     const auto type = types_.find(message.channel.schema_id);
-    if (type == types_.end() || !wanted(topic)) return;
+    if (type == types_.end() || !is_needed(topic)) return;
     const Members members = decode_cdr(type->second, message.data);
-    if (!of_our_robot(text_in(members, "robot"), topic)) return;
+    if (!is_of_robot(text_in(members, "robot"), topic)) return;
     if (topic == "sensor_frame") take_frame(members, message.log_time_ns);
     else if (topic == "joint_state") take_joints(members);
     else if (topic == "ecu_command") take_set_points(members, "answers", sent_);
@@ -98,12 +98,12 @@ class Builder {
     else take_targets(members, message.log_time_ns);
   }
 
-  bool of_our_robot(const std::string& robot, const std::string& topic) {
+  bool is_of_robot(const std::string& robot, const std::string& topic) {
     if (!options_.robot.empty()) return robot == options_.robot;
     if (topic == "sensor_frame") robots_.insert(robot);
     if (robots_.size() > 1)
-      throw RecordingError(recording_.path() + ": holds the robots " + *robots_.begin() + " and " +
-                           *robots_.rbegin() + "; say which one");
+      throw RecordingError(recording_.path() + ": contains the robots " + *robots_.begin() +
+                           " and " + *robots_.rbegin() + "; give the name of one");
     return robots_.empty() || robots_.contains(robot);
   }
 
@@ -164,20 +164,20 @@ class Builder {
     });
   }
 
-  /// Each target goes to the row it answers; a sequence that came twice (the plant restarted) to
-  /// the row nearest in log time.
+  /// Joins each target to the row that it answers. If a sequence occurs twice (the plant restarted),
+  /// joins it to the row nearest in log time.
   void join_targets() {
     std::multimap<std::uint64_t, std::size_t> by_sequence;
     for (std::size_t i = 0; i < rows_.size(); ++i) by_sequence.emplace(rows_[i].sequence, i);
     for (const Target& target : targets_) {
       if (!actuators_.has(target.actuator)) continue;
       const auto [first, last] = by_sequence.equal_range(target.answers);
-      const auto apart = [&](std::size_t row) {
+      const auto distance_ns = [&](std::size_t row) {
         const std::uint64_t t = rows_[row].log_time_ns;
         return t > target.log_time_ns ? t - target.log_time_ns : target.log_time_ns - t;
       };
       const auto row = std::min_element(first, last, [&](const auto& a, const auto& b) {
-        return apart(a.second) < apart(b.second);
+        return distance_ns(a.second) < distance_ns(b.second);
       });
       if (row == last) continue;
       actuators_.set(target.actuator, "target_mode", row->second,
@@ -187,8 +187,9 @@ class Builder {
     }
   }
 
-  /// What answers a frame may be followed in the next: there it stands, and in those after it until
-  /// something else was sent. What is followed stands in the frame that says it.
+  /// A set-point that answers a frame can be followed in the next frame at the earliest: it is written
+  /// to that row and the following rows until another one is sent. A followed set-point is written to
+  /// the row of the frame that reports it.
   void join_set_points() {
     const auto order = row_order();
     std::map<std::uint64_t, std::size_t> row_of;
@@ -206,9 +207,9 @@ class Builder {
     }
   }
 
-  void set_point(std::size_t row, const SetPoint& said, const std::string& what) {
-    ecus_.set(said.channel, (what + "_request").c_str(), row, said.request);
-    ecus_.set(said.channel, what.c_str(), row, said.counts);
+  void set_point(std::size_t row, const SetPoint& value, const std::string& what) {
+    ecus_.set(value.channel, (what + "_request").c_str(), row, value.request);
+    ecus_.set(value.channel, what.c_str(), row, value.counts);
   }
 
   std::string pose_source() const {
@@ -235,7 +236,7 @@ class Builder {
     }
   }
 
-  /// Rows by stamp; equal stamps as they came.
+  /// Rows by stamp; equal stamps in the order of the file.
   std::vector<std::size_t> row_order() const {
     std::vector<std::size_t> order(rows_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

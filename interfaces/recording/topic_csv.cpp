@@ -48,10 +48,10 @@ class TopicReader {
       if (channel.topic == topic) add_type(channel);
     }
     if (topics.contains(topic)) return;
-    std::string there;
-    for (const std::string& name : topics) there += (there.empty() ? "" : ", ") + name;
-    throw RecordingError(recording.path() + ": no topic \"" + topic + "\"; there are " +
-                         (there.empty() ? "none" : there));
+    std::string recorded;
+    for (const std::string& name : topics) recorded += (recorded.empty() ? "" : ", ") + name;
+    throw RecordingError(recording.path() + ": no topic \"" + topic +
+                         "\"; recorded topics: " + (recorded.empty() ? "none" : recorded));
   }
 
   template <class Each>

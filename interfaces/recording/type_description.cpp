@@ -57,27 +57,27 @@ void put_structure(std::string& out, const TypeDescription& type, const Structur
   }
 }
 
-constexpr std::size_t deepest_nesting = 32;  // as Cyclone's own limit
+constexpr std::size_t max_nesting = 32;  // as Cyclone's own limit
 
 void check_field(const TypeDescription& type, const Structure& structure, const Field& field) {
   const std::string place = structure.name + "." + field.name;
   if (structure.find(field.name) != &field)
-    throw std::invalid_argument(place + " stands there twice");
+    throw std::invalid_argument(place + " is defined twice");
   if (field.count == Count::array && field.size == 0)
-    throw std::invalid_argument(place + " is an array of no elements");
+    throw std::invalid_argument(place + " is an array without elements");
   if (field.kind == Kind::structure && field.structure >= type.structures.size())
-    throw std::invalid_argument(place + " is of an unknown type");
+    throw std::invalid_argument(place + " has an unknown type");
 }
 
-/// Sets least_bytes of structure `i` and of all it holds; `above` are those that hold it.
+/// Sets least_bytes of structure `i` and of all that it contains; `above` are those that contain it.
 void measure(TypeDescription& type, std::size_t i, std::vector<std::size_t>& above) {
   Structure& structure = type.structures[i];
   if (std::ranges::find(above, i) != above.end())
-    throw std::invalid_argument(structure.name + " holds itself");
+    throw std::invalid_argument(structure.name + " contains itself");
   if (structure.least_bytes) return;
   if (structure.fields.empty()) throw std::invalid_argument(structure.name + " has no fields");
-  if (above.size() == deepest_nesting)
-    throw std::invalid_argument(structure.name + " is nested too deep");
+  if (above.size() == max_nesting)
+    throw std::invalid_argument(structure.name + " is nested too deeply");
   above.push_back(i);
   std::uint64_t sum = 0;
   for (const Field& field : structure.fields) {

@@ -51,7 +51,7 @@ struct Printer {
   static std::string inner(const Value& value) { return std::visit(Printer{true}, value.data); }
   template <class Real>
   std::string real(Real value) const {
-    if (json && !std::isfinite(value)) return "null";  // JSON has no other word for it
+    if (json && !std::isfinite(value)) return "null";  // JSON has no other representation
     return shortest(value);
   }
 };

@@ -16,8 +16,9 @@ namespace {
 void add_verbs(CLI::App& app, Chosen& chosen) {
   add_launch(app, chosen);
   add_check(app, chosen);
-  add_look(app, chosen);
-  add_listen(app, chosen);
+  add_help(app, chosen);
+  add_graph_view(app, chosen);
+  add_topic_view(app, chosen);
   add_log(app, chosen);
   add_model(app, chosen);
   add_gap(app, chosen);
@@ -27,7 +28,29 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
   add_security(app, chosen);
 }
 
-/// A first word that is no verb, with the nearest one; CLI11 would only say it was not expected.
+struct Family {
+  const char* purpose;
+  std::vector<const char*> verbs;
+};
+
+/// The verbs by purpose, as `erp` without a verb lists them.
+const std::vector<Family> families{
+    {"Run a robot, simulated or real", {"launch", "check", "help"}},
+    {"Inspect a running graph", {"ps", "ls", "graph", "hz", "echo", "delay"}},
+    {"Evaluate recordings", {"log"}},
+    {"Describe and calibrate a robot", {"model", "calibrate"}},
+    {"Diagnose the gap between a robot and its model", {"gap"}},
+    {"Train controllers", {"learn"}},
+    {"Write a controller, secure the bus", {"new", "security"}},
+};
+
+void group_by_purpose(CLI::App& app) {
+  for (const auto& [purpose, verbs] : families)
+    for (const auto* verb : verbs) app.get_subcommand(verb)->group(purpose);
+}
+
+/// Reports an unknown verb with the most similar one; CLI11 reports only that the word is
+/// unexpected.
 bool is_unknown_verb(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
   std::vector<std::string> verbs;
@@ -43,7 +66,7 @@ int fail(const std::exception& error, int code) {
   return code;
 }
 
-int carry_out(const Chosen& chosen) {
+int execute(const Chosen& chosen) {
   try {
     return chosen();
   } catch (const xml::Errors& error) {
@@ -63,21 +86,26 @@ int carry_out(const Chosen& chosen) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  CLI::App app("Runs and inspects graphs of components that move a tendon-driven robot.", "erp");
+  CLI::App app("Runs and inspects graphs of components that control a tendon-driven robot.", "erp");
   Chosen chosen;
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("erp ") + version() + " (" + revision() + ")");
   app.footer(
-      "Exit codes: 0 done, 1 failed, 2 bad usage or input. ERP_DOMAIN=0…230 keeps graphs "
-      "apart. ERP_SECURITY=DIR: only who holds a certificate of erp security make is heard.");
+      "Exit codes: 0 done, 1 failed, 2 bad usage or input. ERP_DOMAIN=0…230 separates graphs. "
+      "ERP_SECURITY=DIR: DDS Security with the certificate in DIR (see erp security make).");
   add_verbs(app, chosen);
+  group_by_purpose(app);
+  if (argc < 2) {
+    std::cout << app.help() << "\nerp VERB --help: options and examples of a verb\n";
+    return 0;
+  }
   if (is_unknown_verb(app, argc, argv)) return 2;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return carry_out(chosen);
+  return execute(chosen);
 }
 
 }  // namespace launch

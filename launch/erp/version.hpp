@@ -1,9 +1,9 @@
 #pragma once
 
-/// Which `erp` this is.
+/// Version of this `erp`.
 namespace launch {
 
-const char* version();   ///< the project's, "0.1.0"
-const char* revision();  ///< of git at build time, "-dirty" with uncommitted changes; or "unknown"
+const char* version();   ///< of the project, "0.1.0"
+const char* revision();  ///< of git, "-dirty" with uncommitted changes; or "unknown"
 
 }  // namespace launch

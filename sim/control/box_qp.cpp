@@ -20,13 +20,13 @@ const BoxQp::Vector& BoxQp::solve(const Matrix& h, const Vector& c, const Vector
   changes_ = 0;
   free_all_but_held(h);
   do solve_held(c, low, high);
-  while (let_go_of_unwilling());
+  while (release_wrong_signs());
   settled_ = true;
   for (Eigen::Index p = most_violated(low, high); p >= 0; p = most_violated(low, high)) {
-    settled_ = changes_ < most_changes * n_;
+    settled_ = changes_ < max_changes_per_unknown * n_;
     if (!settled_) break;
     const bool below = x_[p] < low[p];
-    bring_in(p, below ? low[p] : high[p], below ? Held::at_low : Held::at_high);
+    activate(p, below ? low[p] : high[p], below ? Held::at_low : Held::at_high);
   }
   x_ = x_.cwiseMax(low).cwiseMin(high);
   return x_;
@@ -34,13 +34,13 @@ const BoxQp::Vector& BoxQp::solve(const Matrix& h, const Vector& c, const Vector
 
 void BoxQp::check(const Vector& low, const Vector& high) const {
   for (Eigen::Index k = 0; k < n_; ++k)
-    if (!(low[k] <= high[k])) throw std::invalid_argument("a lower bound is above its upper one");
+    if (!(low[k] <= high[k])) throw std::invalid_argument("a lower bound is above its upper bound");
 }
 
 // ---- tableau ----
 
-/// Unknown k from held to free, or back:
-///   T_ij −= T_ik T_kj / T_kk,   T_ik → ± T_ik / T_kk,   T_kk → −1 / T_kk     + into the free ones
+/// Moves variable k from the active set to the free set, or back:
+///   T_ij −= T_ik T_kj / T_kk,   T_ik → ± T_ik / T_kk,   T_kk → −1 / T_kk     + if k becomes free
 void BoxQp::sweep(Eigen::Index k) {
   const double pivot = tableau_(k, k);
   const bool into_free = pivot > 0;
@@ -76,8 +76,8 @@ void BoxQp::solve_held(const Vector& c, const Vector& low, const Vector& high) {
     else x_[k] = column_[k], w_[k] -= c[k];
 }
 
-/// Bounds taken over from the last solution that would rather be left.
-bool BoxQp::let_go_of_unwilling() {
+/// Releases bounds of the previous active set whose multipliers have the wrong sign.
+bool BoxQp::release_wrong_signs() {
   bool any = false;
   for (Eigen::Index k = 0; k < n_; ++k) {
     if (is_free(k) || (held(k) == Held::at_low ? w_[k] >= 0 : w_[k] <= 0)) continue;
@@ -103,17 +103,17 @@ Eigen::Index BoxQp::most_violated(const Vector& low, const Vector& high) const {
 
 /// Moves x_p to its bound. With h = (H_FF⁻¹)_pp and step δ of x_p:
 ///   δx_F = (H_FF⁻¹)_Fp δ / h,   δw_B = (H_BF H_FF⁻¹)_Bp δ / h,   δw_p = δ / h
-void BoxQp::bring_in(Eigen::Index p, double bound, Held side) {
+void BoxQp::activate(Eigen::Index p, double bound, Held side) {
   for (;;) {
     const double h = -tableau_(p, p), whole = bound - x_[p];
     double step = whole;
     Eigen::Index leaving = -1;
     for (Eigen::Index b = 0; b < n_; ++b) {
       if (is_free(b)) continue;
-      const double until_nothing = -w_[b] * h / tableau_(b, p);
+      const double until_zero = -w_[b] * h / tableau_(b, p);
       const bool falls =
           held(b) == Held::at_low ? tableau_(b, p) * whole < 0 : tableau_(b, p) * whole > 0;
-      if (falls && std::abs(until_nothing) < std::abs(step)) step = until_nothing, leaving = b;
+      if (falls && std::abs(until_zero) < std::abs(step)) step = until_zero, leaving = b;
     }
     for (Eigen::Index k = 0; k < n_; ++k)
       if (is_free(k)) x_[k] -= tableau_(k, p) * step / h;

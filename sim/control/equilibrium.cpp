@@ -30,7 +30,8 @@ struct Equilibrium::Inside {
     for (const erp::Joint& joint : model.tree().joints)
       if (joint.type == erp::JointType::free)
         throw std::invalid_argument("joint \"" + joint.name +
-                                    "\" is free: shafts alone do not say where its body rests");
+                                    "\" is free: the equilibrium of its body is not determined by "
+                                    "shaft angles; remove the free joint");
     torque_Nm = gravity_Nm = VectorXd::Zero(model.coordinates());
     force_N = VectorXd::Zero(static_cast<Index>(laws.size()));
   }
@@ -40,7 +41,7 @@ struct Equilibrium::Inside {
   }
   const erp::Joint& joint(std::size_t j) const { return model.tree().joints[j]; }
 
-  /// Moves the bones there; returns V, and leaves τ_G + Lᵀ f in `torque_Nm`.
+  /// Sets the pose; returns V and writes τ_G + Lᵀ f to `torque_Nm`.
   double place(const Joints& at) {
     model.place(at);
     double energy_J = model.skeleton().energy_J();
@@ -74,7 +75,7 @@ struct Equilibrium::Inside {
     return q;
   }
 
-  /// The coordinates that no stop holds against these torques.
+  /// The coordinates that are not held by a stop under these torques.
   std::vector<Index> movable(const Joints& q, const VectorXd& torque) const {
     std::vector<Index> found;
     for (std::size_t j = 0; j < q.size(); ++j) {
@@ -89,7 +90,7 @@ struct Equilibrium::Inside {
     return found;
   }
 
-  /// ∂(τ_G + Lᵀ f)/∂q among some coordinates; symmetric where the torques vanish.
+  /// ∂(τ_G + Lᵀ f)/∂q for some of the coordinates; symmetric where the torques are zero.
   MatrixXd slope(const Joints& q, const VectorXd& torque, const std::vector<Index>& among) {
     constexpr double step_rad = 1e-6;
     const auto n = static_cast<Index>(among.size());
@@ -103,7 +104,7 @@ struct Equilibrium::Inside {
     return (found + found.transpose()) / 2;
   }
 
-  /// Hinges no farther than their stops.
+  /// Limits hinges to their ranges.
   Joints at(const Pose& pose) const {
     Joints q;
     for (std::size_t j = 0; j < pose.size(); ++j)
@@ -111,7 +112,7 @@ struct Equilibrium::Inside {
     return within_range(std::move(q));
   }
 
-  /// One step down, as far as V falls; false: it does not.
+  /// One step that decreases V; returns false if none does.
   bool go_down(Joints& q, const VectorXd& torque, const std::vector<Index>& among,
                double& energy_J);
 
@@ -132,7 +133,7 @@ bool Equilibrium::Inside::go_down(Joints& q, const VectorXd& torque,
     if (solver.info() == Eigen::Success) {
       VectorXd u = VectorXd::Zero(torque.size());
       u(among) = -solver.solve(VectorXd(torque(among)));
-      u *= std::min(1.0, 0.5 / u.cwiseAbs().maxCoeff());  // chosen: paths are followed, not jumped
+      u *= std::min(1.0, 0.5 / u.cwiseAbs().maxCoeff());  // chosen: small enough to count turns
       const Joints next = within_range(turned(q, u));
       const double there_J = place(next);
       if (there_J <= energy_J) {
@@ -164,7 +165,7 @@ Rest Equilibrium::find(std::span<const double> shaft_rad, const Pose& from) {
   }
   in.place(q);
   Rest rest;
-  rest.left_Nm = in.torque_Nm(in.movable(q, in.torque_Nm)).norm();
+  rest.unbalanced_Nm = in.torque_Nm(in.movable(q, in.torque_Nm)).norm();
   for (const JointReading& joint : q) rest.pose.push_back(joint.position);
   rest.tension_N.assign(in.force_N.begin(), in.force_N.end());
   return rest;

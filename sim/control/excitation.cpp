@@ -18,7 +18,7 @@ double between(Random& r, double low, double high) {
   return std::uniform_real_distribution(low, high)(r);
 }
 
-/// A posture within reach: most of a hinge's range, a ball joint not far from its start.
+/// A random posture: within most of a hinge's range, and near the start for ball joints.
 Pose posture(const erp::Robot& robot, double share, Random& random) {
   Pose pose = starting_pose(robot);
   const auto joints = robot.joints();
@@ -39,7 +39,8 @@ Pose posture(const erp::Robot& robot, double share, Random& random) {
   return pose;
 }
 
-/// All hinges to one end of their range, then to the other; `scale`: of the range, about its middle.
+/// Moves all hinges to one end of their range or, for odd `turn`, to the other; `scale`: fraction of the
+/// range, about its middle.
 void go_to_end(const erp::Robot& robot, std::size_t turn, double scale, Pose& pose) {
   const auto joints = robot.joints();
   for (std::size_t k = 0; k < joints.size(); ++k) {
@@ -49,7 +50,7 @@ void go_to_end(const erp::Robot& robot, std::size_t turn, double scale, Pose& po
   }
 }
 
-/// What its muscles may pull, of the 150 N that the walks below are meant for.
+/// Mean maximum tension of the muscles, relative to the 150 N for which the walks below are designed.
 double relative_strength(const erp::Robot& robot) {
   double sum_N = 0;
   for (const erp::Actuator& actuator : robot.actuators) sum_N += actuator.max_tension_N;
@@ -59,10 +60,10 @@ double relative_strength(const erp::Robot& robot) {
 struct Walk {
   double share, pace_s, dwell_s, rest_N, least_N;
   bool to_the_ends = false;
-  double scale = 1;  ///< of postures
+  double scale = 1;  ///< of the range of postures
 };
 
-/// Throws std::invalid_argument where a tendon has no path in a posture on the way.
+/// Throws std::invalid_argument if a tendon has no path in one of the postures.
 Excitation through_postures(const erp::Robot& robot, const Walk& walk, double duration_s,
                             Random& random) {
   std::vector<TimedPose> poses{{0, starting_pose(robot)}};
@@ -83,7 +84,7 @@ Excitation through_postures(const erp::Robot& robot, const Walk& walk, double du
   for (double t = 0; t < duration_s; t += all.period_s) {
     while (at + 2 < time.size() && time[at + 1] <= t) ++at;
     const double s = std::clamp((t - time[at]) / (time[at + 1] - time[at]), 0.0, 1.0);
-    const double in = std::min(1.0, t / 0.4);  // from where the robot is to the first posture
+    const double in = std::min(1.0, t / 0.4);  // blends from the starting pose to the first posture
     auto& row = all.reference.emplace_back();
     for (const erp::Actuator& actuator : robot.actuators)
       for (const auto& column : columns)
@@ -93,7 +94,7 @@ Excitation through_postures(const erp::Robot& robot, const Walk& walk, double du
   return all;
 }
 
-/// With postures so wide that each tendon has a path.
+/// Reduces the range of the postures until every tendon has a path.
 Excitation within_reach(const erp::Robot& robot, Walk walk, double duration_s,
                         const Random& random) {
   constexpr double narrower = 0.7, least = 0.2;  // chosen
@@ -105,11 +106,11 @@ Excitation within_reach(const erp::Robot& robot, Walk walk, double duration_s,
     }
 }
 
-/// On top of it each muscle pulls alone, slowly and then faster, against those that hold the
-/// posture: there it shows what is its own.
+/// In addition each muscle in turn pulls alone, slowly and then faster, against the muscles that hold the
+/// posture. This separates the effects of one muscle from those of the others.
 void pull_in_turn(const erp::Robot& robot, Excitation& all) {
-  constexpr double share = 0.15;   // of what it may pull
-  constexpr int pulls[] = {1, 3};  // half waves, in each half of its turn
+  constexpr double share = 0.15;   // of its maximum tension
+  constexpr int pulls[] = {1, 3};  // half waves in each half of a muscle's interval
   const std::size_t turn = all.reference.size() / robot.actuators.size();
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const erp::Actuator& actuator = robot.actuators[a];
@@ -126,7 +127,7 @@ struct Swing {
   double middle_N, swing_N, swing_Hz, ripple_N, ripple_Hz, least_N;
 };
 
-/// Antagonists in turn.
+/// Oscillating tensions, with opposite phase for antagonists.
 Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration_s,
                     Random& random) {
   Excitation all{erp::Mode::force, 0.002, {}};
@@ -136,12 +137,12 @@ Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration
   for (double t = 0; t < duration_s; t += all.period_s) {
     auto& row = all.reference.emplace_back();
     for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
-      const double way = a % 2 ? -1 : 1;
-      const double wanted = swing.middle_N +
-                            way * swing.swing_N * std::sin(turn * slow_Hz * t + phase) +
-                            way * swing.ripple_N * std::sin(turn * fast_Hz * t) +
-                            0.3 * swing.middle_N * std::sin(turn * 0.13 * t + 1);
-      row.push_back(std::clamp(wanted, swing.least_N, 0.8 * robot.actuators[a].max_tension_N));
+      const double sign = a % 2 ? -1 : 1;
+      const double tension_N = swing.middle_N +
+                               sign * swing.swing_N * std::sin(turn * slow_Hz * t + phase) +
+                               sign * swing.ripple_N * std::sin(turn * fast_Hz * t) +
+                               0.3 * swing.middle_N * std::sin(turn * 0.13 * t + 1);
+      row.push_back(std::clamp(tension_N, swing.least_N, 0.8 * robot.actuators[a].max_tension_N));
     }
   }
   return all;
@@ -149,7 +150,7 @@ Excitation tensions(const erp::Robot& robot, const Swing& swing, double duration
 
 }  // namespace
 
-const char* excitation_word(const erp::Robot& robot, int recording) {
+const char* excitation_name(const erp::Robot& robot, int recording) {
   constexpr const char* postures[] = {"end to end", "each muscle in turn", "fast postures",
                                       "each muscle in turn, stiff"};
   if (robot.joints().size() != 1 || recording % 2 == 0) return postures[recording % 4];

@@ -5,7 +5,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/values.hpp"
 
-/// What a robot may be asked to do by a person who wants to know it.
+/// Excitation trajectories for the identification of a robot.
 namespace sim {
 
 struct Excitation {
@@ -15,13 +15,14 @@ struct Excitation {
   std::vector<std::vector<double>> reference;
 };
 
-inline constexpr int excitation_kinds = 4;  ///< then they come again, with other numbers
+inline constexpr int excitation_kinds = 4;  ///< then the kinds repeat with other random values
 
-/// What the excitation of a recording is like, in words.
-const char* excitation_word(const erp::Robot& robot, int recording);
+/// Short description of the excitation of a recording.
+const char* excitation_name(const erp::Robot& robot, int recording);
 
-/// One a recording, all different: slow between postures with dwells, tensions that swing and
-/// come near slack, low and high co-contraction, fast. Robots of one joint get tensions too.
+/// The excitation of a recording: slow motion between postures with dwells, oscillating tensions down
+/// to nearly slack, low and high co-contraction, or fast motion. Tension excitation is used only for
+/// robots with one joint.
 Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
                       std::uint64_t seed);
 

@@ -35,14 +35,14 @@ Discrete hold(const ForceModel& model, double t) {
   return {sum.topLeftCorner<3, 3>(), sum.topRightCorner<3, 1>()};
 }
 
-/// The model's own poles, with the slowest moved to −bandwidth.
+/// The open-loop poles, with the slowest moved to −bandwidth.
 Poles default_poles(const ForceModel& model, double bandwidth_per_s) {
   const auto own = model.a.eigenvalues();
   Poles poles{own[0], own[1], own[2]};
   std::sort(poles.begin(), poles.end(), [](auto x, auto y) { return std::abs(x) < std::abs(y); });
   if (poles[0].imag() != 0)
     throw std::invalid_argument(
-        "the tendon and its motor oscillate; give force_poles_per_s explicitly");
+        "the open-loop poles of motor and tendon are complex; set force_poles_per_s explicitly");
   poles[0] = -bandwidth_per_s;
   return poles;
 }
@@ -59,7 +59,7 @@ Poles wanted_poles(const ForceModel& model, const DesignOptions& options) {
   return poles;
 }
 
-/// p(Φ) = Π (Φ − e^(pole · t)), its coefficients real.
+/// p(Φ) = Π (Φ − e^(pole · t)), with real coefficients.
 Matrix3d polynomial(const Matrix3d& phi, const Poles& poles, double t) {
   Eigen::Matrix3cd product = Eigen::Matrix3cd::Identity();
   for (const auto& pole : poles)
@@ -163,7 +163,7 @@ void set_wiper(EcuParameters& p, const erp::Potentiometer& wiper) {
   set(p, ECU_PARAMETER_WIPER_TOLERANCE, 0.1 + 6 * wiper.noise_rad + 2 * quantum);
 }
 
-/// Above the limit, below the converter's end; never below the limit itself.
+/// Above the limit and below the end of the converter's range; never below the limit.
 double trip_level(double limit, double factor, double range) {
   return std::max(limit, std::min(factor * limit, range));
 }

@@ -14,12 +14,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The dual of eq. (1): D(λ) = bᵀ λ − Σ φ(J λ) − ε/2 |λ|², φ' = f. Concave, by pieces quadratic.
+/// The dual of eq. (1): D(λ) = bᵀ λ − Σ φ(J λ) − ε/2 |λ|², φ' = f. Concave, piecewise quadratic.
 class Dual {
  public:
   Dual(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options)
       : j_(j), b_(b), rest_(options.rest_N), least_(options.least_N) {
-    constexpr double stiff = 1e-8;  // of the largest Σ J²; chosen: what is left is far below friction
+    constexpr double stiff =
+        1e-8;  // relative to the largest Σ J²; chosen: the residual is far below friction
     epsilon_ = stiff * (j.size() > 0 ? j.colwise().squaredNorm().maxCoeff() : 1);
   }
 
@@ -47,7 +48,7 @@ class Dual {
   double rest_, least_, epsilon_;
 };
 
-/// Tensions nearest to rest that hold b, and of what cannot be held leave as little as they can.
+/// Tensions nearest to f_rest that hold b, or minimise the residual if none can.
 VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& options) {
   const Dual dual(j, b, options);
   VectorXd lambda = VectorXd::Zero(j.cols());
@@ -69,7 +70,7 @@ VectorXd balance(const MatrixXd& j, const VectorXd& b, const HoldingOptions& opt
 struct PoseHolder::Inside {
   explicit Inside(const erp::Robot& r) : robot(r), model(r), start_m(model.length_m()) {}
 
-  /// Throws where a point of a path lies inside its pulley.
+  /// Throws if a path point lies inside a pulley.
   void place(const Pose& pose) {
     std::vector<JointReading> joints;
     for (std::size_t j = 0; j < pose.size(); ++j) {
@@ -78,7 +79,7 @@ struct PoseHolder::Inside {
     }
     model.place(joints);
     for (std::size_t k = 0; k < model.shapes().size(); ++k)
-      if (const int element = model.shapes()[k].pierced(); element >= 0)
+      if (const int element = model.shapes()[k].penetrated_pulley(); element >= 0)
         throw std::invalid_argument("actuator \"" + robot.actuators[k].name + "\": in this pose " +
                                     "a point beside element " + std::to_string(element + 1) +
                                     " of its path lies inside that pulley");

@@ -1,13 +1,13 @@
 #pragma once
 #include "interfaces/robot/robot.hpp"
 
-/// What a motor must be given to turn as wanted: eq. 3 of the paper, solved for its input.
+/// Current and voltage of a motor for a desired motion: eq. 3 of the paper, solved for its input.
 ///
 ///   i = ((r F + µ_G ω + s τ_CG + J_G ω̇)/(e N) + µ_M N ω + s τ_CM + J_M N ω̇) / K_T
-///   V = R i + K_E N ω                                              the inductance left out
+///   V = R i + K_E N ω                                              without inductance
 ///
-/// e is the gear's efficiency as the power flows: η where the motor drives, 1/η where the load does;
-/// s = sgn ω. Both are rounded off below a creeping speed, where a shaft may as well stick.
+/// e is the gear's efficiency for the direction of power: η if the motor drives, 1/η if the load drives;
+/// s = sgn ω. Both are smoothed below a creep speed, where a shaft may also stick.
 namespace sim {
 
 class MotorInverse {

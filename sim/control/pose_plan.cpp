@@ -11,28 +11,28 @@
 namespace sim {
 namespace {
 
-constexpr double unit_within = 1e-3;  // chosen: of a quaternion's length
+constexpr double unit_within = 1e-3;  // chosen: tolerance of a quaternion's norm
 constexpr double angle_within =
-    1e-2;  // chosen: recordings overrun their stops a little, with noise
-constexpr double rounding_m = 1e-7, rounding_s = 1e-6, rounding_rad = 1e-6;  // readable files
+    1e-2;  // chosen: recordings exceed the stops slightly because of noise
+constexpr double rounding_m = 1e-7, rounding_s = 1e-6, rounding_rad = 1e-6;  // for readable files
 
 /// Never −0.
 double rounded(double x, double step) { return std::round(x / step) / std::round(1 / step) + 0.0; }
 
-/// The signals that say where a joint is, in the order of its position's entries.
+/// The columns of a joint's position, in the order of its entries.
 std::vector<const char*> signals_of(const erp::Joint& joint) {
   if (joint.type == erp::JointType::revolute) return {".angle_rad"};
   if (joint.type == erp::JointType::spherical) return {".qw", ".qx", ".qy", ".qz"};
   return {};
 }
 
-/// Which entry of a joint's position a column gives.
+/// The entry of a joint's position that a column contains.
 struct PoseColumn {
   std::size_t joint, entry;
   const recording::Column* column;
 };
 
-/// What recordings hold beside: the sensors of ball joints, and how free bodies are turned.
+/// Other columns of recordings that are ignored: sensors of ball joints, rotation of free bodies.
 bool of_no_use(const std::string& column, const erp::Robot& robot) {
   for (const erp::JointSensor& sensor : robot.joint_sensors)
     if (sensor.about && column == erp::sample_name(sensor) + ".angle_rad") return true;
@@ -41,7 +41,7 @@ bool of_no_use(const std::string& column, const erp::Robot& robot) {
   return false;
 }
 
-/// Refuses what no joint can do.
+/// Rejects a position that is invalid for its joint.
 void check_pose(const TimedPose& timed, std::size_t row, const std::vector<erp::Joint>& joints) {
   const auto refuse = [&](const erp::Joint& joint, const std::string& what) {
     throw std::invalid_argument("row " + std::to_string(row + 1) + ", joint " +
@@ -52,7 +52,7 @@ void check_pose(const TimedPose& timed, std::size_t row, const std::vector<erp::
     const auto& p = timed.pose[j];
     const double size = std::hypot(std::hypot(p[0], p[1]), std::hypot(p[2], p[3]));
     if (joint.type == erp::JointType::spherical && !(std::abs(size - 1) < unit_within))
-      refuse(joint, "its quaternion has length " + xml::write_number(size) + "; give a unit one");
+      refuse(joint, "its quaternion has norm " + xml::write_number(size) + "; normalise it");
     if (joint.type != erp::JointType::revolute) continue;
     if (!(p[0] >= joint.min_rad - angle_within && p[0] <= joint.max_rad + angle_within))
       refuse(joint, xml::write_number(p[0]) + " rad is out of its range, " +
@@ -135,7 +135,7 @@ class Planner {
       plan_.unbalanced_Nm = holding.unbalanced_Nm, plan_.at_s = time_s;
     add(time_s, holding.line_m);
   }
-  /// Both poses, and between them as often as is asked for.
+  /// Adds rows for both poses and for the samples between them.
   void move(const TimedPose& from, const TimedPose& to) {
     const JointPath path(joints_, {from, to});
     std::vector<JointMotion> on_the_way;

@@ -8,7 +8,7 @@
 namespace formats {
 namespace {
 
-constexpr double rounding = 1e-9;  // chosen: of degrees, principal axes and poses in the world
+constexpr double rounding = 1e-9;  // chosen: for degrees, principal axes and poses in the world
 
 bool same(double a, double b, double scale) { return std::abs(a - b) <= rounding * scale; }
 
@@ -34,7 +34,8 @@ template <class Item>
 const Item& named(const std::vector<Item>& items, const std::string& name) {
   const auto found = std::ranges::find(items, name, &Item::name);
   if (found == items.end())
-    refuse(std::string(Item::element) + " \"" + name + "\" of the extra is not in the kinematics");
+    refuse(std::string(Item::element) + " \"" + name +
+           "\" of the extra is missing in the kinematics");
   return *found;
 }
 
@@ -57,13 +58,14 @@ void take(erp::Joint& own, const erp::Joint& given) {
   if (!same(direction(own.axis), direction(given.axis), 1)) own.axis = given.axis;
 }
 
-/// Another mass takes the place of what the solids and weights make.
+/// A changed mass replaces the mass of the solids and weights.
 void take(erp::Body& own, const erp::Body& given) {
-  const erp::Mass mine = mass_of(own), theirs = mass_of(given);
-  const double inertia = std::max({theirs.inertia_kg_m2[0], theirs.inertia_kg_m2[1],
-                                   theirs.inertia_kg_m2[2], mine.inertia_kg_m2[0]});
-  if (same(mine.mass_kg, theirs.mass_kg, theirs.mass_kg + rounding) &&
-      same(mine.com_m, theirs.com_m, 1) && same(mine.inertia_kg_m2, theirs.inertia_kg_m2, inertia))
+  const erp::Mass own_mass = mass_of(own), given_mass = mass_of(given);
+  const double inertia = std::max({given_mass.inertia_kg_m2[0], given_mass.inertia_kg_m2[1],
+                                   given_mass.inertia_kg_m2[2], own_mass.inertia_kg_m2[0]});
+  if (same(own_mass.mass_kg, given_mass.mass_kg, given_mass.mass_kg + rounding) &&
+      same(own_mass.com_m, given_mass.com_m, 1) &&
+      same(own_mass.inertia_kg_m2, given_mass.inertia_kg_m2, inertia))
     return;
   own.density_kg_per_m3.reset();
   std::erase_if(own.parts,
@@ -92,7 +94,7 @@ erp::Robot with_skeleton(erp::Robot robot, const erp::Robot& standard) {
   for (erp::Skeleton& skeleton : robot.skeletons) {
     for (erp::Body& body : skeleton.bodies) {
       const erp::Body& given = named(bodies, body.name);
-      if (moved(joints, body.name)) take(body, given);  // a root's mass plays no part
+      if (moved(joints, body.name)) take(body, given);  // the mass of a root is not used
     }
     for (erp::Joint& joint : skeleton.joints) take(joint, named(joints, joint.name));
   }

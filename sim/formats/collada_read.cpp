@@ -18,18 +18,18 @@ constexpr double unlimited = 3.14159;
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 Vec3 vec(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
-/// What an url or sid path ends with: "#kinematics/elbow" → "elbow".
+/// The last part of a URL or sid path: "#kinematics/elbow" → "elbow".
 std::string last_of(const std::string& path) {
   const auto cut = path.find_last_of("#/");
   return cut == std::string::npos ? path : path.substr(cut + 1);
 }
 
-std::string asked(const Foreign& element, const char* attribute) {
+std::string required_attribute(const Foreign& element, const char* attribute) {
   if (const auto value = element.attribute(attribute)) return *value;
   element.refuse(std::string("has no ") + attribute, std::string("add ") + attribute + "=\"…\"");
 }
 
-/// The <translate>, <rotate> and <matrix> in an element, one after the other; lengths in its unit.
+/// The product of <translate> and <rotate> in an element; lengths in the unit of the file.
 Isometry3d placement(const Foreign& element) {
   Isometry3d pose = Isometry3d::Identity();
   for (const Foreign& step : element.children()) {
@@ -40,7 +40,7 @@ Isometry3d placement(const Foreign& element) {
         pose = pose * Eigen::AngleAxisd(radians(v[3]), axis.normalized());
     }
     if (step.tag() == "matrix")
-      step.refuse("is not read here", "give the pose as <translate> and <rotate>");
+      step.refuse("is not supported", "give the pose as <translate> and <rotate>");
   }
   return pose;
 }
@@ -63,7 +63,7 @@ JointKind kind_of(const Foreign& joint) {
   if (turns.size() != 1 || !slides.empty())
     joint.refuse("has " + std::to_string(turns.size()) + " <revolute> and " +
                      std::to_string(slides.size()) + " <prismatic>",
-                 "one <revolute>, three, or three of each are simulated");
+                 "use one <revolute>, three, or three of each");
   JointKind kind{erp::JointType::revolute, vec(turns[0].need("axis").numbers(3))};
   if (const auto limits = turns[0].one("limits")) {
     kind.min_rad = radians(limits->need("min").number());
@@ -73,7 +73,7 @@ JointKind kind_of(const Foreign& joint) {
   return kind;
 }
 
-/// With the names of robot.xml.
+/// The element with its tags renamed to those of robot.xml.
 xml::Element renamed(xml::Element element) {
   if (element.name.starts_with(erp_prefix)) element.name.erase(0, erp_prefix.size());
   for (xml::Element& child : element.children) child = renamed(std::move(child));
@@ -92,11 +92,12 @@ class Document {
     if (axis == "Y_UP") upright_ = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX());
     if (axis == "X_UP") upright_ = Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitY());
     for (const Foreign& library : root.all("library_joints"))
-      for (const Foreign& joint : library.all("joint")) library_.emplace(asked(joint, "id"), joint);
+      for (const Foreign& joint : library.all("joint"))
+        library_.emplace(required_attribute(joint, "id"), joint);
     for (const Foreign& library : root.all("library_physics_models"))
       for (const Foreign& model : library.all("physics_model"))
         for (const Foreign& body : model.all("rigid_body"))
-          rigid_.emplace(body.attribute("name").value_or(asked(body, "sid")), body);
+          rigid_.emplace(body.attribute("name").value_or(required_attribute(body, "sid")), body);
   }
 
   Foreign model() const {
@@ -109,13 +110,14 @@ class Document {
     const Foreign own = model();
     linkage_.name = own.attribute("name").value_or("robot");
     const Foreign common = own.need("technique_common");
-    for (const Foreign& joint : common.all("joint")) joints_.emplace(asked(joint, "sid"), joint);
+    for (const Foreign& joint : common.all("joint"))
+      joints_.emplace(required_attribute(joint, "sid"), joint);
     for (const Foreign& instance : common.all("instance_joint")) use(instance);
     for (const Foreign& link : common.all("link")) add(link, Isometry3d(upright_));
     return std::move(linkage_);
   }
 
-  /// Of the first physics scene that has one.
+  /// Gravity of the first physics scene that defines it.
   std::optional<xml::Vec3> gravity_m_per_s2() const {
     for (const Foreign& library : root_.all("library_physics_scenes"))
       for (const Foreign& scene : library.all("physics_scene"))
@@ -126,7 +128,7 @@ class Document {
     return {};
   }
 
-  /// The robot.xml inside, if there is one.
+  /// The robot.xml in the <extra> element, if there is one.
   std::optional<erp::Robot> exact() const {
     for (const Foreign& extra : model().all("extra"))
       for (const Foreign& technique : extra.all("technique"))
@@ -142,29 +144,30 @@ class Document {
 
  private:
   void use(const Foreign& instance) {
-    const std::string url = asked(instance, "url");
+    const std::string url = required_attribute(instance, "url");
     const auto found = library_.find(last_of(url));
     if (found == library_.end())
-      instance.refuse("url=\"" + url + "\" names no joint", "define it in <library_joints>");
-    joints_.emplace(asked(instance, "sid"), found->second);
+      instance.refuse("url=\"" + url + "\" names no joint", "define the joint in <library_joints>");
+    joints_.emplace(required_attribute(instance, "sid"), found->second);
   }
 
-  /// A link whose frame stands there (metres), and all that hangs on it.
+  /// Adds a link with its frame's pose in metres, and all its descendants.
   void add(const Foreign& link, const Isometry3d& parent) {
     const Isometry3d frame = parent * scaled(placement(link));
-    const std::string name = link.attribute("name").value_or(asked(link, "sid"));
+    const std::string name = link.attribute("name").value_or(required_attribute(link, "sid"));
     linkage_.links.push_back(weighed(name, frame));
     for (const Foreign& attachment : link.all("attachment_full")) {
       const Isometry3d at = frame * scaled(placement(attachment));
       const Foreign child = attachment.need("link");
-      add_joint(attachment, name, child.attribute("name").value_or(asked(child, "sid")), at);
+      add_joint(attachment, name,
+                child.attribute("name").value_or(required_attribute(child, "sid")), at);
       add(child, at);
     }
   }
 
   void add_joint(const Foreign& attachment, const std::string& parent, const std::string& child,
                  const Isometry3d& at) {
-    const std::string sid = last_of(asked(attachment, "joint"));
+    const std::string sid = last_of(required_attribute(attachment, "joint"));
     const auto found = joints_.find(sid);
     if (found == joints_.end())
       attachment.refuse("joint=\"" + sid + "\" names no joint of this model",
@@ -213,7 +216,8 @@ class Document {
 erp::Robot from_collada(const std::string& file) {
   const xml::Element element = xml::read_document(file);
   const Foreign root(element);
-  if (root.tag() != "COLLADA") root.refuse("is no COLLADA", "its root element is <COLLADA>");
+  if (root.tag() != "COLLADA")
+    root.refuse("is not a COLLADA file", "the root element must be <COLLADA>");
   if (const std::string version = root.attribute("version").value_or("");
       !version.starts_with("1.5"))
     root.refuse("version=\"" + version + "\" has no kinematics", "export COLLADA 1.5");

@@ -33,8 +33,8 @@ void add_revolute(Tree& joint, int k, const Vec3& axis, double min_rad, double m
   limits.add("max", words(degrees(max_rad)));
 }
 
-/// COLLADA knows joints of several axes: a ball turns about three, a free body slides along three
-/// as well; one that is fixed turns from 0 to 0.
+/// A COLLADA joint may have several axes: a ball joint has three <revolute>, a free joint also three
+/// <prismatic>; a fixed joint has one <revolute> with the range 0 to 0.
 void add_joint(Tree& library, const erp::Joint& joint) {
   Tree& own = library.add("joint").set("id", joint_id(joint.name)).set("name", joint.name);
   const Vec3 unit[]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -52,7 +52,7 @@ void add_joint(Tree& library, const erp::Joint& joint) {
   }
 }
 
-/// In the frame of the rigid body: from there to the axes along which it is diagonal.
+/// Principal axes of the inertia, in the frame of the rigid body.
 void add_inertia(Tree& body, const erp::Mass& mass) {
   const auto& i = mass.inertia_kg_m2;
   Eigen::Matrix3d tensor;
@@ -82,7 +82,7 @@ void add_shape(Tree& body, const erp::Box& box) {
                        words({box.size_m[0] / 2, box.size_m[1] / 2, box.size_m[2] / 2}));
   shape.add("translate", words(box.at_m));
 }
-/// Along y in COLLADA.
+/// The axis of a COLLADA capsule is y.
 void add_shape(Tree& body, const erp::Capsule& capsule) {
   const Vector from = vec(capsule.from_m), line = vec(capsule.to_m) - from;
   const Vector middle = from + line / 2;
@@ -96,7 +96,7 @@ void add_shape(Tree& body, const erp::Capsule& capsule) {
 }
 void add_shape(Tree&, const erp::Weight&) {}
 
-/// The schema asks for a shape: a body without one is a sphere of no size.
+/// The schema requires a shape, so a body without solids has a sphere of radius 0.
 void add_rigid_body(Tree& model, const erp::Body& body) {
   Tree& own = model.add("rigid_body").set("sid", body_id(body.name)).set("name", body.name);
   Tree& common = own.add("technique_common");
@@ -109,7 +109,7 @@ void add_rigid_body(Tree& model, const erp::Body& body) {
     common.add("shape").add("sphere").add("radius", words(0));
 }
 
-/// Under names that COLLADA does not have: its readers would take <joint> for their own.
+/// Adds a prefix to the names, because COLLADA readers would interpret <joint> as their own element.
 Tree copy_of(const xml::Element& element) {
   Tree copy(erp_prefix + element.name);
   for (const auto& attribute : element.attributes) copy.set(attribute.name, attribute.value);
@@ -135,7 +135,7 @@ class Collada {
   }
 
  private:
-  /// No time of writing: the same robot is the same file.
+  /// A constant time stamp, so that the same robot gives the same file.
   void add_asset() {
     Tree& asset = root_.add("asset");
     asset.add("contributor").add("authoring_tool", "erp");
@@ -187,7 +187,7 @@ class Collada {
       if (!joint_of(body.name)) add_node(scene, body, nullptr);
   }
 
-  /// Where the bodies start.
+  /// Starting poses of the bodies.
   void add_node(Tree& parent, const erp::Body& body, const erp::Joint* joint) {
     Tree& node = parent.add("node").set("id", body_id(body.name)).set("name", body.name);
     if (joint) node.add("translate", words(joint->at_m));

@@ -48,9 +48,9 @@ std::vector<double> Foreign::numbers(const std::string& name, std::size_t count)
 
 std::vector<double> Foreign::numbers(std::size_t count) const { return parsed(text(), count, ""); }
 
-double Foreign::number_in(const std::string& child, double usual) const {
+double Foreign::number_in(const std::string& child, double default_value) const {
   const auto found = one(child);
-  return found ? found->number() : usual;
+  return found ? found->number() : default_value;
 }
 
 std::vector<double> Foreign::parsed(const std::string& text, std::size_t count,
@@ -63,7 +63,7 @@ std::vector<double> Foreign::parsed(const std::string& text, std::size_t count,
     values.push_back(value);
   }
   if (values.size() != count)
-    refuse(what + xml::quote(text) + " holds " + std::to_string(values.size()) + " numbers",
+    refuse(what + xml::quote(text) + " contains " + std::to_string(values.size()) + " numbers",
            "give " + std::to_string(count));
   return values;
 }

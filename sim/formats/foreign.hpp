@@ -5,8 +5,8 @@
 
 #include "interfaces/xml/document.hpp"
 
-/// An element of a format that is not ours: what we do not know in it is left alone; what we need
-/// and is missing or is no number is an error with its place. Throws xml::Errors.
+/// An XML element of another format. Unknown content is ignored. A required item that is missing or not
+/// a number is an error with its position in the file. Throws xml::Errors.
 namespace formats {
 
 class Foreign {
@@ -23,15 +23,15 @@ class Foreign {
   Foreign need(const std::string& tag) const;
 
   std::optional<std::string> attribute(const std::string& name) const;
-  std::string name() const;  ///< the attribute "name", which must stand there
-  std::string text() const;  ///< between its tags
-  /// So many numbers in an attribute, or in the text.
+  std::string name() const;  ///< the attribute "name", which is required
+  std::string text() const;  ///< content of the element
+  /// `count` numbers in an attribute, or in the text.
   std::vector<double> numbers(const std::string& attribute, std::size_t count) const;
   std::vector<double> numbers(std::size_t count) const;
   double number(const std::string& attribute) const { return numbers(attribute, 1)[0]; }
   double number() const { return numbers(1)[0]; }
-  /// Of the child's text, or what is usual.
-  double number_in(const std::string& child, double usual) const;
+  /// The number in a child's text, or the default if there is no such child.
+  double number_in(const std::string& child, double default_value) const;
 
   [[noreturn]] void refuse(const std::string& what, const std::string& remedy) const;
 

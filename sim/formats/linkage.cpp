@@ -50,7 +50,7 @@ class Builder {
            (joint->axis - axis).norm() < same_direction && (joint->at_m - at_m).norm() < same_m;
   }
 
-  /// Hinges about x, y, z in a row, seen from the last one.
+  /// Replaces three hinges about x, y, z in series by a ball joint, beginning at the last hinge.
   void join_balls() {
     for (std::size_t k = 0; k < l_.joints.size(); ++k) {
       Connection& z = l_.joints[k];
@@ -68,7 +68,7 @@ class Builder {
     }
   }
 
-  /// What is fixed to another and has no mass is a frame, not a body.
+  /// Removes links that are fixed to another and have no mass: they are frames, not bodies.
   void drop_frames() {
     for (std::size_t k = 0; k < l_.links.size();) {
       const std::string name = l_.links[k].name;
@@ -105,7 +105,8 @@ class Builder {
   erp::Joint joint_of(const Connection& joint) {
     if (!link(joint.parent) || !link(joint.child))
       throw std::invalid_argument("joint \"" + joint.name + "\" connects \"" + joint.parent +
-                                  "\" and \"" + joint.child + "\", which are not both links");
+                                  "\" and \"" + joint.child +
+                                  "\"; at least one of them is not a link");
     erp::Joint own;
     own.name = joint.name, own.type = joint.type;
     own.parent = joint.parent, own.child = joint.child;

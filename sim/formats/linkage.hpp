@@ -6,8 +6,8 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/formats/foreign.hpp"
 
-/// The skeleton as other formats have it: links and joints at their zero pose, each in the world.
-/// Frames may be turned there; ours are parallel.
+/// The skeleton in the form of other formats: links and joints in the zero pose, in world coordinates.
+/// Their frames may be rotated; those of robot.xml are parallel.
 namespace formats {
 
 using Vec3 = Eigen::Vector3d;
@@ -33,16 +33,16 @@ struct Linkage {
   std::vector<Connection> joints;
 };
 
-/// The robot of it, without motors and tendons. Links without mass that are fixed to another become
-/// one with it; three hinges about x, y, z in one point over links without mass are a ball joint. A
-/// root stands: its mass plays no part. Throws std::invalid_argument naming what cannot be.
+/// The robot of a linkage, without motors and tendons. A link without mass that is fixed to another is
+/// merged with it. Three hinges about x, y, z through one point over links without mass become a ball
+/// joint. A root is fixed and its mass is ignored. Throws std::invalid_argument for an invalid joint.
 erp::Robot robot_of(Linkage linkage);
 
 /// Positions of the bodies' frames in the world, all joints at zero, in the order of
 /// robot.bodies().
 std::vector<Vec3> origins_of(const erp::Robot& robot);
 
-/// A pose as "x y z roll pitch yaw".
+/// A pose from "x y z roll pitch yaw".
 Eigen::Isometry3d pose_of(const std::vector<double>& xyz_rpy);
 
 }  // namespace formats

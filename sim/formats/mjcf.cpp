@@ -5,8 +5,8 @@
 
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/xml/tree.hpp"
-#include "sim/model/actuator/routing.hpp"
 #include "sim/formats/formats.hpp"
+#include "sim/model/actuator/routing.hpp"
 #include "sim/model/skeleton/skeleton_model.hpp"
 
 namespace formats {
@@ -15,7 +15,7 @@ namespace {
 using xml::Tree;
 using xml::Vec3;
 
-constexpr double side_reach = 1.5;  // of a pulley's radius: where the site that names its side is
+constexpr double side_reach = 1.5;  // position of the side site, in radii of the pulley
 
 Vec3 along(const Vec3& from, const Vec3& direction, double distance) {
   const double length = std::hypot(direction[0], direction[1], direction[2]);
@@ -31,7 +31,7 @@ std::vector<double> inertia_of(const erp::Mass& mass) {
 
 bool is_zero(const Vec3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
-/// Writes one robot; the tree of bodies grows from its roots.
+/// Writes one robot; the tree of bodies starts at its roots.
 class Mjcf {
  public:
   explicit Mjcf(const erp::Robot& robot)
@@ -116,8 +116,8 @@ class Mjcf {
       if (pulley && after_pulley)
         throw std::invalid_argument("actuator \"" + actuator.name + "\": element " +
                                     std::to_string(count) +
-                                    " of its path is a pulley after a pulley, which MJCF cannot "
-                                    "say; put an <attach> between them");
+                                    " of its path is a pulley directly after a pulley, which MJCF "
+                                    "does not support; add an <attach> between them");
       after_pulley = pulley != nullptr;
       if (pulley) wrap(spatial, *pulley, name, middle_of(actuator, count - 1));
       else pass(spatial, std::get<erp::Attach>(element), name);
@@ -129,8 +129,8 @@ class Mjcf {
     spatial.add("site").set("site", name);
   }
 
-  /// Where the line around a pulley with an axis is half way, at the start: a direction in the
-  /// pulley's body. MJCF has no way around, only a side.
+  /// Direction of the middle of the wrap around a pulley with an axis, in the starting pose and the
+  /// pulley's body frame. MJCF has no direction of wrapping, only a side.
   Vec3 middle_of(const erp::Actuator& actuator, int element) const {
     const sim::Routing routing(actuator.tendon, names_);
     const auto k = static_cast<std::size_t>(element);
@@ -145,7 +145,8 @@ class Mjcf {
   }
 
   void wrap(Tree& spatial, const erp::Pulley& pulley, const std::string& name, const Vec3& side) {
-    if (pulley.turns > 0) throw std::invalid_argument("pulley " + name + ": MJCF counts no turns");
+    if (pulley.turns > 0)
+      throw std::invalid_argument("pulley " + name + ": MJCF does not support turns=; remove it");
     Tree& body = *tree_of_.at(pulley.body);
     Tree& solid = body.add("geom").set("name", name);
     if (pulley.shape == erp::PulleyShape::cylinder)
@@ -168,8 +169,8 @@ class Mjcf {
   Tree root_{"mujoco"};
   std::map<std::string, Tree*> tree_of_;
   std::vector<double> start_;
-  std::vector<std::string> names_;          ///< of the bodies
-  std::vector<sim::BodyPose> start_poses_;  ///< theirs
+  std::vector<std::string> names_;          ///< names of the bodies
+  std::vector<sim::BodyPose> start_poses_;  ///< starting poses of the bodies
 };
 
 }  // namespace

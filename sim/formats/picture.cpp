@@ -13,10 +13,10 @@ using xml::Tree;
 
 constexpr double height_px = 900, margin_px = 30, title_px = 40, gap_px = 60;
 constexpr double edge_px = 1.5, thinnest_px = 1.5;
-constexpr double bar_m = 0.1;  // the scale
+constexpr double bar_m = 0.1;  // length of the scale bar
 constexpr auto ink = "#333333";
 
-/// A direction of view: world axes to the right and up on paper, and towards the eye.
+/// A view direction: world axes that point right, up, and towards the viewer.
 struct View {
   const char* title;
   Vec3 right, up, towards;
@@ -24,7 +24,7 @@ struct View {
 const std::array views{View{"from the front", Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()},
                        View{"from its right", Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()}};
 
-/// What a view shows, in metres on paper.
+/// Extent of a view in metres.
 struct Frame {
   double left = 1e9, right = -1e9, bottom = 1e9, top = -1e9;
 };
@@ -46,7 +46,7 @@ double nearness(const Stroke& stroke, const View& view) {
   return sum / static_cast<double>(stroke.points.size());
 }
 
-/// Far things first, muscles last.
+/// Draws from far to near, and muscles last.
 std::vector<Stroke> sorted(std::vector<Stroke> strokes, const View& view) {
   std::ranges::stable_sort(strokes, [&](const Stroke& a, const Stroke& b) {
     return a.layer != b.layer ? a.layer < b.layer : nearness(a, view) < nearness(b, view);
@@ -97,7 +97,7 @@ class Paper {
     own.add("title", stroke.title);
   }
 
-  /// Its edge is a wider line beneath.
+  /// The edge is drawn as a wider line below.
   void line(const Stroke& stroke) {
     const double width = std::max(thinnest_px, stroke.width_m * px_per_m_);
     if (stroke.edge) trace(stroke, stroke.edge, width + edge_px);
@@ -128,7 +128,7 @@ class Paper {
         .set("text-anchor", anchor);
   }
 
-  /// Name, scale and the size of the paper.
+  /// Adds name and scale bar, and sets the size of the picture.
   void finish(const std::string& name, double width) {
     const double y = height_px - 12, x = width - margin_px, length = bar_m * px_per_m_;
     words(margin_px, y, name, "start").set("font-weight", "bold");

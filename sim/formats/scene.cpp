@@ -13,9 +13,9 @@ namespace {
 
 using sim::vec, sim::Vec3;
 
-constexpr double bone_m = 0.008;           // how thick a body without a shape is drawn
-constexpr double arc_step_rad = 0.1;       // of a line around a pulley
-constexpr double weight_kg_per_m3 = 4000;  // about a motor's
+constexpr double bone_m = 0.008;           // drawn width of bodies without a shape
+constexpr double arc_step_rad = 0.1;       // resolution of lines around pulleys
+constexpr double weight_kg_per_m3 = 4000;  // approximate density of a motor
 constexpr auto weight_fill = "#b9b3a5";
 constexpr auto bone_fill = "#e6e2d8", bone_edge = "#8a8375", joint_fill = "#3b6ea5";
 constexpr auto pulley_edge = "#9db4c8", muscle = "#c0392b";
@@ -74,13 +74,13 @@ class Scene {
         strokes.push_back({{point(k, at + from), point(k, at + to)}, 0, bone_edge, nullptr, "", 0});
       }
   }
-  /// As a ball of its weight.
+  /// Drawn as a ball with the volume of its mass.
   void add_part(int k, const erp::Weight& w) {
     const double radius = std::cbrt(w.mass_kg / weight_kg_per_m3 * 3 / (4 * std::numbers::pi));
     strokes.push_back({{point(k, vec(w.at_m))}, 2 * radius, weight_fill, bone_edge, "", 0});
   }
 
-  /// A body without a shape: sticks from its joint to its centre of mass and to the next joints.
+  /// A body without a shape is drawn as lines from its joint to its centre of mass and to child joints.
   void add_bones(int k) {
     const sim::TreeBody& body = tree_.bodies[static_cast<std::size_t>(k)];
     if (body.joint < 0) return;

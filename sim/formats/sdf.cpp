@@ -44,7 +44,7 @@ Tree& add_joint(Tree& model, const std::string& name, const char* type, const st
 }
 
 void add_joint(Tree& model, const erp::Joint& joint) {
-  if (joint.type == erp::JointType::free) return;  // a link without a joint floats
+  if (joint.type == erp::JointType::free) return;  // a link without a joint is free
   const bool hinge = joint.type == erp::JointType::revolute;
   const char* type = hinge                                     ? "revolute"
                      : joint.type == erp::JointType::spherical ? "ball"
@@ -67,8 +67,8 @@ Eigen::Isometry3d pose_in(const Foreign& element) {
   const auto pose = element.one("pose");
   if (!pose) return Eigen::Isometry3d::Identity();
   if (const auto other = pose->attribute("relative_to"); other && !other->empty())
-    pose->refuse("relative_to=\"" + *other + "\" is not read",
-                 "give it relative to the model, as SDF does where nothing is said");
+    pose->refuse("relative_to=\"" + *other + "\" is not supported",
+                 "give the pose relative to the model, which is the default of SDF");
   return pose_of(pose->numbers(6));
 }
 
@@ -77,8 +77,7 @@ erp::JointType type_of(const Foreign& joint) {
   if (type == "revolute" || type == "continuous") return erp::JointType::revolute;
   if (type == "ball") return erp::JointType::spherical;
   if (type == "fixed") return erp::JointType::fixed;
-  joint.refuse("type=\"" + type + "\" is not simulated",
-               "revolute, continuous, ball and fixed are");
+  joint.refuse("type=\"" + type + "\" is not supported", "use revolute, continuous, ball or fixed");
 }
 
 class Sdf {
@@ -93,7 +92,7 @@ class Sdf {
     for (const Foreign& joint : model_.all("joint")) add(joint);
     std::vector<Link> floating;
     for (const Link& link : l_.links)
-      if (link.name != world_link && !stands_.contains(link.name) && !moved(link.name))
+      if (link.name != world_link && !fixed_to_world_.contains(link.name) && !moved(link.name))
         floating.push_back(link);
     for (const Link& link : floating) {
       need_world();
@@ -138,11 +137,12 @@ class Sdf {
                      .type = type_of(element)};
     const auto child = poses_.find(joint.child);
     if (child == poses_.end())
-      element.refuse("its child \"" + joint.child + "\" is no link", "name one of the model's");
+      element.refuse("its child \"" + joint.child + "\" is not a link",
+                     "give the name of a link of the model");
     const Eigen::Isometry3d at = child->second * pose_in(element);
     joint.at_m = at.translation();
     if (joint.parent == world_link && joint.type == erp::JointType::fixed) {
-      stands_[joint.child] = true;
+      fixed_to_world_[joint.child] = true;
       return;
     }
     if (joint.parent == world_link) need_world();
@@ -165,7 +165,7 @@ class Sdf {
 
   Foreign model_;
   std::map<std::string, Eigen::Isometry3d> poses_;
-  std::map<std::string, bool> stands_;
+  std::map<std::string, bool> fixed_to_world_;
   Linkage l_;
 };
 
@@ -190,7 +190,7 @@ std::string to_sdf(const erp::Robot& robot) {
 erp::Robot from_sdf(const std::string& file) {
   const xml::Element document = xml::read_document(file);
   const Foreign root(document);
-  if (root.tag() != "sdf") root.refuse("is no SDF", "its root element is <sdf>");
+  if (root.tag() != "sdf") root.refuse("is not an SDF file", "the root element must be <sdf>");
   return robot_of(Sdf(root.need("model")).linkage());
 }
 

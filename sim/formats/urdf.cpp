@@ -48,7 +48,7 @@ void add_hinge(Tree& root, const std::string& name, const std::string& parent,
   joint.add("dynamics").set("damping", like.viscous_Nm_s_per_rad).set("friction", like.coulomb_Nm);
 }
 
-/// URDF has no ball joint: three hinges about x, y, z over two links without mass.
+/// A ball joint is written as three hinges about x, y, z over two links without mass.
 void add_ball(Tree& root, const erp::Joint& joint) {
   const std::string x = joint.child + "_x", y = joint.child + "_y";
   add_link(root, x, {}), add_link(root, y, {});
@@ -71,7 +71,7 @@ void add_joint(Tree& root, const erp::Joint& joint) {
   }
 }
 
-/// URDF has one root: several stand on a link of their own.
+/// URDF allows one root: several roots are connected to an additional link.
 void join_roots(Tree& root, const erp::Robot& robot) {
   std::vector<std::string> roots;
   const auto joints = robot.joints();
@@ -101,11 +101,11 @@ erp::JointType type_of(const Foreign& joint) {
   if (type == "revolute" || type == "continuous") return erp::JointType::revolute;
   if (type == "fixed") return erp::JointType::fixed;
   if (type == "floating") return erp::JointType::free;
-  joint.refuse("type=\"" + type + "\" is not simulated",
-               "revolute, continuous, fixed and floating are");
+  joint.refuse("type=\"" + type + "\" is not supported",
+               "use revolute, continuous, fixed or floating");
 }
 
-/// Places links outwards from the roots.
+/// Computes the poses of links from the roots outwards.
 class Urdf {
  public:
   explicit Urdf(const Foreign& root) : root_(root) {
@@ -130,7 +130,8 @@ class Urdf {
     const auto joint = joints_.find(link);
     if (joint == joints_.end()) return Eigen::Isometry3d::Identity();
     if (depth > joints_.size())
-      joint->second.refuse("is part of a loop", "a skeleton is a tree: remove one of its joints");
+      joint->second.refuse("is part of a loop",
+                           "a skeleton must be a tree; remove one joint of the loop");
     return pose(link_of(joint->second, "parent"), depth + 1) * origin_of(joint->second);
   }
 
@@ -173,7 +174,7 @@ class Urdf {
   }
 
   Foreign root_;
-  std::map<std::string, Foreign> joints_;  ///< by the link they move
+  std::map<std::string, Foreign> joints_;  ///< by the name of the child link
 };
 
 }  // namespace
@@ -190,7 +191,7 @@ std::string to_urdf(const erp::Robot& robot) {
 erp::Robot from_urdf(const std::string& file) {
   const xml::Element document = xml::read_document(file);
   const Foreign root(document);
-  if (root.tag() != "robot") root.refuse("is no URDF", "its root element is <robot>");
+  if (root.tag() != "robot") root.refuse("is not a URDF file", "the root element must be <robot>");
   return robot_of(Urdf(root).linkage());
 }
 

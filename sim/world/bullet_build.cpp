@@ -7,7 +7,7 @@ namespace sim {
 
 namespace {
 
-/// Bullet has no place for products of inertia; it needs none to move joints as it is told.
+/// Bullet has no products of inertia; it does not need them to integrate given velocities.
 btVector3 inertia_of(const erp::Mass& mass) {
   return {mass.inertia_kg_m2[0], mass.inertia_kg_m2[1], mass.inertia_kg_m2[2]};
 }
@@ -26,7 +26,8 @@ void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
   for (const std::string& name : lock)
     if (std::none_of(robot.joints.begin(), robot.joints.end(),
                      [&](const erp::Joint& j) { return j.name == name; }))
-      throw std::invalid_argument("cannot lock joint \"" + name + "\": the robot has none such");
+      throw std::invalid_argument("cannot lock joint \"" + name +
+                                  "\": the robot has no such joint");
   int first = 0;
   for (std::size_t k = 0; k < robot.bodies.size(); ++k) {
     const TreeBody& body = robot.bodies[k];

@@ -1,5 +1,5 @@
 #pragma once
-// Bullet's headers do not pass our warnings; they are let through here and only here.
+// Bullet's headers cause warnings with our options. Only this file includes them, without warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
 #pragma GCC diagnostic ignored "-Wextra"

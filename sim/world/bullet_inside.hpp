@@ -7,18 +7,17 @@
 #include "sim/world/bullet_skeleton.hpp"
 #include "sim/world/bullet_vectors.hpp"
 
-/// The inside of BulletSkeleton; included by its own sources only.
+/// The implementation of BulletSkeleton; included by its own sources only.
 namespace sim {
 
-/// One tree: its multibody, and the body index of each of its links. Its base is a root, or a free
-/// body.
+/// One tree: its multibody and the body index of each link. The base is a root or a free body.
 struct BulletTree {
   std::unique_ptr<btMultiBody> body;
   std::vector<int> links;
-  int floating = -1;  ///< the free body; −1: none, its base is fixed
+  int floating = -1;  ///< index of the free body; −1: the base is fixed
 };
 
-/// Where a body lives in Bullet, and where its joint's coordinates begin in v.
+/// Position of a body in Bullet, and the first coordinate of its joint in v.
 struct BulletPlace {
   int tree = 0, link = -1;  ///< link −1: the base
   bool locked = false;
@@ -45,7 +44,7 @@ struct BulletSkeleton::Bullet {
   RobotTree robot;
   btVector3 gravity_m_per_s2;
   std::vector<BulletTree> trees;
-  std::vector<BulletPlace> places;  ///< of the bodies
+  std::vector<BulletPlace> places;  ///< one per body
   std::vector<JointReading> joints;
 };
 

@@ -2,7 +2,7 @@
 
 #include "sim/world/bullet_inside.hpp"
 
-// Bullet's articulated-body algorithm, asked for what it would do.
+// The result of Bullet's articulated-body algorithm.
 namespace sim {
 
 void BulletSkeleton::Bullet::respond(const BulletTree& tree, Response& all) {
@@ -16,7 +16,7 @@ void BulletSkeleton::Bullet::respond(const BulletTree& tree, Response& all) {
   btAlignedObjectArray<btMatrix3x3> scratch_m;
   b.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r, scratch_v, scratch_m, false,
                                                          false, false);
-  std::vector<int> ours;  // where the tree's coordinates stand among all
+  std::vector<int> ours;  // indices of the tree's coordinates among all
   for (const int body : tree.links)
     for (int d = 0; d < b.getLink(places[body].link).m_dofCount; ++d)
       ours.push_back(places[body].first + d);

@@ -46,8 +46,8 @@ void BulletSkeleton::Bullet::place_link(const BulletPlace& place, const JointRea
   b.setJointVelMultiDof(place.link, reading.velocity_rad_per_s.data());
 }
 
-/// Bullet moves a base at its centre of mass. It is placed anew from its reading before each step,
-/// so that a restored state goes on bit by bit.
+/// Bullet moves a base at its centre of mass. The base is set from its reading before each step, so that
+/// a restored state continues bit by bit.
 void BulletSkeleton::Bullet::place_base(const BulletTree& tree, const Vec3& turning,
                                         const Vec3& sliding) {
   const JointReading& reading = reading_of(tree.floating);

@@ -8,10 +8,10 @@
 #include "sim/model/skeleton/pose.hpp"
 #include "sim/model/skeleton/robot_tree.hpp"
 
-/// The robot's bones and joints in Bullet: one btMultiBody a tree, double precision. Bullet holds
-/// where the joints are and moves them; which velocities they get is decided outside
-/// (step_solver.hpp), because Bullet's own step, explicit in all forces, would explode with stiff
-/// tendons and feeds energy into ball joints.
+/// The robot's bodies and joints in Bullet: one btMultiBody per tree, double precision. Bullet stores
+/// the joint positions and integrates them. Their velocities come from step_solver.hpp, because
+/// Bullet's own step is explicit in all forces: it is unstable with stiff tendons and adds energy to
+/// ball joints.
 ///
 /// v: the joints' velocities in the order of SkeletonModel.
 namespace sim {
@@ -24,14 +24,14 @@ class BulletSkeleton {
   ~BulletSkeleton();
 
   std::span<const JointReading> joints() const;
-  /// Puts the joints somewhere, one reading each. A locked joint stays.
+  /// Sets position and velocity of the joints, one reading each. Locked joints do not change.
   void place(std::span<const JointReading> joints);
   /// Moves all joints with velocities v for a time step.
   void move(const Eigen::VectorXd& v, double dt_s);
 
-  /// What Bullet's own dynamics answer here: the inverse of the joints' inertia and their
-  /// accelerations under gravity, without friction and limits; and where the bodies are. For robots
-  /// without free bodies, whose bodies have their principal axes along their frames.
+  /// Result of Bullet's own dynamics: the inverse of the joint-space inertia and the accelerations under
+  /// gravity, without friction and limits; and the positions of the bodies. For robots without free
+  /// bodies, with the principal axes of each body along its frame.
   struct Response {
     Eigen::MatrixXd inverse_inertia;
     Eigen::VectorXd acceleration;

@@ -11,19 +11,19 @@ constexpr double rounding_s = 1e-9;
 void BusEffects::send(const erp::EcuCommand& command) {
   const auto draw = [this] { return draw_.uniform(); };
   if (acting_.loses_command(draw)) return;
-  set_out(commands_, now_s_ + acting_.command_delay_s(draw), command);
+  enqueue(commands_, now_s_ + acting_.command_delay_s(draw), command);
 }
 
 const erp::EcuCommand* BusEffects::arrived(double time_s) {
   if (commands_.empty() || commands_.front().due_s > time_s + rounding_s) return nullptr;
-  taken_ = commands_.front().what;
+  current_ = commands_.front().what;
   commands_.pop_front();
-  return &taken_;
+  return &current_;
 }
 
-void BusEffects::keep(const erp::EcuFrame& frame, double time_s) {
+void BusEffects::send_frame(const erp::EcuFrame& frame, double time_s) {
   now_s_ = time_s;
-  set_out(frames_, time_s + acting_.frame_delay_s([this] { return draw_.uniform(); }), frame);
+  enqueue(frames_, time_s + acting_.frame_delay_s([this] { return draw_.uniform(); }), frame);
   while (frames_.size() > 1 && frames_[1].due_s <= time_s + rounding_s) frames_.pop_front();
 }
 

@@ -6,8 +6,8 @@
 #include "sim/model/actuator/noise.hpp"
 #include "sim/model/effects/acting.hpp"
 
-/// The bus between plant and ECUs, with its effects: commands and frames in the order they were
-/// sent, each when its delay is over; a frame that has not arrived leaves the one before.
+/// The bus between plant and ECUs, with its effects. Commands and frames arrive in the order in which
+/// they were sent, each after its delay; until a frame arrives, the previous one is used.
 namespace sim {
 
 class BusEffects {
@@ -15,35 +15,35 @@ class BusEffects {
   BusEffects() = default;
   BusEffects(effects::Acting acting, std::uint64_t seed)
       : acting_(std::move(acting)), draw_(seed) {}
-  /// Nothing acts: commands and frames need not come here.
+  /// No effect acts: commands and frames need not pass through this class.
   bool empty() const { return acting_.empty(); }
 
-  /// A command sets out, at the time of the last frame kept.
+  /// Sends a command, at the time of the last frame sent.
   void send(const erp::EcuCommand& command);
-  /// The next command that has arrived, until the next call; null: none.
+  /// The next command that has arrived, valid until the next call; null: none.
   const erp::EcuCommand* arrived(double time_s);
 
-  /// A frame sets out.
-  void keep(const erp::EcuFrame& frame, double time_s);
-  /// The newest that has arrived, or the first ever.
-  const erp::EcuFrame& heard() const { return frames_.front().what; }
+  /// Sends a frame.
+  void send_frame(const erp::EcuFrame& frame, double time_s);
+  /// The newest frame that has arrived, or the first one ever sent.
+  const erp::EcuFrame& newest_frame() const { return frames_.front().what; }
 
  private:
   template <class What>
-  struct Travelling {
+  struct InTransit {
     double due_s;
     What what;
   };
   template <class What>
-  void set_out(std::deque<Travelling<What>>& line, double due_s, const What& what) {
+  void enqueue(std::deque<InTransit<What>>& line, double due_s, const What& what) {
     line.push_back({line.empty() ? due_s : std::max(due_s, line.back().due_s), what});
   }
   effects::Acting acting_;
   Noise draw_{0};
   double now_s_ = 0;
-  std::deque<Travelling<erp::EcuCommand>> commands_;
-  erp::EcuCommand taken_;
-  std::deque<Travelling<erp::EcuFrame>> frames_;
+  std::deque<InTransit<erp::EcuCommand>> commands_;
+  erp::EcuCommand current_;
+  std::deque<InTransit<erp::EcuFrame>> frames_;
 };
 
 }  // namespace sim

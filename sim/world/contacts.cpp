@@ -11,12 +11,12 @@ namespace {
 constexpr double near_m = 0.01;      // at 1 ms, 10 m/s away
 constexpr double rounding_m = 1e-3;  // of a box
 
-/// All points within `radius` of a core; Bullet calls it the margin.
+/// All points within `radius` of a core; Bullet calls the radius the margin.
 struct Hull {
   std::unique_ptr<btConvexShape> shape;
   btTransform in_body;
   double radius = 0;
-  double reach = 0;  ///< of the core from the solid's own centre
+  double reach = 0;  ///< largest distance of the core from the solid's centre
 };
 
 Hull hull_of(const erp::Sphere& s) {
@@ -53,7 +53,7 @@ std::vector<Hull> hulls_of(const erp::Body& body) {
   return solids;
 }
 
-/// Where two solids are nearest.
+/// The nearest points of two solids.
 struct Touch {
   double gap_m;
   btVector3 normal;  ///< from b to a
@@ -66,7 +66,7 @@ Touch touch(const Hull& a, const btTransform& at_a, const Hull& b, const btTrans
   const btVector3 guess = at_a.getOrigin() - at_b.getOrigin();
   const bool apart =
       btGjkEpaSolver2::Distance(a.shape.get(), at_a, b.shape.get(), at_b, guess, found);
-  // Where even the cores overlap, a's deepest point lies beyond b's surface.
+  // If the cores overlap, a's deepest point lies inside b.
   if (!apart)
     btGjkEpaSolver2::Penetration(a.shape.get(), at_a, b.shape.get(), at_b, guess, found, true);
   const btVector3 way = (found.witnesses[0] - found.witnesses[1]) * (apart ? 1 : -1);
@@ -81,7 +81,7 @@ Touch touch(const Hull& a, const btTransform& at_a, const Hull& b, const btTrans
 struct Contacts::Solids {
   struct Pair {
     int a, b;        ///< bodies
-    double mass_kg;  ///< of the lighter one that moves
+    double mass_kg;  ///< of the lighter moving body
     const Hull *solid_a, *solid_b;
   };
   std::vector<std::vector<Hull>> of_body;
@@ -146,7 +146,7 @@ int Contacts::find(const SkeletonModel& model, double dt, std::span<OneSidedForc
     const Touch t = touch(a, at_a, b, at_b);
     if (t.gap_m > near_m) continue;
     OneSidedForce& force = forces[found++];
-    hold_back(t.gap_m, pair.mass_kg, dt, force);
+    set_stop(t.gap_m, pair.mass_kg, dt, force);
     point(t, pair.a, pair.b, model, force.row);
   }
   return found;

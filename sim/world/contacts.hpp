@@ -6,24 +6,24 @@
 #include "sim/model/skeleton/skeleton_model.hpp"
 #include "sim/world/step_solver.hpp"
 
-/// Bones that cannot pass through each other, as forces that push them apart over a time step.
+/// Contacts between bodies, as forces that push them apart over a time step.
 ///
 ///   −n·(v_a − v_b) ≤ gap / dt,   f = max(0, G (−n·(v_a − v_b) − gap / dt))
 ///
 /// n from body b to body a at the points where two of their solids are nearest, which Bullet's GJK
-/// finds; v the velocities of these points. G and the undoing of an overlap: hold_back in
-/// step_solver.hpp. One point a pair of solids, no friction, no rebound: what has flat faces may
-/// rock on them. A box is rounded by a tenth of its shortest edge, at most 1 mm.
+/// finds; v the velocities of these points. G and the correction of an overlap: set_stop in
+/// step_solver.hpp. One point per pair of solids, no friction, no restitution: bodies with flat faces
+/// may rock on them. A box is rounded by a tenth of its shortest edge, at most 1 mm.
 namespace sim {
 
 class Contacts {
  public:
   Contacts(const RobotTree& tree, const erp::Robot& robot);
   ~Contacts();
-  /// The most that `find` can give: pairs of solids.
+  /// The largest number of contacts that `find` can write: pairs of solids.
   int most() const;
-  /// Writes the contacts that are near, in the posture the model is placed in, into `forces`, which
-  /// has room for `most`; returns how many. No heap.
+  /// Writes the near contacts in the model's current posture into `forces`, which has room for `most`;
+  /// returns how many. No heap.
   int find(const SkeletonModel& model, double dt_s, std::span<OneSidedForce> forces) const;
 
  private:

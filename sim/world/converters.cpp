@@ -61,8 +61,8 @@ void Converters::add_analogs(const erp::Robot& robot, std::span<const effects::P
   }
 }
 
-/// What is timed looks at each step of the world, the rest when the ECU asks.
-void Converters::look(const World& world, bool all) {
+/// Converters with their own timing sample at each step of the world, the others when the ECU reads.
+void Converters::sample(const World& world, bool all) {
   const auto actuators = world.actuators();
   for (std::size_t k = 0; k < channels_.size(); ++k)
     if (Channel& channel = channels_[k]; all || channel.readings.timed())
@@ -82,15 +82,15 @@ void Converters::look(const World& world, bool all) {
 }
 
 void Converters::measure(const World& world) {
-  look(world, true);
-  for (Analog& analog : analogs_) analog.counts = analog.readings.said(world.time_s()).value;
+  sample(world, true);
+  for (Analog& analog : analogs_) analog.counts = analog.readings.latest(world.time_s()).value;
   for (std::size_t k = 0; k < channels_.size(); ++k) {
     Channel& channel = channels_[k];
-    const ActuatorCounts counts = channel.readings.said(world.time_s()).value;
+    const ActuatorCounts counts = channel.readings.latest(world.time_s()).value;
     ecu_inputs inputs{counts.encoder, counts.current, counts.tension};
     if (channel.wiper) inputs.potentiometer_counts = analogs_[*channel.wiper].counts;
-    if (mishaps_)
-      mishaps_->befall(k, world.time_s(), channel.sensors.scale(), channel.inputs, inputs);
+    if (faults_)
+      faults_->apply_fault(k, world.time_s(), channel.sensors.scale(), channel.inputs, inputs);
     channel.inputs = inputs;
   }
 }
@@ -100,9 +100,9 @@ void Converters::pass_period(World& world, std::span<const double> voltage_V) {
 }
 
 void Converters::pass(World& world, std::span<const double> voltage_V, double duration_s) {
-  if (mishaps_) mishaps_->befall(world);
+  if (faults_) faults_->apply_fault(world);
   for (int k = 0; k < substeps_; ++k) {
-    if (k > 0) look(world, false);
+    if (k > 0) sample(world, false);
     world.step(voltage_V, duration_s / substeps_);
   }
   measure(world);

@@ -5,9 +5,10 @@
 
 /// A = L Lᵀ of a symmetric, positive definite matrix over the coordinates of a tree, parents first.
 ///
-/// The last coordinate comes first, so that leaves are eliminated before what carries them: then
-/// branches that do not touch stay apart, and each row of L begins where A's does. Only from there
-/// on is it computed: two arms, a neck and a spine of 38 coordinates take a fourth of the work.
+/// Coordinates are eliminated from the last to the first, so that leaves come before the links that
+/// carry them: branches that are not coupled cause no fill-in in each other, and each row of L begins
+/// where A's does. Only the entries from there on are computed: for two arms, a neck and a spine with
+/// 38 coordinates this takes a fourth of the work.
 /// Source: Jennings 1966 (the envelope method); Featherstone 2005 (the order).
 namespace sim {
 
@@ -22,7 +23,7 @@ class EnvelopeCholesky {
     work_.setZero(size);
   }
 
-  /// A of the size given. No heap.
+  /// Factorises A, of the size given. No heap.
   void compute(const Eigen::MatrixXd& a) {
     const auto last = a.rows() - 1;
     for (Eigen::Index i = 0; i <= last; ++i) {
@@ -58,7 +59,7 @@ class EnvelopeCholesky {
   }
 
  private:
-  /// Of two short rows; four sums, which the compiler lays side by side.
+  /// Inner product of two short rows; four partial sums, which the compiler vectorises.
   static double product(const double* a, const double* b, Eigen::Index n) {
     double sums[4]{};
     for (; n >= 4; n -= 4, a += 4, b += 4)
@@ -71,7 +72,7 @@ class EnvelopeCholesky {
   double along(Eigen::Index i, Eigen::Index j, Eigen::Index begin, Eigen::Index end) const {
     return product(&lower_(i, begin), &lower_(j, begin), end - begin);
   }
-  /// L⁻¹ of work_; what touches none of it stays zero.
+  /// L⁻¹ of work_; leading zeros stay zero.
   void forward() const {
     Eigen::Index first = 0;
     while (first < work_.size() && work_[first] == 0) ++first;

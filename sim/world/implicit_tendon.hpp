@@ -9,16 +9,16 @@
 ///   f = F + κ (c₁ dt ẋ + c₂ dt ẋ⁺) + D ((1 − θ_D) ẋ + θ_D ẋ⁺),   ẋ = J v + r ω    0 where slack
 ///     = a + G J v⁺,   G = κ c₂ dt + D θ_D,   a = F + (κ c₁ dt + D (1 − θ_D)) ẋ + G r ω
 ///
-/// F(x) the spring's force, κ = dF/dx, J the rate of its stretch x over the joints, at the start of
-/// the step. With positions moved by
+/// F(x) the spring's force, κ = dF/dx, J the gradient of its stretch x with respect to the joints, at
+/// the start of the step. With positions moved by
 /// q⁺ = q + dt v⁺ an oscillator of k = dt² κ J W Jᵀ keeps (1 − k c₁)/(1 + k c₂) of its phase space
-/// each step, so
+/// in each step, so
 ///
-///   c₁ = (θ − 1)/2, c₂ = (3θ − 1)/2:   θ = ½ keeps all of it, θ = 1 is backward Euler;
+///   c₁ = (θ − 1)/2, c₂ = (3θ − 1)/2:   θ = ½ conserves it, θ = 1 is backward Euler;
 ///   both are stable for any stiffness.
 ///
-/// By default θ = ½ + ½ k/(4 + k): energy is kept where the step resolves the oscillation, to
-/// fourth order in dt, and drained where it does not. And of the damper, with m = dt D J W Jᵀ,
+/// By default θ = ½ + ½ k/(4 + k): energy is conserved where the step resolves the oscillation, to
+/// fourth order in dt, and dissipated where it does not. For the damper, with m = dt D J W Jᵀ,
 /// θ_D = (1 + m)/(2 + m): alone it leaves 1/(1 + m + m²/2) of a speed, e^−m to second order.
 /// Source: linearised implicit integration (Baraff, Witkin 1998); c₁, c₂, θ(k) and θ_D(m) are ours.
 namespace sim {
@@ -39,7 +39,7 @@ inline StretchedTendon stretched(const TendonLaw& law, double stretch_m, double 
   return {slope, law.damping_N_s_per_m, stretch_m, force, rate_m_per_s, winding_m_per_s};
 }
 
-/// How much of a step's end is in its forces.
+/// Weight of the end of the step in the forces.
 struct Implicitness {
   double spring = 1, damper = 1;  ///< θ, θ_D
 };
@@ -51,7 +51,7 @@ inline Implicitness implicitness_of(const StretchedTendon& t, double mobility_pe
   return {0.5 + 0.5 * k / (4 + k), (1 + m) / (2 + m)};
 }
 
-/// Sets a and G of a force whose row is J; one that is slack over the step does nothing.
+/// Sets a and G of a force whose row is J; a tendon that is slack over the step exerts no force.
 inline void pull_implicitly(const StretchedTendon& t, const Implicitness& theta, double dt_s,
                             OneSidedForce& force) {
   const double c1 = (theta.spring - 1) / 2, c2 = (3 * theta.spring - 1) / 2;

@@ -22,12 +22,13 @@ erp::ImuSample sample_of(const std::string& name, const ImuReading& reading) {
 
 Imus::Imus(const World& world, std::uint64_t seed, double interval_s) {
   const xml::Vec3 g = world.robot().gravity_m_per_s2();
-  std::uint64_t own_seed = (seed << 16) + (1u << 15);  // apart from the ECUs' sensors
+  std::uint64_t own_seed =
+      (seed << 16) + (1u << 15);  // distinct from the seeds of the ECUs' sensors
   for (const erp::Imu& imu : world.robot().imus) {
     const auto body = std::ranges::find(world.body_names(), imu.body);
     if (body == world.body_names().end())
       throw std::invalid_argument("imu \"" + imu.name + "\" is on body \"" + imu.body +
-                                  "\", which is unknown");
+                                  "\", which the robot does not have");
     units_.push_back({imu.name,
                       static_cast<std::size_t>(body - world.body_names().begin()),
                       ImuSensor(imu, Vec3(g[0], g[1], g[2]), ++own_seed),
@@ -35,28 +36,28 @@ Imus::Imus(const World& world, std::uint64_t seed, double interval_s) {
   }
 }
 
-void Imus::look(const World& world) {
+void Imus::sample(const World& world) {
   time_s_ = world.time_s();
   for (Unit& unit : units_) {
     unit.readings.offer(time_s_, [&] {
-      return unit.sensor.look(time_s_, world.poses()[unit.body], world.twists()[unit.body]);
+      return unit.sensor.sample(time_s_, world.poses()[unit.body], world.twists()[unit.body]);
     });
-    const auto& said = unit.readings.said(time_s_);
-    if (unit.readings.arrived(said, time_s_)) unit.seen_s = said.time_s;
+    const auto& reading = unit.readings.latest(time_s_);
+    if (unit.readings.arrived(reading, time_s_)) unit.arrived_s = reading.time_s;
   }
 }
 
 bool Imus::next(erp::ImuFrame& frame) {
   double earliest = std::numeric_limits<double>::infinity();
   for (const Unit& unit : units_)
-    if (unit.seen_s != unit.said_s) earliest = std::min(earliest, unit.seen_s);
+    if (unit.arrived_s != unit.published_s) earliest = std::min(earliest, unit.arrived_s);
   if (!std::isfinite(earliest)) return false;
   frame.stamp_ns = std::llround(1e9 * earliest);
   frame.imus._length = 0;
   for (Unit& unit : units_) {
-    if (unit.seen_s != earliest || unit.said_s == earliest) continue;
-    unit.said_s = earliest;
-    erp::append(frame.imus, sample_of(unit.name, unit.readings.said(time_s_).value));
+    if (unit.arrived_s != earliest || unit.published_s == earliest) continue;
+    unit.published_s = earliest;
+    erp::append(frame.imus, sample_of(unit.name, unit.readings.latest(time_s_).value));
   }
   return true;
 }

@@ -8,17 +8,17 @@
 #include "sim/model/actuator/sampling.hpp"
 #include "sim/world/world.hpp"
 
-/// The inertial units of a simulated robot: each looks at its own rate, and what it saw arrives
-/// after its latency, stamped with the time it looked.
+/// The inertial measurement units of a simulated robot. Each samples at its own rate; a sample arrives
+/// after the unit's latency, stamped with the time at which it was taken.
 namespace sim {
 
 class Imus {
  public:
-  /// `interval_s`: how often `look` is called. Throws std::invalid_argument for an unknown body.
+  /// `interval_s`: period of the calls of `sample`. Throws std::invalid_argument for an unknown body.
   Imus(const World& world, std::uint64_t seed, double interval_s);
 
-  void look(const World& world);
-  /// The next instant of which something arrived, with all units that looked then; false: none.
+  void sample(const World& world);
+  /// The next time for which samples have arrived, with all units that sampled then; false: none.
   /// Sets stamp_ns and imus only.
   bool next(erp::ImuFrame& frame);
 
@@ -28,8 +28,8 @@ class Imus {
     std::size_t body;
     ImuSensor sensor;
     Sampled<ImuReading> readings;
-    double said_s = -1;  ///< when it looked, of the last that was given out
-    double seen_s = -1;  ///< of what has arrived
+    double published_s = -1;  ///< time of the last sample that `next` returned
+    double arrived_s = -1;    ///< time of the last sample that has arrived
   };
   std::vector<Unit> units_;
   double time_s_ = 0;

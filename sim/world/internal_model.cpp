@@ -10,7 +10,7 @@ InternalModel::InternalModel(const erp::Robot& robot, const WorldOptions& option
   for (int k = 0; k < threads; ++k) worlds_.push_back(std::make_unique<World>(robot, options));
   try {
     for (auto& world : worlds_) workers_.emplace_back([this, &world] { work(*world); });
-  } catch (...) {  // no more threads to be had
+  } catch (...) {  // no further threads available
     stop();
     throw;
   }

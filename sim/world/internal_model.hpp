@@ -11,19 +11,19 @@
 
 #include "sim/world/world.hpp"
 
-/// The simulator as an internal model: from a state, N candidates are tried ahead in parallel
-/// worlds. For predicting controllers, calibration, diagnosis and learning.
+/// The simulator as an internal model: N candidates are simulated from one state in parallel worlds.
+/// For model-predictive controllers, calibration, diagnosis and learning.
 ///
 ///   sim::InternalModel model(robot);
 ///   auto ends = model.ahead(world.save(), candidates, 50, 0.001);   // 50 ms ahead
 ///
-/// One world a thread; each candidate begins with the state put into its world, so what comes out
-/// is the same bit by bit for any number of threads.
+/// One world per thread; each candidate starts with the state restored into its world, so the results
+/// are the same, bit by bit, for any number of threads.
 namespace sim {
 
 class InternalModel {
  public:
-  /// `threads` 0: one a processor. Throws as World does.
+  /// `threads` 0: one per processor. Throws as World does.
   explicit InternalModel(const erp::Robot& robot, const WorldOptions& options = {},
                          int threads = 0);
   ~InternalModel();
@@ -32,12 +32,12 @@ class InternalModel {
 
   int threads() const { return static_cast<int>(workers_.size()); }
 
-  /// Calls play(world, k) for each k = 0 … candidates − 1, in a world that stands in `from`; in any
-  /// order, so many at a time as there are threads. Returns when all are through; what a play threw
-  /// is thrown here, that of the lowest k. To be called by one thread at a time, not out of a play.
+  /// Calls play(world, k) for each k = 0 … candidates − 1, in a world in state `from`, in any order, in
+  /// parallel on all threads. Returns when all calls have returned; rethrows the exception of the
+  /// lowest k. To be called by one thread at a time, and not from within `play`.
   void each(const WorldState& from, int candidates, const std::function<void(World&, int)>& play);
 
-  /// Where each candidate's voltages, held, lead to.
+  /// The final state of each candidate, with its voltages held constant.
   std::vector<WorldState> ahead(const WorldState& from,
                                 std::span<const std::vector<double>> voltages_V, int steps,
                                 double dt_s);
@@ -57,12 +57,12 @@ class InternalModel {
   std::mutex mutex_;
   std::condition_variable begin_, done_;
   Job job_;
-  long round_ = 0;  ///< which job this is
-  int busy_ = 0;    ///< workers that are still at it
+  long round_ = 0;  ///< number of the current job
+  int busy_ = 0;    ///< workers that have not finished it
   bool stopping_ = false;
   std::atomic<int> next_ = 0;
   std::exception_ptr error_;
-  int error_of_ = 0;  ///< which candidate's
+  int error_of_ = 0;  ///< candidate of the exception
 };
 
 }  // namespace sim

@@ -11,7 +11,7 @@ void stop(int first, const Eigen::Vector3d& direction, int dofs, double gap_rad,
           const Eigen::MatrixXd& h, OneSidedForce& force) {
   const auto d = direction.head(dofs);
   const double inertia = d.dot(h.block(first, first, dofs, dofs) * d);
-  hold_back(gap_rad, inertia, dt, force);
+  set_stop(gap_rad, inertia, dt, force);
   force.row.clear();
   for (int k = 0; k < dofs; ++k) force.row.push_back({first + k, direction[k]});
 }

@@ -6,20 +6,20 @@
 #include "sim/model/skeleton/skeleton_model.hpp"
 #include "sim/world/step_solver.hpp"
 
-/// The stops of joints, as forces that push back over a time step.
+/// Joint limits, as forces that push back over a time step.
 ///
 ///   direction·v⁺ ≤ gap / dt,   f = max(0, G (direction·v⁺ − gap / dt))
 ///
-/// G and the undoing of an overrun: hold_back in step_solver.hpp. Of a spherical joint max_rad
-/// bounds the whole rotation α from the starting pose: dα/dt = axis·ω in either frame.
+/// G and the correction of an overrun: set_stop in step_solver.hpp. For a spherical joint max_rad
+/// bounds the whole rotation α from the starting pose: dα/dt = axis·ω in either frame. No restitution.
 namespace sim {
 
 class JointLimits {
  public:
   explicit JointLimits(const SkeletonModel& model, std::span<const erp::Joint> joints);
-  /// The most that `find` can give.
+  /// The largest number of forces that `find` can write.
   int most() const { return static_cast<int>(2 * stops_.size()); }
-  /// Writes the stops that are near into `forces`, which has room for `most`; returns how many.
+  /// Writes the limits that are near into `forces`, which has room for `most`; returns how many.
   int find(std::span<const JointReading> joints, const Eigen::MatrixXd& h, double dt_s,
            std::span<OneSidedForce> forces) const;
 

@@ -36,7 +36,7 @@ int open_line(const std::string& device) {
     const std::string why = std::strerror(errno);
     if (fd >= 0) ::close(fd);
     throw std::runtime_error("converter_lines: cannot open " + device + ": " + why +
-                             "; give a serial device, as /dev/ttyUSB0");
+                             "; give a serial device, for example /dev/ttyUSB0");
   }
   ::cfmakeraw(&raw);
   ::cfsetspeed(&raw, B1000000);
@@ -64,12 +64,12 @@ std::vector<int> PinWires::descriptors() const {
   return all;
 }
 
-void PinWires::hear(const Take& take) {
-  if (socket_ >= 0) hear_datagrams(take);
-  for (const auto& [line, reader] : lines_) hear_line(line, take);
+void PinWires::receive(const Take& take) {
+  if (socket_ >= 0) receive_datagrams(take);
+  for (const auto& [line, reader] : lines_) receive_line(line, take);
 }
 
-void PinWires::hear_datagrams(const Take& take) {
+void PinWires::receive_datagrams(const Take& take) {
   std::array<std::uint8_t, 2048> datagram;
   sockaddr_in from{};
   socklen_t size = sizeof from;
@@ -81,7 +81,7 @@ void PinWires::hear_datagrams(const Take& take) {
   }
 }
 
-void PinWires::hear_line(int line, const Take& take) {
+void PinWires::receive_line(int line, const Take& take) {
   std::array<std::uint8_t, 2048> bytes;
   wire_reader& reader = lines_.at(line);
   for (ssize_t n = 0; (n = ::read(line, bytes.data(), bytes.size())) > 0;)

@@ -10,36 +10,36 @@
 
 #include "firmware/board/wire.h"
 
-/// How ECUs that run elsewhere are reached: by datagrams on a port of loopback, and over serial
-/// lines at 1 Mbaud, where a microcontroller hangs. What is said is firmware/board/wire.h.
+/// Connection to ECUs that run as separate programs: datagrams on a loopback port, and serial lines at
+/// 1 Mbaud for a microcontroller. The messages are defined in firmware/board/wire.h.
 namespace sim {
 
 class PinWires {
  public:
-  using Peer = std::variant<sockaddr_in, int>;  ///< a datagram's sender, or a line's descriptor
+  using Peer = std::variant<sockaddr_in, int>;  ///< sender of a datagram, or descriptor of a line
 
-  /// `port` 0: no datagrams; `lines`: devices, separated by blanks. Throws std::runtime_error for a
-  /// port that is taken and a line that cannot be opened.
+  /// `port` 0: no datagrams; `lines`: devices, separated by blanks. Throws std::runtime_error if the
+  /// port is in use or a line cannot be opened.
   PinWires(int port, const std::string& lines);
   ~PinWires();
   PinWires(const PinWires&) = delete;
   PinWires& operator=(const PinWires&) = delete;
 
-  /// To wait on.
+  /// File descriptors to wait on.
   std::vector<int> descriptors() const;
-  /// Takes what has come, message by message.
-  void hear(const std::function<void(const Peer&, wire_kind, const wire_reader&)>& take);
-  /// What finds no room is lost, as on a wire.
+  /// Receives all waiting messages and calls `take` for each.
+  void receive(const std::function<void(const Peer&, wire_kind, const wire_reader&)>& take);
+  /// A message without room in the buffer is lost, as on a wire.
   void send(const Peer& to, std::span<const std::uint8_t> bytes);
   std::uint64_t unreadable() const;
 
  private:
   using Take = std::function<void(const Peer&, wire_kind, const wire_reader&)>;
-  void hear_datagrams(const Take& take);
-  void hear_line(int line, const Take& take);
+  void receive_datagrams(const Take& take);
+  void receive_line(int line, const Take& take);
 
   int socket_ = -1;
-  std::map<std::pair<in_addr_t, in_port_t>, wire_reader> senders_;  ///< what each has begun
+  std::map<std::pair<in_addr_t, in_port_t>, wire_reader> senders_;  ///< partial message of each
   std::map<int, wire_reader> lines_;
 };
 

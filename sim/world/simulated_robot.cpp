@@ -4,7 +4,8 @@
 
 namespace sim {
 
-SimulatedRobot::SimulatedRobot(const erp::Robot& robot, const erp::Robot& configured, std::uint64_t seed)
+SimulatedRobot::SimulatedRobot(const erp::Robot& robot, const erp::Robot& configured,
+                               std::uint64_t seed)
     : robot_(robot), world_(robot), ecus_(robot, {.seed = seed}) {
   for (const erp::Actuator& a : configured.actuators)
     units_.emplace_back(configured.motor_of(a), configured.sensors_of(a), a.spindle);
@@ -20,11 +21,11 @@ void SimulatedRobot::give_gains(const erp::Robot& configured) {
       erp::append(message.values,
                   erp::EcuParameterValue{std::uint8_t(a.ecu), std::uint8_t(a.channel),
                                          std::uint8_t(k), k + 1 == gains.size(), gains[k]});
-    ecus_.accept(message);
+    ecus_.receive(message);
   }
 }
 
-/// A channel of mode off stays armed: it drives nothing and is ready for the next set-point.
+/// A channel of mode off stays armed: no voltage, ready for the next set-point.
 void SimulatedRobot::send(std::span<const SetPoint> set_points) {
   erp::EcuCommand message;
   for (std::size_t a = 0; a < set_points.size(); ++a) {
@@ -36,14 +37,14 @@ void SimulatedRobot::send(std::span<const SetPoint> set_points) {
                                       std::uint8_t(off ? ECU_REQUEST_ARM : EcuUnits::request(mode)),
                                       off ? 0 : units_[a].setpoint(mode, reference)});
   }
-  ecus_.accept(message);
+  ecus_.receive(message);
 }
 
 void SimulatedRobot::tick(std::span<const SetPoint> set_points) {
   send(set_points);
   ecus_.tick(world_);
   ecus_.fill(frame_);
-  if (!world_.sound()) throw NotFinite();
+  if (!world_.is_finite()) throw NotFinite();
 }
 
 const erp::EcuChannelSample& SimulatedRobot::sample_of(std::size_t actuator) const {

@@ -24,12 +24,13 @@ struct NotFinite : std::runtime_error {
 
 class SimulatedRobot {
  public:
-  /// Starts at the initial pose, at pretension, ECUs armed with the gains that the plant would give
-  /// them for `configured`. Lends the robots. Throws as World does.
+  /// Starts at the initial pose, at pretension, with ECUs armed with the gains that the plant would
+  /// send for `configured`. Keeps references to the robots. Throws as World does.
   SimulatedRobot(const erp::Robot& robot, const erp::Robot& configured, std::uint64_t seed);
-  explicit SimulatedRobot(const erp::Robot& robot, std::uint64_t seed = 1) : SimulatedRobot(robot, robot, seed) {}
+  explicit SimulatedRobot(const erp::Robot& robot, std::uint64_t seed = 1)
+      : SimulatedRobot(robot, robot, seed) {}
 
-  /// One tick of the ECUs, 2 ms; one set-point an actuator. Throws NotFinite.
+  /// One tick of the ECUs, 2 ms; one set-point per actuator. Throws NotFinite.
   void tick(std::span<const SetPoint> set_points);
 
   const World& world() const { return world_; }

@@ -6,11 +6,11 @@
 namespace sim {
 namespace {
 
-constexpr double balanced = 1e-12;     // of the largest impulse: what rounding leaves
-constexpr double least_share = 1e-12;  // of a step that does not descend as a whole
-constexpr double small_turn = 1e-4;    // Newton's error is then its square
-constexpr double level_slope = 1e-9;   // of the slope a step begins with: its end is the bottom
-// What a force or a joint does at some velocity.
+constexpr double balanced = 1e-12;        // of the largest impulse: rounding error
+constexpr double least_fraction = 1e-12;  // smallest fraction of a step
+constexpr double small_turn = 1e-4;       // the error of Newton's method is then its square
+constexpr double level_slope = 1e-9;  // of the slope at the start of a step: its end is the minimum
+// States of a force or a joint at a velocity.
 constexpr char idle = '-', acting = 'f', still = '0', up = '>', down = '<', rotating = 'o',
                unknown = '?';
 
@@ -38,8 +38,8 @@ void StepSolver::begin(const Eigen::MatrixXd& h, std::span<const OneSidedForce> 
   factored_.assign(pattern_.size() + 1, unknown);
 }
 
-/// The gradient at v, and the pattern there. At a corner, where a joint is still, it is the least
-/// of all: zero if friction holds the joint, else what it starts with.
+/// The gradient at v, and the pattern there. For a joint at rest it is the smallest subgradient: zero if
+/// friction holds the joint, otherwise the direction in which it starts.
 void StepSolver::differentiate(const Eigen::VectorXd& p, const Eigen::VectorXd& v) {
   gradient_ = -p;
   gradient_.noalias() += *h_ * v;
@@ -57,10 +57,10 @@ void StepSolver::differentiate(const Eigen::VectorXd& p, const Eigen::VectorXd& 
     }
   }
   largest_ = largest;
-  for (std::size_t j = 0; j < frictions_.size(); ++j) rub(j, v);
+  for (std::size_t j = 0; j < frictions_.size(); ++j) evaluate_friction(j, v);
 }
 
-void StepSolver::rub(std::size_t j, const Eigen::VectorXd& v) {
+void StepSolver::evaluate_friction(std::size_t j, const Eigen::VectorXd& v) {
   const JointFriction& joint = frictions_[j];
   const auto own = v.segment(joint.first, joint.dofs);
   auto slope = gradient_.segment(joint.first, joint.dofs);
@@ -69,21 +69,21 @@ void StepSolver::rub(std::size_t j, const Eigen::VectorXd& v) {
   char& pattern = pattern_[forces_.size() + j];
   pattern = idle;
   if (bound <= 0) return;
-  auto& [way, speed] = joints_[j];
-  way.setZero();
+  auto& [direction, speed] = joints_[j];
+  direction.setZero();
   speed = own.norm();
   if (speed > 0) {
-    way.head(joint.dofs) = own / speed;
+    direction.head(joint.dofs) = own / speed;
   } else if (const double load = slope.norm(); load > bound) {
-    way.head(joint.dofs) = -slope / load;
+    direction.head(joint.dofs) = -slope / load;
     speed = (load - bound) / h_->block(joint.first, joint.first, joint.dofs, joint.dofs).trace();
   } else {
     pattern = still;
     slope.setZero();
     return;
   }
-  slope += bound * way.head(joint.dofs);
-  pattern = joint.dofs == 3 ? rotating : way[0] > 0 ? up : down;
+  slope += bound * direction.head(joint.dofs);
+  pattern = joint.dofs == 3 ? rotating : direction[0] > 0 ? up : down;
   curved_ = curved_ || pattern == rotating;
 }
 
@@ -99,11 +99,11 @@ void StepSolver::add_friction(std::size_t j) {
   if (pattern == rotating)
     system_.block<3, 3>(joint.first, joint.first) +=
         dt_s_ * joint.coulomb_Nm / joints_[j].speed *
-        (Eigen::Matrix3d::Identity() - joints_[j].way * joints_[j].way.transpose());
+        (Eigen::Matrix3d::Identity() - joints_[j].direction * joints_[j].direction.transpose());
 }
 
-/// H and the forces that act.
-void StepSolver::stiffen() {
+/// H plus the contribution of the active forces.
+void StepSolver::assemble_stiffness() {
   stiff_ = *h_;
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     if (pattern_[k] != acting) continue;
@@ -118,43 +118,43 @@ void StepSolver::factor() {
   const auto forces = static_cast<std::ptrdiff_t>(forces_.size());
   const bool same = factored_.size() == pattern_.size() &&
                     std::equal(pattern_.begin(), pattern_.begin() + forces, factored_.begin());
-  if (!same) stiffen();
+  if (!same) assemble_stiffness();
   system_ = stiff_;
   for (std::size_t j = 0; j < frictions_.size(); ++j) add_friction(j);
   factor_.compute(system_);
   factored_ = pattern_;
 }
 
-/// Newton's step from v. A joint that would start the wrong way, pushed by others, stays still.
-void StepSolver::aim(const Eigen::VectorXd& v) {
-  for (bool sound = false; !sound;) {
+/// Newton's step from v. A joint that others would push against its starting direction stays at rest.
+void StepSolver::compute_step(const Eigen::VectorXd& v) {
+  for (bool consistent = false; !consistent;) {
     if (curved_ || pattern_ != factored_) factor();
     factor_.solve(gradient_, step_);
     step_ = -step_;
-    sound = true;
+    consistent = true;
     for (std::size_t j = 0; j < frictions_.size(); ++j) {
       const auto [first, dofs, viscous, coulomb] = frictions_[j];
       char& pattern = pattern_[forces_.size() + j];
       if (pattern == idle || pattern == still || !v.segment(first, dofs).isZero(0)) continue;
-      if (joints_[j].way.head(dofs).dot(step_.segment(first, dofs)) >= 0) continue;
+      if (joints_[j].direction.head(dofs).dot(step_.segment(first, dofs)) >= 0) continue;
       pattern = still;
       gradient_.segment(first, dofs).setZero();
-      sound = false;
+      consistent = false;
     }
   }
 }
 
-/// Goes a share of the step. Joints that would turn back on the way stop instead; true if none does
-/// and no ball joint turns much.
-bool StepSolver::go(double share, Eigen::VectorXd& v) const {
-  v = before_ + share * step_;
-  bool whole = share == 1;
+/// Takes a fraction of the step. Joints whose velocity would reverse stop instead; true for a full step
+/// in which none does and no ball joint turns much.
+bool StepSolver::advance(double fraction, Eigen::VectorXd& v) const {
+  v = before_ + fraction * step_;
+  bool whole = fraction == 1;
   for (std::size_t j = 0; j < frictions_.size(); ++j) {
     const auto [first, dofs, viscous, coulomb] = frictions_[j];
     const char pattern = factored_[forces_.size() + j];
     if (pattern == idle || pattern == still) continue;
     auto own = v.segment(first, dofs);
-    const bool turns_back = start_[j].way.head(dofs).dot(own) <= 0;
+    const bool turns_back = start_[j].direction.head(dofs).dot(own) <= 0;
     if (turns_back) own.setZero();
     whole = whole && !turns_back;
     if (pattern == rotating)
@@ -163,15 +163,15 @@ bool StepSolver::go(double share, Eigen::VectorXd& v) const {
   return whole;
 }
 
-/// Goes the step, or less far until that is lower; true if it was a whole Newton step.
-/// By convexity the goal is lower where the function still falls towards it.
+/// Takes the step, halved until the function decreases; true for a full Newton step.
+/// By convexity the function is lower where it still decreases towards the end of the step.
 bool StepSolver::descend(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
   before_ = v;
   start_ = joints_;
   const double level = level_slope * std::abs(gradient_.dot(step_));
   bool whole = false;
-  for (double share = 1; share > least_share; share /= 2) {
-    whole = go(share, v);
+  for (double fraction = 1; fraction > least_fraction; fraction /= 2) {
+    whole = advance(fraction, v);
     differentiate(p, v);
     if (gradient_.dot(v - before_) <= level) break;
   }
@@ -181,17 +181,17 @@ bool StepSolver::descend(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
 void StepSolver::approach(const Eigen::VectorXd& p, Eigen::VectorXd& v) {
   if (v.size() == 0) return;
   differentiate(p, v);
-  aim(v);
+  compute_step(v);
   before_ = v;
   start_ = joints_;
-  go(1, v);
+  advance(1, v);
 }
 
 bool StepSolver::solve(const Eigen::VectorXd& p, Eigen::VectorXd& v, int most_steps) {
   differentiate(p, v);
   if (v.size() == 0) return true;
   for (int k = 0; k < most_steps; ++k) {
-    aim(v);
+    compute_step(v);
     const bool whole = descend(p, v);
     const bool level = gradient_.lpNorm<Eigen::Infinity>() <= balanced * largest_;
     if (level || (whole && pattern_ == factored_)) return true;

@@ -4,19 +4,19 @@
 
 namespace sim {
 
-/// What the robot's effects leave, and where the sensors' seeds stand.
-struct VirtualEcus::Making {
+/// The robot with its effects separated, and the next sensor seed.
+struct VirtualEcus::Setup {
   effects::Equipped equipped;
   VirtualEcuOptions options;
   std::uint64_t seed;
-  Making(const erp::Robot& nominal, const VirtualEcuOptions& o)
+  Setup(const erp::Robot& nominal, const VirtualEcuOptions& o)
       : equipped(effects::equip(nominal)), options(o), seed(o.seed << 16) {}
 };
 
 VirtualEcus::VirtualEcus(const erp::Robot& nominal, const VirtualEcuOptions& options)
-    : VirtualEcus(Making(nominal, options)) {}
+    : VirtualEcus(Setup(nominal, options)) {}
 
-VirtualEcus::VirtualEcus(Making&& m)
+VirtualEcus::VirtualEcus(Setup&& m)
     : converters_(m.equipped.robot, m.equipped.acting, m.options.substeps, m.seed),
       firmware_(converters_.channels().size()),
       voltage_V_(firmware_.size(), 0.0),
@@ -35,18 +35,18 @@ ecu_channel* VirtualEcus::find(int ecu, int number) {
   return nullptr;
 }
 
-void VirtualEcus::accept(const erp::EcuCommand& command) {
-  if (bus_.empty()) obey(command);
+void VirtualEcus::receive(const erp::EcuCommand& command) {
+  if (bus_.empty()) apply(command);
   else bus_.send(command);
 }
 
-void VirtualEcus::obey(const erp::EcuCommand& command) {
+void VirtualEcus::apply(const erp::EcuCommand& command) {
   for (const erp::EcuChannelCommand& c : erp::samples(command.channels))
     if (ecu_channel* channel = find(c.ecu, c.channel))
       ecu_command(channel, static_cast<ecu_request>(c.request), c.setpoint);
 }
 
-void VirtualEcus::accept(const erp::EcuParameter& parameters) {
+void VirtualEcus::receive(const erp::EcuParameter& parameters) {
   for (const erp::EcuParameterValue& p : erp::samples(parameters.values))
     if (ecu_channel* channel = find(p.ecu, p.channel))
       ecu_parameter(channel, p.index, p.value, p.commit);
@@ -54,34 +54,35 @@ void VirtualEcus::accept(const erp::EcuParameter& parameters) {
 
 void VirtualEcus::measure(const World& world) {
   converters_.measure(world);
-  keep_measured(world.time_s());
+  send_measured(world.time_s());
 }
 
-void VirtualEcus::keep_measured(double time_s) {
+void VirtualEcus::send_measured(double time_s) {
   measured_ = true;
   if (bus_.empty()) return;
   erp::EcuFrame frame;
   report(frame);
-  bus_.keep(frame, time_s);
+  bus_.send_frame(frame, time_s);
 }
 
 void VirtualEcus::tick(World& world) {
   if (!measured_) measure(world);
-  while (const erp::EcuCommand* command = bus_.arrived(world.time_s())) obey(*command);
+  while (const erp::EcuCommand* command = bus_.arrived(world.time_s())) apply(*command);
   const auto channels = converters_.channels();
   for (std::size_t k = 0; k < channels.size(); ++k)
     voltage_V_[k] =
         channels[k].supply_V * ecu_tick(&firmware_[k], &channels[k].inputs) / ECU_DUTY_MAX;
   converters_.pass_period(world, voltage_V_);
-  keep_measured(world.time_s());
+  send_measured(world.time_s());
 }
 
 void VirtualEcus::fill(erp::EcuFrame& frame) const {
   if (bus_.empty() || !measured_) return report(frame);
-  const erp::EcuFrame& heard = bus_.heard();
+  const erp::EcuFrame& newest_frame = bus_.newest_frame();
   frame.channels._length = frame.analogs._length = 0;
-  for (const auto& channel : erp::samples(heard.channels)) erp::append(frame.channels, channel);
-  for (const auto& analog : erp::samples(heard.analogs)) erp::append(frame.analogs, analog);
+  for (const auto& channel : erp::samples(newest_frame.channels))
+    erp::append(frame.channels, channel);
+  for (const auto& analog : erp::samples(newest_frame.analogs)) erp::append(frame.analogs, analog);
 }
 
 void VirtualEcus::report(erp::EcuFrame& frame) const {

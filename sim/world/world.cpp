@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/model/actuator/of_actuator.hpp"
+#include "sim/model/actuator/with_actuator_name.hpp"
 #include "sim/model/effects/library.hpp"
 
 namespace sim {
@@ -25,12 +25,12 @@ void World::reset() {
   model_ = std::make_unique<SkeletonModel>(tree_, gravity, options_.lock);
   chains_.clear();
   for (const erp::Actuator& actuator : robot_.actuators)
-    chains_.push_back(of_actuator(actuator, [&] { return make_chain(actuator); }));
+    chains_.push_back(with_actuator_name(actuator, [&] { return make_chain(actuator); }));
   readings_.assign(chains_.size(), {});
-  carried_.clear();
+  attached_.clear();
   make_solver();
   time_s_ = time_rest_s_ = 0;
-  unsettled_ = 0, sound_ = true;
+  unconverged_ = 0, finite_ = true;
   read();
   make_ropes();
   read_tensions();
@@ -131,7 +131,7 @@ void World::pull(std::size_t k, double dt_s) {
   pull_implicitly(tendon, theta, dt_s, force);
 }
 
-/// The tendons' if they are springs, the stops' and the contacts'.
+/// Forces of the tendons (if they are springs), the joint limits and the contacts.
 void World::find_forces(double dt_s, bool springs) {
   const std::size_t tendons = springs ? chains_.size() : 0;
   if (springs && options_.theta == 0) inertia_factor_.compute(inertia_);
@@ -142,7 +142,7 @@ void World::find_forces(double dt_s, bool springs) {
   force_count_ += static_cast<std::size_t>(contacts_->find(*model_, dt_s, rest()));
 }
 
-/// v⁺, under springs or given tensions.
+/// Computes v⁺, with springs or with given tensions.
 void World::solve(double dt_s, std::span<const double> tension_N) {
   const Eigen::VectorXd& v = model_->velocity();
   model_->inertia(inertia_);
@@ -158,31 +158,31 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
   for (JointEffects& joint : joint_effects_)
     momentum_.segment(joint.first, joint.dofs) += dt_s * torque_of(joint);
   velocity_ = v;
-  if (!sound_) return velocity_.setZero(), void();
-  drive(dt_s);
+  if (!finite_) return velocity_.setZero(), void();
+  apply_bias(dt_s);
   solver_->approach(driven_, velocity_);  // v¹ need not be exact
-  drive(dt_s);
-  if (!solver_->solve(driven_, velocity_)) ++unsettled_;
+  apply_bias(dt_s);
+  if (!solver_->solve(driven_, velocity_)) ++unconverged_;
   if (velocity_.allFinite()) return;
-  sound_ = false;
+  finite_ = false;
   velocity_.setZero();
 }
 
-/// H v − dt b at the middle of v and what is known of v⁺.
-void World::drive(double dt_s) {
+/// H v − dt b, with b at the mean of v and the current estimate of v⁺.
+void World::apply_bias(double dt_s) {
   middle_ = 0.5 * (model_->velocity() + velocity_);
   model_->bias(middle_, bias_);
   driven_ = momentum_ - dt_s * bias_;
 }
 
-void World::expect(std::span<const double> inputs, const char* what) const {
+void World::check_size(std::span<const double> inputs, const char* what) const {
   if (inputs.size() != chains_.size())
     throw std::invalid_argument("the robot has " + std::to_string(chains_.size()) +
                                 " actuators, got " + std::to_string(inputs.size()) + " " + what);
 }
 
 void World::step(std::span<const double> voltage_V, double dt_s) {
-  expect(voltage_V, "voltages");
+  check_size(voltage_V, "voltages");
   solve(dt_s);
   for (std::size_t k = 0; k < chains_.size(); ++k) {
     const double tension_N =
@@ -195,7 +195,7 @@ void World::step(std::span<const double> voltage_V, double dt_s) {
 }
 
 void World::step_pulled(std::span<const double> tension_N, double dt_s) {
-  expect(tension_N, "tensions");
+  check_size(tension_N, "tensions");
   solve(dt_s, tension_N);
   for (std::size_t k = 0; k < chains_.size(); ++k) readings_[k].tension_N = tension_N[k];
   move(dt_s);
@@ -203,13 +203,13 @@ void World::step_pulled(std::span<const double> tension_N, double dt_s) {
 
 void World::move(double dt_s) {
   bones_->move(velocity_, dt_s);
-  pass_time(dt_s);
+  advance_time(dt_s);
   read();
   move_ropes(dt_s);
 }
 
-/// Compensated (Kahan 1965): after an hour of milliseconds the time is still the nearest number.
-void World::pass_time(double dt_s) {
+/// Compensated summation (Kahan 1965): after an hour of 1 ms steps the time is still exact to rounding.
+void World::advance_time(double dt_s) {
   const double step_s = dt_s - time_rest_s_, next_s = time_s_ + step_s;
   time_rest_s_ = (next_s - time_s_) - step_s;
   time_s_ = next_s;
@@ -217,7 +217,7 @@ void World::pass_time(double dt_s) {
 
 WorldState World::save() const {
   WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}, {},
-                   {},      carried_};
+                   {},      attached_};
   for (const Chain& chain : chains_) {
     state.motors.push_back(chain.state);
     state.snapped.push_back(chain.snapped);
@@ -239,7 +239,7 @@ void World::restore(const WorldState& state) {
       state.around_rad.size() != chains_.size() ||
       std::ssize(state.ropes) != std::ranges::count_if(chains_, &Chain::has_rope) ||
       state.effects.size() != save().effects.size())
-    throw std::invalid_argument("this state is of another robot");
+    throw std::invalid_argument("the state belongs to a different robot");
   time_s_ = state.time_s, time_rest_s_ = state.time_rest_s;
   auto rope = state.ropes.begin();
   std::span<const effects::Memory> memories = state.effects;
@@ -252,26 +252,26 @@ void World::restore(const WorldState& state) {
     restore_effects(chains_[k], memories);
   }
   for (JointEffects& joint : joint_effects_) joint.acting.restore(memories);
-  if (!carried_.empty() || !state.carried.empty()) carry(state.carried);
+  if (!attached_.empty() || !state.attached.empty()) attach(state.attached);
   bones_->place(state.joints);
   read();
 }
 
-void World::carry(std::vector<Carried> carried) {
-  for (const Carried& one : carried) {
+void World::attach(std::vector<AttachedMass> attached) {
+  for (const AttachedMass& one : attached) {
     const int joint = tree_.bodies.at(static_cast<std::size_t>(one.body)).joint;
     const auto type =
         joint < 0 ? erp::JointType::fixed : tree_.joints[static_cast<std::size_t>(joint)].type;
     if (type != erp::JointType::revolute && type != erp::JointType::spherical)
       throw std::invalid_argument("body \"" + tree_.names[static_cast<std::size_t>(one.body)] +
-                                  "\" cannot carry: no hinge or ball joint moves it");
+                                  "\" cannot hold a load: no hinge or ball joint moves it");
   }
-  carried_ = std::move(carried);
+  attached_ = std::move(attached);
   for (std::size_t k = 0; k < tree_.bodies.size(); ++k) {
     erp::Mass mass = tree_.bodies[k].mass;
-    for (const Carried& one : carried_)
+    for (const AttachedMass& one : attached_)
       if (one.body == static_cast<int>(k))
-        mass = erp::together({mass, {one.mass_kg, {one.at_m[0], one.at_m[1], one.at_m[2]}, {}}});
+        mass = erp::combined({mass, {one.mass_kg, {one.at_m[0], one.at_m[1], one.at_m[2]}, {}}});
     model_->set_mass(static_cast<int>(k), mass);
   }
   model_->place(joints());

@@ -24,56 +24,56 @@ namespace sim::effects {
 struct Equipped;
 }
 
-/// A robot, simulated: bones in Bullet, tendons over them, motors at their ends.
+/// A simulated robot: bodies in Bullet, tendons between them, motors at their ends.
 ///
-/// One step from t to t + dt (paper, 4.2): tensions, joint friction and stops follow from the
-/// motion they cause together (step_solver.hpp: stable for any stiffness); the tensions load the
-/// motors, which move exactly with V and F held; Bullet moves the bones. First order in dt.
+/// One step from t to t + dt (paper, 4.2). Tensions, joint friction and joint limits are computed
+/// together with the motion they cause (step_solver.hpp: stable for any stiffness). The tensions load
+/// the motors, whose motion is exact for constant V and F. Bullet moves the bodies. First order in dt.
 ///
 ///   H v¹ = H v − dt b(q, v) + impulses            b = C + τ_G
 ///   H v⁺ = H v − dt b(q, (v + v¹)/2) + impulses   velocity-dependent forces at mid-step
 ///
-/// v⁺ = v¹ would feed energy into ball joints: 7 J in 10 s into the free arm at 1 ms, against 0.07
-/// J.
+/// v⁺ = v¹ would add energy to ball joints: 7 J in 10 s to the free arm at 1 ms, instead of 0.07 J.
 ///
-/// The robot's effects (sim/model/effects) act in its chains and joints, each held over a step.
+/// The robot's effects (sim/model/effects) act in its chains and joints, each constant over a step.
 ///
-/// Tendons that are ropes (rope.hpp) follow the bones: their forces act over the next step.
+/// Tendons modelled as ropes (rope.hpp) follow the bodies: their forces act over the next step.
 ///
 /// Same robot, options and voltages: bit-identical readings. No clock, no heap in `step`.
 namespace sim {
 
 struct WorldOptions {
   std::vector<std::string> lock;  ///< joints held at their initial angle
-  double usual_step_s = 0.001;    ///< other dt work too, more slowly
-  double theta = 0;               ///< of the tendons, ½ … 1; 0: each step chooses
+  double usual_step_s = 0.001;    ///< other dt also work, but more slowly
+  double theta = 0;               ///< θ of the tendons, ½ … 1; 0: chosen at each step
 };
 
 struct ActuatorReading {
-  double tension_N = 0;  ///< of the tendon, at this instant as all others
+  double tension_N = 0;  ///< of the tendon, at the same instant as the others
   double length_m = 0;   ///< of the tendon's path
   double current_A = 0, speed_rad_per_s = 0, shaft_rad = 0;
-  double line_m = 0;  ///< change since the start; negative: wound up
+  double line_m = 0;  ///< change of line length since the start; negative: wound up
 };
 
-/// Something held, of no size: `body` an index of `World::body_names`, the place in its frame.
-struct Carried {
+/// A point mass attached to a body: `body` indexes `World::body_names`, the position is in its frame.
+struct AttachedMass {
   int body = 0;
   Vec3 at_m = Vec3::Zero();
   double mass_kg = 0;
 };
 
-/// All that a world's future depends on.
+/// The complete state of a world.
 struct WorldState {
-  double time_s = 0, time_rest_s = 0;  ///< the rest: what adding up has rounded away
+  double time_s = 0, time_rest_s = 0;  ///< time_rest_s: rounding error of the sum
   std::vector<JointReading> joints;
   std::vector<MotorState> motors;
   std::vector<double> tension_N;
-  std::vector<std::array<double, max_path_elements>> around_rad;  ///< how far round its pulleys
-  std::vector<RopeState> ropes;                                   ///< of the tendons that are ropes
-  std::vector<effects::Memory> effects;                           ///< what they remember
-  std::vector<bool> snapped;                                      ///< tendons that pull no more
-  std::vector<Carried> carried;
+  std::vector<std::array<double, max_path_elements>>
+      around_rad;                        ///< wrap angles around its pulleys
+  std::vector<RopeState> ropes;          ///< of the tendons modelled as ropes
+  std::vector<effects::Memory> effects;  ///< memory of the effects
+  std::vector<bool> snapped;             ///< tendons that have snapped
+  std::vector<AttachedMass> attached;
 };
 
 class World {
@@ -83,29 +83,29 @@ class World {
   explicit World(const erp::Robot& robot, const WorldOptions& options = {});
   ~World();
 
-  /// One voltage an actuator, in robot.xml's order; std::invalid_argument otherwise.
+  /// One voltage per actuator, in robot.xml's order; std::invalid_argument for another number.
   void step(std::span<const double> voltage_V, double dt_s);
-  /// The same with given tensions in place of motors and springs, which stay as they are.
+  /// The same with given tensions instead of motors and springs, which do not change.
   void step_pulled(std::span<const double> tension_N, double dt_s);
-  /// Builds everything anew: the start, exactly.
+  /// Restores exactly the initial state.
   void reset();
-  /// A world of the same robot and options goes on from there bit by bit as the one that was saved.
+  /// A restored world of the same robot and options continues bit by bit like the saved one.
   WorldState save() const;
   void restore(const WorldState& state);
-  /// Breaks a tendon: it pulls no more, until `reset`. Not for ropes.
+  /// Snaps a tendon: it exerts no tension until `reset`. Not for ropes.
   void snap(std::size_t actuator) { chains_[actuator].snapped = true; }
-  /// From now on the bodies carry this beside their own mass, and nothing else; until `reset`.
-  /// Throws std::invalid_argument for a body that no hinge or ball joint moves.
-  void carry(std::vector<Carried> carried);
-  /// Puts a joint elsewhere, at rest or moving; lines and motors stay as they are. Ropes are laid
+  /// Replaces the masses attached to the bodies, until `reset`. Throws std::invalid_argument for a body
+  /// that no hinge or ball joint moves.
+  void attach(std::vector<AttachedMass> attached);
+  /// Sets position and velocity of a joint; line lengths and motors do not change. Ropes are placed
   /// anew.
   void set_joint(int joint, const JointReading& reading);
 
-  /// Joint positions and velocities, and where the bodies are; source "sim". Stamps are not set.
+  /// Joint positions and velocities, and body poses; source "sim". Does not set the stamps.
   void fill(erp::JointState& joints) const;
   void fill(erp::BodyPose& bodies) const;
 
-  /// With what its effects have changed.
+  /// The robot, including the changes of its effects.
   const erp::Robot& robot() const { return robot_; }
   double time_s() const { return time_s_; }
   std::span<const ActuatorReading> actuators() const { return readings_; }
@@ -115,13 +115,13 @@ class World {
   const std::vector<std::string>& body_names() const { return tree_.names; }
   const std::vector<erp::Joint>& joint_list() const { return tree_.joints; }
   const PathShape& path(int actuator) const { return chains_[actuator].shape; }
-  /// Steps whose forces did not settle; their velocities are near the answer.
-  long unsettled() const { return unsettled_; }
-  /// False: a step led to no finite velocities; since then nothing moves.
-  bool sound() const { return sound_; }
-  /// Null: this tendon is no rope.
+  /// Number of steps whose forces did not converge; their velocities are close to the solution.
+  long unconverged_steps() const { return unconverged_; }
+  /// False: a step gave velocities that are not finite; nothing has moved since.
+  bool is_finite() const { return finite_; }
+  /// Null: this tendon is not modelled as a rope.
   const Rope* rope(int actuator) const { return chains_[actuator].rope.get(); }
-  /// Of the bones: kinetic and potential.
+  /// Kinetic and potential energy of the bodies.
   double energy_J() const { return model_->energy_J(); }
 
  private:
@@ -132,7 +132,7 @@ class World {
     TendonLaw tendon;
     MotorState state;
     PathShape shape;
-    std::unique_ptr<Rope> rope;  ///< null: a tendon that finds its path at once
+    std::unique_ptr<Rope> rope;  ///< null: tendon without rope dynamics
     effects::Acting effects;
     effects::Sloped wound;  ///< line on the spindle, m and m/rad
     double start_m = 0;     ///< length of the path
@@ -142,7 +142,7 @@ class World {
   };
   struct JointEffects {
     int joint, first, dofs;
-    std::size_t friction;  ///< its place among the solver's
+    std::size_t friction;  ///< index in the solver
     double coulomb_Nm;     ///< without effects
     effects::Acting acting;
   };
@@ -154,27 +154,27 @@ class World {
   Chain make_chain(const erp::Actuator& actuator) const;
   void make_solver();
   void read();
-  /// By the tendon's law, of where bones and shaft are now; the force over a step is older.
+  /// From the tendon's law at the current positions; the force over a step belongs to its start.
   double tension_now_N(std::size_t chain);
   void read_tensions();
   void find_forces(double dt_s, bool springs);
   void move(double dt_s);
   void make_ropes();
   void lay_rope(std::size_t chain, std::optional<double> pretension_N);
-  void pass_time(double dt_s);
+  void advance_time(double dt_s);
   void add_rope_impulses(double dt_s);
   void move_ropes(double dt_s);
   void pull(std::size_t chain, double dt_s);
   effects::ChainSample sample(std::size_t chain, double dt_s) const;
   Line line_of(std::size_t chain, double dt_s);
-  void heat(Chain& chain, double ohm) const;
+  void set_winding_resistance(Chain& chain, double ohm) const;
   void restore_effects(Chain& chain, std::span<const effects::Memory>& memories) const;
   void affect_joints();
   Eigen::VectorXd torque_of(JointEffects& joint) const;
   void turn_motor(std::size_t chain, double voltage_V, double tension_N, double dt_s);
-  void expect(std::span<const double> inputs, const char* what) const;
+  void check_size(std::span<const double> inputs, const char* what) const;
   void solve(double dt_s, std::span<const double> tension_N = {});
-  void drive(double dt_s);
+  void apply_bias(double dt_s);
 
   std::shared_ptr<const effects::Equipped> equipped_;
   erp::Robot robot_;
@@ -188,13 +188,13 @@ class World {
   std::vector<Chain> chains_;
   std::vector<JointEffects> joint_effects_;
   std::vector<ActuatorReading> readings_;
-  std::vector<Carried> carried_;
+  std::vector<AttachedMass> attached_;
   double time_s_ = 0, time_rest_s_ = 0;
-  long unsettled_ = 0;
-  bool sound_ = true;
+  long unconverged_ = 0;
+  bool finite_ = true;
 
-  // what a step works with
-  std::vector<OneSidedForce> forces_;  ///< of the tendons, the stops, the contacts
+  // working memory of a step
+  std::vector<OneSidedForce> forces_;  ///< of tendons, joint limits and contacts
   std::size_t force_count_ = 0;
   Eigen::MatrixXd inertia_;                                             ///< H
   Eigen::VectorXd row_, bias_, momentum_, driven_, velocity_, middle_;  ///< J of one tendon, b …

@@ -4,7 +4,7 @@
 #include "sim/model/actuator/sensors.hpp"
 #include "sim/world/world.hpp"
 
-/// What a world's effects do in its chains and joints.
+/// The effects in the chains and joints of a world.
 namespace sim {
 effects::ChainSample World::sample(std::size_t k, double dt_s) const {
   const Chain& chain = chains_[k];
@@ -48,18 +48,19 @@ void World::turn_motor(std::size_t k, double voltage_V, double tension_N, double
   s.voltage_V = voltage_V;
   constexpr double noticeable = 1e-4;
   const double ohm = chain.effects.resistance_ohm(chain.cold_ohm, s);
-  if (std::abs(ohm / chain.motor.type().resistance_ohm - 1) > noticeable) heat(chain, ohm);
+  if (std::abs(ohm / chain.motor.type().resistance_ohm - 1) > noticeable)
+    set_winding_resistance(chain, ohm);
   const double r = chain.motor.spindle_radius_m();
   s.load_Nm = chain.wound.slope * chain.effects.motor_side_N(tension_N, s);
   const double aged_Nm = chain.effects.aged_Nm(s);
   const MotorLoad load{s.load_Nm / r, chain.effects.friction_Nm(1, s) + aged_Nm,
                        chain.effects.friction_Nm(-1, s) + aged_Nm, chain.effects.rotor_Nm(s)};
-  const double late_V = chain.effects.late_voltage_V(voltage_V, s);
+  const double late_V = chain.effects.delayed_voltage_V(voltage_V, s);
   chain.state = sim::step(chain.motor, chain.state, chain.effects.voltage_V(late_V, s), load, dt_s);
 }
 
-/// Prepares the motor anew, with its winding's resistance another one.
-void World::heat(Chain& chain, double ohm) const {
+/// Replaces the motor by one with another winding resistance.
+void World::set_winding_resistance(Chain& chain, double ohm) const {
   erp::MotorType type = chain.motor.type();
   type.resistance_ohm = ohm;
   chain.motor = Motor(type, chain.motor.spindle_radius_m(), options_.usual_step_s);
@@ -70,7 +71,7 @@ void World::restore_effects(Chain& chain, std::span<const effects::Memory>& memo
   chain.effects.restore(memories);
   chain.wound = {memories.front()[0], memories.front()[1]};
   if (const double ohm = memories.front()[2]; ohm != chain.motor.type().resistance_ohm)
-    heat(chain, ohm);
+    set_winding_resistance(chain, ohm);
   memories = memories.subspan(1);
 }
 
@@ -81,7 +82,7 @@ void World::affect_joints() {
   }
 }
 
-/// Of a ball joint about the axis of its whole turning, towards or away from the start.
+/// For a ball joint: about the axis of its rotation from the starting pose.
 Eigen::VectorXd World::torque_of(JointEffects& joint) const {
   const JointReading& reading = joints()[static_cast<std::size_t>(joint.joint)];
   if (joint.dofs == 1)

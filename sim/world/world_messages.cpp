@@ -13,7 +13,7 @@ void World::fill(erp::JointState& message) const {
     const JointReading& reading = joints()[j];
     erp::JointStateSample sample{};
     erp::assign(sample.name, tree_.joints[j].name);
-    // Of a free body its turning; where it is, its BodyPose says.
+    // Of a free body only its rotation; BodyPose contains its position.
     sample.dof = static_cast<std::uint8_t>(std::min(coordinates_of(reading.type), 3));
     std::copy(reading.position.begin(), reading.position.end(), sample.position);
     std::copy(reading.velocity_rad_per_s.begin(), reading.velocity_rad_per_s.end(),

@@ -1,8 +1,8 @@
-#include "sim/model/actuator/of_actuator.hpp"
+#include "sim/model/actuator/with_actuator_name.hpp"
 #include "sim/model/actuator/path_line.hpp"
 #include "sim/world/world.hpp"
 
-/// The tendons of a world that are ropes.
+/// Tendons modelled as ropes.
 namespace sim {
 
 void World::make_ropes() {
@@ -12,12 +12,12 @@ void World::make_ropes() {
     if (!actuator.rope) continue;
     chain.rope = std::make_unique<Rope>(*actuator.rope, chain.tendon, chain.routing,
                                         solids_of(robot_.bodies(), tree_.names));
-    of_actuator(actuator, [&] { chain.rope->require_fine(chain.shape.length_m); });
+    with_actuator_name(actuator, [&] { chain.rope->require_fine(chain.shape.length_m); });
     lay_rope(k, actuator.tendon.pretension_N);
   }
 }
 
-/// Along its path, at rest.
+/// Places the rope along its path, at rest.
 void World::lay_rope(std::size_t k, std::optional<double> pretension_N) {
   constexpr double arc_step_rad = 0.05;
   Chain& chain = chains_[k];

@@ -1,7 +1,7 @@
-// The paper's figure 5 by each strategy: models perturbed until they are as far off as its own was,
-// calibrated by a recording of the arm's tour (launch/calibration_tour.xml).
+// Figure 5 of the paper for each strategy: models with random errors as large as those in the paper are calibrated with
+// a recording of the arm (launch/calibration_tour.xml).
 //   erp_calibration TOUR.mcap PICTURE.svg [FIRST_SEED [SEEDS]]
-// Exits 1 where the evolution strategy's mean is not as allowed.
+// Exits with 1 if the mean error of the evolution strategy exceeds its limit.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -21,13 +21,14 @@ namespace {
 using namespace sim::calibration;
 
 constexpr int generations = 250;
-constexpr double start_deg[] = {35.7, 32.9};            // shoulder, elbow: the paper's
-constexpr double allowed_deg[] = {2.5, 1.9, 2.0, 1.9};  // learnt shoulder, elbow; checked
+constexpr double start_deg[] = {35.7, 32.9};  // shoulder, elbow; from the paper
+constexpr double allowed_deg[] = {2.5, 1.9, 2.0,
+                                  1.9};  // training: shoulder, elbow; validation: shoulder, elbow
 constexpr std::pair<const char*, Strategy> strategies[] = {
     {"evolution", Strategy::evolution}, {"newton", Strategy::newton}, {"cma", Strategy::cma}};
 
 struct Run {
-  std::vector<std::vector<double>> curve;  ///< by round: the metrics
+  std::vector<std::vector<double>> curve;  ///< metrics of each round
   double seconds = 0;
 };
 
@@ -36,34 +37,36 @@ double now_s() {
 }
 
 Run calibrated(const Task& task, Strategy strategy, std::uint64_t seed, int threads) {
-  const auto learner = make_calibration(task, {.strategy = strategy, .seed = seed});
+  const auto calibration = make_calibration(task, {.strategy = strategy, .seed = seed});
   const sim::Threads pool(threads);
   Run run;
-  const auto keep = [&] {
+  const auto store_metrics = [&] {
     auto& row = run.curve.emplace_back();
-    for (const auto& metric : learner->metrics()) row.push_back(metric.value);
+    for (const auto& metric : calibration->metrics()) row.push_back(metric.value);
   };
-  keep();
+  store_metrics();
   const double begin_s = now_s();
-  while (learner->rounds() < generations && !learner->done()) learner->round(pool), keep();
+  while (calibration->rounds() < generations && !calibration->done())
+    calibration->round(pool), store_metrics();
   run.seconds = now_s() - begin_s;
   return run;
 }
 
 struct Spread {
-  double mean = 0, deviation = 0, most = 0;
+  double mean = 0, deviation = 0, largest = 0;
 };
 
 Spread spread(const std::vector<double>& values) {
   Spread s;
-  for (const double v : values) s.mean += v / double(values.size()), s.most = std::max(s.most, v);
+  for (const double v : values)
+    s.mean += v / double(values.size()), s.largest = std::max(s.largest, v);
   for (const double v : values)
     s.deviation += std::pow(v - s.mean, 2) / std::max(1.0, double(values.size()) - 1);
   s.deviation = std::sqrt(s.deviation);
   return s;
 }
 
-/// One metric of each run, at its start or end.
+/// One metric of all runs, at their start or end.
 std::vector<double> column(const std::vector<Run>& runs, std::size_t metric, bool end) {
   std::vector<double> values;
   for (const Run& run : runs)
@@ -75,7 +78,7 @@ void print(const char* name, const std::vector<Run>& runs, bool end) {
   fmt::print("{:<12}", name);
   for (std::size_t m = 0; m < 4; ++m) {
     const Spread s = spread(column(runs, m, end));
-    fmt::print("  {:5.2f} ± {:4.2f} ({:5.2f})", s.mean, s.deviation, s.most);
+    fmt::print("  {:5.2f} ± {:4.2f} ({:5.2f})", s.mean, s.deviation, s.largest);
   }
   std::vector<double> seconds;
   for (const Run& run : runs) seconds.push_back(run.seconds);
@@ -85,7 +88,7 @@ void print(const char* name, const std::vector<Run>& runs, bool end) {
   std::fflush(stdout);
 }
 
-/// Mean of shoulder and elbow over poses judged: a thin line a seed, a colour a strategy.
+/// Plots the mean error of shoulder and elbow against evaluated poses: one line per seed, one colour per strategy.
 launch::PlotScript script(const std::vector<std::vector<Run>>& all) {
   constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73"};
   launch::PlotScript plot{.panels = 2};
@@ -106,8 +109,8 @@ launch::PlotScript script(const std::vector<std::vector<Run>>& all) {
   plot.commands =
       data +
       "set grid\nset key outside right\nset logscale xy\nset multiplot layout 2,1 title "
-      "'mean of shoulder and elbow, degrees'\nset ylabel 'poses learnt from'\nplot " +
-      lines[0] + "\nset ylabel 'poses that check'\nset xlabel 'poses judged'\nplot " + lines[1] +
+      "'mean of shoulder and elbow, degrees'\nset ylabel 'training poses'\nplot " +
+      lines[0] + "\nset ylabel 'validation poses'\nset xlabel 'poses evaluated'\nplot " + lines[1] +
       "\nunset multiplot\n";
   return plot;
 }
@@ -148,10 +151,10 @@ int main(int argc, char** argv) {
   for (int k = 0; k < seeds; ++k)
     tasks.push_back(perturbed_task(argv[1], first + std::uint64_t(k)));
   fmt::print(
-      "{} seeds from {}; degrees, mean ± deviation (most)\n{:<12}  {:<21}  {:<21}  {:<21}  {:<21}  "
-      "{:>9}  {:>6}\n",
-      seeds, first, "", "shoulder, learnt", "elbow, learnt", "shoulder, checked", "elbow, checked",
-      "judged", "s");
+      "{} seeds from {}; degrees, mean ± standard deviation (maximum)\n{:<12}  {:<21}  {:<21}  "
+      "{:<21}  {:<21}  {:>9}  {:>6}\n",
+      seeds, first, "", "shoulder, training", "elbow, training", "shoulder, validation",
+      "elbow, validation", "evaluated", "s");
   std::vector<std::vector<Run>> all;
   for (const auto& [name, strategy] : strategies) {
     auto& runs = all.emplace_back();

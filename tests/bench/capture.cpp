@@ -1,5 +1,5 @@
-// How long motion capture takes for a pair of images, and how true its joints are: the arm through its
-// figure, a hundred pairs a second, noise and the arm's own bones as in configs/arm/motion_capture.xml.
+// Duration of motion capture for a pair of images, and error of its joint angles: the arm moves through its figure at 100
+// pairs per second, with noise and bone lengths of configs/arm/motion_capture.xml.
 #include <cstdio>
 #include <numbers>
 
@@ -17,7 +17,7 @@ sim::JointPath figure(const erp::Robot& robot) {
           sim::poses_of(recording::read_table(ERP_SOURCE_DIR "/configs/arm/figure_8.csv"), robot)};
 }
 
-/// Squares of the error by joint, and how often it was known.
+/// Sum of squared errors of each joint, and number of images in which its angle was known.
 struct Errors {
   std::vector<double> square_rad2;
   std::vector<int> known;
@@ -34,7 +34,7 @@ struct Errors {
 };
 
 void print(const char* what, bench::Times& times) {
-  std::printf("%-24s p50 %7.2f ms, p99 %7.2f ms: %4.0f a second\n", what, 1e-3 * times.at(0.5),
+  std::printf("%-24s p50 %7.2f ms, p99 %7.2f ms: %4.0f per second\n", what, 1e-3 * times.at(0.5),
               1e-3 * times.at(0.99), 1e6 / times.mean());
 }
 
@@ -44,8 +44,8 @@ int main() {
   tests::Studio studio;
   const auto path = figure(studio.robot);
   const auto joints = studio.robot.joints();
-  capture::Capture seeing = studio.capture();
-  bench::Times painting, finding;
+  capture::Capture capturing = studio.capture();
+  bench::Times rendering, capturing_times;
   Errors errors(joints.size());
   std::vector<sim::JointMotion> motions;
   int pairs = 0;
@@ -55,12 +55,12 @@ int main() {
     for (const auto& motion : motions) truth.push_back(motion.now);
     std::array<sim::cameras::Image, 2> pair;
     std::optional<capture::Captured> found;
-    painting.take([&] { pair = studio.images(truth); });
-    finding.take([&] { found = seeing.see(pair[0], pair[1], period_s); });
+    rendering.take([&] { pair = studio.images(truth); });
+    capturing_times.take([&] { found = capturing.see(pair[0], pair[1], period_s); });
     if (found) errors.take(*found, truth);
   }
-  print("a pair painted", painting);
-  print("a pair to joints", finding);
+  print("render a pair", rendering);
+  print("pair to joint angles", capturing_times);
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (errors.known[j] > 0)
       std::printf("%-24s %.3f° RMS, known in %d of %d pairs\n", joints[j].name.c_str(),

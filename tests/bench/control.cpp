@@ -1,4 +1,4 @@
-// How long controllers of joints take for a cycle, and the quadratic programme beside CGAL's.
+// Duration of a cycle of the joint controllers, and comparison of the quadratic program with CGAL's solver.
 #include <CGAL/MP_Float.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 
 using bench::Times;
 
-/// A robot whose joints are asked to swing about where they start.
-struct Swing {
+/// A robot with joint references that oscillate about the initial pose.
+struct Oscillation {
   erp::Robot robot;
   joints::Names names;
   std::vector<sim::JointMotion> motions;
@@ -27,7 +27,7 @@ struct Swing {
   node::Latest<erp::JointTarget> target;
   erp::SensorFrame frame;
 
-  explicit Swing(const std::string& name)
+  explicit Oscillation(const std::string& name)
       : robot(erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml")), names(robot) {
     for (const auto& actuator : robot.actuators) {
       erp::ActuatorSample sample{};
@@ -49,45 +49,45 @@ struct Swing {
     }
     names.write(motions, target.message);
     state.message.joints._length = 0;
-    for (const auto& wanted : erp::samples(target.message.joints)) {
+    for (const auto& desired : erp::samples(target.message.joints)) {
       erp::JointStateSample now{};
-      erp::assign(now.name, wanted.name);
-      std::ranges::copy(wanted.position, now.position);
-      std::ranges::copy(wanted.velocity_rad_per_s, now.velocity_rad_per_s);
+      erp::assign(now.name, desired.name);
+      std::ranges::copy(desired.position, now.position);
+      std::ranges::copy(desired.velocity_rad_per_s, now.velocity_rad_per_s);
       erp::append(state.message.joints, now);
     }
   }
 };
 
 void cycle_row(const std::string& name) {
-  Swing swing(name);
-  control::ComputedForce control({}, swing.robot);
-  pose::PoseEstimator estimator({}, swing.robot);
-  sim::Musculoskeletal model(swing.robot);
+  Oscillation run(name);
+  control::ComputedForce control({}, run.robot);
+  pose::PoseEstimator estimator({}, run.robot);
+  sim::Musculoskeletal model(run.robot);
   Times controls, estimates;
   for (int k = 0; k < 5000; ++k) {
-    swing.move_to(0.002 * k);
-    controls.take([&] { (void)control.step(swing.frame, 0.002, swing.state, swing.target); });
-    estimates.take([&] { (void)estimator.step(swing.frame, 0.002, {}, {}); });
+    run.move_to(0.002 * k);
+    controls.take([&] { (void)control.step(run.frame, 0.002, run.state, run.target); });
+    estimates.take([&] { (void)estimator.step(run.frame, 0.002, {}, {}); });
   }
   std::printf("| %-9s | %2zu | %3d | %7.1f | %7.1f | %7.1f | %7.1f |\n", name.c_str(),
-              swing.robot.actuators.size(), model.coordinates(), controls.at(0.5),
-              controls.at(0.99), estimates.at(0.5), estimates.at(0.99));
+              run.robot.actuators.size(), model.coordinates(), controls.at(0.5), controls.at(0.99),
+              estimates.at(0.5), estimates.at(0.99));
 }
 
-// ---- the quadratic programme ----
+// ---- the quadratic program ----
 
-struct Programme {
+struct Program {
   MatrixXd l;
   VectorXd torque;
 };
 
-/// Torques around those that carry the robot.
-std::vector<Programme> programmes(const erp::Robot& robot, int count) {
+/// Quadratic programs with torques near those that compensate gravity.
+std::vector<Program> programs(const erp::Robot& robot, int count) {
   sim::Musculoskeletal model(robot);
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  std::vector<Programme> all;
+  std::vector<Program> all;
   VectorXd torque;
   model.skeleton().gravity_torques(torque);
   for (int k = 0; k < count; ++k) {
@@ -97,16 +97,16 @@ std::vector<Programme> programmes(const erp::Robot& robot, int count) {
   return all;
 }
 
-/// The same in CGAL's words:  min ½ fᵀ f − f°ᵀ f  with  Lᵀ f = −τ,  low ≤ f ≤ high.
-VectorXd by_cgal(const Programme& programme, const sim::Likes& likes) {
+/// The same program for CGAL:  min ½ fᵀ f − f°ᵀ f  with  Lᵀ f = −τ,  low ≤ f ≤ high.
+VectorXd by_cgal(const Program& program, const sim::ObjectiveTerms& likes) {
   CGAL::Quadratic_program<double> qp(CGAL::EQUAL, true, 0, true, 0);
-  const int n = static_cast<int>(programme.l.rows()), m = static_cast<int>(programme.l.cols());
+  const int n = static_cast<int>(program.l.rows()), m = static_cast<int>(program.l.cols());
   for (int a = 0; a < n; ++a) {
     qp.set_l(a, true, likes.low_N[a]), qp.set_u(a, true, likes.high_N[a]);
-    qp.set_d(a, a, 1), qp.set_c(a, -likes.liked_N[a]);
-    for (int d = 0; d < m; ++d) qp.set_a(a, d, programme.l(a, d));
+    qp.set_d(a, a, 1), qp.set_c(a, -likes.preferred_N[a]);
+    for (int d = 0; d < m; ++d) qp.set_a(a, d, program.l(a, d));
   }
-  for (int d = 0; d < m; ++d) qp.set_b(d, -programme.torque[d]);
+  for (int d = 0; d < m; ++d) qp.set_b(d, -program.torque[d]);
   const auto solution = CGAL::solve_quadratic_program(qp, CGAL::MP_Float());
   VectorXd f = VectorXd::Constant(n, std::nan(""));
   if (solution.is_infeasible()) return f;
@@ -117,24 +117,24 @@ VectorXd by_cgal(const Programme& programme, const sim::Likes& likes) {
   return f;
 }
 
-void programme_row(const std::string& name) {
+void program_row(const std::string& name) {
   const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml");
-  const sim::Likes likes = sim::likes_of(robot, sim::Liking::least_tension, 5);
-  const auto all = programmes(robot, 20);
+  const sim::ObjectiveTerms likes = sim::objective_terms(robot, sim::TensionObjective::least_tension, 5);
+  const auto all = programs(robot, 20);
   sim::TensionShare share(likes, static_cast<int>(all[0].l.cols()));
-  Times ours, theirs;
-  double apart_N = 0;
+  Times ours, cgal;
+  double difference_N = 0;
   int solved = 0;
-  for (const Programme& programme : all) {
+  for (const Program& program : all) {
     VectorXd f, g;
-    ours.take([&] { f = share.share(programme.l, programme.torque); });
-    theirs.take([&] { g = by_cgal(programme, likes); });
+    ours.take([&] { f = share.share(program.l, program.torque); });
+    cgal.take([&] { g = by_cgal(program, likes); });
     if (g.hasNaN()) continue;
     ++solved;
-    apart_N = std::max(apart_N, (f - g).cwiseAbs().maxCoeff());
+    difference_N = std::max(difference_N, (f - g).cwiseAbs().maxCoeff());
   }
   std::printf("| %-9s | %7.1f | %9.1f | %5.0f | %2d of %zu | %.1e |\n", name.c_str(), ours.at(0.5),
-              theirs.at(0.5), theirs.at(0.5) / ours.at(0.5), solved, all.size(), apart_N);
+              cgal.at(0.5), cgal.at(0.5) / ours.at(0.5), solved, all.size(), difference_N);
 }
 
 }  // namespace
@@ -143,6 +143,7 @@ int main() {
   std::puts(
       "| robot | muscles | coordinates | computed force, µs p50 | p99 | estimator, p50 | p99 |");
   for (const char* name : {"hinge_rig", "arm", "seven_dof", "ecce4"}) cycle_row(name);
-  std::puts("\n| robot | shares, µs | CGAL's, µs | ratio | solved by both | apart, N |");
-  for (const char* name : {"hinge_rig", "arm", "seven_dof"}) programme_row(name);
+  std::puts(
+      "\n| robot | tension distribution, µs | CGAL, µs | ratio | solved by both | difference, N |");
+  for (const char* name : {"hinge_rig", "arm", "seven_dof"}) program_row(name);
 }

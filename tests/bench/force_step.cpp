@@ -1,5 +1,5 @@
-// The paper's figure 6b on every prototype: each muscle from 2 N to 40 N by its ECU's force law,
-// all joints held. Exits 1 where a row is not as allowed.
+// Figure 6b of the paper for every prototype: a force step from 2 N to 40 N on each muscle, controlled by the force law of
+// its ECU, with all joints locked. Exits with 1 if a row exceeds its limits.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,10 +17,10 @@ constexpr int before = 500, rising = 1000, resting = 1000;      // ticks
 
 struct Step {
   std::string actuator;
-  std::vector<double> force_N;  ///< each tick since the step
+  std::vector<double> force_N;  ///< at each tick after the step
   double rise_s = 0;            ///< from 10 to 90 %
   double least_s = 0;           ///< the same at the motor's top speed
-  double steady_N = 0;          ///< RMS of what is left
+  double steady_N = 0;          ///< RMS error at rest
 
   double allowed_s() const { return std::max(paper_rise_s, 1.3 * least_s); }
   bool good() const { return rise_s <= allowed_s() && steady_N <= paper_steady_N; }
@@ -28,7 +28,7 @@ struct Step {
 
 double level_N(double share) { return low_N + share * (high_N - low_N); }
 
-/// How long the line takes that lies between the tensions, wound up without load.
+/// Shortest rise time: the motor winds up the elongation between 10 and 90 % at its no-load speed.
 double least_s(const erp::Robot& robot, const erp::Actuator& actuator) {
   const erp::MotorType& motor = robot.motor_of(actuator);
   const auto spring = sim::Spring::of(actuator.tendon);
@@ -37,7 +37,7 @@ double least_s(const erp::Robot& robot, const erp::Actuator& actuator) {
   return line_m / (top_rad_per_s * actuator.spindle.radius_m);
 }
 
-void find_figures(Step& step) {
+void evaluate(Step& step) {
   const auto reaches = [&](double force_N) {
     const auto found = std::ranges::find_if(step.force_N, [&](double f) { return f >= force_N; });
     return found == step.force_N.end() ? INFINITY
@@ -50,7 +50,7 @@ void find_figures(Step& step) {
   step.steady_N = std::sqrt(squares / resting);
 }
 
-/// All muscles of a robot at once: held joints do not let them know of each other.
+/// Steps of all muscles of a robot at once. Locked joints decouple them.
 std::vector<Step> steps_of(const erp::Robot& robot) {
   sim::WorldOptions held;
   for (const erp::Joint& joint : robot.joints()) held.lock.push_back(joint.name);
@@ -69,7 +69,7 @@ std::vector<Step> steps_of(const erp::Robot& robot) {
     for (std::size_t a = 0; a < steps.size(); ++a)
       steps[a].force_N.push_back(limb.world.actuators()[a].tension_N);
   }
-  for (Step& step : steps) find_figures(step);
+  for (Step& step : steps) evaluate(step);
   return steps;
 }
 
@@ -110,9 +110,10 @@ launch::PlotScript script(const std::map<std::string, Step>& slowest) {
 
 int main(int argc, char** argv) {
   std::printf(
-      "each muscle from 2 N to 40 N, joints held; rise from 10 to 90 %%, ms; N\n"
-      "| robot | muscles | rise of the slowest | at top speed | allowed | which | "
-      "worst RMS at 40 N | which | as allowed |\n|---|---|---|---|---|---|---|---|---|\n");
+      "force step from 2 N to 40 N on each muscle, joints locked; rise time from 10 to 90 %% in "
+      "ms; force in N\n"
+      "| robot | muscles | slowest rise | at no-load speed | limit | muscle | largest RMS error at "
+      "40 N | muscle | within limits |\n|---|---|---|---|---|---|---|---|---|\n");
   std::map<std::string, Step> slowest;
   bool good = true;
   for (const std::string name : {"hinge_rig", "twin_joint", "seven_dof", "pendulum", "arm", "ecce1",

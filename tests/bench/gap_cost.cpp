@@ -1,5 +1,5 @@
-// What a diagnosis costs: against actuators, against the effects that are tried, and on recordings
-// of 4 × 25 s. Google Benchmark; ask for JSON with --benchmark_format=json.
+// Duration of a diagnosis against the number of actuators, the number of effects and the length of the four recordings.
+// Google Benchmark; --benchmark_format=json prints JSON.
 #include <benchmark/benchmark.h>
 
 #include "sim/gap/blind/record.hpp"
@@ -14,7 +14,7 @@ erp::Robot read(const std::string& robot) {
   return erp::read_robot(ERP_SOURCE_DIR "/configs/" + robot + "/robot.xml");
 }
 
-/// Four recordings of a robot in whose first actuator a gear rubs.
+/// Four recordings of a robot with viscous friction in the gearbox of its first actuator.
 std::vector<Episode> recordings(const erp::Robot& robot, double seconds) {
   sim::blind::Case hidden = sim::blind::draw_case(robot, sim::blind::Kind::null, 1);
   hidden.hidden_effects.chains[0].viscous = 0.02;
@@ -28,8 +28,8 @@ std::vector<Episode> recordings(const erp::Robot& robot, double seconds) {
   return all;
 }
 
-/// Of the library, every so manieth effect, and the right one.
-std::vector<std::string> all_but_each(int stride) {
+/// Effects to withhold, so that every `stride`-th effect of the library and the true one remain.
+std::vector<std::string> withheld_for(int stride) {
   std::vector<std::string> withheld;
   int n = 0;
   for (const auto& effect : sim::effects::library())
@@ -41,10 +41,11 @@ std::vector<std::string> all_but_each(int stride) {
 
 void diagnose(benchmark::State& state, const erp::Robot& robot, double seconds, int stride) {
   const auto episodes = recordings(robot, seconds);
-  const auto withheld = all_but_each(stride);
+  const auto withheld = withheld_for(stride);
   for (auto _ : state) {
     const auto d = sim::diagnosis::diagnose(robot, episodes, {.withhold = withheld});
-    if (d.verdict != sim::diagnosis::Verdict::supported) state.SkipWithError("it is not found");
+    if (d.verdict != sim::diagnosis::Verdict::supported)
+      state.SkipWithError("the friction is not identified");
   }
   state.counters["actuators"] = static_cast<double>(robot.actuators.size());
   state.counters["effects"] = static_cast<double>(sim::effects::library().size() - withheld.size());

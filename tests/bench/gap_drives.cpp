@@ -1,6 +1,5 @@
-// What a diagnosis reports of a light drive with known friction: against the rows' period, a constant load,
-// a disturbance that no law explains, sums of sines and steady speeds. A table; ends with 1 if an answer
-// that is supported is wrong.
+// Diagnoses of a light drive with known friction, against the sampling period, a constant load, a disturbance that no law
+// explains, and the motion (sums of sines, steady speeds). Prints a table. Exits with 1 if a supported answer is wrong.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +29,7 @@ struct Result {
 
 Result diagnosed(const Case& c) {
   const auto tables = c.steady ? light_drive::at_steady_speeds(c.light, c.rows)
-                               : light_drive::swung(c.light, c.rows);
+                               : light_drive::of_sines(c.light, c.rows);
   const erp::Robot robot = sim::residuals::as_chains(light_drive::description());
   std::vector<sim::residuals::Episode> episodes;
   std::vector<std::string> remarks;
@@ -38,10 +37,10 @@ Result diagnosed(const Case& c) {
     episodes.push_back(
         sim::residuals::lay_out(table, robot, std::to_string(episodes.size()), remarks));
   const sim::diagnosis::Evaluator evaluator(robot, episodes);
-  return {sim::diagnosis::diagnose(robot, episodes), sim::diagnosis::turned_back(evaluator)};
+  return {sim::diagnosis::diagnose(robot, episodes), sim::diagnosis::reversal_share(evaluator)};
 }
 
-/// What is true of each effect of the answer.
+/// True value of an effect; 0 if the drive does not have it.
 double truth(const std::string& type, const light_drive::Light& light) {
   return type == "gearbox_coulomb"      ? light.coulomb_Nm
          : type == "gearbox_viscous"    ? light.viscous_Nm_s
@@ -49,14 +48,14 @@ double truth(const std::string& type, const light_drive::Light& light) {
                                         : 0;
 }
 
-/// Every effect has its true value within its interval, and both frictions are named.
+/// Whether both frictions are identified and the interval of every identified effect contains the true value.
 bool is_true(const Diagnosis& d, const light_drive::Light& light) {
   const auto has = [&](const char* type) {
     return std::ranges::any_of(d.answer, [&](const IdentifiedEffect& n) { return n.type == type; });
   };
   const auto holds = [&](const IdentifiedEffect& n) {
-    const double is = truth(n.type, light);
-    return is != 0 && n.intervals[0].low <= is && is <= n.intervals[0].high;
+    const double value = truth(n.type, light);
+    return value != 0 && n.intervals[0].low <= value && value <= n.intervals[0].high;
   };
   return has("gearbox_coulomb") && has("gearbox_viscous") && std::ranges::all_of(d.answer, holds);
 }
@@ -81,16 +80,16 @@ int main() {
         cases.push_back(
             {"six speeds", true, light, {.period_s = period_s, .seconds = 4, .noise_rad = 1e-5}});
       }
-  bool sound = true;
+  bool all_right = true;
   fmt::print(
-      "| motion | period, ms | load, Nm | disturbance, Nm | turned back, % | verdict | true | "
-      "answer |\n");
+      "| motion | period, ms | load, Nm | disturbance, Nm | rows with reversal, % | verdict | "
+      "right | answer |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   for (const Case& c : cases) {
     const auto [d, turned_back] = diagnosed(c);
     const bool right = is_true(d, c.light);
     const bool supported = d.verdict == sim::diagnosis::Verdict::supported;
-    sound &= !supported || right;
+    all_right &= !supported || right;
     fmt::print("| {} | {:g} | {:g} | {:g} | {:.1f} | {} | {} | {} |\n", c.motion,
                1e3 * c.rows.period_s, c.light.load_Nm, c.light.disturbance_Nm, 100 * turned_back,
                sim::diagnosis::word(d.verdict),
@@ -100,5 +99,5 @@ int main() {
                values_of(d));
     std::fflush(stdout);
   }
-  return sound ? 0 : 1;
+  return all_right ? 0 : 1;
 }

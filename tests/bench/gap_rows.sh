@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# How well the diagnosis finds what it is not told, row by row, on seeds that nothing was tuned to.
-#   tests/bench/gap_rows.sh                 every row: hours
-#   tests/bench/gap_rows.sh null pair       these
-# Cases and scores go to erp_runs/gap_rows, every score so far to erp_runs/gap_rows/gap_rows.md; a row that
-# was stopped goes on where it was.
+# Success rates of the diagnosis on hidden effects, one row per kind of case, on seeds not used for development.
+#   tests/bench/gap_rows.sh                 every row; takes hours
+#   tests/bench/gap_rows.sh null pair       these rows
+# Writes cases and scores to erp_runs/gap_rows, and all scores so far to erp_runs/gap_rows/gap_rows.md. A row that was
+# interrupted continues.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 erp=build/release/bin/erp
@@ -38,24 +38,24 @@ run_row() {  # name robot kind cases seed tolerance without
     $erp gap blind make --robot "configs/$2/robot.xml" --kind "$3" --cases "$4" --seed "$5" \
       --recordings 4 --seconds 25 --tolerance "$6" --out "$cases" --truth "$truth" ${7:+--without "$7"}
   fi
-  local freely=
-  [[ $1 == tolerance* || $1 == many* ]] && freely=--free-run
+  local free_run=
+  [[ $1 == tolerance* || $1 == many* ]] && free_run=--free-run
   local began=$SECONDS
-  $erp gap blind run "$cases" ${freely:+$freely}
+  $erp gap blind run "$cases" ${free_run:+$free_run}
   echo $((SECONDS - began)) >>"$out/$1.seconds"
   $erp gap blind score "$cases" --truth "$truth" | tee "$out/$1.score"
   $erp --version >"$out/$1.version"
 }
 
-tell() {  # every row that has a score, with what was missed, case by case
-  echo "# How well the diagnosis finds what it is not told"
-  echo "By \`tests/bench/gap_rows.sh\`, 4 recordings of 25 s a case."
+print_scores() {  # every row that has a score, with all failed cases
+  echo "# Success rates of the diagnosis on hidden effects"
+  echo "Measured by \`tests/bench/gap_rows.sh\`, 4 recordings of 25 s per case."
   local name robot cases seed tolerance without
   while read -r name robot _ cases seed tolerance without; do
     [ -f "$out/$name.score" ] || continue
     echo
     echo "## $name"
-    echo "$cases cases of $robot, seeds from $seed, numbers off by $tolerance${without:+, without $without}; \
+    echo "$cases cases of $robot, seeds from $seed, constants with relative errors of $tolerance${without:+, without $without}; \
 $(awk '{s += $1} END {print s}' "$out/$name.seconds") s on $(nproc) cores; $(cat "$out/$name.version")."
     echo '```'
     cat "$out/$name.score"
@@ -68,10 +68,10 @@ known=$(awk 'NF {print $1}' <<<"$rows")
 for name in ${*:-$known}; do
   row=$(awk -v name="$name" '$1 == name' <<<"$rows")
   if [ -z "$row" ]; then
-    echo "gap_rows: no row \"$name\"; there are:" $known >&2
+    echo "gap_rows: unknown row \"$name\"; known rows:" $known >&2
     exit 2
   fi
   # shellcheck disable=SC2086
   run_row $row
 done
-tell >"$out/gap_rows.md"
+print_scores >"$out/gap_rows.md"

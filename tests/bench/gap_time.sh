@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# How long a diagnosis takes: robots of more and more actuators, an effect of the library hidden and a law that
-# it lacks, on one thread, on every core, and on two processes of MPI. 4 recordings of 25 s, without the free run.
-#   tests/bench/gap_time.sh                    every robot: hours
-#   tests/bench/gap_time.sh hinge_rig leg      these
-# Cases go to erp_runs/gap_time. Run it on an idle machine: only ratios within a line compare.
+# Duration of a diagnosis for robots with an increasing number of actuators, with a hidden effect of the library and
+# with a law outside it; on one thread, on all cores and on two MPI processes. 4 recordings of 25 s, no free run.
+#   tests/bench/gap_time.sh                    every robot; takes hours
+#   tests/bench/gap_time.sh hinge_rig leg      these robots
+# Writes cases to erp_runs/gap_time. Run it on an idle machine and compare only ratios within a line.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 erp=build/release/bin/erp
 out=${ERP_GAP_TIME:-erp_runs/gap_time}
 
-seconds_of() {  # command...: of its wall time; its output to the log
+seconds_of() {  # command...: prints its wall time in s; its output goes to the log
   local began ended
   began=$(date +%s%N)
   "$@" >>"$out/log" 2>&1 || [ $? -ge 3 ]
@@ -30,7 +30,7 @@ measure() {  # robot kind
 }
 
 mkdir -p "$out"
-echo "| robot | actuators | hidden | 1 thread, s | $(nproc) threads, s | 2 processes of 1 thread, s |"
+echo "| robot | actuators | hidden | 1 thread, s | $(nproc) threads, s | 2 MPI processes, 1 thread each, s |"
 echo "|---|---|---|---|---|---|"
 for robot in ${*:-hinge_rig leg arm seven_dof ecce4}; do
   for kind in single outside; do measure "$robot" "$kind"; done

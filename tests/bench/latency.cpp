@@ -1,10 +1,9 @@
-// How long a sensor frame takes through controller and plant to become the command at the device,
-// through the real processes, beside ddsperf's round trip of a message of the same size in the same
-// run. Prints JSON.
+// Latency from a sensor frame through controller and plant to the command at the device, with the real processes, and
+// ddsperf's round trip of a message of the same size in the same run. Prints JSON.
 //
-// An observer stands beside the device. When the device's frame reaches it, it reaches the plant
-// too, which publishes the sensor frame: from there to the command's arrival are three hops,
-// sensor_frame, actuator_command, ecu_command. From the device's stamp on it is four.
+// This program subscribes to the topics of the device. It receives the device's frame at the same time as the plant, which
+// then publishes the sensor frame. From there to the arrival of the command are three hops: sensor_frame,
+// actuator_command, ecu_command. From the time stamp of the device there are four.
 //
 //   erp_latency [GRAPH.xml] [SECONDS]
 #include <sys/wait.h>
@@ -42,12 +41,12 @@ Quantiles quantiles(std::vector<double> us) {
   return {at(0.5), at(0.99), us.size()};
 }
 
-pid_t start(const std::vector<std::string>& words, const std::string& output) {
+pid_t start(const std::vector<std::string>& command, const std::string& output) {
   const pid_t pid = fork();
   if (pid) return pid;
   if (!freopen(output.c_str(), "w", stdout)) _exit(126);
   std::vector<char*> argv;
-  for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  for (const auto& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   execvp(argv[0], argv.data());
   _exit(127);
@@ -66,21 +65,21 @@ std::string content(const std::string& file) {
   return text;
 }
 
-/// One frame's way, seen from beside the device.
-struct Seen {
+/// Times of one frame of the device.
+struct FrameTimes {
   std::int64_t stamped_ns, arrived_ns;
 };
 struct Observed {
   Quantiles three_hops, four_hops;
 };
 
-/// The start of a run is left out.
+/// Quantiles without the first tenth of a run.
 Quantiles settled(std::vector<double> us) {
   us.erase(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 10));
   return quantiles(std::move(us));
 }
 
-/// Launches the graph and hears the device's frames and the commands that answer them.
+/// Launches the graph and records the times of the device's frames and of the resulting commands.
 Observed observe(const std::string& graph, const std::string& seconds, const std::string& folder) {
   const auto participant = node::join("latency");
   node::Wake wake;
@@ -89,7 +88,7 @@ Observed observe(const std::string& graph, const std::string& seconds, const std
   const pid_t erp =
       start({ERP_BIN_DIR "/erp", "launch", graph, "--for", seconds + "s", "--out", folder + "/run"},
             folder + "/launch.txt");
-  std::map<std::uint64_t, Seen> sent;
+  std::map<std::uint64_t, FrameTimes> sent;
   std::vector<double> three_us, four_us;
   int status = 0;
   while (waitpid(erp, &status, WNOHANG) == 0) {
@@ -100,19 +99,19 @@ Observed observe(const std::string& graph, const std::string& seconds, const std
       sent[frame.sequence] = {frame.stamp_ns, node::wall_ns()};
     });
     commands.take([&](const erp::EcuCommand& command) {
-      const auto seen = sent.find(command.answers);
-      if (seen == sent.end()) return;
+      const auto frame = sent.find(command.answers);
+      if (frame == sent.end()) return;
       const auto now_ns = node::wall_ns();
-      three_us.push_back(1e-3 * static_cast<double>(now_ns - seen->second.arrived_ns));
-      four_us.push_back(1e-3 * static_cast<double>(now_ns - seen->second.stamped_ns));
-      sent.erase(sent.begin(), std::next(seen));
+      three_us.push_back(1e-3 * static_cast<double>(now_ns - frame->second.arrived_ns));
+      four_us.push_back(1e-3 * static_cast<double>(now_ns - frame->second.stamped_ns));
+      sent.erase(sent.begin(), std::next(frame));
     });
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) std::cerr << content(folder + "/launch.txt");
   return {settled(std::move(three_us)), settled(std::move(four_us))};
 }
 
-/// ddsperf prints half round trips; the medians of its one-second lines.
+/// Round trip of ddsperf, which prints half round trips: medians of its lines, one per second.
 Quantiles peer(const std::string& seconds, int bytes, const std::string& folder) {
   const std::string domain = std::getenv("ERP_DOMAIN");
   const auto size = std::to_string(bytes);

@@ -1,8 +1,8 @@
-// How often a fault of a recording is told, and how often one is told that is not there.
+// Detection rates of wrong columns in recordings, and false alarms.
 //   erp_recording_faults ROBOT.XML RECORDING…
-// Each recording is asked as it is, then with one column turned, in another unit, dead, or exchanged with
-// another, drawn from its number. Of a fault: its column blamed alone; told beside another sentence; another
-// column blamed; nothing said.
+// Checks each recording unchanged, then with one column inverted, in another unit, dead, or exchanged with another; the
+// index of the recording seeds the choice of the column. Counts: right column, one message; right column, several
+// messages; wrong column; no message.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,12 +27,12 @@ void scale(Signal& signal, double by) {
   for (double& x : signal) x *= by;
 }
 
-/// Injects it; of an exchange, two columns of one kind.
+/// Injects a fault into a random column; an exchange affects two columns of the same signal.
 Fault inject(const std::string& kind, Columns& columns, std::mt19937_64& random) {
   std::erase_if(columns, [](const auto& c) { return c.signal->empty(); });
   const std::size_t n = random() % columns.size();
   const auto& [name, unit, signal] = columns[n];
-  if (kind == "turned") scale(*signal, -1);
+  if (kind == "inverted") scale(*signal, -1);
   if (kind == "unit") scale(*signal, unit == "rad" ? 57.29578 : 1000);
   if (kind == "dead") std::ranges::fill(*signal, (*signal)[signal->size() / 2]);
   if (kind != "exchanged") return {kind, {name}};
@@ -45,33 +45,35 @@ Fault inject(const std::string& kind, Columns& columns, std::mt19937_64& random)
   return {"", {}};
 }
 
-/// Of each alternative of a sentence its subject: the columns that it says are wrong, not those that
-/// it tells it by. That columns contradict each other blames none.
-std::vector<std::string> blamed(const std::string& sentence) {
+/// The columns that a message reports as wrong, one string per alternative of the message. A message that columns
+/// contradict each other reports no column.
+std::vector<std::string> reported_columns(const std::string& message) {
   std::vector<std::string> all;
-  std::string rest = sentence.substr(sentence.find(": ") + 2);  // behind the recording's name
+  std::string rest =
+      message.substr(message.find(": ") + 2);  // text after the name of the recording
   while (!rest.empty()) {
     const auto end = rest.find("; or ");
     const std::string one = rest.substr(0, end);
     rest = end == rest.npos ? "" : rest.substr(end + 5);
     if (one.find("contradict each other") == one.npos)
-      all.push_back(one.substr(0, std::min(one.find(": "), one.find(" is "))));
+      all.push_back(
+          one.substr(0, std::min({one.find(" is "), one.find(" has "), one.find(" seem ")})));
   }
   return all;
 }
 
-std::string outcome(const std::vector<std::string>& odd, const Fault& fault) {
-  if (odd.empty()) return "nothing";
-  const auto tells = [&](const std::string& sentence) {
-    const auto all = blamed(sentence);
+std::string outcome(const std::vector<std::string>& messages, const Fault& fault) {
+  if (messages.empty()) return "none";
+  const auto is_right = [&](const std::string& message) {
+    const auto all = reported_columns(message);
     return std::ranges::any_of(all, [&](const std::string& subject) {
       return std::ranges::all_of(fault.columns, [&](const std::string& column) {
         return subject.find(column) != subject.npos;
       });
     });
   };
-  const bool told = std::ranges::any_of(odd, tells);
-  return !told ? "another" : odd.size() == 1 ? "alone" : "beside";
+  const bool right = std::ranges::any_of(messages, is_right);
+  return !right ? "wrong" : messages.size() == 1 ? "one" : "several";
 }
 
 }  // namespace
@@ -84,23 +86,24 @@ int main(int argc, char** argv) {
     std::vector<std::string> remarks;
     const Episode plain = lay_out(recording::read_table(argv[n]), robot, argv[n], remarks);
     const auto false_alarms = sim::checks::column_checks(plain, robot);
-    for (const auto& sentence : false_alarms) fmt::print("falsely: {}\n", sentence);
-    ++count["as it is"][false_alarms.empty() ? "nothing" : "another"];
+    for (const auto& message : false_alarms) fmt::print("false alarm: {}\n", message);
+    ++count["unchanged"][false_alarms.empty() ? "none" : "wrong"];
     std::mt19937_64 random(static_cast<std::uint64_t>(n));
-    for (const char* kind : {"turned", "unit", "dead", "exchanged"}) {
+    for (const char* kind : {"inverted", "unit", "dead", "exchanged"}) {
       Episode faulty = plain;
       Columns columns = measured(faulty, robot);
       const Fault fault = inject(kind, columns, random);
       if (fault.columns.empty()) continue;
-      const auto odd = sim::checks::column_checks(faulty, robot);
-      const std::string what = outcome(odd, fault);
+      const auto messages = sim::checks::column_checks(faulty, robot);
+      const std::string what = outcome(messages, fault);
       ++count[kind][what];
-      if (what != "alone")
-        fmt::print("{} {}: {}: {}\n", kind, fault.columns[0], what, odd.empty() ? argv[n] : odd[0]);
+      if (what != "one")
+        fmt::print("{} {}: {}: {}\n", kind, fault.columns[0], what,
+                   messages.empty() ? argv[n] : messages[0]);
     }
   }
-  fmt::print("{:<10}{:>8}{:>8}{:>9}{:>9}\n", "", "alone", "beside", "another", "nothing");
+  fmt::print("{:<10}{:>8}{:>8}{:>9}{:>9}\n", "", "one", "several", "wrong", "none");
   for (auto& [kind, of] : count)
-    fmt::print("{:<10}{:>8}{:>8}{:>9}{:>9}\n", kind, of["alone"], of["beside"], of["another"],
-               of["nothing"]);
+    fmt::print("{:<10}{:>8}{:>8}{:>9}{:>9}\n", kind, of["one"], of["several"], of["wrong"],
+               of["none"]);
 }

@@ -3,7 +3,7 @@
 
 #include "interfaces/robot/robot.hpp"
 
-/// A robot's first skeleton and its actuators so many times on one body, `base`: what size costs.
+/// A robot with `copies` copies of the first skeleton and all actuators of `one`, attached to the common body `base`.
 inline erp::Robot side_by_side(const erp::Robot& one, const std::string& base, int copies) {
   erp::Robot robot = one;
   robot.skeletons.clear(), robot.actuators.clear(), robot.joint_sensors.clear();

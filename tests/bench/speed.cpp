@@ -1,5 +1,5 @@
-// How fast the pure parts are: the simulator's step, a control law's step. Google Benchmark; ask
-// for JSON with --benchmark_format=json.
+// Duration of a step of the simulator, of a control law and of the plant, without processes. Google Benchmark;
+// --benchmark_format=json prints JSON.
 #include <benchmark/benchmark.h>
 
 #include "components/plant/plant.hpp"
@@ -43,14 +43,13 @@ BENCHMARK_CAPTURE(world_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(world_step, arm, "arm");
 BENCHMARK_CAPTURE(world_step, ecce4, "ecce4");
 
-/// The exported model in MuJoCo, beside it: the same bones, tendons, frictions and limits, but
-/// without motors, springs and spindles.
+/// The exported model in MuJoCo: the same bones, tendons, frictions and limits, without motors, springs and spindles.
 void mujoco_step(benchmark::State& state, const char* robot) { step_mujoco(state, read(robot)); }
 BENCHMARK_CAPTURE(mujoco_step, hinge_rig, "hinge_rig");
 BENCHMARK_CAPTURE(mujoco_step, arm, "arm");
 BENCHMARK_CAPTURE(mujoco_step, ecce4, "ecce4");
 
-/// So many tendons of arms on one torso.
+/// A robot with `tendons` tendons: several arms on one torso.
 erp::Robot arms(long tendons) {
   erp::Robot robot = side_by_side(read("arm"), "torso", static_cast<int>((tendons + 10) / 11));
   robot.joint_sensors.clear();
@@ -70,7 +69,7 @@ void tendons_mujoco(benchmark::State& state) {
 BENCHMARK(tendons_step)->ERP_SIZES;
 BENCHMARK(tendons_mujoco)->ERP_SIZES;
 
-/// 2 ms of a whole robot: firmware of all ECUs, sensors, two physics steps.
+/// 2 ms of a complete robot: firmware of all ECUs, sensors, two physics steps.
 void ecu_tick(benchmark::State& state, const char* name) {
   const erp::Robot robot = read(name);
   sim::World world(robot);
@@ -81,7 +80,7 @@ void ecu_tick(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(ecu_tick, ecce4, "ecce4");
 
-/// Two candidates, 100 steps ahead each, on so many threads.
+/// Prediction of two candidates over 100 steps each, on the given number of threads.
 void two_ahead(benchmark::State& state) {
   const erp::Robot robot = read("ecce4");
   sim::InternalModel model(robot, {}, static_cast<int>(state.range(0)));
@@ -104,7 +103,7 @@ void force_law(benchmark::State& state) {
 }
 BENCHMARK(force_law);
 
-/// A frame sensed and a command decided, for all of a robot's actuators.
+/// Processing of one frame and one command by the plant, for all actuators of a robot.
 void plant_cycle(benchmark::State& state, const char* name) {
   const erp::Robot robot = read(name);
   plant::Plant plant({}, robot);

@@ -10,7 +10,7 @@ inline double now_us() {
   return 1e-3 * static_cast<double>(std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
-/// What each call took, µs.
+/// Durations of calls, in µs.
 struct Times {
   std::vector<double> us;
   template <class Work>

@@ -51,7 +51,7 @@ TEST_CASE("computed force and the pose estimator do not touch the heap") {
   }
 }
 
-TEST_CASE("a Jacobian that is learnt on line does not touch the heap") {
+TEST_CASE("a Jacobian that is learned online does not touch the heap") {
   Bench bench("arm");
   control::ComputedForce::Params params;
   params.jacobian = control::JacobianKind::on_line;

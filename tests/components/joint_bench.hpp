@@ -7,7 +7,7 @@
 #include "components/node/run.hpp"
 #include "sim/model/actuator/musculoskeletal.hpp"
 
-/// A robot in its starting pose at rest, all tendons at 5 N, and asked to stay there.
+/// A robot at rest in its starting pose, which is also its target, with all tendons at 5 N.
 struct JointBench {
   erp::Robot robot;
   joints::Names names{robot};
@@ -43,7 +43,7 @@ struct JointBench {
     model.skeleton().gravity_torques(torque);
     return torque;
   }
-  /// What a command asks of each actuator.
+  /// The references of a command by actuator.
   Eigen::VectorXd references(const std::optional<erp::ActuatorCommand>& command) {
     REQUIRE(command);
     Eigen::VectorXd all(model.length_m().size());

@@ -16,13 +16,13 @@
 
 namespace faults {
 
-/// What a cable does to frames; shares of them, and milliseconds.
-struct Harm {
+/// Impairment of a cable: fractions of frames, and delays in ms.
+struct Impairment {
   double lost = 0, doubled = 0, delay_ms = 0, jitter_ms = 0;
 };
 
-/// A cable of 1 Mbit/s between the gateway's bus and the ECUs': one frame at a time, the lower
-/// identifier first, worst-case stuffing; and what goes wrong on it.
+/// A cable of 1 Mbit/s between the gateway's bus and the ECUs' bus: one frame at a time, the lower
+/// identifier first, worst-case stuffing, with impairments.
 class BadCable {
  public:
   BadCable(const std::string& host, const std::string& ecus)
@@ -32,22 +32,22 @@ class BadCable {
     thread_.join();
   }
 
-  void suffer(const Harm& harm) {
+  void impair(const Impairment& impairment) {
     const std::lock_guard lock(guard_);
-    harm_ = harm;
+    impairment_ = impairment;
     gap_ns_ = 0;
   }
   int lost() const { return lost_; }
   int doubled() const { return doubled_; }
   int carried() const { return carried_; }
-  /// How long this machine has kept it from working at most since the last `suffer`.
+  /// Longest time that this machine has delayed the cable since the last `impair`.
   double stood_still_ms() const { return 1e-6 * double(gap_ns_); }
 
  private:
   struct Frame {
     erp::CanFrame frame;
     std::size_t to;
-    std::int64_t at_ns = 0;  ///< when it arrives
+    std::int64_t at_ns = 0;  ///< arrival time
   };
 
   void carry() {
@@ -65,7 +65,7 @@ class BadCable {
     while (const auto n = ends_[from]->receive(frames, 0))
       for (const auto& frame : std::span(frames).first(n)) waiting_.push_back({frame, 1 - from});
   }
-  /// What the bus has had the time for, by priority.
+  /// The frames that the bus has had time to send, by priority.
   void transmit(std::int64_t now_ns) {
     static const auto frame_ns = std::int64_t(1e9 * erp::frame_time_s(8, 1e6));
     while (!waiting_.empty() && free_ns_ <= now_ns) {
@@ -80,11 +80,12 @@ class BadCable {
   void arrive(Frame frame, std::int64_t now_ns) {
     const std::lock_guard lock(guard_);
     std::uniform_real_distribution<double> share(0, 1);
-    if (share(random_) < harm_.lost) return void(++lost_);
-    const int copies = share(random_) < harm_.doubled ? 2 : 1;
+    if (share(random_) < impairment_.lost) return void(++lost_);
+    const int copies = share(random_) < impairment_.doubled ? 2 : 1;
     doubled_ += copies - 1;
     for (int k = 0; k < copies; ++k) {
-      const double late_ms = harm_.delay_ms + harm_.jitter_ms * (2 * share(random_) - 1);
+      const double late_ms =
+          impairment_.delay_ms + impairment_.jitter_ms * (2 * share(random_) - 1);
       frame.at_ns = now_ns + std::int64_t(1e6 * late_ms);
       on_the_way_.push_back(frame);
     }
@@ -99,7 +100,7 @@ class BadCable {
 
   std::array<std::unique_ptr<erp::CanBus>, 2> ends_;
   std::mutex guard_;
-  Harm harm_;
+  Impairment impairment_;
   std::mt19937 random_{1};
   std::vector<Frame> waiting_, on_the_way_;
   std::int64_t free_ns_ = 0;

@@ -4,21 +4,21 @@
 
 #include "hal/can/robot_buses.hpp"
 #include "interfaces/robot/robot.hpp"
-#include "tests/faults/ears.hpp"
 #include "tests/faults/pin_relay.hpp"
+#include "tests/faults/recorders.hpp"
 #include "tests/faults/row.hpp"
 #include "tests/system/background.hpp"
 
-/// A running robot to do harm to: the graph, its ECUs as programs of their own, a hand on their
-/// pins, an ear on the CAN bus and one on the events.
+/// A running robot for fault injection: the graph, its ECUs as separate programs, a relay on their pins,
+/// a recorder on the CAN bus and one on the events.
 namespace faults {
 
 using namespace std::chrono_literals;
 inline constexpr std::int64_t ms = 1'000'000;
 
-/// The hinge rig under length control, moving to and fro by so much, with what it lacks to tell
-/// every fault: potentiometers, a live zero of its force sensors, temperature by gains that a test
-/// sets.
+/// The hinge rig under length control, moving back and forth by the given amount, with the sensors needed
+/// to detect every fault: potentiometers, force sensors with a live zero, temperature by gains that a
+/// test sets.
 inline void write_rig(const tests::Folder& folder, double amplitude_m = 0) {
   std::string robot = tests::content(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml");
   const auto put = [&](const std::string& before, const std::string& text) {
@@ -53,8 +53,8 @@ inline void write_rig(const tests::Folder& folder, double amplitude_m = 0) {
 
 class Bench {
  public:
-  /// `robot` and `graph`: files; without them the rig above. `host_bus`: the gateway's, if it is
-  /// not the ECUs'.
+  /// `robot` and `graph`: files; default: the rig above. `host_bus`: the gateway's bus, if different from
+  /// the ECUs'.
   explicit Bench(const std::string& robot = "", const std::string& graph = "",
                  std::vector<std::string> more = {}, const std::string& host_bus = bus())
       : robot_file_(robot.empty() ? folder_ / "robot.xml" : robot) {
@@ -65,7 +65,8 @@ class Bench {
                                  "127.0.0.1:" + std::to_string(relay_port)},
         folder_ / "ecu.txt", "ecu");
     relay_ = std::make_unique<PinRelay>(relay_port, robot_port);
-    ear_ = std::make_unique<BusEar>(erp::bus_words(bus(), robot_.buses().size()));
+    bus_recorder_ =
+        std::make_unique<BusRecorder>(erp::bus_specifications(bus(), robot_.buses().size()));
     std::vector<std::string> words{
         "launch",     graph.empty() ? folder_ / "graph.xml" : graph,
         "--device",   "can",
@@ -76,7 +77,7 @@ class Bench {
         "--set",      "sim.converter_port=" + std::to_string(robot_port)};
     words.insert(words.end(), more.begin(), more.end());
     graph_ = std::make_unique<tests::Background>(words, folder_ / "graph.txt");
-    REQUIRE(graph_->says("all components are active"));
+    REQUIRE(graph_->wait_for_output("all components are active"));
     settle();
   }
   ~Bench() {
@@ -84,15 +85,15 @@ class Bench {
     rack_->stop(SIGTERM);
   }
 
-  /// The ECUs' bus, and one for a gateway at the other end of a cable.
+  /// The ECUs' bus, and the bus of a gateway at the other end of a cable.
   static std::string bus() { return "udp:239.255.42.9:" + std::to_string(26000 + 16 * own_domain); }
   static std::string far_bus() {
     return "udp:239.255.42.10:" + std::to_string(26000 + 16 * own_domain);
   }
   const erp::Robot& robot() const { return robot_; }
   PinRelay& pins() { return *relay_; }
-  BusEar& bus_ear() { return *ear_; }
-  EventEar& events() { return events_; }
+  BusRecorder& bus_recorder() { return *bus_recorder_; }
+  EventRecorder& events() { return events_; }
   tests::Background& graph() { return *graph_; }
   tests::Background& rack() { return *rack_; }
   const node::Entity& participant() const { return participant_; }
@@ -105,9 +106,9 @@ class Bench {
   }
   /// The process that runs an ECU's firmware.
   pid_t ecu(int address) {
-    const std::string said = rack_->output(),
+    const std::string message = rack_->output(),
                       words = "ecu " + std::to_string(address) + ": process ";
-    return std::stoi(said.substr(said.rfind(words) + words.size()));
+    return std::stoi(message.substr(message.rfind(words) + words.size()));
   }
   /// Waits until every channel has run for 300 ms.
   bool recovers() {
@@ -116,28 +117,28 @@ class Bench {
     tests::wait_until([&] { return (well = all_run()) || node::monotonic_ns() > patience; });
     return well;
   }
-  /// Begins a new injection: all is well, and what was heard so far is forgotten. What latched, and
-  /// was not the last injection's, is cleared by a person's word and told. Returns how often.
+  /// Prepares a new injection: waits until all channels run and clears the recorders. Clears latched faults
+  /// that the last injection did not cause by an operator command and prints them. Returns how many.
   int settle() {
     pins().leave_alone();
     int tries = 0;
     for (; !recovers(); ++tries) {
       if (tries == 3)
         FAIL("the graph does not come back:\n" << graph_->output() << rack_->output());
-      std::printf("  (cleared by hand: %s)\n", last_fault().c_str());
+      std::printf("  (fault without injection, cleared: %s)\n", last_fault().c_str());
       say_off();
     }
     pins().forget();
-    ear_->forget();
+    bus_recorder_->forget();
     return tries;
   }
   std::string last_fault() {
-    std::string text = "no fault said";
-    for (const auto& said : events_.since(1))
-      if (said.code == "ecu_fault") text = said.subject + ", " + said.text;
+    std::string text = "no fault reported";
+    for (const auto& message : events_.since(1))
+      if (message.code == "ecu_fault") text = message.subject + ", " + message.text;
     return text;
   }
-  /// Waits for `find()` to give a time; 0 after a while.
+  /// Waits until `find()` returns a time; 0 after a timeout.
   template <class Find>
   std::int64_t await(Find find, int for_ms = 3000) {
     for (int k = 0; k < for_ms; ++k) {
@@ -146,7 +147,7 @@ class Bench {
     }
     return 0;
   }
-  /// When both PWM outputs of an ECU have come to rest at 0 after `from_ns`; 0: they have not.
+  /// Time at which both PWM outputs of an ECU stay at 0 after `from_ns`; 0: they do not.
   std::int64_t pwm_off(std::int64_t from_ns, int ecu = 0, int channel = -1) {
     std::int64_t since = 0;
     for (const auto& drive : pins().drives_since(from_ns)) {
@@ -158,27 +159,27 @@ class Bench {
     }
     return since;
   }
-  /// When an ECU's next period drove its pins; 0: it has not yet.
+  /// Time at which an ECU's next period set its pins; 0: not yet.
   std::int64_t next_period(std::int64_t from_ns, int ecu = 0) {
     for (const auto& drive : pins().drives_since(from_ns))
       if (drive.ecu == ecu) return drive.at_ns;
     return 0;
   }
-  /// When an ECU first said that fault.
+  /// Time at which an ECU first reported that fault.
   std::int64_t emergency(std::int64_t from_ns, int fault) {
-    return ear_->first(from_ns, [&](const erp::CanFrame& frame) {
-      frame_emergency said;
-      return frame_unpack_emergency(&frame, &said) && !said.boot && said.fault == fault;
+    return bus_recorder_->first(from_ns, [&](const erp::CanFrame& frame) {
+      frame_emergency message;
+      return frame_unpack_emergency(&frame, &message) && !message.boot && message.fault == fault;
     });
   }
-  /// When an ECU first said that it booted, for that reason.
+  /// Time at which an ECU first reported a boot with that cause.
   std::int64_t boot(std::int64_t from_ns, int cause) {
-    return ear_->first(from_ns, [&](const erp::CanFrame& frame) {
-      frame_emergency said;
-      return frame_unpack_emergency(&frame, &said) && said.boot && said.reset_cause == cause;
+    return bus_recorder_->first(from_ns, [&](const erp::CanFrame& frame) {
+      frame_emergency message;
+      return frame_unpack_emergency(&frame, &message) && message.boot && message.reset_cause == cause;
     });
   }
-  /// Who drives the first actuator, as the plant publishes it (ten times a second).
+  /// The controller of the first actuator, as the plant publishes it (ten times a second).
   std::string owner() {
     node::Reader<erp::ActuatorOwner> owners(participant_, wake_);
     std::string found = "?";
@@ -188,20 +189,20 @@ class Bench {
     });
     return found;
   }
-  /// Clears what latches: the driver says off for a while, as a person would.
+  /// Clears latched faults: commands off for a while, as an operator would.
   void say_off();
 
  private:
-  /// Whether every channel runs, has done so for 300 ms, and speaks at both ends of that time.
+  /// Whether every channel has been running for 300 ms and has sent at the beginning and end of that time.
   bool all_run() {
     const auto to = node::wall_ns(), from = to - 300 * ms;
     std::map<std::uint16_t, bool> ran_long, speaks;
-    for (const auto& heard : ear_->since(from)) {
-      frame_status said;
-      if (!frame_unpack_status(&heard.frame, &said)) continue;
-      if (said.state != ECU_STATE_RUNNING) return false;
-      ran_long[heard.frame.id] |= heard.at_ns < from + 50 * ms;
-      speaks[heard.frame.id] = heard.at_ns > to - 50 * ms;
+    for (const auto& received : bus_recorder_->since(from)) {
+      frame_status message;
+      if (!frame_unpack_status(&received.frame, &message)) continue;
+      if (message.state != ECU_STATE_RUNNING) return false;
+      ran_long[received.frame.id] |= received.at_ns < from + 50 * ms;
+      speaks[received.frame.id] = received.at_ns > to - 50 * ms;
     }
     const auto yes = [](const auto& channel) { return channel.second; };
     return ran_long.size() == robot_.actuators.size() && std::ranges::all_of(ran_long, yes) &&
@@ -215,13 +216,13 @@ class Bench {
   erp::Robot robot_;
   node::Entity participant_ = node::join("hand");
   node::Wake wake_;
-  EventEar events_{participant_};
+  EventRecorder events_{participant_};
   std::unique_ptr<tests::Background> rack_, graph_;
   std::unique_ptr<PinRelay> relay_;
-  std::unique_ptr<BusEar> ear_;
+  std::unique_ptr<BusRecorder> bus_recorder_;
 };
 
-/// A person's word over a controller's: all actuators off, at a higher priority.
+/// Command of an operator: all actuators off, at a higher priority than the controller.
 inline void Bench::say_off() {
   node::Writer<erp::ActuatorCommand> commands(participant_);
   erp::ActuatorCommand command;

@@ -1,5 +1,5 @@
-// A bus of 1 Mbit/s that loses, repeats, delays and reorders frames: counted, no trip, and how much
-// worse the robot follows.
+// A bus of 1 Mbit/s that loses, repeats, delays and reorders frames: the frames are counted, no channel
+// trips, and the tracking error is measured.
 #include <cmath>
 
 #include "tests/faults/bad_cable.hpp"
@@ -9,7 +9,7 @@ using namespace faults;
 
 namespace {
 
-/// RMS of what length_control asks of the flexor less what is measured, mm.
+/// RMS of the flexor's length error under length_control, mm.
 double tracking_error_mm(Bench& bench, std::chrono::seconds time) {
   node::Wake wake;
   node::Reader<erp::ActuatorCommand> commands(bench.participant(), wake, 8);
@@ -19,7 +19,7 @@ double tracking_error_mm(Bench& bench, std::chrono::seconds time) {
   const auto end = std::chrono::steady_clock::now() + time;
   while (std::chrono::steady_clock::now() < end) {
     commands.take([&](const auto& m) {
-      for (const auto& r : erp::samples(m.actuators))  // one without a fresh reading is left out
+      for (const auto& r : erp::samples(m.actuators))  // without a fresh reading: skipped
         if (std::string(r.name) == "flexor") asked_m = r.reference;
     });
     frames.take([&](const auto& m) {
@@ -38,16 +38,16 @@ struct Followed {
   double error_mm = 0, stood_still_ms = 0;
 };
 
-Followed follow(Bench& bench, BadCable& cable, const Harm& harm) {
+Followed follow(Bench& bench, BadCable& cable, const Impairment& impairment) {
   bench.settle();
   const int carried = cable.carried(), lost = cable.lost(), doubled = cable.doubled();
   const auto from = node::wall_ns();
-  cable.suffer(harm);
+  cable.impair(impairment);
   Followed found;
   found.error_mm = tracking_error_mm(bench, std::chrono::seconds(injections() / 3 + 3));
   found.stood_still_ms = cable.stood_still_ms();
-  cable.suffer({});
-  for (const auto& said : bench.events().since(from)) found.trips += said.code == "ecu_fault";
+  cable.impair({});
+  for (const auto& message : bench.events().since(from)) found.trips += message.code == "ecu_fault";
   found.frames = cable.carried() - carried;
   found.lost = cable.lost() - lost;
   found.doubled = cable.doubled() - doubled;
@@ -58,17 +58,18 @@ bool well(const Followed& found, double allowed_mm) {
   return found.trips == 0 && found.error_mm < allowed_mm;
 }
 
-/// Again, up to three times, when this machine stood still and all was not well: an ECU that is a
-/// process then drives blindly, which no board does. What is lost must be told in one of them.
-Followed follow_undisturbed(Bench& bench, BadCable& cable, const Harm& harm, double allowed_mm) {
+/// Repeated up to three times if this machine stalled and a check failed: an ECU process then applies an
+/// outdated duty, which a board does not. In one of the runs lost frames must be reported.
+Followed follow_undisturbed(Bench& bench, BadCable& cable, const Impairment& impairment,
+                            double allowed_mm) {
   const auto from = node::wall_ns();
   for (int go = 1;; ++go) {
-    const Followed found = follow(bench, cable, harm);
+    const Followed found = follow(bench, cable, impairment);
     if (well(found, allowed_mm) || found.stood_still_ms < 2 || go == 3) {
-      if (harm.lost > 0) CHECK(bench.events().first(from, "lost_frames") != 0);
+      if (impairment.lost > 0) CHECK(bench.events().first(from, "lost_frames") != 0);
       return found;
     }
-    std::printf("  (again: this machine stood still for %.0f ms)\n", found.stood_still_ms);
+    std::printf("  (repeated: this machine stalled for %.0f ms)\n", found.stood_still_ms);
   }
 }
 
@@ -81,17 +82,18 @@ TEST_CASE("loss, duplicates and delay on a 1 Mbit/s bus") {
   Bench bench(folder / "robot.xml", folder / "graph.xml", {}, Bench::far_bus());
   struct Case {
     const char* what;
-    Harm harm;
+    Impairment impairment;
   };
   const Case cases[] = {{"clean", {}},
                         {"10 % lost", {0.1}},
                         {"5 % twice", {0, 0.05}},
                         {"5 ms late", {0, 0, 5}},
                         {"all three, jitter 1 ms", {0.1, 0.05, 5, 1}}};
-  double allowed_mm = INFINITY;  // three times what it is on a clean one
-  std::printf("| on a 1 Mbit/s bus | frames | lost | twice | tracking error, mm RMS | trips |\n");
-  for (const auto& [what, harm] : cases) {
-    const Followed found = follow_undisturbed(bench, cable, harm, allowed_mm);
+  double allowed_mm = INFINITY;  // three times the error on a clean cable
+  std::printf(
+      "| on a 1 Mbit/s bus | frames | lost | duplicated | tracking error, mm RMS | trips |\n");
+  for (const auto& [what, impairment] : cases) {
+    const Followed found = follow_undisturbed(bench, cable, impairment, allowed_mm);
     std::printf("| %-24s | %5d | %4d | %4d | %.3f | %d |\n", what, found.frames, found.lost,
                 found.doubled, found.error_mm, found.trips);
     std::fflush(stdout);
@@ -100,8 +102,8 @@ TEST_CASE("loss, duplicates and delay on a 1 Mbit/s bus") {
       CHECK(found.trips == 0);
       CHECK(found.error_mm < allowed_mm);
     } else tests::not_evaluated(std::string("a cable, ") + what + ": trips and tracking");
-    CHECK((harm.lost > 0) == (found.lost > 0));
-    CHECK((harm.doubled > 0) == (found.doubled > 0));
+    CHECK((impairment.lost > 0) == (found.lost > 0));
+    CHECK((impairment.doubled > 0) == (found.doubled > 0));
     if (allowed_mm == INFINITY) allowed_mm = 3 * found.error_mm;
   }
 }

@@ -1,4 +1,4 @@
-// What comes from the host's side: words that no sane controller says, frames that nobody sent.
+// Faults on the host side: invalid set-points, corrupt frames, and a snapped tendon.
 #include <cmath>
 
 #include "tests/faults/bench.hpp"
@@ -7,7 +7,7 @@ using namespace faults;
 
 namespace {
 
-/// A controller above the rig's own, that asks for what it is told to, once each 5 ms.
+/// A controller with higher priority than the rig's own; sends a given command every 5 ms.
 void asks(Bench& bench, double reference, int times) {
   node::Writer<erp::ActuatorCommand> commands(bench.participant());
   erp::ActuatorCommand command;
@@ -27,13 +27,13 @@ void asks(Bench& bench, double reference, int times) {
   }
 }
 
-/// Complains if the flexor's ECU was told to follow a force since then.
+/// Fails if the flexor's ECU has received a force command since then.
 tests::Complaints forces_since(Bench& bench, std::int64_t from_ns) {
   int forces = 0;
-  for (const auto& heard : bench.bus_ear().since(from_ns)) {
-    frame_command said;
-    forces +=
-        frame_unpack_command(&heard.frame, &said) && said.channel[0].request == ECU_REQUEST_FORCE;
+  for (const auto& received : bench.bus_recorder().since(from_ns)) {
+    frame_command message;
+    forces += frame_unpack_command(&received.frame, &message) &&
+              message.channel[0].request == ECU_REQUEST_FORCE;
   }
   if (forces == 0) return {};
   return {std::to_string(forces) + " commands of force, which its own controller never asks for"};
@@ -41,10 +41,10 @@ tests::Complaints forces_since(Bench& bench, std::int64_t from_ns) {
 
 }  // namespace
 
-TEST_CASE("set-points that are no number, or far out of range, are refused with the reason") {
+TEST_CASE("set-points that are not a number or far out of range are refused with the reason") {
   Bench bench;
   for (const double reference : {std::nan(""), double{INFINITY}, 1e6, -50.0})
-    tests::in_real_time([&] {  // length_control drives on, if the machine lets it
+    tests::in_real_time([&] {  // length_control commands again, if the machine keeps time
       bench.settle();
       const auto from = node::wall_ns();
       asks(bench, reference, 40);
@@ -53,14 +53,14 @@ TEST_CASE("set-points that are no number, or far out of range, are refused with 
   CHECK(bench.events().first(1, "reference", "flexor") != 0);
 }
 
-TEST_CASE("five corrupt commands in a row trip, four do not; bad lengths count as well") {
+TEST_CASE("five corrupt commands in a row trip, four do not; wrong lengths count as corrupt") {
   Bench bench;
   const auto corrupt = [](std::size_t count) {
     std::vector<erp::CanFrame> frames;
     for (std::size_t k = 0; k < count; ++k) {
-      const frame_command said{{{3, 9000}, {3, 9000}}, 0, std::uint8_t(k & 7)};
+      const frame_command message{{{3, 9000}, {3, 9000}}, 0, std::uint8_t(k & 7)};
       erp::CanFrame frame;
-      frame_pack_command(&frame, 0, &said);
+      frame_pack_command(&frame, 0, &message);
       if (k % 2) frame.data[3] ^= 0x10;
       else frame.size = 5;
       frames.push_back(frame);
@@ -72,20 +72,20 @@ TEST_CASE("five corrupt commands in a row trip, four do not; bad lengths count a
   };
   for (int k = 0; k < injections(); ++k) {
     auto from = node::wall_ns();
-    bench.bus_ear().send(corrupt(4));
+    bench.bus_recorder().send(corrupt(4));
     CHECK(tripped(from) == 0);
   }
   Row row("five corrupt frames in a row", "ECU's emergency frame", 4);
-  while (row.wants()) {
+  while (row.needs_more()) {
     bench.settle();
     const auto from = node::wall_ns();
-    bench.bus_ear().send(corrupt(5));
+    bench.bus_recorder().send(corrupt(5));
     row.add(from, tripped(from));
   }
   row.check();
 }
 
-/// The rig, both tendons pulled with 20 N; the flexor's snaps after 4 s.
+/// The rig with 20 N on both tendons; the flexor's tendon snaps after 4 s.
 void write_rig_that_snaps(const tests::Folder& folder) {
   write_rig(folder);
   std::ofstream(folder / "sim.xml")
@@ -103,11 +103,11 @@ void write_rig_that_snaps(const tests::Folder& folder) {
          "</graph>\n";
 }
 
-TEST_CASE("a tendon that snaps is let go, and nothing runs away") {
+TEST_CASE("after a tendon snaps its actuator is released and no motor runs away") {
   tests::Folder folder;
   write_rig_that_snaps(folder);
-  Row slack("tendon snapped", "noticed by the plant", 22);
-  while (slack.wants(1 + injections() / 5)) {
+  Row slack("tendon snapped", "detected by the plant", 22);
+  while (slack.needs_more(1 + injections() / 5)) {
     Bench bench(folder / "robot.xml", folder / "graph.xml");
     const auto broke =
         bench.await([&] { return bench.events().first(1, "mishap", "flexor"); }, 8000);

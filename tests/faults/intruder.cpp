@@ -1,8 +1,8 @@
-// Somebody who was not asked: wants every actuator off at a priority above all, and listens.
+// An unauthorised participant: commands every actuator off at the highest priority, and listens.
 //   intruder ROBOT.xml SECONDS [NAME]
-// With a NAME it says that it is that part of the robot, and was there first.
-// Prints the most readers and writers that it was matched with, how many frames it heard, and how
-// long it took to be matched with both.
+// With a NAME it claims to be that component of the robot, started first.
+// Prints the largest numbers of matched readers and writers, the number of received frames, and the time
+// until both were matched.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -46,19 +46,19 @@ void intrude(const erp::Robot& robot, double for_s, const std::string& name) {
   node::Writer<erp::ActuatorCommand> commands(participant);
   node::Reader<erp::SensorFrame> frames(participant, wake, 16);
   erp::ActuatorCommand command = all_off(robot);
-  std::uint32_t readers = 0, writers = 0, heard = 0;
+  std::uint32_t readers = 0, writers = 0, received = 0;
   const auto from_ns = node::monotonic_ns();
   std::int64_t matched_ns = 0;
   while (node::monotonic_ns() - from_ns < static_cast<std::int64_t>(for_s * second_ns)) {
     command.stamp_ns = node::wall_ns();
     commands.write(command);
-    frames.take([&](const erp::SensorFrame&) { ++heard; });
+    frames.take([&](const erp::SensorFrame&) { ++received; });
     readers = std::max(readers, commands.matched());
     writers = std::max(writers, frames.matched());
     if (readers && writers && !matched_ns) matched_ns = node::monotonic_ns() - from_ns;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  std::printf("readers %u writers %u heard %u after_ms %.0f\n", readers, writers, heard,
+  std::printf("readers %u writers %u heard %u after_ms %.0f\n", readers, writers, received,
               1e-6 * static_cast<double>(matched_ns));
 }
 

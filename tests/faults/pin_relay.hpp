@@ -20,8 +20,8 @@
 
 namespace faults {
 
-/// The hand on the ECUs' pins: everything between their converters and the simulated robot passes
-/// here, is written down with the time, and can be changed on its way.
+/// The relay on the ECUs' pins: all messages between their converters and the simulated robot pass
+/// through it, are recorded with the time, and can be changed in transit.
 class PinRelay {
  public:
   struct Drive {
@@ -34,7 +34,7 @@ class PinRelay {
   /// Listens for ECUs on `port`; the robot listens on `robot_port`.
   PinRelay(int port, int robot_port) : down_(listening(port)), up_(connected(robot_port)) {
     thread_ = std::thread([this] { relay(); });
-    const sched_param ahead{15};  // where that is allowed: it stands for wires, which do not wait
+    const sched_param ahead{15};  // if permitted: it stands for wires, which have no delay
     (void)pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &ahead);
   }
   ~PinRelay() {
@@ -43,7 +43,7 @@ class PinRelay {
     ::close(down_), ::close(up_);
   }
 
-  /// From now on readings go through `alter`. Returns when that began.
+  /// Passes readings through `alter` from now on. Returns the time of the start.
   std::int64_t alter(Alter alter) {
     const std::lock_guard lock(guard_);
     alter_ = std::move(alter);
@@ -51,11 +51,11 @@ class PinRelay {
   }
   void leave_alone() { alter(nullptr); }
 
-  /// Does something to an ECU's program. Returns when.
-  std::int64_t befall(int ecu, wire_mishap_kind kind, int periods = 1) {
-    const wire_mishap mishap{std::uint8_t(kind), std::uint16_t(periods)};
+  /// Injects a fault into an ECU's program. Returns the time.
+  std::int64_t inject(int ecu, wire_fault_kind kind, int periods = 1) {
+    const wire_fault fault{std::uint8_t(kind), std::uint16_t(periods)};
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
-    const unsigned size = wire_pack_mishap(bytes.data(), std::uint8_t(ecu), &mishap);
+    const unsigned size = wire_pack_fault(bytes.data(), std::uint8_t(ecu), &fault);
     const std::lock_guard lock(guard_);
     send_down(ecu, bytes.data(), size);
     return node::wall_ns();

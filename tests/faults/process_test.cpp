@@ -1,15 +1,14 @@
-// Processes that are killed, stopped and started again, twenty times each.
+// Processes are killed, stopped and restarted, twenty times each.
 #include <algorithm>
 
-#include "components/node/damper.hpp"
+#include "components/node/log_throttle.hpp"
 #include "tests/faults/bench.hpp"
 
 using namespace faults;
 
 namespace {
 
-/// The arm, held still under length control; its safe action is to relax, so that it shows on the
-/// bus.
+/// The arm at rest under length control; its safe action is to relax, which is visible on the bus.
 void write_relaxing_arm(const tests::Folder& folder) {
   std::string robot = tests::content(ERP_SOURCE_DIR "/configs/arm/robot.xml");
   const std::string hold = "safe_action=\"hold\"", relax = "safe_action=\"relax\"";
@@ -34,9 +33,9 @@ bool is_command(const erp::CanFrame& frame) { return frame_function_of(&frame) =
 
 /// The rig's safe action: force mode at 2 N on both channels.
 bool relaxes(const erp::CanFrame& frame) {
-  frame_command said;
-  if (!frame_unpack_command(&frame, &said)) return false;
-  return std::ranges::all_of(said.channel, [](const frame_channel_command& c) {
+  frame_command message;
+  if (!frame_unpack_command(&frame, &message)) return false;
+  return std::ranges::all_of(message.channel, [](const frame_channel_command& c) {
     return c.request == ECU_REQUEST_FORCE && c.setpoint == 2000;
   });
 }
@@ -46,54 +45,54 @@ bool relaxes(const erp::CanFrame& frame) {
 TEST_CASE("gateway killed") {
   Row::head();
   Bench bench;
-  Row said("gateway killed", "ECU's emergency frame", 52), off("gateway killed", "PWM 0", 52);
-  while (off.wants()) {
+  Row message("gateway killed", "ECU's emergency frame", 52), off("gateway killed", "PWM 0", 52);
+  while (off.needs_more()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
     const auto from = node::wall_ns();
     kill(gateway, SIGKILL);
-    said.add(from, bench.await([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
+    message.add(from, bench.await([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
     off.add(from, bench.await([&] { return bench.pwm_off(from); }));
   }
-  said.check(), off.check();
+  message.check(), off.check();
   bench.settle();
 }
 
-TEST_CASE("gateway stopped, and no burst when it goes on") {
+TEST_CASE("gateway stopped, and no burst when it resumes") {
   Bench bench;
-  Row said("gateway stopped", "ECU's emergency frame", 52), off("gateway stopped", "PWM 0", 52);
-  while (off.wants()) {
+  Row message("gateway stopped", "ECU's emergency frame", 52), off("gateway stopped", "PWM 0", 52);
+  while (off.needs_more()) {
     bench.settle();
     const pid_t gateway = bench.process("gateway");
     const auto from = node::wall_ns();
     kill(gateway, SIGSTOP);
-    said.add(from, bench.await([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
+    message.add(from, bench.await([&] { return bench.emergency(from, ECU_FAULT_COMMAND_TIMEOUT); }));
     off.add(from, bench.await([&] { return bench.pwm_off(from); }));
     std::this_thread::sleep_for(200ms);
     const auto again = node::wall_ns();
     kill(gateway, SIGCONT);
     std::this_thread::sleep_for(20ms);
     int burst = 0;
-    for (const auto& heard : bench.bus_ear().since(again))
-      burst += is_command(heard.frame) && heard.at_ns < again + 2 * ms;
-    off.also("no burst when it goes on", again, burst <= 5);  // a hundred ticks have waited
+    for (const auto& received : bench.bus_recorder().since(again))
+      burst += is_command(received.frame) && received.at_ns < again + 2 * ms;
+    off.also("no burst after it resumes", again, burst <= 5);  // a hundred ticks are pending
   }
-  said.check(), off.check();
+  message.check(), off.check();
   bench.settle();
 }
 
-/// Waits until the gateway would say it: the same of the same it says only so often.
+/// Waits until the gateway reports again: repeated reports are limited in rate.
 bool may_be_said(Bench& bench, const std::string& code, const std::string& subject) {
   return tests::wait_until([&] {
-    const auto lately = bench.events().since(node::wall_ns() - node::Damper::window_ns);
-    return std::ranges::count_if(lately, [&](const auto& said) {
-             return said.code == code && said.subject == subject;
-           }) < node::Damper::burst;
+    const auto lately = bench.events().since(node::wall_ns() - node::LogThrottle::window_ns);
+    return std::ranges::count_if(lately, [&](const auto& message) {
+             return message.code == code && message.subject == subject;
+           }) < node::LogThrottle::burst;
   });
 }
 
-/// For how long an ECU said nothing, at the end of the time before `at_ns`: up to then, or up to a frame
-/// that came while the gateway was about to report. 0: it was not heard since the bench settled.
+/// How long an ECU had sent nothing before `at_ns`: up to then, or up to a frame that arrived while the
+/// gateway was about to report. 0: not received since the bench settled.
 std::int64_t silent_for(Bench& bench, const std::string& name, std::int64_t at_ns) {
   constexpr auto reporting_ns = std::int64_t(Row::scheduling_ms) * ms;
   std::int64_t last_ns = 0, longest_ns = 0;
@@ -102,10 +101,10 @@ std::int64_t silent_for(Bench& bench, const std::string& name, std::int64_t at_n
       longest_ns = std::max(longest_ns, std::min(next_ns, at_ns) - last_ns);
     last_ns = next_ns;
   };
-  for (const auto& heard : bench.bus_ear().since(1))
-    if (!is_command(heard.frame) && heard.at_ns < at_ns &&
-        name == "ecu " + std::to_string(frame_ecu_of(&heard.frame)))
-      until(heard.at_ns);
+  for (const auto& received : bench.bus_recorder().since(1))
+    if (!is_command(received.frame) && received.at_ns < at_ns &&
+        name == "ecu " + std::to_string(frame_ecu_of(&received.frame)))
+      until(received.at_ns);
   until(at_ns);
   return longest_ns;
 }
@@ -117,7 +116,7 @@ TEST_CASE("ECU silent") {
   Row warned("ECU silent", "gateway's warning", 10 + 2),
       lost("ECU silent", "gateway: lost", 50 + 2),
       safe("ECU silent", "its limb in the safe action", 60);
-  for (int k = 0; safe.wants(); ++k) {
+  for (int k = 0; safe.needs_more(); ++k) {
     const int address = k % 6;
     const std::string name = "ecu " + std::to_string(address);
     bench.settle();
@@ -125,20 +124,20 @@ TEST_CASE("ECU silent") {
     const pid_t ecu = bench.ecu(address);
     const auto from = node::wall_ns();
     kill(ecu, SIGSTOP);
-    const auto told = bench.await([&] { return bench.events().first(from, "ecu_silent", name); });
-    if (sayable) warned.add(from, told);
-    else warned.set_aside();
+    const auto reported = bench.await([&] { return bench.events().first(from, "ecu_silent", name); });
+    if (sayable) warned.add(from, reported);
+    else warned.discard();
     lost.add(from, bench.await([&] { return bench.events().first(from, "ecu_lost", name); }));
     safe.add(from, bench.await([&] {
-      return bench.bus_ear().first(from, [&](const erp::CanFrame& frame) {
-        frame_command said;  // to one of the others: relax
-        return frame_ecu_of(&frame) == (address + 1) % 6 && frame_unpack_command(&frame, &said) &&
-               said.channel[0].request == ECU_REQUEST_FORCE;
+      return bench.bus_recorder().first(from, [&](const erp::CanFrame& frame) {
+        frame_command message;  // to one of the others: relax
+        return frame_ecu_of(&frame) == (address + 1) % 6 && frame_unpack_command(&frame, &message) &&
+               message.channel[0].request == ECU_REQUEST_FORCE;
       });
     }));
-    const auto slanders = [&](const auto& said) {
-      return said.code == "ecu_silent" && said.subject != name &&
-             silent_for(bench, said.subject, said.at_ns) < 9 * ms;
+    const auto slanders = [&](const auto& message) {
+      return message.code == "ecu_silent" && message.subject != name &&
+             silent_for(bench, message.subject, message.at_ns) < 9 * ms;
     };
     safe.also("nobody is called silent who spoke", from,
               std::ranges::none_of(bench.events().since(from), slanders));
@@ -150,43 +149,43 @@ TEST_CASE("ECU silent") {
 
 TEST_CASE("brown-out") {
   Bench bench;
-  Row said("brown-out, reset", "boot frame with the cause", 100),
+  Row message("brown-out, reset", "boot frame with the cause", 100),
       off("brown-out, reset", "PWM 0", 2);
-  while (off.wants()) {
+  while (off.needs_more()) {
     bench.settle();
     const pid_t ecu = bench.ecu(0);
     const auto from = node::wall_ns();
     kill(ecu, SIGKILL);
     const auto booted = bench.await([&] { return bench.boot(from, FRAME_RESET_BROWN_OUT); });
-    said.add(from, booted);
+    message.add(from, booted);
     off.add(from, bench.await([&] { return bench.pwm_off(from); }));
     int armed = 0;  // in the 5 ms after its boot
-    for (const auto& heard : bench.bus_ear().since(booted)) {
+    for (const auto& received : bench.bus_recorder().since(booted)) {
       frame_status status;
-      armed += heard.at_ns < booted + 5 * ms && frame_unpack_status(&heard.frame, &status) &&
+      armed += received.at_ns < booted + 5 * ms && frame_unpack_status(&received.frame, &status) &&
                status.state != ECU_STATE_BOOT;
     }
     CHECK(armed == 0);
   }
-  said.check(), off.check();
+  message.check(), off.check();
   bench.settle();
 }
 
 TEST_CASE("CPU hang") {
   Bench bench;
-  Row off("CPU hang", "PWM 0", 12), said("CPU hang", "boot frame with the cause", 100);
-  while (off.wants()) {
+  Row off("CPU hang", "PWM 0", 12), message("CPU hang", "boot frame with the cause", 100);
+  while (off.needs_more()) {
     bench.settle();
-    const auto from = bench.pins().befall(0, WIRE_MISHAP_HANG);
+    const auto from = bench.pins().inject(0, WIRE_FAULT_HANG);
     const auto booted = bench.await([&] { return bench.boot(from, FRAME_RESET_WATCHDOG); });
-    said.add(from, booted);
+    message.add(from, booted);
     off.add(from, bench.await([&] { return bench.pwm_off(from); }));
-    int words = 0;  // of a program that hangs: in the watchdog's 12 ms before it starts again
-    for (const auto& heard : bench.bus_ear().since(booted - 11 * ms))
-      words += heard.at_ns < booted && !is_command(heard.frame);
-    off.also("it says nothing more", from, booted > 0 && words == 0, booted > 0);
+    int duties = 0;  // duties of a hanging program in the watchdog's 12 ms before the restart
+    for (const auto& received : bench.bus_recorder().since(booted - 11 * ms))
+      duties += received.at_ns < booted && !is_command(received.frame);
+    off.also("it sends nothing more", from, booted > 0 && duties == 0, booted > 0);
   }
-  off.check(), said.check();
+  off.check(), message.check();
   bench.settle();
 }
 
@@ -195,12 +194,12 @@ TEST_CASE("controller killed, and stopped") {
   for (const int signal : {SIGKILL, SIGSTOP}) {
     const std::string fault = signal == SIGKILL ? "controller killed" : "controller stopped";
     Row safe(fault, "safe action on the bus", 22);
-    while (safe.wants()) {
+    while (safe.needs_more()) {
       bench.settle();
       const pid_t controller = bench.process("length_control");
       const auto from = node::wall_ns();
       kill(controller, signal);
-      safe.add(from, bench.await([&] { return bench.bus_ear().first(from, relaxes); }));
+      safe.add(from, bench.await([&] { return bench.bus_recorder().first(from, relaxes); }));
       CHECK(bench.owner() == "");
       if (signal == SIGSTOP) kill(controller, SIGCONT);
       CHECK(tests::wait_until([&] { return bench.owner() == "length_control"; }));
@@ -213,7 +212,7 @@ TEST_CASE("controller killed, and stopped") {
 TEST_CASE("plant killed") {
   Bench bench;
   Row plant("plant killed", "ECU's emergency frame", 52), off("plant killed", "PWM 0", 52);
-  while (off.wants()) {
+  while (off.needs_more()) {
     bench.settle();
     const pid_t pid = bench.process("plant");
     const auto from = node::wall_ns();

@@ -13,66 +13,66 @@ namespace faults {
 
 /// How often each fault is injected: ERP_INJECTIONS, or 20.
 inline int injections() {
-  const char* wanted = std::getenv("ERP_INJECTIONS");
-  return wanted ? std::atoi(wanted) : 20;
+  const char* text = std::getenv("ERP_INJECTIONS");
+  return text ? std::atoi(text) : 20;
 }
 
-/// What one row of the table measured, injection by injection.
+/// Measurements of one row of the table, one per injection.
 class Row {
  public:
-  static constexpr double scheduling_ms = 10;  ///< what a busy machine may add to a wake-up; chosen
-  /// The machine, all in all: an injection says nothing then. Half of what scheduling may add; chosen.
+  static constexpr double scheduling_ms = 10;  ///< delay that a busy machine may add; chosen
+  /// Total stall of the machine that makes an injection invalid. Half of `scheduling_ms`; chosen.
   static constexpr double stood_still_ms = 5;
 
   Row(std::string fault, std::string what, double limit_ms)
       : fault_(std::move(fault)), what_(std::move(what)), limit_ms_(limit_ms) {}
 
-  /// Whether there are to be more injections: of those that count, `wanted`; ten times as many at most.
-  bool wants(int wanted = injections()) const {
-    return counted() < wanted && counted() + set_aside_ < 10 * wanted;
+  /// Whether to inject again: until `needed` injections are valid, at most ten times as many.
+  bool needs_more(int needed = injections()) const {
+    return counted() < needed && counted() + discarded_ < 10 * needed;
   }
-  /// One injection: when it was done, and when that was noticed or safe (0: never). One that is late,
-  /// or never was, is set aside if the machine did not keep time.
+  /// One injection: its time, and the time of detection or safe state (0: never). A late or undetected one
+  /// is discarded if the machine stalled.
   void add(std::int64_t from_ns, std::int64_t to_ns) {
     const double took_ms = 1e-6 * double(to_ns - from_ns);
     const bool never = to_ns == 0, late = never || took_ms > limit_ms_;
-    noticed_ = noticed_ || !never;
-    if (late && !kept_time(from_ns, never ? due_ns(from_ns) : to_ns)) return set_aside();
+    detected_ = detected_ || !never;
+    if (late && !kept_time(from_ns, never ? due_ns(from_ns) : to_ns)) return discard();
     if (never) ++missed_;
     else ms_.push_back(took_ms);
   }
-  /// One of which nothing can be said.
-  void set_aside() { ++set_aside_; }
-  /// What else must hold of an injection. Where it does not, the machine must have kept time while that
-  /// was due, and `may_judge` be true, for it to count.
+  /// Discards an injection that cannot be judged.
+  void discard() { ++discarded_; }
+  /// A further condition on an injection. A violation counts only if the machine did not stall and
+  /// `may_judge` is true.
   void also(const std::string& what, std::int64_t from_ns, bool holds, bool may_judge = true) {
     INFO(fault_ << ": " << what);
     also_[what] |= holds;
     if (may_judge && judges(from_ns)) CHECK(holds);
   }
-  /// Whether the machine kept time while an injection was due.
+  /// Whether the machine did not stall during an injection.
   bool judges(std::int64_t from_ns) const { return kept_time(from_ns, due_ns(from_ns)); }
-  /// Whether the machine stood still neither in that time nor just before.
+  /// Whether the machine stalled neither in that time nor just before.
   bool kept_time(std::int64_t from_ns, std::int64_t to_ns) const {
-    return stalls_.together_ms(from_ns - just_before_ns, to_ns) < stood_still_ms;
+    return stalls_.sum_of_stalls_ms(from_ns - just_before_ns, to_ns) < stood_still_ms;
   }
-  /// Prints the row, and checks it: none missed, all within the limit and what scheduling adds, and
-  /// of twenty injections half within the limit itself. What was always set aside is not judged; but
-  /// what was not so a single time has failed, however the machine was.
+  /// Prints and checks the row: no injection undetected, all within the limit plus `scheduling_ms`, and of
+  /// twenty injections half within the limit. If all injections were discarded, the row is not judged; if
+  /// no injection ever had the expected effect, it fails.
   void check() {
     std::ranges::sort(ms_);
     std::printf("| %-34s | %-34s | %2zu | %6.1f | %6.1f | %6.1f | %5.0f |\n", fault_.c_str(),
                 what_.c_str(), ms_.size(), at(0.5), at(0.95), at(1), limit_ms_);
-    if (set_aside_)
-      std::printf("  (and %d that were late while the machine stood still)\n", set_aside_);
+    if (discarded_)
+      std::printf("  (%d injections discarded: late while the machine stalled)\n", discarded_);
     std::fflush(stdout);
     INFO(fault_ << ": " << what_);
     for (const auto& [what, held] : also_) {
       INFO(what);
       CHECK(held);
     }
-    CHECK(noticed_);
-    if (counted() == 0 && set_aside_ > 0) return tests::not_evaluated(fault_ + ": " + what_);
+    CHECK(detected_);
+    if (counted() == 0 && discarded_ > 0) return tests::not_evaluated(fault_ + ": " + what_);
     CHECK(counted() > 0);
     CHECK(missed_ == 0);
     CHECK((ms_.size() < 20 || at(0.5) <= limit_ms_));
@@ -100,10 +100,10 @@ class Row {
   }
   std::string fault_, what_;
   double limit_ms_;
-  std::map<std::string, bool> also_;  ///< whether it held a single time
+  std::map<std::string, bool> also_;  ///< whether it held at least once
   std::vector<double> ms_;
-  int missed_ = 0, set_aside_ = 0;
-  bool noticed_ = false;
+  int missed_ = 0, discarded_ = 0;
+  bool detected_ = false;
   tests::Stalls& stalls_ = tests::Stalls::watch();
 };
 

@@ -1,4 +1,4 @@
-// Who was not given a certificate of the robot's authority neither drives it nor hears it.
+// A participant without a certificate of the robot's authority neither commands nor receives.
 #include <dds/ddsrt/log.h>
 
 #include <algorithm>
@@ -13,25 +13,25 @@ using namespace tests;
 
 namespace {
 
-/// What an intruder got in three seconds: a partner with a certificate needs half of one.
-struct Loot {
-  int readers = -1, writers = -1, heard = -1, after_ms = 0;
-  bool nothing() const { return readers == 0 && writers == 0 && heard == 0; }
+/// Results of an intruder after three seconds; a partner with a certificate needs half a second.
+struct Result {
+  int readers = -1, writers = -1, received = -1, after_ms = 0;
+  bool nothing() const { return readers == 0 && writers == 0 && received == 0; }
   bool driven() const { return readers > 0; }
-  bool listened() const { return writers > 0 && heard > 100; }
+  bool listened() const { return writers > 0 && received > 100; }
 };
 
-Loot intrude(const std::string& security, const std::string& claims_to_be = "") {
-  const auto said = run((security.empty() ? "" : "ERP_SECURITY=" + security + " ") +
+Result intrude(const std::string& security, const std::string& claims_to_be = "") {
+  const auto message = run((security.empty() ? "" : "ERP_SECURITY=" + security + " ") +
                         ERP_INTRUDER " configs/hinge_rig/robot.xml 3 " + claims_to_be);
-  INFO(said.output);
-  REQUIRE(said.exit_code == 0);
-  Loot loot;
-  std::istringstream words(said.output.substr(said.output.rfind("readers ")));
+  INFO(message.output);
+  REQUIRE(message.exit_code == 0);
+  Result result;
+  std::istringstream words(message.output.substr(message.output.rfind("readers ")));
   std::string word;
-  words >> word >> loot.readers >> word >> loot.writers >> word >> loot.heard >> word >>
-      loot.after_ms;
-  return loot;
+  words >> word >> result.readers >> word >> result.writers >> word >> result.received >> word >>
+      result.after_ms;
+  return result;
 }
 
 /// A tendon's step from 2 to 40 N, on a bus that is protected or not.
@@ -39,7 +39,7 @@ class Rig {
  public:
   explicit Rig(const std::string& security)
       : graph_(words(security, folder_ / "run"), folder_ / "out.txt") {
-    REQUIRE(graph_.says("all components are active"));
+    REQUIRE(graph_.wait_for_output("all components are active"));
   }
   void stop() {
     const auto children = graph_.children();
@@ -50,7 +50,7 @@ class Rig {
   std::string output() const { return graph_.output(); }
   std::string recording() const { return folder_ / "run/force_step.mcap"; }
 
-  /// How many commands of the intruder were heard.
+  /// Number of received commands of the intruder.
   int samples() const {
     int found = 0;
     const Recorded commands(recording(), "actuator_command");
@@ -58,7 +58,7 @@ class Rig {
       found += text(message, "controller") == "intruder";
     return found;
   }
-  /// Whether the plant took any: let it drive, or refused it.
+  /// Whether the plant processed any: accepted or rejected.
   bool taken() const {
     bool found = false;
     const Recorded owners(recording(), "actuator_owner");
@@ -97,7 +97,7 @@ struct Authorities {
   Folder folder;
   std::string own = folder / "own", foreign = folder / "foreign";
   Authorities() {
-    // This process knocks at the bus as well, from earlier tests: DDS tells of each refusal.
+    // Earlier tests of this process also try to join the bus: DDS reports each refusal.
     dds_set_log_sink([](void*, const dds_log_data_t*) {}, nullptr);
     for (const auto& made : {own, foreign})
       REQUIRE(run("erp security make " + made).exit_code == 0);
@@ -106,26 +106,27 @@ struct Authorities {
 
 }  // namespace
 
-TEST_CASE("an intruder drives and hears a graph that nothing protects") {
+TEST_CASE("an intruder commands and receives an unprotected graph") {
   Rig rig("");
-  const Loot loot = intrude("");
+  const Result result = intrude("");
   rig.stop();
-  CHECK(loot.driven());
-  CHECK(loot.listened());
+  CHECK(result.driven());
+  CHECK(result.listened());
   CHECK(rig.samples() > 100);
   CHECK(rig.taken());
 }
 
-TEST_CASE("without a certificate of the robot's authority nobody drives or hears it") {
+TEST_CASE(
+    "without a certificate of the robot's authority an intruder neither commands nor receives") {
   const Authorities authorities;
   Rig rig(authorities.own);
-  int got_through = 0;
+  int succeeded = 0;
   for (int k = 0; k < faults::injections(); ++k)
     for (const auto& certificate : {std::string(), authorities.foreign}) {
-      const Loot loot = intrude(certificate, k % 2 ? "plant" : "");
+      const Result result = intrude(certificate, k % 2 ? "plant" : "");
       INFO((certificate.empty() ? "no certificate" : "another authority's certificate"));
-      CHECK(loot.nothing());
-      got_through += !loot.nothing();
+      CHECK(result.nothing());
+      succeeded += !result.nothing();
     }
   rig.stop();
   INFO(rig.output());
@@ -133,17 +134,17 @@ TEST_CASE("without a certificate of the robot's authority nobody drives or hears
   CHECK_FALSE(rig.taken());
   CHECK(rig.error_N() < 2);
   CHECK(rig.output().find("restarted") == std::string::npos);
-  std::printf("| unauthorised publisher | got through | %d of %d |\n", got_through,
+  std::printf("| unauthorised publisher | succeeded | %d of %d |\n", succeeded,
               2 * faults::injections());
 }
 
-TEST_CASE("the same intruder with the robot's own certificate is let in") {
+TEST_CASE("the same intruder with the robot's own certificate is accepted") {
   const Authorities authorities;
   Rig rig(authorities.own);
-  const Loot loot = intrude(authorities.own);
+  const Result result = intrude(authorities.own);
   rig.stop();
-  CHECK(loot.driven());
-  CHECK(loot.listened());
+  CHECK(result.driven());
+  CHECK(result.listened());
   CHECK(rig.samples() > 100);
   CHECK(rig.taken());
 }

@@ -1,4 +1,4 @@
-// Sensors that lie, seen and answered by the firmware alone.
+// Faulty sensors, detected and handled by the firmware alone.
 #include "tests/faults/bench.hpp"
 
 using namespace faults;
@@ -10,9 +10,9 @@ void inject(Bench& bench, Row& safe, int fault, const PinRelay::Alter& alter,
             std::int64_t began_ns = 0) {
   bench.settle();
   const auto from = began_ns ? began_ns : bench.pins().alter(alter);
-  const auto said = bench.await([&] { return bench.emergency(from, fault); });
-  INFO("last fault said: " << bench.last_fault());
-  safe.also("the fault itself is said", from, said != 0);
+  const auto message = bench.await([&] { return bench.emergency(from, fault); });
+  INFO("last reported fault: " << bench.last_fault());
+  safe.also("the fault itself is reported", from, message != 0);
   safe.add(from, bench.await([&] { return bench.pwm_off(from, 0, 0); }));
   bench.pins().leave_alone();
   bench.say_off();
@@ -23,7 +23,7 @@ void inject(Bench& bench, Row& safe, int fault, const PinRelay::Alter& alter,
 TEST_CASE("force sensor open, short") {
   Bench bench;
   Row open("force sensor open", "PWM 0", 8), shorted("force sensor short", "PWM 0", 8);
-  while (open.wants() || shorted.wants()) {
+  while (open.needs_more() || shorted.needs_more()) {
     inject(bench, open, ECU_FAULT_SENSOR_RANGE,
            [](int, board_readings& r) { r.channel[0].tension_counts = 4095; });
     inject(bench, shorted, ECU_FAULT_SENSOR_RANGE,
@@ -39,9 +39,9 @@ TEST_CASE("sensor stuck") {
   for (const bool tension : {true, false}) {
     Row safe(tension ? "force sensor stuck" : "current sensor stuck", "PWM 0, turning at once",
              102);
-    while (safe.wants()) {
+    while (safe.needs_more()) {
       bench.settle();
-      // From where the triangle has just turned back: the shaft then turns for longer than 100 ms.
+      // Start just after a reversal of the triangle: the shaft then turns for longer than 100 ms.
       std::optional<ecu_inputs> kept;
       std::optional<std::int32_t> last;
       std::int64_t from = 0;
@@ -61,11 +61,11 @@ TEST_CASE("sensor stuck") {
         if (tension) in.tension_counts = kept->tension_counts;
         else in.current_counts = kept->current_counts;
       });
-      const auto said = bench.await([&] { return bench.emergency(1, ECU_FAULT_SENSOR_STUCK); });
+      const auto message = bench.await([&] { return bench.emergency(1, ECU_FAULT_SENSOR_STUCK); });
       if (from == 0 && !safe.kept_time(began, node::wall_ns()))
-        safe.set_aside();  // it tripped before
+        safe.discard();  // it tripped before
       else {
-        safe.also("the fault itself is said", from, said != 0);
+        safe.also("the fault itself is reported", from, message != 0);
         safe.add(from, bench.await([&] { return bench.pwm_off(from, 0, 0); }));
       }
       bench.pins().leave_alone();
@@ -75,11 +75,11 @@ TEST_CASE("sensor stuck") {
   }
 }
 
-TEST_CASE("encoder that slips") {
+TEST_CASE("encoder slips") {
   Bench bench;
   Row safe("encoder phase lost (slips)", "PWM 0", 52);
-  while (safe.wants(std::min(5, injections()))) {
-    // What the potentiometer says against an encoder survives a clear: only a reset ends it.
+  while (safe.needs_more(std::min(5, injections()))) {
+    // Evidence of the potentiometer against the encoder survives a clear; only a reset removes it.
     inject(bench, safe, ECU_FAULT_POTENTIOMETER,
            [](int, board_readings& r) { r.channel[0].encoder_counts += 41721 / 6; });
     const auto from = node::wall_ns();
@@ -92,7 +92,7 @@ TEST_CASE("encoder that slips") {
 TEST_CASE("over-current") {
   Bench bench;
   Row safe("over-current", "PWM 0", 4);
-  while (safe.wants())
+  while (safe.needs_more())
     inject(bench, safe, ECU_FAULT_OVER_CURRENT,
            [](int, board_readings& r) { r.channel[0].current_counts = 1900; });
   safe.check();
@@ -117,7 +117,7 @@ TEST_CASE("over-temperature") {
   gains.write(command);
   std::this_thread::sleep_for(300ms);
   Row safe("over-temperature", "PWM 0", 100 + 2);
-  while (safe.wants(std::min(5, injections())))
+  while (safe.needs_more(std::min(5, injections())))
     inject(bench, safe, ECU_FAULT_OVER_TEMPERATURE,
            [](int, board_readings& r) { r.channel[0].temperature_counts = 950; });
   safe.check();
@@ -125,26 +125,26 @@ TEST_CASE("over-temperature") {
 
 TEST_CASE("loop overrun, and bus-off at an ECU") {
   Bench bench;
-  // Three periods of 2 ms, and one tick to notice, from where the first that overruns begins.
+  // Three periods of 2 ms and one tick to detect, from the start of the first overrun.
   Row overrun("loop overrun, three in a row", "PWM 0", 3 * 2 + 2);
   Row off("bus-off at an ECU", "PWM 0", 4),
       rejoined("bus-off at an ECU", "rejoined, disarmed", 100);
-  while (overrun.wants() || off.wants()) {
+  while (overrun.needs_more() || off.needs_more()) {
     bench.settle();
-    auto from = bench.pins().befall(0, WIRE_MISHAP_BUSY, 6);
+    auto from = bench.pins().inject(0, WIRE_FAULT_BUSY, 6);
     from = bench.await([&] { return bench.next_period(from); });
-    const auto told = bench.await([&] { return bench.emergency(from, ECU_FAULT_OVERRUN); });
-    overrun.also("the fault itself is said", from, told != 0);
+    const auto reported = bench.await([&] { return bench.emergency(from, ECU_FAULT_OVERRUN); });
+    overrun.also("the fault itself is reported", from, reported != 0);
     overrun.add(from, bench.await([&] { return bench.pwm_off(from); }));
     bench.say_off();
 
     bench.settle();
-    from = bench.pins().befall(0, WIRE_MISHAP_BUS_OFF, 10);
+    from = bench.pins().inject(0, WIRE_FAULT_BUS_OFF, 10);
     off.add(from, bench.await([&] { return bench.pwm_off(from); }));
     const auto back = bench.await([&] {
-      return bench.bus_ear().first(from + 15 * ms, [](const erp::CanFrame& frame) {
-        frame_status said;
-        return frame_unpack_status(&frame, &said) && said.state != ECU_STATE_RUNNING;
+      return bench.bus_recorder().first(from + 15 * ms, [](const erp::CanFrame& frame) {
+        frame_status message;
+        return frame_unpack_status(&frame, &message) && message.state != ECU_STATE_RUNNING;
       });
     });
     rejoined.add(from, back);

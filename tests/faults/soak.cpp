@@ -1,5 +1,5 @@
-// A graph for half an hour, of which a process is killed every few seconds: it always comes back to
-// what it was doing, and what is not killed does not grow. ERP_SOAK_MINUTES says how long (30).
+// A graph runs for half an hour while a process is killed every few seconds: it always returns to its
+// task, and the memory of the other processes does not grow. ERP_SOAK_MINUTES: duration (30).
 #include <filesystem>
 #include <map>
 #include <random>
@@ -17,15 +17,15 @@ double resident_MB(pid_t pid) {
   return resident * double(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// A process that nobody kills.
+/// A process that is not killed.
 struct Survivor {
   pid_t pid;
   double early_MB = 0, late_MB = 0;
 };
 
 double soak_minutes() {
-  const char* wanted = std::getenv("ERP_SOAK_MINUTES");
-  return wanted ? std::atof(wanted) : 30;
+  const char* text = std::getenv("ERP_SOAK_MINUTES");
+  return text ? std::atof(text) : 30;
 }
 
 void print(const std::map<std::string, std::vector<double>>& back_s) {
@@ -42,7 +42,7 @@ void print(const std::map<std::string, std::vector<double>>& back_s) {
 
 }  // namespace
 
-TEST_CASE("killed at random, it always comes back, and nothing grows") {
+TEST_CASE("after random kills the graph always recovers, and memory does not grow") {
   const std::vector<std::string> victims{"gateway", "plant", "length_control", "sim", "ecu"};
   tests::Folder folder;
   write_rig(folder, 0.008);
@@ -56,7 +56,7 @@ TEST_CASE("killed at random, it always comes back, and nothing grows") {
   const auto began_ns = node::monotonic_ns();
   const auto minutes = [&] { return 1e-9 * double(node::monotonic_ns() - began_ns) / 60; };
   const double end = soak_minutes();
-  for (double told = 0; minutes() < end;) {
+  for (double reported = 0; minutes() < end;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2000 + random() % 3000));
     const std::string victim = victims[random() % victims.size()];
     const auto killed_ns = node::monotonic_ns();
@@ -66,13 +66,13 @@ TEST_CASE("killed at random, it always comes back, and nothing grows") {
     back_s[victim].push_back(1e-9 * double(node::monotonic_ns() - killed_ns));
     for (auto& [name, survivor] : survivors)
       (minutes() < end / 5 ? survivor.early_MB : survivor.late_MB) = resident_MB(survivor.pid);
-    if (minutes() - told < 1) continue;
-    told = minutes();
-    std::printf("  %.0f of %.0f min\n", told, end);
+    if (minutes() - reported < 1) continue;
+    reported = minutes();
+    std::printf("  %.0f of %.0f min\n", reported, end);
     std::fflush(stdout);
   }
   print(back_s);
-  std::printf("cleared by a person's word: %d\n", cleared);
+  std::printf("faults cleared by operator command: %d\n", cleared);
   for (const auto& [name, survivor] : survivors) {
     std::printf("| %-8s | resident after a fifth %.2f MB | at the end %.2f MB |\n", name.c_str(),
                 survivor.early_MB, survivor.late_MB);

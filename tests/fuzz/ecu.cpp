@@ -1,4 +1,4 @@
-// Any frames, bundles and readings into a whole ECU: firmware/core's link, states and laws.
+// Target: arbitrary frames, bundles and sensor readings as input of a complete ECU: link, states and laws of firmware/core.
 #include <array>
 #include <vector>
 
@@ -13,7 +13,7 @@ constexpr std::uint8_t address = 3;
 
 class Ecu {
  public:
-  /// Bits of `fitted`: two channels, four inputs, gains in force.
+  /// Bits of `fitted`: channels (2 bits), analog inputs (4 bits), gains loaded (1 bit).
   explicit Ecu(std::uint8_t fitted) {
     const board_fitted what{address, static_cast<std::uint8_t>(fitted & 3),
                             static_cast<std::uint8_t>(fitted >> 2 & 15), 0xC0FFEE};
@@ -26,25 +26,25 @@ class Ecu {
   void step(fuzz::Input& in) {
     switch (in.take<std::uint8_t>() % 4) {
       case 0:
-        return hear(fuzz::take_frame(in));
+        return receive(fuzz::take_frame(in));
       case 1:
-        return hear_bundle(in);
+        return receive_bundle(in);
       case 2:
         return period(in);
       default:
-        said(ecu_board_repeat(&board_, frames_.data()));
+        check_sent(ecu_board_repeat(&board_, frames_.data()));
     }
   }
 
  private:
-  void hear(const bus_frame& frame) { ecu_board_hear(&board_, &frame); }
+  void receive(const bus_frame& frame) { ecu_board_receive(&board_, &frame); }
 
-  void hear_bundle(fuzz::Input& in) {
+  void receive_bundle(fuzz::Input& in) {
     const auto bundle = in.take<bus_bundle>();
     std::vector<bus_frame> frames(BUNDLE_FRAMES_MAX);
     const unsigned count = bundle_unpack(&bundle, frames.data());
-    fuzz::require(count <= frames.size(), "a bundle holds six frames at most");
-    for (unsigned i = 0; i < count; ++i) hear(frames[i]);
+    fuzz::require(count <= frames.size(), "a bundle holds at most six frames");
+    for (unsigned i = 0; i < count; ++i) receive(frames[i]);
   }
 
   static ecu_inputs take_inputs(fuzz::Input& in) {
@@ -64,8 +64,8 @@ class Ecu {
     for (ecu_inputs& inputs : now.readings.channel) inputs = take_inputs(in);
     for (std::int32_t& counts : now.readings.analog) counts = in.take<std::int32_t>();
     std::array<std::int16_t, 2> duty{};
-    for (int times = 1 + (flags >> 2); times > 0; --times)  // some faults take many periods
-      said(ecu_board_period(&board_, &now, duty.data(), frames_.data()));
+    for (int times = 1 + (flags >> 2); times > 0; --times)  // some faults need many periods
+      check_sent(ecu_board_period(&board_, &now, duty.data(), frames_.data()));
     for (int k = 0; k < 2; ++k) {
       fuzz::require(std::abs(duty[k]) <= ECU_DUTY_MAX, "a duty is within full supply");
       fuzz::require(duty[k] == 0 || board_.channel[k].state == ECU_STATE_RUNNING,
@@ -73,21 +73,22 @@ class Ecu {
     }
   }
 
-  /// What it says is whole, and the same after a journey in bundles.
-  void said(unsigned count) {
-    fuzz::require(count <= frames_.size(), "an ECU says eleven frames at most");
+  /// Checks that the sent frames are intact, and unchanged after packing into bundles.
+  void check_sent(unsigned count) {
+    fuzz::require(count <= frames_.size(), "an ECU sends at most eleven frames");
     for (unsigned i = 0; i < count; ++i)
       fuzz::require(frame_is_intact(&frames_[i]) && frame_ecu_of(&frames_[i]) == address,
-                    "an ECU says intact frames of its own");
+                    "an ECU sends intact frames with its own address");
     for (unsigned done = 0; done < count;) {
       bus_bundle bundle;
       const unsigned packed = bundle_pack(&bundle, &frames_[done], count - done);
       std::array<bus_frame, BUNDLE_FRAMES_MAX> again;
-      fuzz::require(bundle_unpack(&bundle, again.data()) == packed, "a bundle is unpacked whole");
+      fuzz::require(bundle_unpack(&bundle, again.data()) == packed,
+                    "all frames of a bundle are unpacked");
       for (unsigned i = 0; i < packed; ++i)
         fuzz::require(again[i].id == frames_[done + i].id &&
                           std::memcmp(again[i].data, frames_[done + i].data, 8) == 0,
-                      "a frame comes out of a bundle as it went in");
+                      "a frame is unchanged by a bundle");
       done += packed;
     }
   }

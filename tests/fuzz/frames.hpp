@@ -4,7 +4,7 @@
 
 namespace fuzz {
 
-/// Gives a frame the envelope that lets its contents be looked at.
+/// Sets identifier range, size and CRC of a frame, so that the receiver accepts it.
 inline void seal(bus_frame& frame) {
   frame.id &= 0x7FF;
   frame.size = 8;
@@ -14,8 +14,8 @@ inline void seal(bus_frame& frame) {
   frame.data[7] = frame_crc8(summed, sizeof summed);
 }
 
-/// Identifier 16, size 8, data 8 bytes. A size below 128 stands for a sealed frame: chance alone
-/// would never get past the check value.
+/// Reads a frame: identifier 16 bits, size 8 bits, data 8 bytes. A size byte below 128 selects a frame with a valid CRC,
+/// which random bytes would not have.
 inline bus_frame take_frame(Input& in) {
   bus_frame frame{};
   frame.id = in.take<std::uint16_t>();

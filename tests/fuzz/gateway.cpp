@@ -1,4 +1,4 @@
-// Any frames from the bus and any messages from the plant into hal/can's gateway.
+// Target: arbitrary frames from the bus and arbitrary messages from the plant, as input of the gateway of hal/can.
 #include "hal/can/gateway.hpp"
 
 #include "tests/fuzz/frames.hpp"
@@ -20,9 +20,9 @@ class Bus {
       case 2:
         return gateway_.close_tick();
       case 3:
-        return gateway_.clear_news();
+        return gateway_.clear_events();
       default:
-        return hear(fuzz::take_frame(in));
+        return receive(fuzz::take_frame(in));
     }
   }
 
@@ -32,15 +32,15 @@ class Bus {
                   "a tick has every channel and input of robot.xml");
     fuzz::require(gateway_.emergencies().size() <= erp::Gateway::emergencies_kept &&
                       gateway_.hellos().size() <= erp::Gateway::hellos_kept,
-                  "news are bounded");
+                  "the number of stored messages is bounded");
   }
 
  private:
-  void hear(const erp::CanFrame& frame) {
+  void receive(const erp::CanFrame& frame) {
     const auto before = gateway_.frame().sequence;
-    const erp::Heard heard = gateway_.hear(frame);
-    fuzz::require((heard == erp::Heard::tick) == (gateway_.frame().sequence != before),
-                  "a new frame is told of");
+    const erp::FrameResult heard = gateway_.receive(frame);
+    fuzz::require((heard == erp::FrameResult::tick) == (gateway_.frame().sequence != before),
+                  "a new frame is reported");
   }
 
   void command(fuzz::Input& in) {
@@ -48,8 +48,8 @@ class Bus {
     message.answers = in.take<std::uint8_t>();
     for (int n = in.take<std::uint8_t>() % 65; n > 0; --n)
       erp::append(message.channels, in.take<erp::EcuChannelCommand>());
-    for (const erp::CanFrame& frame : gateway_.commands(message)) sent(frame, FRAME_COMMAND);
-    for (const erp::CanFrame& frame : gateway_.again()) sent(frame, FRAME_COMMAND);
+    for (const erp::CanFrame& frame : gateway_.commands(message)) check_sent(frame, FRAME_COMMAND);
+    for (const erp::CanFrame& frame : gateway_.repeat()) check_sent(frame, FRAME_COMMAND);
   }
 
   void parameter(fuzz::Input& in) {
@@ -63,14 +63,15 @@ class Bus {
       value.value = in.take<float>();
       erp::append(message.values, value);
     }
-    for (const erp::CanFrame& frame : gateway_.parameters(message)) sent(frame, FRAME_PARAMETER);
+    for (const erp::CanFrame& frame : gateway_.parameters(message))
+      check_sent(frame, FRAME_PARAMETER);
   }
 
-  static void sent(const erp::CanFrame& frame, frame_function function) {
+  static void check_sent(const erp::CanFrame& frame, frame_function function) {
     const auto ecu = frame_ecu_of(&frame);
     fuzz::require(frame_is_intact(&frame) && frame_function_of(&frame) == function,
-                  "what is sent is whole");
-    fuzz::require(ecu == 3 || ecu == 4, "only ECUs of robot.xml are spoken to");
+                  "a sent frame is intact");
+    fuzz::require(ecu == 3 || ecu == 4, "frames are sent only to ECUs of robot.xml");
   }
 
   erp::Gateway gateway_{robot};

@@ -1,4 +1,4 @@
-// Any text as a launch graph, beside a robot and configs that it may name.
+// Target: arbitrary text as a launch graph, beside a robot and configs that it may name.
 #include "interfaces/graph/graph.hpp"
 
 #include "interfaces/xml/errors.hpp"
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const fuzz::Folder folder = make_folder();
   try {
     const erp::Graph graph = erp::read_graph(folder.write("graph.xml", data, size));
-    fuzz::require(std::filesystem::is_regular_file(graph.robot), "a graph's robot is a file");
+    fuzz::require(std::filesystem::is_regular_file(graph.robot), "the robot of a graph is a file");
   } catch (const xml::Errors&) {
   }
   return 0;

@@ -12,10 +12,10 @@
 #include <string>
 #include <string_view>
 
-/// What the targets share: libFuzzer's bytes as values, a file with them, and what must hold.
+/// Shared code of the targets: libFuzzer's bytes as values and as files, and checks of invariants.
 namespace fuzz {
 
-/// Takes values from the front of the bytes; where they end, zeros.
+/// Takes values from the front of the bytes; zeros after their end.
 class Input {
  public:
   Input(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
@@ -38,15 +38,15 @@ class Input {
   std::span<const std::uint8_t> rest_;
 };
 
-/// A find that is no crash by itself: says what does not hold, and stops as a crash does.
-inline void require(bool holds, const char* sentence) {
+/// Checks an invariant. Prints it and aborts if it is violated.
+inline void require(bool holds, const char* invariant) {
   if (holds) return;
-  std::cerr << "does not hold: " << sentence << std::endl;
+  std::cerr << "violated: " << invariant << std::endl;
   std::abort();
 }
 
-/// A folder of this process alone, in memory where there is such a place. libFuzzer leaves without
-/// destructors: run.sh gives a TMPDIR and removes it.
+/// A temporary folder of this process. libFuzzer exits without destructors, so run.sh creates TMPDIR (in memory if
+/// possible) and removes it.
 class Folder {
  public:
   Folder() {

@@ -1,4 +1,4 @@
-// Any bytes as a recording: walked, read by time, as a table, as a topic's CSV, and mended.
+// Target: arbitrary bytes as a recording: read message by message, as a table and as CSV of a topic, and recovered.
 #include <set>
 #include <sstream>
 
@@ -9,9 +9,9 @@
 
 namespace {
 
-/// A refusal with place and remedy is what damage calls for; anything else is a find.
-template <class Try>
-void may_refuse(Try&& attempt) {
+/// Runs `attempt` and accepts RecordingError, the documented reaction to damage.
+template <class Attempt>
+void may_reject(Attempt&& attempt) {
   try {
     attempt();
   } catch (const recording::RecordingError&) {
@@ -22,22 +22,23 @@ void read(const std::string& file) {
   const recording::McapReader reader(file);
   std::uint64_t messages = 0;
   reader.for_each([&](const recording::Message&) { ++messages; });
-  fuzz::require(messages == reader.contents().messages, "every message that was counted is read");
+  fuzz::require(messages == reader.contents().messages, "every counted message is read");
   std::set<std::string> topics;
   for (const auto& [id, channel] : reader.channels()) topics.insert(channel.topic);
   for (const std::string& topic : topics)
-    may_refuse([&] {
+    may_reject([&] {
       std::ostringstream out;
       recording::write_topic_csv(reader, topic, out);
     });
 }
 
-void mend(const std::string& file, const std::string& mended) {
-  std::filesystem::remove(mended);
-  const recording::Recovered recovered = recording::recover(file, mended);
-  const recording::McapReader reader(mended);
-  fuzz::require(reader.complete(), "what was mended is whole");
-  fuzz::require(reader.contents().messages == recovered.messages, "and has what was recovered");
+void recover(const std::string& file, const std::string& recovered_file) {
+  std::filesystem::remove(recovered_file);
+  const recording::Recovered recovered = recording::recover(file, recovered_file);
+  const recording::McapReader reader(recovered_file);
+  fuzz::require(reader.complete(), "a recovered file is complete");
+  fuzz::require(reader.contents().messages == recovered.messages,
+                "a recovered file has all recovered messages");
 }
 
 }  // namespace
@@ -47,8 +48,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string file = folder.write("run", data, size);
   recording::TableOptions all;
   all.sequences = all.lines = all.targets = true;
-  may_refuse([&] { recording::read_table(file, all); });
-  may_refuse([&] { read(file); });
-  may_refuse([&] { mend(file, folder / "mended.mcap"); });
+  may_reject([&] { recording::read_table(file, all); });
+  may_reject([&] { read(file); });
+  may_reject([&] { recover(file, folder / "recovered.mcap"); });
   return 0;
 }

@@ -1,4 +1,4 @@
-// Any text as robot.xml, with parts that it may include and mirror beside it.
+// Target: arbitrary text as robot.xml, beside files that it may include and mirror.
 #include "interfaces/robot/robot.hpp"
 
 #include "interfaces/xml/errors.hpp"
@@ -17,13 +17,13 @@ fuzz::Folder make_folder() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::Folder folder = make_folder();
-  std::string flat;
+  std::string written;
   try {
-    flat = erp::write_robot(erp::read_robot(folder.write("robot.xml", data, size)));
+    written = erp::write_robot(erp::read_robot(folder.write("robot.xml", data, size)));
   } catch (const xml::Errors&) {
     return 0;
   }
-  const erp::Robot again = erp::read_robot(folder.write("flat.xml", flat));
-  fuzz::require(erp::write_robot(again) == flat, "a robot reads back as it was written");
+  const erp::Robot again = erp::read_robot(folder.write("written.xml", written));
+  fuzz::require(erp::write_robot(again) == written, "a robot reads back as it was written");
   return 0;
 }

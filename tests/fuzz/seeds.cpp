@@ -1,5 +1,4 @@
-// Writes the seeds that are no text: what ECUs, hosts and the logger say, in the targets' own
-// bytes.
+// Writes the binary seeds: messages of ECUs, hosts and the logger, in the input format of each target.
 //   fuzz_seeds CORPUS_DIRECTORY
 #include <cstdio>
 
@@ -31,13 +30,13 @@ std::string raw(const bus_frame& frame) {
          std::string(reinterpret_cast<const char*>(frame.data), 8);
 }
 
-/// A step of the targets `ecu` and `gateway`: what to do, and with what.
+/// One step of the targets `ecu` and `gateway`: action and data.
 std::string step(char what, const std::string& with) { return what + with; }
 
 bus_frame command(std::uint8_t count, std::uint8_t request, std::int32_t setpoint) {
-  const frame_command said{{{request, setpoint}, {request, -setpoint}}, 0, count};
+  const frame_command message{{{request, setpoint}, {request, -setpoint}}, 0, count};
   bus_frame frame;
-  frame_pack_command(&frame, 3, &said);
+  frame_pack_command(&frame, 3, &message);
   return frame;
 }
 
@@ -64,9 +63,9 @@ void write_gains() {
   std::string bytes = "\x3F";
   const auto gains = firmware::fitted_gains();
   for (std::uint8_t i = 0; i < ECU_PARAMETER_COUNT; ++i) {
-    const frame_parameter said{0, i, i + 1 == ECU_PARAMETER_COUNT, i, gains[i]};
+    const frame_parameter message{0, i, i + 1 == ECU_PARAMETER_COUNT, i, gains[i]};
     bus_frame frame;
-    frame_pack_parameter(&frame, 3, &said);
+    frame_pack_parameter(&frame, 3, &message);
     bytes += step(0, raw(frame));
   }
   write("ecu", "gains", bytes + step(2, readings(0, 5, 5)));
@@ -86,63 +85,63 @@ void write_bundles_and_faults() {
 // ---- gateway ----
 
 std::string hello(std::uint8_t ecu) {
-  const frame_hello said{FRAME_VERSION, 3, 9, 0, 77};
+  const frame_hello message{FRAME_VERSION, 3, 9, 0, 77};
   bus_frame frame;
-  frame_pack_hello(&frame, ecu, &said);
+  frame_pack_hello(&frame, ecu, &message);
   return step(7, raw(frame));
 }
 
 std::string health(std::uint8_t ecu, std::uint8_t channel, std::uint8_t page) {
-  frame_health said{};
-  said.page = page, said.encoder_counts = 70000, said.request = ECU_REQUEST_FORCE,
-  said.setpoint = 9;
+  frame_health message{};
+  message.page = page, message.encoder_counts = 70000, message.request = ECU_REQUEST_FORCE,
+  message.setpoint = 9;
   bus_frame frame;
-  frame_pack_health(&frame, ecu, channel, &said);
+  frame_pack_health(&frame, ecu, channel, &message);
   return step(7, raw(frame));
 }
 
 std::string status(std::uint8_t ecu, std::uint8_t channel, std::uint8_t counter,
                    std::uint8_t state) {
-  frame_status said{};
-  said.encoder_low = 4000, said.current_counts = -5, said.tension_counts = 900;
-  said.state = state, said.counter = counter, said.follows = true;
-  said.request = state == ECU_STATE_RUNNING ? FRAME_REQUEST_NONE : ECU_REQUEST_ARM;
+  frame_status message{};
+  message.encoder_low = 4000, message.current_counts = -5, message.tension_counts = 900;
+  message.state = state, message.counter = counter, message.follows = true;
+  message.request = state == ECU_STATE_RUNNING ? FRAME_REQUEST_NONE : ECU_REQUEST_ARM;
   bus_frame frame;
-  frame_pack_status(&frame, ecu, channel, &said);
+  frame_pack_status(&frame, ecu, channel, &message);
   return step(7, raw(frame));
 }
 
 std::string analog(std::uint8_t page, std::uint8_t counter) {
-  const frame_analog said{page, 3, {-4000, 4000}, counter};
+  const frame_analog message{page, 3, {-4000, 4000}, counter};
   bus_frame frame;
-  frame_pack_analog(&frame, 3, &said);
+  frame_pack_analog(&frame, 3, &message);
   return step(7, raw(frame));
 }
 
 std::string emergency(bool boot) {
-  frame_emergency said{};
-  said.boot = boot, said.version = FRAME_VERSION, said.tick = 12, said.fault = !boot;
+  frame_emergency message{};
+  message.boot = boot, message.version = FRAME_VERSION, message.tick = 12, message.fault = !boot;
   bus_frame frame;
-  frame_pack_emergency(&frame, 3, &said);
+  frame_pack_emergency(&frame, 3, &message);
   return step(7, raw(frame));
 }
 
 void write_gateway() {
-  std::string heard = hello(3) + hello(4) + hello(9);
+  std::string startup = hello(3) + hello(4) + hello(9);
   for (std::uint8_t page = 0; page < 2; ++page)
-    heard += health(3, 0, page) + health(3, 1, page) + health(4, 0, page);
-  write("gateway", "heard", heard);
+    startup += health(3, 0, page) + health(3, 1, page) + health(4, 0, page);
+  write("gateway", "heard", startup);
   for (std::uint8_t state = ECU_STATE_BOOT; state < ECU_STATE_COUNT; ++state) {
-    std::string ticks = heard;
+    std::string ticks = startup;
     for (std::uint8_t i = 0; i < 2; ++i)
       ticks += status(3, 0, i, state) + status(3, 1, i, state) + analog(0, i) + analog(1, i) +
                status(4, 0, i, state) + step(2, "");
     write("gateway", "state_" + std::to_string(state), ticks);
   }
-  write("gateway", "emergencies", heard + emergency(false) + emergency(true) + step(3, ""));
-  const std::string asked = raw(erp::EcuChannelCommand{3, 0, ECU_REQUEST_FORCE, 4000}) +
-                            raw(erp::EcuChannelCommand{4, 0, 200, 1 << 30});
-  write("gateway", "command", heard + step(0, std::string("\1\2") + asked));
+  write("gateway", "emergencies", startup + emergency(false) + emergency(true) + step(3, ""));
+  const std::string channels = raw(erp::EcuChannelCommand{3, 0, ECU_REQUEST_FORCE, 4000}) +
+                               raw(erp::EcuChannelCommand{4, 0, 200, 1 << 30});
+  write("gateway", "command", startup + step(0, std::string("\1\2") + channels));
   write("gateway", "parameter",
         step(1, std::string("\2\3\0\5\0", 5) + raw(1.5f) + std::string("\4\0\6\1", 4) + raw(2.5f)));
 }
@@ -155,18 +154,18 @@ void write_wire() {
   board_readings readings{};
   readings.channel[0].encoder_counts = -70000, readings.analog[3] = 8000, readings.turn = 7;
   const std::int16_t duty[2] = {-1023, 512};
-  const wire_mishap mishap{WIRE_MISHAP_BUSY, 40};
+  const wire_fault fault{WIRE_FAULT_BUSY, 40};
   write("wire", "readings", text(wire_pack_readings(bytes, 3, &readings)));
   write("wire", "drive", text(wire_pack_drive(bytes, 3, duty)));
   write("wire", "sample", text(wire_pack_sample(bytes, 3, 9)));
-  write("wire", "mishap", "\xA5\xA5" + text(wire_pack_mishap(bytes, 3, &mishap)));
+  write("wire", "mishap", "\xA5\xA5" + text(wire_pack_fault(bytes, 3, &fault)));
 }
 
 // ---- recording ----
 
 using recording::Bytes;
 
-/// MCAP's first bytes.
+/// Magic bytes of MCAP.
 Bytes begun() {
   Bytes out;
   recording::put(out, std::as_bytes(std::span(recording::magic)));
@@ -186,7 +185,7 @@ struct Recorded {
   std::vector<Bytes> messages;
 };
 
-/// Messages without chunk and checksums: what a fuzzer changes is looked at.
+/// Messages without chunks and checksums, so that changed bytes are not rejected by a checksum.
 std::string plain(const std::vector<Recorded>& topics) {
   Bytes out = begun();
   std::uint16_t id = 0;

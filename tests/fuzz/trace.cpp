@@ -1,4 +1,4 @@
-// Any text as a recording by candump: line by line, and as a bus that plays it.
+// Target: arbitrary text as a candump recording, line by line and as a bus that replays it.
 #include "hal/can/trace.hpp"
 
 #include <array>
@@ -21,7 +21,7 @@ void read_lines(std::string_view text) {
     if (!line) continue;
     fuzz::require(std::isfinite(line->time_s), "a frame has a time");
     const auto again = erp::parse_trace_line(erp::trace_line(line->frame, 0, "can0"));
-    fuzz::require(again && same(again->frame, line->frame), "a frame reads back as it was written");
+    fuzz::require(again && same(again->frame, line->frame), "a frame reads back unchanged");
   }
 }
 

@@ -1,15 +1,15 @@
-// Any bytes on the line between an ECU and its simulated robot.
+// Target: arbitrary bytes on the line between an ECU and its simulated robot.
 #include "firmware/board/wire.h"
 
 #include "tests/fuzz/input.hpp"
 
 namespace {
 
-/// Packs again what was understood; returns how many bytes.
-unsigned resampled_noise(wire_kind kind, const wire_reader& reader, std::uint8_t* bytes) {
+/// Encodes a decoded message again; returns the number of bytes.
+unsigned encode_again(wire_kind kind, const wire_reader& reader, std::uint8_t* bytes) {
   const std::uint8_t ecu = wire_ecu(&reader);
   board_readings readings;
-  wire_mishap mishap;
+  wire_fault fault;
   std::int16_t duty[2];
   switch (kind) {
     case WIRE_READINGS:
@@ -18,13 +18,13 @@ unsigned resampled_noise(wire_kind kind, const wire_reader& reader, std::uint8_t
     case WIRE_DRIVE:
       wire_unpack_drive(&reader, duty);
       return wire_pack_drive(bytes, ecu, duty);
-    case WIRE_MISHAP:
-      wire_unpack_mishap(&reader, &mishap);
-      return wire_pack_mishap(bytes, ecu, &mishap);
+    case WIRE_FAULT:
+      wire_unpack_fault(&reader, &fault);
+      return wire_pack_fault(bytes, ecu, &fault);
     case WIRE_SAMPLE:
       return wire_pack_sample(bytes, ecu, wire_sample_turn(&reader));
   }
-  fuzz::require(false, "a message is of a known kind");
+  fuzz::require(false, "a message has a known kind");
   return 0;
 }
 
@@ -36,9 +36,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t i = 0; i < size; ++i) {
     const wire_kind kind = wire_take(&reader, data[i]);
     if (kind == wire_kind{}) continue;
-    const unsigned length = resampled_noise(kind, reader, again);
+    const unsigned length = encode_again(kind, reader, again);
     fuzz::require(length <= i + 1 && std::memcmp(again, data + i + 1 - length, length) == 0,
-                  "what was understood reads as what was said");
+                  "a decoded message encodes to the same bytes");
   }
   return 0;
 }

@@ -184,7 +184,7 @@ TEST_CASE("a forbidden include is found") {
   CHECK(violations("components/plant/x.cpp", good).empty());
 }
 
-TEST_CASE("every folder of the house says in a README what it is") {
+TEST_CASE("every source folder has a README, its own or that of a folder above") {
   for (const auto* top :
        {"interfaces", "components", "sim", "hal", "firmware", "launch", "configs", "tests"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERP_SOURCE_DIR) / top)) {

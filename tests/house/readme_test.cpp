@@ -1,5 +1,4 @@
-// The README tells the truth: its controller is the one that `erp new controller` writes, and the
-// files and verbs it names are there.
+// README.md is correct: its controller matches the template of `erp new controller`, and the files that it names exist.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -16,22 +15,22 @@ std::string content(const std::string& file) {
   return text.str();
 }
 
-std::string named(std::string text) {
+std::string with_names(std::string text) {
   text = std::regex_replace(text, std::regex("@Class@"), "MyController");
   return std::regex_replace(text, std::regex("@name@"), "my_controller");
 }
 
 }  // namespace
 
-TEST_CASE("the controller in the README is the one that erp new controller writes") {
+TEST_CASE("the controller in README.md equals the one that erp new controller writes") {
   const auto readme = content("README.md");
-  CHECK(readme.find(named(content("launch/erp/new/templates/controller/controller.hpp"))) !=
+  CHECK(readme.find(with_names(content("launch/erp/new/templates/controller/controller.hpp"))) !=
         std::string::npos);
-  CHECK(readme.find(named(content("launch/erp/new/templates/controller/main.cpp"))) !=
+  CHECK(readme.find(with_names(content("launch/erp/new/templates/controller/main.cpp"))) !=
         std::string::npos);
 }
 
-TEST_CASE("every file that the README names is there") {
+TEST_CASE("every file that README.md names exists") {
   const auto readme = content("README.md");
   const std::regex path(
       R"((launch|configs|tests|components|interfaces|sim|hal|firmware)/[a-z_0-9/.]+\.(xml|sh|png|md|hpp))");

@@ -1,7 +1,7 @@
 #pragma once
 #include "interfaces/robot/robot.hpp"
 
-/// What the tests of this folder are tried on.
+/// Common test fixtures: motor set, tendon, path of configuration files.
 namespace rigs {
 
 /// The CALIPER motor set, with the friction chosen for hinge_rig.

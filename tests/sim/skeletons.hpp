@@ -1,7 +1,7 @@
 #pragma once
 #include "tests/sim/rigs.hpp"
 
-/// Robots without actuators, for what can be worked out by hand.
+/// Robots without actuators, whose motion can be computed by hand.
 namespace rigs {
 
 inline erp::Body root(const std::string& name = "base") {

@@ -16,7 +16,7 @@ namespace tests {
 
 using namespace std::chrono_literals;
 
-/// Waits until `happened`, or until a minute has passed (then false: the test fails, not hangs).
+/// Waits up to a minute until `happened` returns true. Returns false after a minute, so that a test cannot hang.
 template <class Happened>
 bool wait_until(Happened&& happened) {
   for (int i = 0; i < 6000; ++i) {
@@ -26,7 +26,7 @@ bool wait_until(Happened&& happened) {
   return false;
 }
 
-/// `erp launch …`, or another of our programs, in the background; ended by its process id.
+/// `erp launch …` or another program of this repository as a background process. The destructor ends it.
 class Background {
  public:
   Background(const std::vector<std::string>& arguments, std::string output,
@@ -50,13 +50,14 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
-  bool says(const std::string& words) const {
-    return wait_until([&] { return content(output_).find(words) != std::string::npos; });
+  /// Waits up to a minute until the output contains `text`.
+  bool wait_for_output(const std::string& text) const {
+    return wait_until([&] { return content(output_).find(text) != std::string::npos; });
   }
   std::string output() const { return content(output_); }
   pid_t pid() const { return pid_; }
 
-  /// The live child of that program name; 0 when there is none.
+  /// Process id of the running child with this program name; 0 if there is none.
   pid_t child(const std::string& program) const {
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       std::ifstream stat(entry.path() / "stat");
@@ -80,7 +81,7 @@ class Background {
     for (pid_t child; file >> child;) all.push_back(child);
     return all;
   }
-  /// Asks it to end and waits; returns its exit code, 128 + signal when it was killed.
+  /// Sends a signal and waits for the end. Returns the exit code, or 128 + signal if a signal ended the process.
   int stop(int signal = SIGINT) {
     kill(pid_, signal);
     return wait();

@@ -11,7 +11,7 @@
 
 #include "tests/components/node/domain.hpp"
 
-/// System tests run the built programs as a person would.
+/// System tests run the built programs from a shell, as users do.
 namespace tests {
 
 struct Outcome {
@@ -19,7 +19,7 @@ struct Outcome {
   std::string output;  ///< standard output and error
 };
 
-/// Runs a shell command with the built programs on PATH, and waits for it.
+/// Runs a shell command with the built programs on PATH and waits for its end.
 inline Outcome run(const std::string& command) {
   const std::string line =
       "PATH=" ERP_BIN_DIR ":$PATH; cd " ERP_SOURCE_DIR " && { " + command + "; } 2>&1";
@@ -32,7 +32,7 @@ inline Outcome run(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output};
 }
 
-/// A folder that is gone when the test ends.
+/// A temporary folder, removed by the destructor.
 class Folder {
  public:
   Folder() {

@@ -1,5 +1,4 @@
-// A person's own controller: made, built against the installed package, tested, and attached to a
-// running graph.
+// A user's controller is generated, built against the installed package, tested and attached to a running graph.
 #include <catch2/catch.hpp>
 
 #include "tests/system/background.hpp"
@@ -20,13 +19,13 @@ TEST_CASE("a new controller builds out of tree, passes its test and drives a run
   INFO(test.output);
   REQUIRE(test.exit_code == 0);
 
-  // Only logger, plant and simulator: the robot waits for somebody to drive it.
+  // The graph has only logger, plant and simulator; no controller sends commands.
   Background graph({"launch", "launch/idle.xml", "--out", folder / "run"}, folder / "run.txt");
-  REQUIRE(graph.says("all components are active"));
+  REQUIRE(graph.wait_for_output("all components are active"));
   const auto attached = run("timeout --signal=INT 3 " + project + "/build/my_controller --robot " +
                             prefix + "/share/erp/configs/hinge_rig/robot.xml");
   INFO(attached.output);
-  CHECK(graph.says("driven by my_controller"));
+  CHECK(graph.wait_for_output("driven by my_controller"));
   CHECK(graph.stop() == 0);
 }
 

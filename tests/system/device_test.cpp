@@ -1,5 +1,4 @@
-// One set of conformance tests for every device: sim, can, replay. Then the closed loop on those
-// that can be moved, and repeated runs.
+// Conformance tests for all devices (sim, can, replay); closed-loop tests on sim and can; repeatability of runs.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -16,8 +15,8 @@ namespace {
 
 std::string bus() { return "udp:239.255.42.8:" + std::to_string(22000 + own_domain); }
 
-/// The command line's part that chooses a device.
-std::string choice(const std::string& device, const std::string& recording) {
+/// Command-line options that select a device.
+std::string device_options(const std::string& device, const std::string& recording) {
   if (device == "can") return "--device can --set gateway.bus=" + bus() + " --set sim.bus=" + bus();
   return device == "replay" ? "--device replay:" + recording : "--device sim";
 }
@@ -40,8 +39,8 @@ std::string exported(const std::string& file) {
   return outcome.output;
 }
 
-/// In lockstep a device says its frame again when the answer does not come within 0.2 s, as it may
-/// on a busy machine.
+/// Removes repeated frames. In lockstep a device repeats a frame if no command arrives within 0.2 s, which happens on
+/// a busy machine.
 std::vector<recording::Members> without_repeats(const std::vector<recording::Members>& frames) {
   std::vector<recording::Members> all;
   for (const auto& frame : frames)
@@ -52,13 +51,14 @@ std::vector<recording::Members> without_repeats(const std::vector<recording::Mem
 
 }  // namespace
 
-TEST_CASE("every device says every channel, numbered without a gap, at the ECUs' period") {
+TEST_CASE(
+    "frames of every device contain all channels, with consecutive numbers, at the ECU period") {
   Folder folder;
   const auto original = record(folder, "original", "launch/force_step.xml", "--lockstep --for 1s");
   for (const std::string device : {"sim", "can", "replay"}) {
     INFO(device);
     const auto file = record(folder, device, "launch/force_step.xml",
-                             "--lockstep --for 1s " + choice(device, original));
+                             "--lockstep --for 1s " + device_options(device, original));
     const Recorded frames(file, "ecu_frame");
     const auto all = without_repeats(frames.messages());
     REQUIRE(all.size() == 500);
@@ -79,11 +79,11 @@ TEST_CASE("every device says every channel, numbered without a gap, at the ECUs'
   }
 }
 
-TEST_CASE("a repeated lockstep run exports the same bytes, and so does the robot behind the bus") {
+TEST_CASE("a repeated lockstep run exports the same bytes, on the simulator and over the CAN bus") {
   Folder folder;
   const auto step = [&](const std::string& name, const std::string& device) {
-    return exported(
-        record(folder, name, "launch/force_step.xml", "--lockstep --for 2s " + choice(device, "")));
+    return exported(record(folder, name, "launch/force_step.xml",
+                           "--lockstep --for 2s " + device_options(device, "")));
   };
   const auto first = step("first", "sim");
   CHECK(first.size() > 100000);
@@ -91,15 +91,15 @@ TEST_CASE("a repeated lockstep run exports the same bytes, and so does the robot
   CHECK(step("bus", "can") == first);
 }
 
-TEST_CASE("a replayed recording gives the sensor readings it was made of") {
+TEST_CASE("a replayed recording reproduces its sensor readings") {
   Folder folder;
   const auto original = record(folder, "original", "launch/force_step.xml", "--lockstep --for 2s");
   const auto again = record(folder, "again", "launch/force_step.xml",
-                            "--lockstep --for 2s " + choice("replay", original));
+                            "--lockstep --for 2s " + device_options("replay", original));
   CHECK(exported(again) == exported(original));
 }
 
-TEST_CASE("the force step rises within 318 ms and rests within 0.236 N") {
+TEST_CASE("a force step: rise time at most 318 ms, steady-state RMS error at most 0.236 N") {
   const auto outcome =
       run("erp launch launch/force_step.xml --lockstep --for 5s --out $(mktemp -d)/run");
   CHECK(outcome.exit_code == 0);
@@ -115,12 +115,12 @@ TEST_CASE("the force step rises within 318 ms and rests within 0.236 N") {
   CHECK(steady <= 0.236);
 }
 
-/// Whether the arm holds its poses; complains where its log lacks one of them.
+/// Checks that the arm holds its poses. Returns complaints if the recording lacks ticks of a pose.
 Complaints holds_poses() {
   const Folder folder;
   const auto file = record(folder, "arm", "launch/arm.xml", "--lockstep --for 45s");
   const Recorded joints(file, "joint_state");
-  // poses.csv: 1.5 s on the way, 1.5 s held. Drift: over the last half second of each hold.
+  // poses.csv: 1.5 s of motion, 1.5 s of rest per pose. The drift is measured over the last 0.5 s of rest.
   std::map<int, const recording::Members*> at_tick;
   for (const auto& state : joints.messages())
     if (text(state, "source") == "sim")
@@ -128,7 +128,7 @@ Complaints holds_poses() {
   Complaints wrong;
   const auto elbow_rad = [&](double time_s) {
     const auto tick = static_cast<int>(std::lround(time_s * 500));
-    const auto next = at_tick.upper_bound(tick);  // a busy machine may lose one
+    const auto next = at_tick.upper_bound(tick);  // a busy machine may lose a tick
     REQUIRE(next != at_tick.begin());
     if (const int lost = tick - std::prev(next)->first; lost >= 5)
       wrong.push_back(std::to_string(lost) + " ticks are lost at " + std::to_string(time_s) + " s");

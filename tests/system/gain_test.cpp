@@ -1,4 +1,4 @@
-// The gains of a running ECU are changed from a higher layer, over the bus, while it holds.
+// The gains of a running ECU are changed over the bus while it holds a position.
 #include <catch2/catch.hpp>
 #include <optional>
 
@@ -12,20 +12,21 @@ using namespace tests;
 
 namespace {
 
-constexpr double wound_m = -0.02;  // both tendons: they pull against each other, by 30 steps of PWM
+// Length reference of both tendons: co-contraction by about 30 PWM steps.
+constexpr double wound_m = -0.02;
 
-/// A controller by hand: holds both lines shorter than they are, and looks at the flexor.
-class Hand {
+/// A test controller: commands both line lengths shorter than actual and returns the samples of the flexor.
+class TestController {
  public:
-  Hand() : robot_(erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml")) {}
+  TestController() : robot_(erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml")) {}
 
-  /// Answers every frame for `seconds`. Returns the flexor's last sample.
+  /// Sends a command for every frame for `seconds`. Returns the last sample of the flexor.
   erp::ActuatorSample hold(double seconds) {
     erp::ActuatorSample flexor{};
     const auto end_ns = node::monotonic_ns() + static_cast<std::int64_t>(1e9 * seconds);
     while (node::monotonic_ns() < end_ns) {
       frames_.take([&](const erp::SensorFrame& frame) {
-        answer(frame);
+        send_command(frame);
         flexor = frame.actuators._buffer[0];
       });
       std::this_thread::sleep_for(1ms);
@@ -44,19 +45,19 @@ class Hand {
     erp::append(command.gains, gain);
     gains_.write(command);
   }
-  /// V per rad of what is missing at the shaft: the law's kp, as it shows.
-  double gain_of(const erp::ActuatorSample& s) const { return s.voltage_V / missing_rad(s); }
-  /// The voltage that the law gives with this gain; the ECU sends whole steps of PWM.
+  /// The proportional gain kp in V/rad: measured voltage over position error of the shaft.
+  double gain_of(const erp::ActuatorSample& s) const { return s.voltage_V / position_error_rad(s); }
+  /// Expected voltage for this gain, with a margin of one PWM step.
   Approx with_gain(double V_per_rad, const erp::ActuatorSample& s) const {
     const double step_V = robot_.motor_of(robot_.actuators[0]).supply_V / ECU_DUTY_MAX;
-    return Approx(V_per_rad * missing_rad(s)).margin(step_V);
+    return Approx(V_per_rad * position_error_rad(s)).margin(step_V);
   }
 
  private:
-  double missing_rad(const erp::ActuatorSample& s) const {
+  double position_error_rad(const erp::ActuatorSample& s) const {
     return -wound_m / robot_.actuators[0].spindle.radius_m - s.shaft_rad;
   }
-  void answer(const erp::SensorFrame& frame) {
+  void send_command(const erp::SensorFrame& frame) {
     erp::ActuatorCommand command;
     erp::assign(command.robot, robot_.name);
     erp::assign(command.controller, "hand");
@@ -82,26 +83,26 @@ class Hand {
 
 }  // namespace
 
-TEST_CASE("a gain of a running ECU is halved from outside, a mistaken one is refused") {
+TEST_CASE("halving a gain of a running ECU halves its voltage; an unknown gain is reported once") {
   Folder folder;
   Background graph({"launch", "launch/idle.xml", "--out", folder / "run"}, folder / "run.txt");
-  REQUIRE(graph.says("all components are active"));
-  Hand hand;
-  const auto before = hand.hold(2);
+  REQUIRE(graph.wait_for_output("all components are active"));
+  TestController controller;
+  const auto before = controller.hold(2);
   REQUIRE(int{before.ecu_state} == static_cast<int>(erp::EcuState::running));
-  const double gain = hand.gain_of(before);
+  const double gain = controller.gain_of(before);
   REQUIRE(gain > 0);
-  hand.set_gain("flexor", "length_gain_V_per_rad", gain / 2);
-  const auto after = hand.hold(2);
+  controller.set_gain("flexor", "length_gain_V_per_rad", gain / 2);
+  const auto after = controller.hold(2);
   CHECK(int{after.ecu_state} == static_cast<int>(erp::EcuState::running));
-  CHECK(after.voltage_V == hand.with_gain(gain / 2, after));
-  hand.set_gain("flexor", "charm", 1);
-  hand.set_gain("flexor", "charm", 2);
-  const auto last = hand.hold(0.5);
-  CHECK(last.voltage_V == hand.with_gain(gain / 2, last));
+  CHECK(after.voltage_V == controller.with_gain(gain / 2, after));
+  controller.set_gain("flexor", "charm", 1);
+  controller.set_gain("flexor", "charm", 2);
+  const auto last = controller.hold(0.5);
+  CHECK(last.voltage_V == controller.with_gain(gain / 2, last));
   CHECK(graph.stop() == 0);
-  const auto said = graph.output();
-  const auto first = said.find("there is no gain charm of flexor");
-  CHECK(first != said.npos);
-  CHECK(said.find("there is no gain charm", first + 1) == said.npos);  // once
+  const auto output = graph.output();
+  const auto first = output.find("there is no gain charm of flexor");
+  CHECK(first != output.npos);
+  CHECK(output.find("there is no gain charm", first + 1) == output.npos);  // reported once
 }

@@ -1,4 +1,4 @@
-// The nominal model beside a robot that has more friction than it: residuals live, an event.
+// gap_monitor compares a robot with additional friction with the nominal model: live residuals and one event.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -14,8 +14,8 @@ const std::string configs = ERP_SOURCE_DIR "/configs/hinge_rig/";
 
 void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
 
-/// A graph of the rig whose extensor's gearbox drags, watched by the model that does not know.
-std::string watched_graph(const Folder& folder) {
+/// A graph of the rig with Coulomb friction in the gearbox of the extensor; gap_monitor uses the model without it.
+std::string monitored_graph(const Folder& folder) {
   erp::Robot robot = erp::read_robot(configs + "robot.xml");
   robot.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.05"}}}};
   write(folder / "robot.xml", erp::write_robot(robot));
@@ -34,22 +34,22 @@ std::string watched_graph(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("the monitor says live which stage leaves its floor, and only that one") {
+TEST_CASE("gap_monitor reports one event, for the stage whose residual exceeds the noise") {
   Folder folder;
   const auto outcome =
-      run("erp launch " + watched_graph(folder) + " --for 12s --out " + (folder / "run"));
+      run("erp launch " + monitored_graph(folder) + " --for 12s --out " + (folder / "run"));
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   const std::string file = folder / "run/watched.mcap";
-  std::size_t told = 0;
+  std::size_t count = 0;
   const Recorded events(file, "event");
   for (const auto& event : events.messages())
     if (text(event, "code") == "gap_open") {
       CHECK(text(event, "subject") == "extensor");
       CHECK_THAT(text(event, "text"), Catch::Contains("gearbox of extensor"));
-      ++told;
+      ++count;
     }
-  CHECK(told == 1);
+  CHECK(count == 1);
   const Recorded residuals(file, "stage_residual");
   REQUIRE(residuals.messages().size() >= 3);
   for (const auto& stage : elements(residuals.messages().back(), "stages")) {

@@ -1,5 +1,5 @@
-// Controllers of joints as on a robot: over the CAN gateway, with a plant that is killed while the
-// limbs move, and on a machine that has more to do than it can.
+// Joint controllers under conditions of a real robot: over the CAN gateway, with a plant that is killed during motion,
+// and on an overloaded machine.
 #include <atomic>
 #include <iostream>
 #include <sstream>
@@ -13,16 +13,16 @@ using namespace tests;
 
 namespace {
 
-struct Led {
+struct JointRun {
   std::string graph;
   int for_s;
   double allowed_deg;  ///< RMS error of each joint
 };
 
-Led led() {
-  return GENERATE(Led{"puller_follower", 12, 0.5}, Led{"puller_follower_twin", 5, 1.5},
-                  Led{"puller_follower_seven", 12, 1}, Led{"computed_force", 29, 0.5},
-                  Led{"computed_force_estimated", 29, 1.5});
+JointRun joint_run() {
+  return GENERATE(JointRun{"puller_follower", 12, 0.5}, JointRun{"puller_follower_twin", 5, 1.5},
+                  JointRun{"puller_follower_seven", 12, 1}, JointRun{"computed_force", 29, 0.5},
+                  JointRun{"computed_force_estimated", 29, 1.5});
 }
 
 std::string over_can() {
@@ -30,32 +30,32 @@ std::string over_can() {
   return " --device can --set gateway.bus=" + bus + " --set sim.bus=" + bus;
 }
 
-/// Joints that were off by `allowed_deg` RMS or more; how far each was is printed.
-Complaints too_far_off(const std::string& run, const std::string& recording, double from_s,
-                       double allowed_deg) {
+/// Prints the error of each joint. Returns a complaint for each joint with an RMS error of `allowed_deg` or more.
+Complaints error_complaints(const std::string& run, const std::string& recording, double from_s,
+                            double allowed_deg) {
   Complaints wrong;
   for (const auto& e : errors(recording, "sim", "joint_target", from_s)) {
-    std::ostringstream said;
-    said << run << ": " << e.joint << " " << e.rms_rad / degree << "° RMS, "
-         << e.largest_rad / degree << "° at most from " << from_s << " s on";
-    std::cout << said.str() << std::endl;
+    std::ostringstream message;
+    message << run << ": " << e.joint << " " << e.rms_rad / degree << "° RMS, "
+            << e.largest_rad / degree << "° at most from " << from_s << " s on";
+    std::cout << message.str() << std::endl;
     if (!(e.rms_rad < allowed_deg * degree))
-      wrong.push_back(said.str() + ", allowed " + std::to_string(allowed_deg));
+      wrong.push_back(message.str() + ", allowed " + std::to_string(allowed_deg));
   }
   return wrong;
 }
 
-/// More threads than the machine has cores, that never rest.
-class Hogs {
+/// Keeps all cores busy: one thread more than the machine has cores.
+class CpuLoad {
  public:
-  Hogs() {
+  CpuLoad() {
     for (unsigned k = 0; k < std::thread::hardware_concurrency() + 1; ++k)
       threads_.emplace_back([this] {
         while (!end_) {
         }
       });
   }
-  ~Hogs() {
+  ~CpuLoad() {
     end_ = true;
     for (std::thread& thread : threads_) thread.join();
   }
@@ -67,47 +67,48 @@ class Hogs {
 
 }  // namespace
 
-TEST_CASE("over the gateway every controller of joints follows as it does beside the simulator") {
-  const Led run = led();
+TEST_CASE("over the CAN gateway every joint controller stays within its error limit") {
+  const JointRun run = joint_run();
   CAPTURE(run.graph);
   Folder folder;
   const auto file = recorded(folder, "launch/" + run.graph + ".xml" + over_can(), run.for_s);
-  CHECK(too_far_off(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Complaints{});
+  CHECK(error_complaints(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Complaints{});
   CHECK(least_tension_N(file) > 0.5);
 }
 
-TEST_CASE("a plant that is killed and comes back: the joints are soon where they should be") {
-  const Led run = led();
+TEST_CASE("after the plant is killed and restarted, the joint errors return below their limits") {
+  const JointRun run = joint_run();
   CAPTURE(run.graph);
   in_real_time([&] {
     const Folder folder;
     Background graph({"launch", "launch/" + run.graph + ".xml", "--out", folder / "run"},
                      folder / "run.txt");
-    REQUIRE(graph.says("all components are active"));
+    REQUIRE(graph.wait_for_output("all components are active"));
     std::this_thread::sleep_for(3s);
     const pid_t plant = graph.child("plant");
     REQUIRE(plant > 0);
     kill(plant, SIGKILL);
     std::this_thread::sleep_for(9s);
     CHECK(graph.stop() == 0);
-    Complaints wrong = too_far_off(run.graph + ", plant killed", recording_in(folder / "run"), 9,
-                                   run.allowed_deg + 0.5);
+    Complaints wrong = error_complaints(run.graph + ", plant killed", recording_in(folder / "run"),
+                                        9, run.allowed_deg + 0.5);
     if (!wrong.empty()) wrong.push_back(graph.output());
     return wrong;
   });
 }
 
-TEST_CASE("on a machine that is busy the joints are led as on an idle one") {
+TEST_CASE(
+    "on an overloaded machine with real-time priority the joint errors stay below their limits") {
   REQUIRE(node::may_run_in_real_time());  // as root, or with ulimit -r 20
-  const Led run{"puller_follower_twin", 12, 1.5};
-  const Hogs hogs;
+  const JointRun run{"puller_follower_twin", 12, 1.5};
+  const CpuLoad load;
   in_real_time([&] {
     const Folder folder;
     const auto outcome = tests::run("erp launch launch/" + run.graph + ".xml --for " +
                                     std::to_string(run.for_s) + "s --out " + (folder / "run"));
     INFO(outcome.output);
     CHECK(outcome.exit_code == 0);
-    return too_far_off(run.graph + ", machine busy", recording_in(folder / "run"), 2,
-                       run.allowed_deg);
+    return error_complaints(run.graph + ", machine busy", recording_in(folder / "run"), 2,
+                            run.allowed_deg);
   });
 }

@@ -1,5 +1,5 @@
-// Joints under control, in lockstep: the arm by computed force (the paper's Fig. 8), the hinge rig by
-// puller and follower (Fig. 7a).
+// Joint control in lockstep: the arm by computed force (Fig. 8 of the paper), the hinge rig by puller_follower
+// (Fig. 7a).
 #include <fstream>
 
 #include "interfaces/robot/robot.hpp"
@@ -9,9 +9,9 @@ using namespace tests;
 
 namespace {
 
-using Components = std::vector<std::pair<std::string, std::string>>;  ///< each, and its config
+using Components = std::vector<std::pair<std::string, std::string>>;  ///< name and config file
 
-/// A graph in the folder, of these and a logger.
+/// Writes a graph with these components and a logger.
 std::string graph(const Folder& folder, const std::string& robot, const Components& components) {
   std::ofstream out(folder / "graph.xml");
   out << "<graph name=\"off\" robot=\"" << robot << "\" device=\"sim\">\n";
@@ -21,7 +21,7 @@ std::string graph(const Folder& folder, const std::string& robot, const Componen
   return folder / "graph.xml";
 }
 
-/// The arm with something that its controllers do not know.
+/// A graph of the arm with an effect that its controllers do not model.
 std::string arm_with(const Folder& folder, const std::string& type, const std::string& on,
                      const std::string& parameter, const std::string& value) {
   const std::string configs = ERP_SOURCE_DIR "/configs/arm/";
@@ -33,8 +33,8 @@ std::string arm_with(const Folder& folder, const std::string& type, const std::s
                 {"computed_force", configs + "computed_force.xml"}});
 }
 
-/// `twin_joint`, which on its way grasps as much.
-std::string twin_grasps(const Folder& folder, double mass_kg) {
+/// A graph of `twin_joint` with a load that is attached to the forearm during the motion.
+std::string twin_joint_with_load(const Folder& folder, double mass_kg) {
   const std::string configs = ERP_SOURCE_DIR "/configs/twin_joint/";
   std::ofstream(folder / "sim.xml") << "<sim><grasp body=\"forearm\" at_m=\"0 0 -0.26\" mass_kg=\""
                                     << mass_kg << "\" at_s=\"1\"/></sim>\n";
@@ -46,7 +46,7 @@ std::string twin_grasps(const Folder& folder, double mass_kg) {
 
 }  // namespace
 
-TEST_CASE("with true angles all joints follow to half a degree, and every tendon stays taut") {
+TEST_CASE("computed force with true angles: RMS error below 0.5°, tension above 2 N") {
   Folder folder;
   const auto file = recorded(folder, "launch/computed_force.xml");
   for (const auto& e : errors(file, "sim", "joint_target")) {
@@ -57,14 +57,14 @@ TEST_CASE("with true angles all joints follow to half a degree, and every tendon
   CHECK(least_tension_N(file) > 2);
 }
 
-TEST_CASE("with the estimator alone they follow to a degree and a half, and it is true to one") {
+TEST_CASE("computed force with estimated angles: joint error below 1.5°, estimate below 1° RMS") {
   Folder folder;
   const auto file = recorded(folder, "launch/computed_force_estimated.xml");
   for (const auto& e : errors(file, "sim", "joint_target")) CHECK(e.rms_rad < 1.5 * degree);
   for (const auto& e : errors(file, "pose_estimator", "sim")) CHECK(e.rms_rad < degree);
 }
 
-TEST_CASE("by what was learnt of its muscles the arm follows as well: beforehand, or on the way") {
+TEST_CASE("computed force with learned moment arms: RMS error of every joint below 0.5°") {
   for (const char* source : {"network", "difference", "on_line"}) {
     Folder folder;
     CAPTURE(source);
@@ -79,7 +79,8 @@ TEST_CASE("by what was learnt of its muscles the arm follows as well: beforehand
   }
 }
 
-TEST_CASE("half a kilogram in the hand, or 10 ms of delay, are borne") {
+TEST_CASE(
+    "computed force with 0.5 kg of payload or 10 ms of command delay: joint error below 1.5° RMS") {
   Folder loaded, late;
   const auto payload = arm_with(loaded, "skeleton_payload", "forearm", "mass_kg", "0.5");
   for (const auto& e : errors(recorded(loaded, payload), "sim", "joint_target"))
@@ -89,14 +90,15 @@ TEST_CASE("half a kilogram in the hand, or 10 ms of delay, are borne") {
     CHECK(e.rms_rad < 1.5 * degree);
 }
 
-TEST_CASE("puller and follower change roles without slack, to half a degree") {
+TEST_CASE(
+    "puller_follower: roles change with every tension above 1 N and an RMS error below 0.5°") {
   Folder folder;
   const auto file = recorded(folder, "launch/puller_follower.xml");
   for (const auto& e : errors(file, "sim", "joint_target")) CHECK(e.rms_rad < 0.5 * degree);
   CHECK(least_tension_N(file) > 1);
 }
 
-TEST_CASE("the same run twice is the same") {
+TEST_CASE("two lockstep runs of the same graph give the same joint angles") {
   Folder first, second;
   const auto a = recorded(first, "launch/computed_force_estimated.xml");
   const auto b = recorded(second, "launch/computed_force_estimated.xml");
@@ -104,7 +106,7 @@ TEST_CASE("the same run twice is the same") {
         recording::joint_tracks(recording::McapReader(b), "sim").at("elbow").at);
 }
 
-TEST_CASE("seven joints follow to a degree by H-infinity loops, and every tendon stays taut") {
+TEST_CASE("H-infinity control of seven joints: RMS error below 1°, every tension above 2 N") {
   Folder folder;
   const auto file = recorded(folder, "launch/puller_follower_seven.xml", 23);
   const auto found = errors(file, "sim", "joint_target");
@@ -116,8 +118,8 @@ TEST_CASE("seven joints follow to a degree by H-infinity loops, and every tendon
   CHECK(least_tension_N(file) > 2);
 }
 
-TEST_CASE("a limb that grasps 0.2 kg on its way is soon back where it should be; by PD it is not") {
-  const auto off = [](const std::string& more) {
+TEST_CASE("0.2 kg attached during motion: H-infinity stays within 1.1°, PD exceeds 5°") {
+  const auto largest_error_rad = [](const std::string& more) {
     Folder folder;
     const auto file = recorded(folder, "launch/puller_follower_twin.xml " + more, 3);
     CHECK(least_tension_N(file) > 1);
@@ -126,16 +128,17 @@ TEST_CASE("a limb that grasps 0.2 kg on its way is soon back where it should be;
       largest = std::max(largest, e.largest_rad);
     return largest;
   };
-  CHECK(off("") < 1.1 * degree);  // the shoulder at 1.5 s; from 1.6 s on 0.2
-  CHECK(off("--set puller_follower.law=pd --set puller_follower.smooth_s=0.005") > 5 * degree);
+  CHECK(largest_error_rad("") < 1.1 * degree);  // the shoulder at 1.5 s; from 1.6 s on 0.2
+  CHECK(largest_error_rad("--set puller_follower.law=pd --set puller_follower.smooth_s=0.005") >
+        5 * degree);
 }
 
-TEST_CASE("a limb that catches more than its motors can follow is braked, then led on") {
+TEST_CASE("a load beyond the motors: the limb brakes, then follows the reference again") {
   for (const double mass_kg : {0.3, 0.4, 0.6, 0.8}) {
     CAPTURE(mass_kg);
     Folder folder;
-    const auto file = recorded(folder, twin_grasps(folder, mass_kg), 12);
-    CHECK_THAT(content(folder / "run/erp.log"), Catch::Contains("asks more of its motors"));
+    const auto file = recorded(folder, twin_joint_with_load(folder, mass_kg), 12);
+    CHECK_THAT(content(folder / "run/erp.log"), Catch::Contains("its motors saturate"));
     for (const auto& e : errors(file, "sim", "joint_target", 9)) CHECK(e.rms_rad < 0.5 * degree);
   }
 }

@@ -7,7 +7,7 @@
 #include "launch/erp/record/joints.hpp"
 #include "tests/system/command.hpp"
 
-/// Graphs in which joints are led, and how far they were off.
+/// Runs of graphs with joint control, and their joint errors.
 namespace tests {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -19,7 +19,7 @@ inline std::string recording_in(const std::string& folder) {
   return {};
 }
 
-/// Runs a graph in lockstep for so much of the robot's time; its recording.
+/// Runs a graph in lockstep for `for_s` of simulated time. Returns the recording file.
 inline std::string recorded(const Folder& folder, const std::string& graph, int for_s = 29) {
   const auto outcome = run("erp launch " + graph + " --lockstep --for " + std::to_string(for_s) +
                            "s --out " + (folder / "run"));

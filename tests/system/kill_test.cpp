@@ -1,5 +1,5 @@
-// A component is killed in mid-run: its actuators are safe in time, the graph resumes, nothing
-// stays.
+// A component is killed during a run: its actuators enter the safe state in time, the graph resumes, and no process
+// remains.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <iostream>
@@ -15,7 +15,7 @@ using namespace tests;
 namespace {
 
 constexpr double ms = 1e6;
-constexpr double scheduling_ms = 10;  // what a busy machine may add to a wake-up
+constexpr double scheduling_ms = 10;  // scheduling delay of a busy machine
 
 struct Killed {
   std::int64_t at_ns = 0;
@@ -23,13 +23,13 @@ struct Killed {
   int exit_code = -1;
 };
 
-/// Launches the rig, kills one component, lets the graph resume, stops it.
+/// Launches the rig, kills one component, waits until the graph resumes, and stops it.
 Killed run_and_kill(const std::string& program, const std::string& folder,
                     const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments{"launch", "launch/hinge_rig.xml", "--out", folder};
   arguments.insert(arguments.end(), more.begin(), more.end());
   Background graph(arguments, folder + ".txt");
-  REQUIRE(graph.says("all components are active"));
+  REQUIRE(graph.wait_for_output("all components are active"));
   std::this_thread::sleep_for(1s);
   const pid_t first = graph.child(program);
   REQUIRE(first > 0);
@@ -48,7 +48,7 @@ Killed run_and_kill(const std::string& program, const std::string& folder,
   return killed;
 }
 
-/// Milliseconds from `from_ns` to the first ecu_frame after it in which every channel is as asked.
+/// Time in ms from `from_ns` to the first later ecu_frame in which `is_safe` holds for every channel.
 template <class IsSafe>
 std::optional<double> safe_after_ms(const Recorded& frames, std::int64_t from_ns, IsSafe is_safe) {
   for (const auto& frame : frames.messages()) {
@@ -66,7 +66,7 @@ bool is_running(const recording::Members& channel) {
   return number(channel, "state") == int{ECU_STATE_RUNNING};
 }
 
-/// The graph tracks again: the last frame's channels all run under a controller.
+/// Checks that in the last frame every channel runs and force_control owns every actuator.
 void check_resumed(const std::string& file) {
   const Recorded frames(file, "ecu_frame"), owners(file, "actuator_owner");
   for (const auto& channel : elements(frames.messages().back(), "channels"))
@@ -75,22 +75,22 @@ void check_resumed(const std::string& file) {
     CHECK(text(*owner.members(), "owner") == "force_control");
 }
 
-/// Whether what took so long had that long, and what scheduling adds.
+/// Prints a reaction time. Returns a complaint if it exceeds the limit plus the scheduling delay.
 Complaints in_time(const std::string& what, std::optional<double> after_ms, double limit_ms) {
-  const std::string said =
+  const std::string message =
       what + (after_ms ? " after " + std::to_string(*after_ms) + " ms" : ": never");
-  std::cout << said << std::endl;
+  std::cout << message << std::endl;
   if (after_ms && *after_ms < limit_ms + scheduling_ms) return {};
-  return {said + ", limit " + std::to_string(limit_ms)};
+  return {message + ", limit " + std::to_string(limit_ms)};
 }
 
 std::string file_in(const Folder& folder) { return folder / "run/hinge_rig.mcap"; }
 
-/// Kills that program of the rig: every channel must be safe in time, and the graph go on.
+/// Kills a program of the rig and checks that every channel is safe in time and the graph resumes.
 template <class IsSafe>
 void safe_in_time(const std::string& program, const std::string& what, double limit_ms,
                   IsSafe is_safe) {
-  bool ever = false;  // however the machine was
+  bool ever = false;  // in any attempt, also one that was repeated because of machine stalls
   in_real_time([&] {
     const Folder folder;
     const auto killed = run_and_kill(program, folder / "run");
@@ -106,22 +106,22 @@ void safe_in_time(const std::string& program, const std::string& what, double li
 
 }  // namespace
 
-TEST_CASE("a killed controller leaves its actuators in their safe action within 22 ms") {
-  // hinge_rig relaxes: force mode at relax_tension_N, 2 N; the controller asked for 5 N and more.
+TEST_CASE("after a controller is killed, its actuators execute their safe action within 22 ms") {
+  // The safe action of hinge_rig is force mode at relax_tension_N, 2 N. The controller commands 5 N and more.
   safe_in_time(
       "force_control", "controller killed: safe action", 22, [](const recording::Members& c) {
         return number(c, "request") == int{ECU_REQUEST_FORCE} && number(c, "setpoint") == 2000;
       });
 }
 
-TEST_CASE("a killed plant leaves every ECU at PWM 0 within 52 ms") {
+TEST_CASE("after the plant is killed, every ECU is at PWM 0 within 52 ms") {
   safe_in_time("plant", "plant killed: PWM 0", 52, [](const recording::Members& c) {
     return number(c, "state") == int{ECU_STATE_FAULT} && number(c, "duty_counts") == 0;
   });
 }
 
-TEST_CASE("a killed simulator is noticed within 52 ms and comes back disarmed") {
-  bool ever = false;  // however the machine was
+TEST_CASE("a killed simulator is reported within 52 ms and restarts with disarmed channels") {
+  bool ever = false;  // in any attempt, also one that was repeated because of machine stalls
   in_real_time([&] {
     const Folder folder;
     const auto killed = run_and_kill("sim", folder / "run");
@@ -143,7 +143,7 @@ TEST_CASE("a killed simulator is noticed within 52 ms and comes back disarmed") 
   CHECK(ever);
 }
 
-TEST_CASE("a killed gateway leaves every ECU behind the bus safe, and the graph resumes") {
+TEST_CASE("after the gateway is killed, ECUs enter the fault state and the graph resumes") {
   Folder folder;
   const std::string bus = "udp:239.255.42.7:" + std::to_string(21000 + own_domain);
   const auto killed =
@@ -158,15 +158,15 @@ TEST_CASE("a killed gateway leaves every ECU behind the bus safe, and the graph 
   check_resumed(file_in(folder));
 }
 
-TEST_CASE("a killed logger loses at most a second, and its file can be mended") {
+TEST_CASE("a killed logger loses at most 1 s of data, and erp log recover repairs its file") {
   Folder folder;
   const auto killed = run_and_kill("logger", folder / "run");
   CHECK(killed.exit_code == 0);
-  const auto kept = folder / "run/hinge_rig.1.mcap", mended = folder / "mended.mcap";
+  const auto kept = folder / "run/hinge_rig.1.mcap", repaired = folder / "repaired.mcap";
   CHECK_FALSE(recording::McapReader(kept).complete());
-  CHECK(run("erp log recover " + kept + " --out " + mended).exit_code == 0);
-  CHECK(recording::McapReader(mended).complete());
-  const Recorded before(mended, "ecu_frame"), after(file_in(folder), "ecu_frame");
+  CHECK(run("erp log recover " + kept + " --out " + repaired).exit_code == 0);
+  CHECK(recording::McapReader(repaired).complete());
+  const Recorded before(repaired, "ecu_frame"), after(file_in(folder), "ecu_frame");
   const double lost_ms =
       (static_cast<double>(killed.at_ns) - number(before.messages().back(), "stamp_ns")) / ms;
   std::cout << "logger killed: the last " << lost_ms << " ms are lost\n";
@@ -178,13 +178,13 @@ TEST_CASE("a killed logger loses at most a second, and its file can be mended") 
   CHECK(killed.output.find(kept) != std::string::npos);
 }
 
-TEST_CASE("a killed launcher leaves no process behind, and a whole recording") {
+TEST_CASE("after the launcher is killed, no process remains and the recording is complete") {
   Folder folder;
   std::vector<pid_t> children;
   {
     Background graph({"launch", "launch/hinge_rig.xml", "--out", folder / "run"},
                      folder / "run.txt");
-    REQUIRE(graph.says("all components are active"));
+    REQUIRE(graph.wait_for_output("all components are active"));
     children = graph.children();
     CHECK(graph.stop(SIGKILL) == 128 + SIGKILL);
   }

@@ -1,4 +1,4 @@
-// A bus that is late, in a recording of the running graph: told by what the ECUs were sent and followed.
+// A late bus is detected in recordings of a running graph, from the commands sent and the commands executed.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +12,8 @@ namespace {
 
 const std::string configs = ERP_SOURCE_DIR "/configs/hinge_rig/";
 
-/// The rig with the force law on the host, whose commands are voltages: no law of the ECU tells them.
+/// The rig with force control on the host. Its commands are voltages, so the control law of the ECU cannot be used to
+/// infer them.
 struct Rig {
   Folder folder;
 
@@ -36,14 +37,14 @@ struct Rig {
     REQUIRE(outcome.exit_code == 0);
     return folder / (name + "/rig.mcap");
   }
-  Outcome gap(const std::string& words) const {
-    return run("erp gap " + words + " --robot " + configs + "robot.xml");
+  Outcome gap(const std::string& arguments) const {
+    return run("erp gap " + arguments + " --robot " + configs + "robot.xml");
   }
 };
 
 }  // namespace
 
-TEST_CASE("a bus that delays commands is told, sized, and closes the gap in the free run") {
+TEST_CASE("a command delay of 20 ms is identified within 2 ms and closes the free-run gap") {
   const Rig rig(0.02);
   const std::string real = " --real " + rig.recorded("a", "8s") + " " + rig.recorded("b", "6s");
   CHECK_THAT(rig.gap("where" + real).output,
@@ -54,17 +55,17 @@ TEST_CASE("a bus that delays commands is told, sized, and closes the gap in the 
   std::ifstream file(rig.folder / "found/diagnosis.json");
   const auto d = nlohmann::json::parse(file);
   CHECK(d["where"][0]["stage"] == "bus");
-  const auto& delay = d["effects"][0];  // commands late or frames late: no frame tells
+  const auto& delay = d["effects"][0];  // delayed commands and delayed frames are indistinguishable
   CHECK_THAT(delay["type"].get<std::string>(), Contains("bus_") && Contains("_delay"));
   CHECK(delay["parameters"]["delay_s"].get<double>() == Approx(0.02).margin(0.002));
   CHECK(d["gap"]["free_running"]["closed"].get<double>() > 0.95);
 }
 
-TEST_CASE("a bus that is on time is judged, and is no gap") {
+TEST_CASE("without a delay the bus is evaluated and the verdict is no_gap") {
   const Rig rig(0);
   const std::string real = " --real " + rig.recorded("a", "8s") + " " + rig.recorded("b", "6s");
   const auto outcome = rig.gap("diagnose" + real);
   INFO(outcome.output);
   CHECK(outcome.exit_code == 3);
-  CHECK_THAT(outcome.output, Contains("no_gap") && !Contains("in what could be judged"));
+  CHECK_THAT(outcome.output, Contains("no_gap") && !Contains("in the evaluated stages"));
 }

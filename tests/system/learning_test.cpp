@@ -1,4 +1,4 @@
-// Controllers that learn, on live graphs: beside the simulator, and over the CAN gateway.
+// Learning controllers on running graphs, with the simulator and over the CAN gateway.
 #include <catch2/catch.hpp>
 #include <iostream>
 #include <numeric>
@@ -6,7 +6,7 @@
 
 #include "interfaces/xml/xml.hpp"
 #include "sim/learning/experience/base_file.hpp"
-#include "sim/learning/sensorimotor/learnt_file.hpp"
+#include "sim/learning/sensorimotor/learned_map_file.hpp"
 #include "sim/learning/synergy/bank_file.hpp"
 #include "tests/system/command.hpp"
 
@@ -18,11 +18,11 @@ namespace {
 constexpr int tries = 8;
 
 /// The pendulum with two goals in its camera's image; 76 s in all.
-void write_graph(const Folder& folder, const std::string& learnt = "") {
+void write_graph(const Folder& folder, const std::string& learned = "") {
   const std::string configs = ERP_SOURCE_DIR "/configs/pendulum/";
   std::ofstream(folder / "sensorimotor.xml")
       << "<sensorimotor view=\"" << configs << "view.xml\" twitches=\"16\" tries=\"" << tries
-      << "\" save=\"saved.xml\"" << learnt
+      << "\" save=\"saved.xml\"" << learned
       << "><goal at=\"0.12 -0.05\"/><goal at=\"-0.1 -0.12\"/></sensorimotor>";
   std::ofstream(folder / "graph.xml")
       << "<graph name=\"learning\" robot=\"" << configs << "robot.xml\" device=\"sim\">"
@@ -35,14 +35,14 @@ std::string over(const std::string& device) {
   return device == "sim" ? "" : " --device can --set gateway.bus=" + bus + " --set sim.bus=" + bus;
 }
 
-sensorimotor::LearntFile learnt_in(const Folder& folder) {
-  return xml::read<sensorimotor::LearntFile>(folder / "saved.xml");
+sensorimotor::LearnedMapFile learned_map_in(const Folder& folder) {
+  return xml::read<sensorimotor::LearnedMapFile>(folder / "saved.xml");
 }
 
 }  // namespace
 
 TEST_CASE(
-    "on a live graph a pendulum twitches and learns to reach, and goes on with what it knows") {
+    "a pendulum learns to reach two goals, reduces the error by 80 %, and reuses the saved model") {
   const std::string device = GENERATE("sim", "can");
   CAPTURE(device);
   Folder folder;
@@ -52,13 +52,13 @@ TEST_CASE(
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.output, Catch::Contains("2 of 2: error"));
-  const auto file = learnt_in(folder);
+  const auto file = learned_map_in(folder);
   const Eigen::MatrixXd signs = (Eigen::MatrixXd(2, 4) << 1, 1, -1, -1, -1, 1, 1, -1).finished();
-  CHECK(learnt_of(file, 2, 4).q().cwiseProduct(signs).minCoeff() > 0.1);
+  CHECK(learned_map_of(file, 2, 4).q().cwiseProduct(signs).minCoeff() > 0.1);
   for (const auto& goal : file.goals) {
     REQUIRE(goal.errors.size() == tries);
-    std::cout << "over " << device << ": error " << goal.errors.front() << " at first, "
-              << goal.errors.back() << " at last\n";
+    std::cout << "over " << device << ": error " << goal.errors.front() << " at the first attempt, "
+              << goal.errors.back() << " at the last\n";
     CHECK(goal.errors.back() < 0.2 * goal.errors.front());
   }
 
@@ -67,15 +67,14 @@ TEST_CASE(
   REQUIRE(run("erp launch " + (folder / "graph.xml") + over(device) +
               " --lockstep --for 60s --out " + (folder / "again"))
               .exit_code == 0);
-  const auto again = learnt_in(folder);
+  const auto again = learned_map_in(folder);
   for (std::size_t g = 0; g < again.goals.size(); ++g) {
     REQUIRE(!again.goals[g].errors.empty());
     CHECK(again.goals[g].errors.front() < 0.5 * file.goals[g].errors.front());
   }
 }
 
-TEST_CASE(
-    "on a live graph an arm reaches with what was experienced, is corrected, and adds to it") {
+TEST_CASE("an arm reaches two goals by stored experience and feedback, and stores both") {
   const std::string device = GENERATE("sim", "can");
   const std::string feedback = GENERATE("linear", "fuzzy");
   CAPTURE(device, feedback);
@@ -95,7 +94,7 @@ TEST_CASE(
   INFO(outcome.output);
   REQUIRE(outcome.exit_code == 0);
   const std::regex line(
-      "off by (\\S+) (\\S+) (\\S+) mm without feedback, (\\S+) (\\S+) (\\S+) mm with it");
+      "offset (\\S+) (\\S+) (\\S+) mm before feedback, (\\S+) (\\S+) (\\S+) mm after it");
   int reached = 0;
   for (std::sregex_iterator it(outcome.output.begin(), outcome.output.end(), line), end; it != end;
        ++it, ++reached)
@@ -109,7 +108,7 @@ TEST_CASE(
   CHECK(after.experiences.all.size() == before.experiences.all.size() + 2);
 }
 
-TEST_CASE("on a live graph the torso strikes bottles by motor plans, and goes on learning") {
+TEST_CASE("the torso strikes two targets by motor synergies and updates its synergy bank") {
   const std::string device = GENERATE("sim", "can");
   CAPTURE(device);
   Folder folder;

@@ -1,14 +1,14 @@
-// Two processes that claim to be the same part of one robot: the later one leaves.
+// Two processes of the same component of one robot: the later one exits.
 #include <catch2/catch.hpp>
 
 #include "tests/system/background.hpp"
 
 using namespace tests;
 
-TEST_CASE("a second plant of the same robot leaves, naming the first, which goes on") {
+TEST_CASE("a second plant of the same robot exits with the pid of the first, which continues") {
   const Folder folder;
   Background graph({"launch", "launch/hinge_rig.xml", "--out", folder / "run"}, folder / "out.txt");
-  REQUIRE(graph.says("all components are active"));
+  REQUIRE(graph.wait_for_output("all components are active"));
   const pid_t first = graph.child("plant");
   const auto second = run("plant --robot configs/hinge_rig/robot.xml");
   INFO(second.output);
@@ -19,10 +19,10 @@ TEST_CASE("a second plant of the same robot leaves, naming the first, which goes
   CHECK(graph.stop() == 0);
 }
 
-TEST_CASE("the same part of another robot is no namesake") {
+TEST_CASE("a plant of another robot starts beside the first") {
   const Folder folder;
   Background graph({"launch", "launch/hinge_rig.xml", "--out", folder / "run"}, folder / "out.txt");
-  REQUIRE(graph.says("all components are active"));
+  REQUIRE(graph.wait_for_output("all components are active"));
   const auto other = run("timeout --preserve-status -s INT 2 plant --robot configs/arm/robot.xml");
   INFO(other.output);
   CHECK(other.exit_code == 0);

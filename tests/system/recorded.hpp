@@ -8,7 +8,7 @@
 
 namespace tests {
 
-/// All messages of one topic of a recording, decoded, in the order of their stamps.
+/// All messages of one topic of a recording, decoded, in the order of their time stamps.
 class Recorded {
  public:
   Recorded(const std::string& file, const std::string& topic) {

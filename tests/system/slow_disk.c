@@ -1,4 +1,4 @@
-/* Preloaded into a graph: the third chunk that its logger writes takes ERP_STALL_MS. */
+/* Preloaded library: delays the third chunk that the logger of a graph writes by ERP_STALL_MS. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -9,7 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { chunk_bytes = 20000, slow_chunk = 3 }; /* smaller writes are no chunks */
+enum { chunk_bytes = 20000, slow_chunk = 3 }; /* smaller writes are not chunks */
 
 static void stall_once(size_t bytes) {
   static int chunks;

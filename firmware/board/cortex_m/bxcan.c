@@ -5,7 +5,7 @@ enum {
   MCR_INRQ = 1 << 0,
   MCR_SLEEP = 1 << 1,
   MCR_AWUM = 1 << 5,
-  MCR_ABOM = 1 << 6, /* leaves bus-off by itself */
+  MCR_ABOM = 1 << 6, /* automatic recovery from bus-off */
   MSR_INAK = 1 << 0,
   TSR_TME0 = 1 << 26,
   RFR_FMP = 3,
@@ -18,15 +18,15 @@ enum {
 };
 #define STID_SHIFT 21u /* of an 11-bit identifier in TIR, RIR and a filter */
 #define DLC 0xFu
-#define PATIENCE 100000u /* tries; joining the bus takes 11 bits of it, 11 us at 1 Mbit/s */
+#define PATIENCE 100000u /* polls; joining the bus takes 11 bits, 11 us at 1 Mbit/s */
 
-static bool acknowledged(const bxcan_registers* can, uint32_t wanted) {
+static bool acknowledged(const bxcan_registers* can, uint32_t expected) {
   for (uint32_t tries = 0; tries < PATIENCE; ++tries)
-    if ((can->MSR & MSR_INAK) == wanted) return true;
+    if ((can->MSR & MSR_INAK) == expected) return true;
   return false;
 }
 
-/* Bank `bank` lets through every standard data frame to this address, into FIFO 0. */
+/* Filter bank `bank` passes every standard data frame to this address into FIFO 0. */
 static void let_through(bxcan_registers* can, unsigned bank, uint32_t address) {
   can->FM1R &= ~(1u << bank);  /* mask, not list */
   can->FS1R |= 1u << bank;     /* one of 32 bits */
@@ -61,14 +61,14 @@ static uint32_t word_of(const uint8_t* bytes) {
   return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-/* While it lets go of a frame, the FIFO still counts it. */
-static bool has_heard(const bxcan_registers* can) {
+/* The FIFO still counts a frame while it is being released. */
+static bool has_frame(const bxcan_registers* can) {
   const uint32_t fifo = can->RFR[0];
   return (fifo & RFR_FMP) != 0u && (fifo & RFR_RFOM) == 0u;
 }
 
 bool bxcan_receive(bxcan_registers* can, bus_frame* frame) {
-  while (has_heard(can)) {
+  while (has_frame(can)) {
     const uint32_t identifier = can->fifo[0].RIR, size = can->fifo[0].RDTR & DLC;
     get_bytes(frame, can->fifo[0].RDLR, can->fifo[0].RDHR);
     can->RFR[0] = RFR_RFOM;

@@ -1,6 +1,6 @@
 /* The CAN controller of STM32F4 (bxCAN), polled. Source: ST RM0090 rev 19, section 32.
  *
- * Not yet run on silicon: its register accesses are tested on a memory that stands for them.
+ * Not yet run on silicon: its register accesses are tested on memory that stands for the registers.
  */
 #ifndef ERP_FIRMWARE_BXCAN_H
 #define ERP_FIRMWARE_BXCAN_H
@@ -34,21 +34,20 @@ typedef struct {
  * BTR = SJW 0, TS2 - 1 = 2, TS1 - 1 = 9, prescaler - 1 = 2. */
 #define BXCAN_BTR_1_MBIT_42_MHZ (2u << 20 | 9u << 16 | 2u)
 
-/* Leaves reset and joins the bus, hearing what is for `ecu` or for everyone. Returns false when
- * the controller does not answer within some thousand tries: then it stays off the bus.
- * Its clock and pins have to be on. */
+/* Leaves reset and joins the bus; receives frames for `ecu` and for all ECUs. Returns false when the
+ * controller does not answer within some thousand polls; then it stays off the bus. Clock and pins
+ * of the controller must be enabled. */
 bool bxcan_open(bxcan_registers* can, uint32_t btr, uint8_t ecu);
 
-/* Takes a frame that was heard. Frames of a kind that no ECU speaks (extended, remote) are passed
- * over. */
+/* Takes a received frame. Ignores frames of kinds that no ECU uses (extended, remote). */
 bool bxcan_receive(bxcan_registers* can, bus_frame* frame);
 
-/* Hands over a frame to be sent. Returns false while no mailbox is free. Mailboxes are sent by
- * identifier, the most urgent first. */
+/* Hands over a frame to be sent. Returns false while no mailbox is free. The mailbox with the lowest
+ * identifier is sent first. */
 bool bxcan_send(bxcan_registers* can, const bus_frame* frame);
 
-/* Bus-off. The controller comes back by itself after 128 times 11 recessive bits, 1.4 ms of a
- * quiet bus at 1 Mbit/s. */
+/* Whether the controller is in bus-off. It recovers by itself after 128 times 11 recessive bits,
+ * 1.4 ms of an idle bus at 1 Mbit/s. */
 bool bxcan_is_off(const bxcan_registers* can);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* The bus as this board's main loop sees it. Two controllers fit; which, is chosen at link time:
+/* The bus as used by this board's main loop. Two implementations, chosen at link time:
  *
  *   can_port_bxcan.c  the microcontroller's own (STM32F4)
  *   can_port_slcan.c  frames as text on a serial line, for a host whose kernel has slcan; the only
@@ -11,11 +11,11 @@
 /* Joins the bus as ECU `ecu`. */
 void can_port_open(uint8_t ecu);
 
-/* Off the bus: by errors, or because nobody has opened it. */
+/* Off the bus: bus-off, or nobody has opened the channel. */
 bool can_port_is_off(void);
 
 bool can_port_receive(bus_frame* frame);
 
-/* Returns false while there is no room; then try again. */
+/* Returns false while there is no room; then try again later. */
 bool can_port_send(const bus_frame* frame);
 #endif

@@ -3,10 +3,10 @@
 #include "firmware/board/slcan.h"
 
 static slcan_reader reader;
-static bool open = true; /* a reset does not make the host open it again */
+static bool open = true; /* the host does not open the channel again after a reset */
 
 void can_port_open(uint8_t ecu) {
-  (void)ecu; /* everything is heard; the link picks what is its own */
+  (void)ecu; /* receives all frames; ecu_link selects those for this ECU */
   usart_open(USART_HOST);
 }
 

@@ -2,11 +2,11 @@
 #include "firmware/board/cortex_m/usart.h"
 
 static wire_reader reader;
-static wire_mishap mishap;
+static wire_fault injected; /* since the last converters_fault */
 static uint8_t own;
 
 static void send(const uint8_t* bytes, unsigned count) {
-  (void)usart_send(USART_ROBOT, bytes, count); /* no room: it is said again next period */
+  (void)usart_send(USART_ROBOT, bytes, count); /* no room: the next period sends it again */
 }
 
 void converters_open(uint8_t ecu) {
@@ -23,17 +23,17 @@ bool converters_done(board_readings* readings) {
   bool done = false;
   for (uint8_t byte; usart_take(USART_ROBOT, &byte);) {
     const wire_kind kind = wire_take(&reader, byte);
-    if (kind == WIRE_MISHAP) wire_unpack_mishap(&reader, &mishap);
+    if (kind == WIRE_FAULT) wire_unpack_fault(&reader, &injected);
     if (kind == WIRE_READINGS) wire_unpack_readings(&reader, readings);
     done = done || kind == WIRE_READINGS;
   }
   return done;
 }
 
-wire_mishap converters_mishap(void) {
-  const wire_mishap befell = mishap;
-  mishap.kind = 0;
-  return befell;
+wire_fault converters_fault(void) {
+  const wire_fault fault = injected;
+  injected.kind = 0;
+  return fault;
 }
 
 void pwm_set(const int16_t* duty) {

@@ -5,12 +5,12 @@
 #include "firmware/board/cortex_m/usart.h"
 
 enum { CSR_BOR = 1 << 25, CSR_POR = 1 << 27, CSR_SFT = 1 << 28, CSR_IWDG = 1 << 29 };
-#define CSR_FORGET (1u << 24)
-#define BITTEN 0x0B17E4EDu
+#define CSR_CLEAR_FLAGS (1u << 24)
+#define WATCHDOG_MARKER 0x0B17E4EDu
 
 static volatile uint32_t now_ms, kicked_ms;
-/* Survives a reset: no start-up code touches it. */
-static volatile uint32_t testament __attribute__((section(".noinit")));
+/* Keeps its value over a reset: start-up code does not touch it. */
+static volatile uint32_t reset_marker __attribute__((section(".noinit")));
 
 void guard_start(void) {
   REGISTER(IWDG_KR) = IWDG_KEY_WRITE;
@@ -33,7 +33,7 @@ void guard_reset(void) {
   static const int16_t off[2];
   pwm_set(off);
   usart_pump();
-  testament = BITTEN;
+  reset_marker = WATCHDOG_MARKER;
   REGISTER(SCB_AIRCR) = SCB_AIRCR_RESET;
   for (;;) continue;
 }
@@ -45,10 +45,10 @@ void SysTick_Handler(void) {
 
 frame_reset_cause guard_reset_cause(void) {
   const uint32_t flags = REGISTER(RCC_CSR);
-  const bool bitten = testament == BITTEN;
-  testament = 0;
-  REGISTER(RCC_CSR) = flags | CSR_FORGET;
-  if (flags & CSR_IWDG || bitten) return FRAME_RESET_WATCHDOG;
+  const bool by_watchdog = reset_marker == WATCHDOG_MARKER;
+  reset_marker = 0;
+  REGISTER(RCC_CSR) = flags | CSR_CLEAR_FLAGS;
+  if (flags & CSR_IWDG || by_watchdog) return FRAME_RESET_WATCHDOG;
   if (flags & CSR_SFT) return FRAME_RESET_SOFTWARE;
   if (flags & CSR_BOR && !(flags & CSR_POR)) return FRAME_RESET_BROWN_OUT;
   return FRAME_RESET_POWER;

@@ -1,6 +1,6 @@
 #!/bin/bash
 # identity.sh ECU CHANNELS ANALOG_INPUTS SERIAL > identity.bin
-# What identity.h describes, to be written to 0x080E0000. CHANNELS and ANALOG_INPUTS: bit k, the k-th is fitted.
+# Writes the page described in identity.h, for address 0x080E0000. CHANNELS, ANALOG_INPUTS: bit k: number k is fitted.
 set -eu
 [ $# -eq 4 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 byte() { printf "\\x$(printf %02x $(($1 & 255)))"; }

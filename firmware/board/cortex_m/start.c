@@ -1,4 +1,4 @@
-/* From reset to main: memory, floating point, vectors. */
+/* Start-up code: memory, floating point unit, vector table. */
 #include "firmware/board/cortex_m/guard.h"
 #include "firmware/board/cortex_m/stm32f405.h"
 
@@ -18,7 +18,7 @@ void Reset_Handler(void) {
   guard_reset();
 }
 
-/* Whatever the core trips over: PWM off, reset, and a boot frame that says so. */
+/* Any fault of the core: PWM off and reset; the boot frame reports the cause. */
 static void Fault_Handler(void) { guard_reset(); }
 
 typedef void (*handler)(void);

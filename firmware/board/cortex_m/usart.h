@@ -8,15 +8,15 @@ typedef enum { USART_HOST = 0, USART_ROBOT = 1 } usart_line; /* USART1: PA9, PA1
 
 void usart_open(usart_line line);
 
-/* The next byte that was received; false: none. What comes while 1023 wait is lost. */
+/* The next received byte; false: none. Bytes received while 1023 are waiting are lost. */
 bool usart_take(usart_line line, uint8_t* byte);
 
-/* Queues bytes to be sent, all or, while there is no room, none. */
+/* Queues all bytes to be sent, or none if there is no room. */
 bool usart_send(usart_line line, const uint8_t* bytes, unsigned count);
 
-/* Sleeps until the next interrupt; not while a received byte waits to be taken. */
+/* Sleeps until the next interrupt; returns at once while a received byte is waiting. */
 void usart_rest(void);
 
-/* Moves queued bytes into the transmitters as far as they take them. To be called all the time. */
+/* Moves queued bytes into the transmitters. To be called continuously. */
 void usart_pump(void);
 #endif

@@ -13,65 +13,66 @@ namespace {
 
 namespace diagnosis = sim::diagnosis;
 
-std::string described(const diagnosis::IdentifiedEffect& n) {
+std::string text_of(const diagnosis::IdentifiedEffect& n) {
   std::string text = fmt::format("{} on {}", n.type, n.on);
   for (std::size_t k = 0; k < n.names.size(); ++k)
     text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", n.names[k], n.values[k],
                         n.intervals[k].low, n.intervals[k].high);
-  return text + taken_as_it_is(n);
+  return text + fixed_parameters(n);
 }
 
 /// Places with equal shares cannot be distinguished.
-void print_where(const diagnosis::Diagnosis& d, std::ostream& out) {
+void print_location(const diagnosis::Diagnosis& d, std::ostream& out) {
   for (std::size_t k = 0; k < d.where.size();) {
     const double share = d.where[k].share;
     std::string names;
-    double whole = 0;
-    for (; k < d.where.size() && d.where[k].share == share; ++k, whole += share)
+    double sum = 0;
+    for (; k < d.where.size() && d.where[k].share == share; ++k, sum += share)
       names += fmt::format("{}{} of {}", names.empty() ? "" : ", or ",
                            sim::effects::word(d.where[k].stage), d.where[k].on);
-    if (share > 0) out << fmt::format("where       {}: {} of the gap\n", names, share_words(whole));
-    else out << fmt::format("where       {}, which changes no residual\n", names);
+    if (share > 0) out << fmt::format("location    {}: {} of the gap\n", names, share_text(sum));
+    else out << fmt::format("location    {}; it changes no residual\n", names);
   }
 }
 
-/// Constants of the robot as built; those that the recordings hardly determine are only counted.
+/// Prints how many constants the recordings determine, and those that deviate from their nominal values.
 void print_constants(const diagnosis::Diagnosis& d, std::ostream& out) {
   if (d.constants.empty()) return;
   std::size_t determined = 0;
   for (const auto& c : d.constants) determined += c.determined > sim::estimation::well_determined;
   out << fmt::format(
-      "constants   {} of {} determined by the recordings, {} beyond their tolerances\n", determined,
+      "constants   the recordings determine {} of {}; {} are beyond their tolerances\n", determined,
       d.constants.size(), std::ranges::count_if(d.constants, &diagnosis::ConstantEstimate::beyond));
   for (const auto& c : d.constants)
-    if (is_off(c))
-      out << fmt::format("            {} {}  {:.4g} ({:.4g} to {:.4g}), nominal {:.4g}\n", c.on,
+    if (deviates(c))
+      out << fmt::format("            {} {} = {:.4g} ({:.4g} to {:.4g}), nominal {:.4g}\n", c.on,
                          c.name, c.value, c.interval.low, c.interval.high, c.nominal);
 }
 
-/// No effect, and no constant that is far off.
+/// Whether constants explain the gap, without an effect and each within its tolerance.
 bool explained_within_tolerance(const diagnosis::Diagnosis& d) {
   return d.verdict == diagnosis::Verdict::supported && d.answer.empty() && d.as_built;
 }
 
 void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
-  print_where(d, out);
-  const char* which = d.verdict == diagnosis::Verdict::supported          ? "which       "
-                      : d.verdict == diagnosis::Verdict::not_identifiable ? "perhaps     "
-                                                                          : "a part      ";
+  print_location(d, out);
+  const char* label = d.verdict == diagnosis::Verdict::supported          ? "cause       "
+                      : d.verdict == diagnosis::Verdict::not_identifiable ? "candidate   "
+                                                                          : "partial     ";
   if (explained_within_tolerance(d))
-    out << "which       constants within their tolerances, all together: none is far off\n";
+    out << "cause       several constants together, each within its tolerance\n";
   for (const auto& n : d.answer) {
-    out << which << described(n) << "\n";
+    out << label << text_of(n) << "\n";
     constexpr std::size_t shown = 4;
     for (std::size_t k = 0; k < std::min(shown, n.alternatives.size()); ++k)
-      out << "or as well  " << described(n.alternatives[k]) << "\n";
+      out << "equivalent  " << text_of(n.alternatives[k]) << "\n";
     if (n.alternatives.size() > shown)
-      out << fmt::format("or as well  {} more, in diagnosis.json\n", n.alternatives.size() - shown);
+      out << fmt::format("equivalent  {} more, listed in diagnosis.json\n",
+                         n.alternatives.size() - shown);
   }
   for (const auto& u : d.unexplained) {
-    out << fmt::format("left over   {} of {}, {:.3g} times its noise", sim::effects::word(u.stage),
-                       u.on, std::sqrt(1 + u.excess));
+    out << fmt::format("unexplained {} of {}: residual {:.3g} times its noise",
+                       sim::effects::word(u.stage), u.on, std::sqrt(1 + u.excess));
     if (u.shape && u.shape->constant > 0.1)
       out << fmt::format("; {:.0f} % of it is constant", 100 * u.shape->constant);
     if (u.shape && u.shape->explained - u.shape->constant > 0.1)
@@ -81,16 +82,18 @@ void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
   }
   print_constants(d, out);
   if (d.overall.before > 0 && (!d.answer.empty() || d.as_built))
-    out << fmt::format("how far     {:.3g} times the noise before, {:.3g} after: {}, on {}\n",
-                       d.overall.before, d.overall.after, closed_words(d.overall), judged_on(d));
+    out << fmt::format(
+        "gap closure residual {:.3g} times the noise before, {:.3g} after: {}, on {}\n",
+        d.overall.before, d.overall.after, closure_text(d.overall), validation_data(d));
   for (const auto& c : d.channels)
     if (c.has_gap() && c.driven_by > 0 && (!d.answer.empty() || d.as_built))
-      out << fmt::format("            {}: {:.3g} % of what drives it before, {:.3g} % after\n",
-                         c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
+      out << fmt::format(
+          "            {}: residual {:.3g} % of the stage's input before, {:.3g} % after\n",
+          c.channel, 100 * c.before / c.driven_by, 100 * c.after / c.driven_by);
 }
 
-/// The bus changes no residual, so no motion distinguishes its effects.
-bool plannable(const diagnosis::IdentifiedEffect& n) {
+/// Whether a motion can show the effect. Effects of the bus change no residual.
+bool can_be_excited(const diagnosis::IdentifiedEffect& n) {
   return sim::effects::about(n.placed.effect).stage != sim::effects::Stage::bus;
 }
 
@@ -100,28 +103,27 @@ void print_answer(const diagnosis::Diagnosis& d, const sim::closed_loop::FreeRun
                   std::ostream& out) {
   print_causes(d, out);
   if (!free_run.channels.empty() && d.answer.empty() && !d.as_built)
-    out << fmt::format("free run    {:.3g} times what noise alone would do\n", free_run.all.before);
+    out << fmt::format("free run    error {:.3g} times the noise\n", free_run.all.before);
   else if (!free_run.channels.empty())
-    out << fmt::format(
-        "free run    {:.3g} times what noise alone would do before, {:.3g} after: {}\n",
-        free_run.all.before, free_run.all.after, closed_words(free_run.all));
+    out << fmt::format("free run    error {:.3g} times the noise before, {:.3g} after: {}\n",
+                       free_run.all.before, free_run.all.after, closure_text(free_run.all));
   for (const std::string& warning : d.warnings) out << "warning     " << warning << "\n";
-  for (const std::string& odd : d.fix_first) out << "mend first  " << odd << "\n";
+  for (const std::string& fault : d.fix_first) out << "fix the recording first: " << fault << "\n";
   out << "verdict     " << diagnosis::word(d.verdict);
   if (d.verdict == diagnosis::Verdict::no_gap && !d.not_evaluated.empty())
-    out << ", in what could be judged";
-  if (!d.fix_first.empty()) out << ", of recordings to be mended first";
+    out << " in the evaluated stages";
+  if (!d.fix_first.empty()) out << "; unreliable until the recordings are fixed";
   out << "\n";
 }
 
 void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
                 const DiagnoseOptions& options, std::ostream& out) {
-  const bool told_apart =
+  const bool unique =
       std::ranges::all_of(d.answer, [](const auto& n) { return n.alternatives.empty(); });
   const bool done = d.verdict == diagnosis::Verdict::no_gap ||
-                    (d.verdict == diagnosis::Verdict::supported && told_apart);
-  const bool something = std::ranges::any_of(d.ranked, plannable);
-  if (done || !something || !d.fix_first.empty() || !robot.drives.empty()) return;
+                    (d.verdict == diagnosis::Verdict::supported && unique);
+  const bool any = std::ranges::any_of(d.ranked, can_be_excited);
+  if (done || !any || !d.fix_first.empty() || !robot.drives.empty()) return;
   out << fmt::format(
       "next        erp gap plan --robot {} --diagnosis {}/diagnosis.json --out {}/next\n",
       options.robot, options.out, options.out);

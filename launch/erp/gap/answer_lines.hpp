@@ -2,17 +2,18 @@
 #include <iosfwd>
 
 #include "launch/erp/gap/gap.hpp"
-#include "sim/gap/diagnosis/diagnose.hpp"
 #include "sim/gap/closed_loop/free_run.hpp"
+#include "sim/gap/diagnosis/diagnose.hpp"
 
 /// A diagnosis as lines on a terminal.
 namespace launch::gap {
 
-/// Where, which, how far, the constants, warnings, what is to be mended first, and last the verdict.
+/// Prints location, cause, constants, gap closure, free run, warnings, faults of the recordings, and the verdict.
 void print_answer(const sim::diagnosis::Diagnosis& diagnosis,
                   const sim::closed_loop::FreeRun& free_run, std::ostream& out);
 
-/// What to do next where several answers are left or none is enough; nothing while recordings are to be mended first.
+/// Prints the `erp gap plan` command if the gap is not explained or equivalent effects remain. Prints nothing
+/// while the recordings have faults to be fixed first.
 void print_next(const sim::diagnosis::Diagnosis& diagnosis, const erp::Robot& robot,
                 const DiagnoseOptions& options, std::ostream& out);
 

@@ -27,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Without the columns of what is not recorded, to nine decimals: below any sensor's step.
+/// Removes the columns of signals that are not recorded and rounds to nine decimals, below every quantization step.
 recording::Table as_recorded(recording::Table table, const std::vector<std::string>& without) {
   const auto hidden = [&](const recording::Column& column) {
     const auto signal = recording::signal_of(column.name);
@@ -62,43 +62,43 @@ Json truth_of(const std::string& name, const sim::blind::Case& blind) {
           {"numbers", numbers}};
 }
 
-/// A case as it was recorded: one CSV a recording.
+/// A recorded case: one CSV per recording.
 struct Recorded {
   sim::blind::Case blind;
   std::vector<std::string> csv;
-  int not_finite = 0;  ///< drawn before it, whose motion was not finite
+  int not_finite = 0;  ///< discarded draws whose motion was not finite
 };
 
-/// Draws a case and records it; one whose motion is not finite is no robot's, and drawn anew.
+/// Draws a case and records it. Draws again if the motion is not finite.
 Recorded record_case(const erp::Robot& robot, sim::blind::Kind kind, std::uint64_t seed,
-                     const BlindMakeOptions& options, const sim::blind::Visibility& shows) {
+                     const BlindMakeOptions& options, const sim::blind::Visibility& visibility) {
   constexpr std::uint64_t next_draw = 1'000'003;  // beyond the seeds of the other cases
   constexpr int most = 20;                        // chosen
   for (int draw = 0;; ++draw) {
-    Recorded found{sim::blind::draw_case(robot, kind, seed + next_draw * std::uint64_t(draw),
-                                         options.only, shows),
-                   {},
-                   draw};
+    Recorded recorded{sim::blind::draw_case(robot, kind, seed + next_draw * std::uint64_t(draw),
+                                            options.only, visibility),
+                      {},
+                      draw};
     if (options.tolerance > 0)
-      found.blind.built = sim::blind::as_built(robot, options.tolerance, found.blind.seed,
-                                               found.blind.hidden_effects);
+      recorded.blind.built = sim::blind::as_built(robot, options.tolerance, recorded.blind.seed,
+                                                  recorded.blind.hidden_effects);
     try {
       for (int r = 0; r < options.recordings; ++r) {
         const auto excitation = sim::excitation(robot, r, options.seconds, seed);
-        const auto table = sim::blind::record(robot, found.blind, excitation,
+        const auto table = sim::blind::record(robot, recorded.blind, excitation,
                                               seed * 1000 + static_cast<std::uint64_t>(r));
         std::ostringstream text;
         recording::write_csv(as_recorded(table, options.without), text);
-        found.csv.push_back(text.str());
+        recorded.csv.push_back(text.str());
       }
-      return found;
+      return recorded;
     } catch (const sim::blind::NotFinite&) {
       if (draw == most) throw;
     }
   }
 }
 
-/// Which part of the work is this process's, of how many: under Open MPI, else all.
+/// Index of this process and number of processes under Open MPI; else 0 and 1.
 std::pair<std::size_t, std::size_t> part_of_work() {
   const auto number = [](const char* name, std::size_t otherwise) {
     const char* text = std::getenv(name);
@@ -108,28 +108,30 @@ std::pair<std::size_t, std::size_t> part_of_work() {
           std::max<std::size_t>(1, number("OMPI_COMM_WORLD_SIZE", 1))};
 }
 
-/// What the cases would not be, or would lose.
+/// Throws std::invalid_argument if the robot cannot have cases or files would be overwritten.
 void check(const BlindMakeOptions& options, const erp::Robot& robot) {
   if (robot.actuators.empty())
-    throw std::invalid_argument(options.robot +
-                                ": has no actuator to hide anything in; give a robot with muscles");
+    throw std::invalid_argument(
+        options.robot + ": has no actuator, so no effect can be hidden; pass a robot with muscles");
   if (!robot.effects.empty())
     throw std::invalid_argument(options.robot +
-                                ": has effects, which the cases would lack; give it without them");
+                                ": has effects, which the cases do not include; remove them");
   if (options.kind == "many" && options.tolerance > 0)
-    throw std::invalid_argument(fmt::format(
-        "--tolerance {}: cases of many draw their own numbers; leave it out", options.tolerance));
+    throw std::invalid_argument(
+        fmt::format("--tolerance {}: --kind many draws its own deviations; remove --tolerance",
+                    options.tolerance));
   if (fs::exists(options.out + "/cases.json"))
     throw std::invalid_argument(options.out +
-                                ": holds cases already; move it away or name another");
+                                ": already contains cases; move it or choose another folder");
   if (fs::exists(options.truth))
     throw std::invalid_argument("--truth " + options.truth +
-                                ": is there, and seals other cases; name another");
+                                ": exists and belongs to other cases; choose another file");
   const fs::path inside =
       fs::weakly_canonical(options.truth).lexically_relative(fs::weakly_canonical(options.out));
   if (!inside.empty() && *inside.begin() != "..")
-    throw std::invalid_argument("--truth " + options.truth +
-                                ": lies among the cases, which must not tell it; name another");
+    throw std::invalid_argument(
+        "--truth " + options.truth +
+        ": is in the folder of the cases, which must not contain the truth; choose another file");
 }
 
 }  // namespace
@@ -144,25 +146,25 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
   write_file(options.out + "/robot.xml", erp::write_robot(robot));
   const auto count = static_cast<std::size_t>(options.cases);
   std::vector<Json> truths(count), cases(count);
-  const sim::blind::Visibility shows(robot);
+  const sim::blind::Visibility visibility(robot);
   std::atomic<int> drawn_anew = 0, not_finite = 0;
   std::size_t done = 0;
-  std::mutex telling;
+  std::mutex progress_mutex;
   Progress progress(remarks);
   sim::in_parallel(count, options.threads, [&](std::size_t k) {
     const std::string name = fmt::format("case_{:04}", k + 1);
-    const Recorded made = record_case(robot, kind, options.seed + k, options, shows);
-    drawn_anew += made.blind.drawn_anew, not_finite += made.not_finite;
+    const Recorded recorded = record_case(robot, kind, options.seed + k, options, visibility);
+    drawn_anew += recorded.blind.drawn_anew, not_finite += recorded.not_finite;
     fs::create_directories(options.out + "/" + name);
     Json files = Json::array();
-    for (std::size_t r = 0; r < made.csv.size(); ++r) {
+    for (std::size_t r = 0; r < recorded.csv.size(); ++r) {
       files.push_back(fmt::format("{}/{}.csv", name, r + 1));
-      write_file(options.out + "/" + files.back().get<std::string>(), made.csv[r]);
+      write_file(options.out + "/" + files.back().get<std::string>(), recorded.csv[r]);
     }
-    cases[k] = {{"case", name}, {"recordings", files}, {"withhold", made.blind.withhold}};
-    truths[k] = truth_of(name, made.blind);
-    const std::lock_guard lock(telling);
-    progress.tell("cases", double(++done) / double(count));
+    cases[k] = {{"case", name}, {"recordings", files}, {"withhold", recorded.blind.withhold}};
+    truths[k] = truth_of(name, recorded.blind);
+    const std::lock_guard lock(progress_mutex);
+    progress.show("cases", double(++done) / double(count));
   });
   const std::string truth = Json(truths).dump(1) + "\n";
   write_file(options.truth, truth);
@@ -171,13 +173,13 @@ int blind_make(const BlindMakeOptions& options, std::ostream& out, std::ostream&
                       {"truth_sha256", sha256(truth)},
                       {"cases", cases}};
   write_file(options.out + "/cases.json", manifest.dump(1) + "\n");
-  out << fmt::format("{} {} in {}\nsealed      {}\nsha256      {}\n", count,
+  out << fmt::format("{} {} in {}\ntruth       {}\nsha256      {}\n", count,
                      count == 1 ? "case" : "cases", options.out, options.truth, sha256(truth));
   if (drawn_anew > 0)
-    out << fmt::format("drawn anew  {} that would not have shown in any reading\n",
+    out << fmt::format("redrawn     {} whose hidden effect changed no reading\n",
                        drawn_anew.load());
   if (not_finite > 0)
-    out << fmt::format("drawn anew  {} whose motion was not finite\n", not_finite.load());
+    out << fmt::format("redrawn     {} whose motion was not finite\n", not_finite.load());
   return 0;
 }
 
@@ -193,7 +195,7 @@ int blind_run(const BlindRunOptions& options, std::ostream& out, std::ostream& r
         !fs::exists(folder + "/" + one["case"].get<std::string>() + "/diagnosis.json"))
       mine.push_back(one);
   std::atomic<std::size_t> done = 0;
-  std::mutex telling;
+  std::mutex progress_mutex;
   Progress progress(remarks);
   sim::in_parallel(mine.size(), options.threads, [&](std::size_t k) {
     std::vector<std::string> files;
@@ -203,13 +205,13 @@ int blind_run(const BlindRunOptions& options, std::ostream& out, std::ostream& r
     how.withhold = mine[k]["withhold"].get<std::vector<std::string>>();
     const auto episodes = read_episodes(robot, files).episodes;
     auto d = sim::diagnosis::diagnose(robot, episodes, how);
-    const DiagnoseOptions freely{.threads = 1, .free_run = options.free_run};
-    const auto free_run = run_freely(d, episodes, robot, freely, [](double) {});
+    const DiagnoseOptions simulate{.threads = 1, .free_run = options.free_run};
+    const auto free_run = free_run_of(d, episodes, robot, simulate, [](double) {});
     const std::string place = folder + "/" + mine[k]["case"].get<std::string>();
     write_file(place + "/diagnosis.part", diagnosis_json(d, free_run, robot));
     fs::rename(place + "/diagnosis.part", place + "/diagnosis.json");
-    const std::lock_guard lock(telling);
-    progress.tell("diagnoses", double(++done) / double(mine.size()));
+    const std::lock_guard lock(progress_mutex);
+    progress.show("diagnoses", double(++done) / double(mine.size()));
   });
   out << fmt::format("{} {} in {}\n", mine.size(), mine.size() == 1 ? "diagnosis" : "diagnoses",
                      folder);

@@ -18,9 +18,9 @@ namespace estimation = sim::estimation;
 void print_row(const estimation::AsBuilt& built, std::size_t k, std::ostream& out) {
   const estimation::Constant& c = built.uncertain.constants[k];
   const double x = built.estimate.point.x[k], half = 1.96 * built.estimate.sigma(k);
-  constexpr double far = 3;  // tolerances, and standard errors; chosen
+  constexpr double limit = 3;  // tolerances, and standard errors; chosen
   const bool beyond = std::ranges::count(built.beyond, k) > 0 ||
-                      (std::abs(x) > far && std::abs(x) > far * built.estimate.sigma(k));
+                      (std::abs(x) > limit && std::abs(x) > limit * built.estimate.sigma(k));
   const char* remark = beyond ? "beyond its tolerance"
                        : estimation::determined(built, k) < estimation::well_determined
                            ? "not determined"
@@ -29,14 +29,14 @@ void print_row(const estimation::AsBuilt& built, std::size_t k, std::ostream& ou
                      c.nominal, c.value(x), c.value(x - half), c.value(x + half), remark);
 }
 
-/// Stages that no constants bring to their noise.
-void print_left(const std::vector<std::string>& names, const estimation::AsBuilt& built,
-                std::ostream& out) {
+/// Prints stages whose residual exceeds the noise with all constants estimated.
+void print_unexplained(const std::vector<std::string>& names, const estimation::AsBuilt& built,
+                       std::ostream& out) {
   for (std::size_t s = 0; s < names.size(); ++s)
     if (built.estimate.mean_square[s] > 1.5)
       out << fmt::format(
-          "left over   {}, {:.3g} times its noise: no constant explains it; see erp "
-          "gap diagnose\n",
+          "unexplained {}: residual {:.3g} times its noise; no constant explains it; run erp gap "
+          "diagnose\n",
           names[s], std::sqrt(built.estimate.mean_square[s]));
 }
 
@@ -46,31 +46,31 @@ int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& 
   const erp::Robot robot = read_chains(options.robot);
   if (!robot.drives.empty())
     throw std::invalid_argument(
-        options.robot + ": has drives, whose constants erp gap diagnose estimates as effects");
+        options.robot + ": has drives; erp gap diagnose estimates their constants as effects");
   if (!options.out.empty() && std::filesystem::exists(options.out) &&
       std::filesystem::equivalent(options.out, options.robot))
     throw std::invalid_argument("--out " + options.out +
-                                ": is the model itself; name another file");
+                                ": is the model given by --robot; choose another file");
   if (!options.out.empty())
     check_folder(std::filesystem::absolute(options.out).parent_path().string());
   const Reading read = read_episodes(robot, options.recordings);
   const auto pool = sim::make_pool(options.threads);
-  if (pool->first()) tell(read.mended, remarks), print_suspicious(read, remarks);
-  if (!can_judge(read.episodes)) {
-    if (pool->first()) out << nothing_judged;
+  if (pool->first()) print_lines(read.corrections, remarks), print_suspicious(read, remarks);
+  if (!can_evaluate(read.episodes)) {
+    if (pool->first()) out << nothing_evaluated;
     return 5;
   }
   estimation::EstimateOptions how;
   how.threads = options.threads, how.seed = options.seed, how.pool = pool.get();
   const estimation::AsBuilt built = estimation::calibrated(robot, read.episodes, how);
   if (!pool->first()) return 0;
-  out << fmt::format("{:<16} {:<28} {:>11} {:>11} {:>25}\n", "on", "constant", "robot.xml", "found",
-                     "95 % interval");
+  out << fmt::format("{:<16} {:<28} {:>11} {:>11} {:>25}\n", "on", "constant", "robot.xml",
+                     "estimate", "95 % interval");
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) print_row(built, k, out);
   std::vector<std::string> stages;
   for (const auto& r : sim::residuals::Stages(robot).explain(read.episodes[0]).residuals)
     stages.push_back(fmt::format("{} of {}", sim::effects::word(r.stage), r.on));
-  print_left(stages, built, out);
+  print_unexplained(stages, built, out);
   if (options.out.empty()) return 0;
   make_folder(std::filesystem::absolute(options.out).parent_path().string());
   write_file(options.out, erp::write_robot(built.robot));

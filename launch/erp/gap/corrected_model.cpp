@@ -6,27 +6,27 @@
 namespace launch::gap {
 namespace {
 
-/// Whether the file is the robot.
-bool is(const std::string& file, const erp::Robot& robot) {
+/// Whether the file describes this robot.
+bool describes(const std::string& file, const erp::Robot& robot) {
   try {
     return erp::write_robot(erp::read_robot(file)) == erp::write_robot(robot);
   } catch (const xml::Errors&) {
-    return false;  // it names files that are not beside it
+    return false;  // it includes files by paths that are relative to the original model
   }
 }
 
 }  // namespace
 
-void write_mended(const std::string& file, const std::string& model, const erp::Robot& mended,
-                  std::vector<erp::Effect> added) {
+void write_corrected(const std::string& file, const std::string& model, const erp::Robot& corrected,
+                     std::vector<erp::Effect> added) {
   std::string text = read_text(model), effects;
   for (erp::Effect& effect : added) effects += xml::Writer::text_of(effect, effect.element, 1);
   const auto end = text.rfind("</robot>");
   if (end != text.npos) {
     write_file(file, text.insert(end, effects));
-    if (is(file, mended)) return;
+    if (describes(file, corrected)) return;
   }
-  write_file(file, erp::write_robot(mended));
+  write_file(file, erp::write_robot(corrected));
 }
 
 }  // namespace launch::gap

@@ -3,21 +3,21 @@
 #include <vector>
 
 #include "interfaces/robot/robot.hpp"
-#include "sim/gap/diagnosis/diagnose.hpp"
 #include "sim/gap/closed_loop/free_run.hpp"
+#include "sim/gap/diagnosis/diagnose.hpp"
 
-/// What `erp gap diagnose` leaves in its folder.
+/// Files that `erp gap diagnose` writes to its output folder.
 namespace launch::gap {
 
-/// diagnosis.json; its names are in sim/gap/diagnosis/README.md.
+/// Text of diagnosis.json; sim/gap/diagnosis/README.md defines its fields.
 std::string diagnosis_json(const sim::diagnosis::Diagnosis& diagnosis,
                            const sim::closed_loop::FreeRun& free_run, const erp::Robot& robot);
-/// report.html, self-contained.
+/// Text of report.html, which needs no other file.
 std::string diagnosis_report(const sim::diagnosis::Diagnosis& diagnosis,
                              const sim::closed_loop::FreeRun& free_run, const erp::Robot& robot);
-/// robot.xml: the text of the file `model`, comments and all, with the effects that were `added` before
-/// its end; written anew as one file where the model is put together from several.
-void write_mended(const std::string& file, const std::string& model, const erp::Robot& mended,
-                  std::vector<erp::Effect> added);
+/// Writes robot.xml: the text of the file `model`, including comments, with the effects `added` inserted at its
+/// end. If the model includes other files, writes `corrected` as one file without comments.
+void write_corrected(const std::string& file, const std::string& model, const erp::Robot& corrected,
+                     std::vector<erp::Effect> added);
 
 }  // namespace launch::gap

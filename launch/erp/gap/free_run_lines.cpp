@@ -12,7 +12,7 @@ namespace residuals = sim::residuals;
 namespace closed_loop = sim::closed_loop;
 using diagnosis::IdentifiedEffect;
 
-/// The recordings held out, of one that is shared the part that judges.
+/// The held-out recordings; of a recording that is split, the validation part.
 std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
                                             const std::vector<residuals::Episode>& episodes) {
   std::vector<residuals::Episode> held_out;
@@ -25,7 +25,7 @@ std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
   return held_out;
 }
 
-/// In whose place another of those as good comes first.
+/// Exchanges the answer with its equivalent effect `k`.
 void put_first(IdentifiedEffect& answer, std::size_t k) {
   IdentifiedEffect other = answer.alternatives[k];
   other.supported = answer.supported, other.alternatives = answer.alternatives;
@@ -35,13 +35,14 @@ void put_first(IdentifiedEffect& answer, std::size_t k) {
   answer = std::move(other);
 }
 
-class Rehearsals {
+/// Free runs of the robot with different effects on the held-out recordings.
+class FreeRuns {
  public:
-  Rehearsals(const diagnosis::Diagnosis& d, const std::vector<residuals::Episode>& episodes,
-             const erp::Robot& robot, const DiagnoseOptions& options,
-             const std::function<void(double)>& progress)
+  FreeRuns(const diagnosis::Diagnosis& d, const std::vector<residuals::Episode>& episodes,
+           const erp::Robot& robot, const DiagnoseOptions& options,
+           const std::function<void(double)>& progress)
       : robot_(robot),
-        how_{options.threads, options.seed, progress},
+        options_{options.threads, options.seed, progress},
         held_out_(held_out_of(d, episodes)) {}
 
   closed_loop::FreeRun of(const std::vector<IdentifiedEffect>& answer) const {
@@ -51,41 +52,42 @@ class Rehearsals {
     return of(found);
   }
   closed_loop::FreeRun of(const erp::Robot& found) const {
-    return closed_loop::free_run(robot_, found, held_out_, how_);
+    return closed_loop::free_run(robot_, found, held_out_, options_);
   }
 
  private:
   const erp::Robot& robot_;
-  closed_loop::FreeRunOptions how_;
+  closed_loop::FreeRunOptions options_;
   std::vector<residuals::Episode> held_out_;
 };
 
 }  // namespace
 
-closed_loop::FreeRun run_freely(diagnosis::Diagnosis& d,
-                                const std::vector<residuals::Episode>& episodes,
-                                const erp::Robot& robot, const DiagnoseOptions& options,
-                                const std::function<void(double)>& progress) {
-  constexpr double plain = 2, much = 0.5;  // of the noise; of what is left; chosen
-  constexpr std::size_t most = 4;          // others that are tried; chosen
+closed_loop::FreeRun free_run_of(diagnosis::Diagnosis& d,
+                                 const std::vector<residuals::Episode>& episodes,
+                                 const erp::Robot& robot, const DiagnoseOptions& options,
+                                 const std::function<void(double)>& progress) {
+  constexpr double gap_limit = 2;      // times the noise; chosen
+  constexpr double improvement = 0.5;  // of the error; chosen
+  constexpr std::size_t most = 4;      // equivalent effects that are simulated; chosen
   const bool nothing = d.answer.empty() && !d.as_built && d.verdict != diagnosis::Verdict::no_gap;
   if (nothing || !options.free_run || !robot.drives.empty()) return {};
-  const Rehearsals rehearsals(d, episodes, robot, options, progress);
-  if (d.as_built) return rehearsals.of(*d.as_built);
-  closed_loop::FreeRun best = rehearsals.of(d.answer);
+  const FreeRuns runs(d, episodes, robot, options, progress);
+  if (d.as_built) return runs.of(*d.as_built);
+  closed_loop::FreeRun best = runs.of(d.answer);
   if (d.verdict != diagnosis::Verdict::supported || d.answer.size() != 1 ||
-      !(best.all.after > plain * best.all.floor))
+      !(best.all.after > gap_limit * best.all.floor))
     return best;
   IdentifiedEffect& answer = d.answer[0];
   std::size_t nearest = answer.alternatives.size();
   const double first = best.all.after;
   for (std::size_t k = 0; k < std::min(most, answer.alternatives.size()); ++k)
-    if (auto run = rehearsals.of({answer.alternatives[k]}); run.all.after < much * best.all.after)
+    if (auto run = runs.of({answer.alternatives[k]}); run.all.after < improvement * best.all.after)
       best = std::move(run), nearest = k;
   if (nearest == answer.alternatives.size()) return best;
   d.warnings.push_back(fmt::format(
-      "the residuals cannot tell {} on {} from {} on {}; the free run is off by {:.3g} times "
-      "the noise with the former and {:.3g} with the latter, which is put first",
+      "the residuals do not distinguish {} on {} from {} on {}; the free-run error is {:.3g} times "
+      "the noise with the former and {:.3g} times with the latter, which is listed first",
       answer.type, answer.on, answer.alternatives[nearest].type, answer.alternatives[nearest].on,
       first, best.all.after));
   put_first(answer, nearest);

@@ -6,16 +6,16 @@
 #include "sim/gap/closed_loop/free_run.hpp"
 #include "sim/gap/diagnosis/diagnose.hpp"
 
-/// A diagnosis held against the simulator.
+/// Validates a diagnosis by free-run simulation.
 namespace launch::gap {
 
-/// The answer in the simulator, on the recordings held out; without a gap the model as it is. Of
-/// effects that the residuals cannot tell apart, the one with which the simulator stays nearest is
-/// put first, if it halves what is left; `warnings` tells. Nothing of drives, which the simulator
-/// does not run, nor where there is a gap and no answer.
-sim::closed_loop::FreeRun run_freely(sim::diagnosis::Diagnosis& diagnosis,
-                                     const std::vector<sim::residuals::Episode>& episodes,
-                                     const erp::Robot& robot, const DiagnoseOptions& options,
-                                     const std::function<void(double)>& progress);
+/// Simulates the robot with the identified effects (without a gap: the model as it is) on the references of the
+/// held-out recordings. Of effects that the residuals cannot distinguish, puts the one with the smallest free-run
+/// error first, if it halves that error, and adds a warning. Returns an empty result for drives, which the
+/// simulator does not support, and if there is a gap but no identified effect.
+sim::closed_loop::FreeRun free_run_of(sim::diagnosis::Diagnosis& diagnosis,
+                                      const std::vector<sim::residuals::Episode>& episodes,
+                                      const erp::Robot& robot, const DiagnoseOptions& options,
+                                      const std::function<void(double)>& progress);
 
 }  // namespace launch::gap

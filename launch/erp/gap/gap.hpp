@@ -7,89 +7,91 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/gap/residuals/episode.hpp"
 
-/// `erp gap`: where recordings and a robot's model part, why, and by how much.
+/// `erp gap`: where recordings differ from a robot's model, which effect causes it, and how much of the gap it closes.
 namespace launch::gap {
 
-/// The robot, its drives as chains. Throws xml::Errors.
+/// Reads the robot and converts its drives to actuator chains. Throws xml::Errors.
 erp::Robot read_chains(const std::string& robot_file);
 
-/// Recordings laid out for a robot, and in words what was mended, and what of signs and units a
-/// person should mend.
+/// Recordings aligned with a robot; messages about corrections that were made, and about suspicious columns (sign,
+/// unit, dead, exchanged), which the user has to fix.
 struct Reading {
   std::vector<sim::residuals::Episode> episodes;
-  std::vector<std::string> mended, odd;
+  std::vector<std::string> corrections, suspicious;
 };
-/// Throws RecordingError, std::invalid_argument, also of a copy: it could not judge what was fitted to the other.
+/// Throws RecordingError, std::invalid_argument; the latter also if two recordings hold the same values, since a copy
+/// cannot validate what was fitted to the original.
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings);
-/// Whether any is long enough to judge something by.
-bool can_judge(const std::vector<sim::residuals::Episode>& episodes);
-inline constexpr const char* nothing_judged =
-    "nothing could be judged; record some seconds in which everything moves\n";
-/// Prints the corrections, a line each.
-void tell(const std::vector<std::string>& list, std::ostream& remarks);
-/// Prints the columns that look wrong; nothing else is reliable before they are mended.
+/// Whether any recording is long enough to evaluate a stage.
+bool can_evaluate(const std::vector<sim::residuals::Episode>& episodes);
+inline constexpr const char* nothing_evaluated =
+    "no stage could be evaluated; record a few seconds in which all actuators move\n";
+/// Prints one message per line.
+void print_lines(const std::vector<std::string>& messages, std::ostream& remarks);
+/// Prints the suspicious columns. No other result is reliable until they are fixed.
 void print_suspicious(const Reading& read, std::ostream& remarks);
 
-/// Throws std::invalid_argument of a type that the library has not.
+/// Throws std::invalid_argument if a type is not in the effect library.
 void check_withheld(const std::vector<std::string>& types);
 
-/// Prints a row a stage, the largest share of the gap first, and the stages that leave their noise
-/// floor in words; what was mended in the recordings goes to `remarks`. Throws xml::Errors,
-/// RecordingError, std::invalid_argument. Returns the exit code.
+/// Prints one row per stage, the largest share of the gap first, and a summary of the stages with a gap. Prints
+/// corrections of the recordings to `remarks`. Throws xml::Errors, RecordingError, std::invalid_argument. Returns 0;
+/// 5: no stage could be evaluated.
 int where(const std::string& robot_file, const std::vector<std::string>& recordings,
           std::ostream& out, std::ostream& remarks);
 
 struct DiagnoseOptions {
-  std::string robot, out;  ///< out: a folder, made if need be; empty: nothing is written
+  std::string robot, out;  ///< out: folder, created if missing; empty: no files
   std::vector<std::string> recordings, train, held_out, withhold;
   int threads = 2;
-  bool free_run = true;  ///< the answer is also let run freely in the simulator
+  bool free_run = true;  ///< also simulates the answer as a free run
   std::uint64_t seed = 1;
 };
 
-/// Prints where, which and how far, and writes diagnosis.json, report.html and robot.xml. Throws as
-/// `where`. Returns 0: supported, 3: no gap, 4: none of the known, 5: not identifiable.
+/// Prints location, cause and gap closure, and writes diagnosis.json, report.html and, if supported, robot.xml.
+/// Throws as `where`. Returns 0: supported, 3: no gap, 4: none of the known effects, 5: not identifiable.
 int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& remarks);
 
 struct CalibrateOptions {
-  std::string robot, out;  ///< out: a file; empty: nothing is written
+  std::string robot, out;  ///< out: file; empty: no file
   std::vector<std::string> recordings;
   int threads = 2;
   std::uint64_t seed = 1;
 };
 
-/// Estimates all constants of a robot together and prints a row for each: nominal, found, 95 % interval;
-/// writes the robot.xml of this robot. Throws as where; std::invalid_argument for a robot of drives.
-/// Returns 0; 5: nothing could be judged.
+/// Estimates all constants of a robot jointly, prints one row per constant (nominal, estimated, 95 % interval) and
+/// writes a robot.xml with the estimates. Throws as `where`; std::invalid_argument for a robot with drives.
+/// Returns 0; 5: no stage could be evaluated.
 int calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& remarks);
 
 struct IndistinguishableOptions {
   std::string robot;
-  std::vector<std::string> recordings = {};  ///< none: the simulator records four
-  std::vector<std::string> without = {};     ///< "tension", "current", "joint": as if not recorded
-  double seconds = 20;                       ///< of those that the simulator records
-  double share = 0.1;                        ///< of what is hidden, at most left
-  int together = 1;                          ///< so many that stand for one, at most
-  std::vector<std::string> withhold = {};    ///< types of effects to do without
+  std::vector<std::string> recordings = {};  ///< empty: four simulated recordings
+  std::vector<std::string> without = {};     ///< signals to ignore: "tension", "current", "joint"
+  double seconds = 20;                       ///< length of each simulated recording
+  double share = 0.1;                        ///< largest share of the hidden effect that may remain
+  int together = 1;                          ///< most effects whose sum replaces one
+  std::vector<std::string> withhold = {};    ///< effect types to exclude
   int threads = 2;
 };
 
-/// Prints which effects the robot's sensors cannot tell apart, a row a pair; of several that stand
-/// for one together, a row an effect. Throws as where, std::runtime_error. Returns 0; 5: nothing could be judged.
-int twins(const IndistinguishableOptions& options, std::ostream& out, std::ostream& remarks);
+/// `erp gap twins`. Prints which effects the robot's sensors cannot distinguish, one row per pair; with `together`
+/// above 1, one row per effect and the sum of others that replaces it. Throws as `where`, std::runtime_error.
+/// Returns 0; 5: no stage could be evaluated.
+int list_indistinguishable(const IndistinguishableOptions& options, std::ostream& out,
+                           std::ostream& remarks);
 
 struct PlanOptions {
-  std::string robot, diagnosis, out;  ///< diagnosis.json; out: a folder, made if need be
+  std::string robot, diagnosis, out;  ///< diagnosis.json; out: folder, created if missing
   double seconds = 20;
   int candidates = 24, threads = 2;
   std::uint64_t seed = 1;
-  double to_stop_rad = 0.05;  ///< hinges stay farther from their stops
+  double to_stop_rad = 0.05;  ///< smallest distance of hinges from their stops
 };
 
-/// Searches the excitation that best splits what a diagnosis could not tell apart, and writes it as
-/// a graph to launch: graph.xml, reference.xml, trajectory.csv. Throws xml::Errors,
-/// std::invalid_argument. Returns 0; 1: nothing to split, or none is safe; 5: none would split
-/// them.
+/// Searches the excitation that best distinguishes the equivalent effects of a diagnosis, and writes it as a graph
+/// to launch: graph.xml, reference.xml, trajectory.csv. Throws xml::Errors, std::invalid_argument. Returns 0;
+/// 1: there is nothing to distinguish, or no excitation is safe; 5: no excitation distinguishes the effects.
 int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks);
 
 }  // namespace launch::gap

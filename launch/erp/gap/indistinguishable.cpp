@@ -17,14 +17,15 @@ namespace residuals = sim::residuals;
 using sim::effects::name_of;
 using sim::effects::Placed;
 
-/// What the simulator would record of the robot, one a kind of excitation.
-std::vector<residuals::Episode> rehearsed(const erp::Robot& robot, double seconds) {
+/// Simulated recordings of the robot, one per kind of excitation.
+std::vector<residuals::Episode> simulated(const erp::Robot& robot, double seconds) {
   std::vector<residuals::Episode> episodes;
   std::vector<std::string> remarks;
   for (int kind = 0; kind < sim::excitation_kinds; ++kind) {
-    const auto score = sim::closed_loop::set_points_of(sim::excitation(robot, kind, seconds, 1));
-    episodes.push_back(residuals::lay_out(sim::closed_loop::predict_run(robot, score), robot,
-                                          sim::excitation_word(robot, kind), remarks));
+    const auto set_points =
+        sim::closed_loop::set_points_of(sim::excitation(robot, kind, seconds, 1));
+    episodes.push_back(residuals::lay_out(sim::closed_loop::predict_run(robot, set_points), robot,
+                                          sim::excitation_name(robot, kind), remarks));
   }
   return episodes;
 }
@@ -46,8 +47,8 @@ std::string size_of(Placed p) {
   return fmt::format("{} = {:.2g}", first.name, *first.value);
 }
 
-std::vector<diagnosis::Indistinguishable> found(const diagnosis::Evaluator& evaluator,
-                                                const IndistinguishableOptions& options) {
+std::vector<diagnosis::Indistinguishable> search(const diagnosis::Evaluator& evaluator,
+                                                 const IndistinguishableOptions& options) {
   if (options.together < 2)
     return diagnosis::indistinguishable_effects(evaluator, options.share, options.withhold,
                                                 options.threads);
@@ -65,36 +66,35 @@ std::string names_of(const std::vector<Placed>& others) {
 
 }  // namespace
 
-int twins(const IndistinguishableOptions& options, std::ostream& out, std::ostream& remarks) {
+int list_indistinguishable(const IndistinguishableOptions& options, std::ostream& out,
+                           std::ostream& remarks) {
   check_withheld(options.withhold);
   const erp::Robot robot = read_chains(options.robot);
   if (options.recordings.empty() && !robot.drives.empty())
-    throw std::invalid_argument(options.robot +
-                                ": the simulator does not run drives; give recordings with --real");
+    throw std::invalid_argument(
+        options.robot + ": the simulator does not support drives; give recordings with --real");
   const Reading read = read_episodes(robot, options.recordings);
-  tell(read.mended, remarks), print_suspicious(read, remarks);
-  auto episodes = options.recordings.empty() ? rehearsed(robot, options.seconds) : read.episodes;
+  print_lines(read.corrections, remarks), print_suspicious(read, remarks);
+  auto episodes = options.recordings.empty() ? simulated(robot, options.seconds) : read.episodes;
   leave_out(options.without, episodes);
-  if (!can_judge(episodes)) {
-    out << nothing_judged;
+  if (!can_evaluate(episodes)) {
+    out << nothing_evaluated;
     return 5;
   }
   const diagnosis::Evaluator evaluator(robot, std::move(episodes));
   std::vector<std::vector<std::string>> rows{
-      {"hidden", "as small as", "would pass for", "shows, sigma", "left, sigma", "likeness"}};
-  for (const auto& twin : found(evaluator, options))
-    rows.push_back({name_of(twin.hidden), size_of(twin.hidden), names_of(twin.others),
-                    fmt::format("{:.1f}", twin.shows), fmt::format("{:.2g}", twin.left),
-                    fmt::format("{:.4f}", std::sqrt(1 - std::pow(twin.left / twin.shows, 2)))});
+      {"hidden effect", "size", "replaced by", "visible, sigma", "remaining, sigma", "similarity"}};
+  for (const auto& one : search(evaluator, options))
+    rows.push_back({name_of(one.hidden), size_of(one.hidden), names_of(one.others),
+                    fmt::format("{:.1f}", one.magnitude), fmt::format("{:.2g}", one.remaining),
+                    fmt::format("{:.4f}", std::sqrt(1 - std::pow(one.remaining / one.magnitude, 2)))});
   for (const std::string& line : align(rows, {false, false, false, true, true, true}))
     out << line << "\n";
-  if (rows.size() == 1) out << "every effect that shows can be told from every other\n";
+  if (rows.size() == 1) out << "the sensors distinguish every visible effect from every other\n";
   else
-    out << "shows: what a hidden effect of that size changes in all residuals together, in "
-           "standard "
-           "deviations of their\nnoise; left: of it, once the other stands for it; likeness: 1 "
-           "where "
-           "nothing is left\n";
+    out << "visible: change of all residuals by the hidden effect, in standard deviations of their "
+           "noise;\nremaining: part of that change that the replacement does not explain; "
+           "similarity: 1 if nothing remains\n";
   return 0;
 }
 

@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace sim::diagnosis;
 
-/// Five digits tell all that such figures hold; what is no number becomes null.
+/// Rounds to five significant digits; values that are not finite become null.
 double rounded(double x) {
   if (x == 0 || !std::isfinite(x)) return x;
   const double scale = std::pow(10, 5 - std::ceil(std::log10(std::abs(x))));
@@ -51,7 +51,7 @@ Json json_of(const Closed& c) {
   return json;
 }
 
-/// By name. What a channel without a gap closes is null.
+/// Channels by name. The closure of a channel without a gap is null.
 Json channels_of(const std::vector<Closed>& channels) {
   Json all = Json::object();
   for (const Closed& c : channels) {
@@ -95,7 +95,7 @@ Json list_of(const Items& items) {
   return list;
 }
 
-/// The answer's effects first, then the others as they fitted one by one.
+/// The effects of the answer, then the other candidates in the order of their rank.
 Json effects_of(const Diagnosis& d) {
   Json list = list_of(d.answer);
   for (const IdentifiedEffect& n : d.ranked)
@@ -108,7 +108,7 @@ Json effects_of(const Diagnosis& d) {
   return list;
 }
 
-/// Effects of the same `set` could stand for each other.
+/// Effects of the same `set` are equivalent.
 Json confusable_of(const Diagnosis& d) {
   Json list = Json::array();
   int set = 0;
@@ -125,7 +125,7 @@ Json confusable_of(const Diagnosis& d) {
   return list;
 }
 
-/// Of the recordings that are used for both, by name.
+/// Start of the validation part of recordings that are split, by name.
 Json shared(const sim::diagnosis::Diagnosis& d) {
   Json all = Json::object();
   for (const auto& one : d.shared) all[one.recording] = one.judged_from_s;

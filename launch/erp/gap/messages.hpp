@@ -4,41 +4,43 @@
 
 #include "sim/gap/diagnosis/diagnose.hpp"
 
-/// What the terminal and the report say in the same words.
+/// Phrases that the terminal output and the report share, and warnings about a diagnosis.
 namespace launch::gap {
 
-/// "98.2 % closed", 100 at most: beyond is noise. Of what was no gap, or has grown, that.
-std::string closed_words(const sim::diagnosis::Closed& closed);
+/// Gap closure as text: "98.2 % closed", at most 100 %, since the excess is noise; "within the noise" if there was no
+/// gap; "2.0 times as large" if the error grew.
+std::string closure_text(const sim::diagnosis::Closed& closed);
 
-/// " (98.1 … 98.4 %)", its interval; empty where closed_words says no share.
-std::string closed_interval(const sim::diagnosis::Closed& closed);
+/// Interval of the gap closure: " (98.1 … 98.4 %)"; empty where closure_text gives no percentage.
+std::string closure_interval(const sim::diagnosis::Closed& closed);
 
-/// "held-out recordings", where there were any; else the part of one that was.
-std::string judged_on(const sim::diagnosis::Diagnosis& diagnosis);
+/// Name of the validation data: "held-out recordings", "the rest of the recording", or "the training data".
+std::string validation_data(const sim::diagnosis::Diagnosis& diagnosis);
 
-/// "; distance_m = 0.25, not fitted": what of an effect was taken as it is. Empty: nothing.
-std::string taken_as_it_is(const sim::diagnosis::IdentifiedEffect& effect);
+/// Parameters of an effect that are not fitted: "; distance_m = 0.25, not fitted". Empty if all are fitted.
+std::string fixed_parameters(const sim::diagnosis::IdentifiedEffect& effect);
 
-/// Whether the recordings determine a constant, and show that it is not as described: its interval excludes the
-/// nominal value, which is more than half a tolerance away.
-bool is_off(const sim::diagnosis::ConstantEstimate& constant);
+/// Whether the recordings determine a constant that deviates from its nominal value: the interval excludes the
+/// nominal value, and the deviation exceeds half a tolerance.
+bool deviates(const sim::diagnosis::ConstantEstimate& constant);
 
-/// "61 %" of a share that is not none.
-std::string share_words(double share);
+/// A share above 0 as a percentage: "61 %", "under 1 %".
+std::string share_text(double share);
 
-/// What else would look like a tendon that is so much longer or shorter that a shaft's zero would be
-/// off by more than its effect may be. Empty: nothing.
-std::string zero_doubt(const std::vector<sim::diagnosis::IdentifiedEffect>& answer,
-                       const erp::Robot& robot);
+/// Warning about a tendon length offset that a wrong zero of the shaft encoder also explains, if that zero error
+/// exceeds the bound of its own effect. Empty if there is none.
+std::string zero_offset_warning(const std::vector<sim::diagnosis::IdentifiedEffect>& answer,
+                                const erp::Robot& robot);
 
-/// Why effects that explain the residuals may still not be the cause, or a model without a gap not be
-/// the robot: let run freely, the simulator stays far from what was recorded. Empty if it does not.
-std::string free_run_doubt(const sim::diagnosis::Diagnosis& diagnosis,
-                           const sim::diagnosis::Closed& free_run);
+/// Warning if the free-run error remains large: the identified effects may not be the cause, or a model without a
+/// gap may still differ from the robot. Empty if the error is small.
+std::string free_run_warning(const sim::diagnosis::Diagnosis& diagnosis,
+                             const sim::diagnosis::Closed& free_run);
 
-/// Those, and what else speaks against an answer that the recordings support: a stage that it takes
-/// from its floor, a time column or one that is late that would look alike.
-std::vector<std::string> doubts(const sim::diagnosis::Diagnosis& diagnosis,
-                                const sim::diagnosis::Closed& free_run, const erp::Robot& robot);
+/// All warnings about an answer: free run, a stage that the answer moves off its noise floor, a wrong encoder zero,
+/// and a scaled time column or a delayed column that would cause the same residuals.
+std::vector<std::string> answer_warnings(const sim::diagnosis::Diagnosis& diagnosis,
+                                         const sim::diagnosis::Closed& free_run,
+                                         const erp::Robot& robot);
 
 }  // namespace launch::gap

@@ -23,12 +23,15 @@ using sim::effects::name_of;
 using sim::effects::Placed;
 
 constexpr std::size_t most_suspects = 4;
-constexpr double telling = 3;  // standard deviations: below, an excitation splits nothing; chosen
+// In standard deviations; below it, an excitation does not distinguish two suspects. Chosen.
+constexpr double least_sigma = 3;
 
 Placed placed_of(const Json& effect, const std::string& file) {
   const auto type = effect.at("type").get<std::string>();
   auto neutral = sim::effects::neutral(type);
-  if (!neutral) throw std::invalid_argument(file + ": effect " + type + " is not in the library");
+  if (!neutral)
+    throw std::invalid_argument(file + ": effect " + type +
+                                " is not in the library; diagnose again with this version of erp");
   Placed placed{effect.at("on").get<std::string>(), *neutral};
   for (const auto& parameter : sim::effects::parameters(placed.effect))
     if (effect.at("parameters").contains(parameter.name))
@@ -40,17 +43,18 @@ bool same(const Json& a, const Json& b) {
   return a.at("type") == b.at("type") && a.at("on") == b.at("on");
 }
 
-/// What is to be split, and what is taken for true beside it. The bus is in neither: the stages'
-/// residuals do not show it.
-struct Question {
-  std::string robot;  ///< that was diagnosed
+/// The effects to be distinguished, and the known effects of the robot. Both lists exclude effects of the bus, which
+/// change no residual.
+struct Problem {
+  std::string robot;  ///< name of the diagnosed robot
   std::vector<Placed> suspects, known;
-  std::size_t more_sets = 0;  ///< that could not be told apart either
-  bool fix_first = false;     ///< the recordings that were diagnosed are odd
+  std::size_t more_sets = 0;  ///< further sets of equivalent effects
+  bool fix_first = false;     ///< the diagnosed recordings have faults
 };
 
-/// Of sets that could not be told apart, the first; else the answer; else what comes nearest.
-Question question_of(const Json& d, const std::string& file) {
+/// Takes the first set of equivalent effects as suspects; without one the answer; without an answer the best
+/// candidates.
+Problem problem_of(const Json& d, const std::string& file) {
   const auto on_bus = [](const Json& effect) {
     return effect.at("type").get<std::string>().starts_with("bus_");
   };
@@ -62,59 +66,60 @@ Question question_of(const Json& d, const std::string& file) {
     if (sets.size() == 1) set.push_back(one);
   }
   const bool split = !set.empty(), answered = d.at("verdict") == "supported";
-  Question question{
+  Problem problem{
       d.at("robot"), {}, {}, sets.size() - split, !d.value("mend_first", Json::array()).empty()};
   for (const Json& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
     if (!split && (!answered || (supported && set.empty()))) set.push_back(effect);
     else if (supported && std::ranges::none_of(set, [&](const Json& s) { return same(s, effect); }))
-      question.known.push_back(placed_of(effect, file));
+      problem.known.push_back(placed_of(effect, file));
   }
   for (const Json& one : set)
-    if (question.suspects.size() < most_suspects) question.suspects.push_back(placed_of(one, file));
-  return question;
+    if (problem.suspects.size() < most_suspects) problem.suspects.push_back(placed_of(one, file));
+  return problem;
 }
 
-Question read_question(const std::string& file) {
+Problem read_problem(const std::string& file) {
   const std::string text = read_text(file);
   try {
-    return question_of(Json::parse(text), file);
+    return problem_of(Json::parse(text), file);
   } catch (const Json::exception& e) {
-    const std::string why = e.what();  // behind the library's own name for it
-    throw std::invalid_argument(file + ": is no diagnosis.json of erp gap diagnose (" +
-                                why.substr(why.find("] ") + 2) + "); give one");
+    const std::string why = e.what();  // text after the library's error code
+    throw std::invalid_argument(file + ": is not a diagnosis.json of erp gap diagnose (" +
+                                why.substr(why.find("] ") + 2) +
+                                "); pass the diagnosis.json that erp gap diagnose wrote");
   }
 }
 
 void print(const closed_loop::Experiment& experiment, const erp::Robot& robot,
            const std::vector<Placed>& suspects, std::ostream& out) {
-  out << "to split    " << name_of(suspects[0]);
+  out << "suspects    " << name_of(suspects[0]);
   for (std::size_t k = 1; k < suspects.size(); ++k) out << ", " << name_of(suspects[k]);
-  if (suspects.size() == 1) out << ", from the robot without it";
+  if (suspects.size() == 1) out << ", compared with the robot without it";
   out << fmt::format("\n{:<12}{:<18} {:>6} {:>12} {:>10}  {}\n", "", "excitation", "seed",
-                     "split, sigma", "tension", "");
+                     "diff., sigma", "tension", "");
   constexpr std::size_t shown = 5;
   for (std::size_t k = 0; k < std::min(shown, experiment.candidates.size()); ++k) {
     const auto& c = experiment.candidates[k];
     out << fmt::format("{:<12}{:<18} {:>6} {:>12.1f} {:>8.0f} %  {}\n", k ? "" : "candidates",
-                       sim::excitation_word(robot, c.kind), c.seed, c.least,
+                       sim::excitation_name(robot, c.kind), c.seed, c.least,
                        100 * c.extremes.of_max_tension, c.unsafe);
   }
-  if (suspects.size() < 3) return;  // with two the table says it
+  if (suspects.size() < 3) return;  // with two suspects the table shows it
   const auto& split = experiment.candidates.front().split;
   for (std::size_t k = 0; k < split.size(); ++k)
-    out << fmt::format("{:<12}{:.1f} sigma from {}\n", k ? "" : "the first", split[k],
+    out << fmt::format("{:<12}{:.1f} sigma to {}\n", k ? "" : "best", split[k],
                        name_of(suspects[k + 1]));
 }
 
-/// Those that no safe excitation tells from the first.
-std::vector<Placed> never_split(const closed_loop::Experiment& experiment,
-                                const std::vector<Placed>& suspects) {
+/// The suspects that no safe excitation distinguishes from the first.
+std::vector<Placed> never_distinguished(const closed_loop::Experiment& experiment,
+                                        const std::vector<Placed>& suspects) {
   std::vector<Placed> never;
   for (std::size_t k = 1; k < suspects.size(); ++k)
     if (std::ranges::none_of(experiment.candidates, [&](const closed_loop::Candidate& c) {
-          return c.unsafe.empty() && c.split[k - 1] >= telling;
+          return c.unsafe.empty() && c.split[k - 1] >= least_sigma;
         }))
       never.push_back(suspects[k]);
   return never;
@@ -126,45 +131,45 @@ std::string joined(const std::vector<Placed>& effects) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-closed_loop::Experiment rehearsed(const erp::Robot& robot, const std::vector<Placed>& suspects,
-                                  const PlanOptions& options, std::ostream& remarks) {
+closed_loop::Experiment search(const erp::Robot& robot, const std::vector<Placed>& suspects,
+                               const PlanOptions& options, std::ostream& remarks) {
   Progress progress(remarks);
-  std::mutex telling_mutex;
+  std::mutex progress_mutex;
   closed_loop::ExperimentOptions how{.seconds = options.seconds,
                                      .candidates = options.candidates,
                                      .threads = options.threads,
                                      .seed = options.seed,
                                      .to_stop_rad = options.to_stop_rad};
   how.progress = [&](double share) {
-    const std::lock_guard lock(telling_mutex);
-    progress.tell("rehearsals", share);
+    const std::lock_guard lock(progress_mutex);
+    progress.show("simulations", share);
   };
   return closed_loop::next_experiment(robot, suspects, how);
 }
 
-/// Throws std::invalid_argument where an effect is on nothing of this robot.
-void check_is_of(const erp::Robot& robot, const std::vector<Placed>& effects,
-                 const PlanOptions& options) {
+/// Throws std::invalid_argument if the robot has no part that an effect acts on.
+void check_places(const erp::Robot& robot, const std::vector<Placed>& effects,
+                  const PlanOptions& options) {
   for (const Placed& placed : effects) {
     const auto places = sim::effects::places(robot, sim::effects::about(placed.effect).seat);
     if (std::ranges::find(places, placed.on) == places.end())
       throw std::invalid_argument(options.diagnosis + ": " + name_of(placed) + ": " +
                                   options.robot +
-                                  " has no such place; give the robot that was diagnosed");
+                                  " has no such part; pass the robot that was diagnosed");
   }
 }
 
-/// Whether both have the same type, place and, to a thousandth, the same values.
+/// Whether both have the same type, the same place and, within 0.1 %, the same values.
 bool same(Placed a, Placed b) {
   if (a.on != b.on || a.effect.index() != b.effect.index()) return false;
-  constexpr double rounded = 1e-3;  // diagnosis.json has fewer digits than robot.xml
+  constexpr double rounding = 1e-3;  // diagnosis.json has fewer digits than robot.xml
   return std::ranges::equal(sim::effects::parameters(a.effect), sim::effects::parameters(b.effect),
                             [](const auto& p, const auto& q) {
-                              return std::abs(*p.value - *q.value) <= rounded * std::abs(*q.value);
+                              return std::abs(*p.value - *q.value) <= rounding * std::abs(*q.value);
                             });
 }
 
-/// The robot that was diagnosed, if this one is the robot.xml of the diagnosis: without its answer.
+/// Removes the effects of the answer, so that the robot.xml that erp gap diagnose wrote becomes the diagnosed model.
 void remove_effects(erp::Robot& robot, const std::vector<Placed>& answer) {
   const auto has = sim::effects::read_effects(robot);  // in the order of robot.effects
   std::vector<erp::Effect> kept;
@@ -179,65 +184,68 @@ void remove_effects(erp::Robot& robot, const std::vector<Placed>& answer) {
 int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   erp::Robot robot = erp::read_robot(options.robot);
   if (robot.actuators.empty())
-    throw std::invalid_argument(options.robot + ": the simulator has nothing to move: no actuator");
-  auto [diagnosed, suspects, known, more_sets, fix_first] = read_question(options.diagnosis);
+    throw std::invalid_argument(options.robot +
+                                ": has no actuator to move; pass a robot with muscles");
+  auto [diagnosed, suspects, known, more_sets, fix_first] = read_problem(options.diagnosis);
   if (diagnosed != robot.name)
-    throw std::invalid_argument(options.diagnosis + ": is of robot \"" + diagnosed + "\", " +
-                                options.robot + " is \"" + robot.name +
-                                "\"; give the robot that was diagnosed");
-  check_is_of(robot, suspects, options), check_is_of(robot, known, options);
+    throw std::invalid_argument(options.diagnosis + ": belongs to robot \"" + diagnosed +
+                                "\", but " + options.robot + " is \"" + robot.name +
+                                "\"; pass the robot that was diagnosed");
+  check_places(robot, suspects, options), check_places(robot, known, options);
   check_folder(options.out);
-  make_way(options.out);
+  remove_earlier_plan(options.out);
   remove_effects(robot, suspects), remove_effects(robot, known);
   for (const Placed& placed : known) robot.effects.push_back(sim::effects::written(placed));
   if (suspects.empty()) {
-    out << "nothing to plan for: the diagnosis names no effect that a motion could show (constants "
-           "are estimated without a choice, and the bus shows in no motion)\n";
+    out << "nothing to plan: the diagnosis contains no effect that a motion can distinguish "
+           "(constants are all estimated, and effects of the bus change no residual)\n";
     return 1;
   }
   if (fix_first)
-    remarks << options.diagnosis
-            << ": its recordings are to be mended first, see its warnings: its answer and "
-               "this plan may be wrong\n";
-  auto experiment = rehearsed(robot, suspects, options, remarks);
-  const auto never = never_split(experiment, suspects);
+    remarks
+        << options.diagnosis
+        << ": fix its recordings first (see mend_first in it); until then its answer and this plan "
+           "may be wrong\n";
+  auto experiment = search(robot, suspects, options, remarks);
+  const auto never = never_distinguished(experiment, suspects);
   if (!experiment.chosen.reference.empty() && !never.empty()) {
-    out << fmt::format("no excitation tells {} from {}: that needs another sensor\n",
+    out << fmt::format("no excitation distinguishes {} from {}; this needs another sensor\n",
                        name_of(suspects[0]), joined(never));
     if (never.size() + 1 == suspects.size()) return 5;
     std::erase_if(suspects, [&](const Placed& s) {
       return std::ranges::any_of(never, [&](const Placed& n) { return name_of(n) == name_of(s); });
     });
-    experiment = rehearsed(robot, suspects, options, remarks);  // of the others
+    experiment = search(robot, suspects, options, remarks);  // for the others
   }
   print(experiment, robot, suspects, out);
   if (experiment.chosen.reference.empty()) {
-    out << "no candidate is safe; try others with --seed or --candidates, or a smaller --margin\n";
+    out << "no candidate is safe; try another --seed, more --candidates, or a smaller --margin\n";
     return 1;
   }
   const auto& best = experiment.candidates.front();
-  if (best.least < telling) {
+  if (best.least < least_sigma) {
     out << (suspects.size() == 1
-                ? "no excitation tells it from the robot without it: that needs another sensor\n"
-                : "none of these excitations splits all of them at once: try more with "
-                  "--candidates\n");
+                ? "no excitation distinguishes it from the robot without it; this needs another "
+                  "sensor\n"
+                : "no single excitation distinguishes all of them; try more --candidates\n");
     return 5;
   }
   write_graph(options.out, options.robot, robot, experiment.chosen);
   out << fmt::format("chosen      largest tension {:.0f} % of the limit ({})",
                      100 * best.extremes.of_max_tension, best.extremes.tightest);
   if (!best.extremes.nearest.empty())
-    out << fmt::format(", {:.3f} rad to a stop ({})", best.extremes.to_stop_rad,
+    out << fmt::format(", smallest distance to a stop {:.3f} rad ({})", best.extremes.to_stop_rad,
                        best.extremes.nearest);
   if (!best.extremes.slowest.empty())
-    out << fmt::format(", at full voltage for {:.0f} % of the time ({})",
+    out << fmt::format(", full voltage for {:.0f} % of the time ({})",
                        100 * best.extremes.saturated, best.extremes.slowest);
   out << fmt::format(
-      "\nrun it      erp launch {}/graph.xml --for {:g}s        on the robot: --device can\n",
+      "\nnext        erp launch {}/graph.xml --for {:g}s        on the robot, add --device can\n",
       options.out, options.seconds);
   if (more_sets)
     out << fmt::format(
-        "then        diagnose with it and plan again: {} more set{} cannot be told apart\n",
+        "then        diagnose with the new recording and plan again: {} more set{} of equivalent "
+        "effects\n",
         more_sets, more_sets == 1 ? "" : "s");
   return 0;
 }

@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 recording::Table trajectory_of(const sim::Excitation& excitation, const erp::Robot& robot) {
-  constexpr std::size_t each = 5;  // rows: `reference` draws lines between them
+  constexpr std::size_t each =
+      5;  // rows; the component `reference` interpolates linearly between them
   recording::Table table;
   table.columns.push_back({"time_s", {}});
   for (const erp::Actuator& a : robot.actuators)
@@ -35,14 +36,14 @@ constexpr const char* mark = "<!-- By erp gap plan. -->";
 
 }  // namespace
 
-void make_way(const std::string& out) {
+void remove_earlier_plan(const std::string& out) {
   const std::string graph = out + "/graph.xml";
   const bool ours = fs::exists(graph) && read_text(graph).starts_with(mark);
   for (const char* name : {"graph.xml", "reference.xml", "trajectory.csv"}) {
     const std::string file = fs::path(out) / name;
     if (!ours && fs::exists(file))
-      throw std::invalid_argument("--out " + out + ": holds a " + name +
-                                  " that no plan wrote; name another folder");
+      throw std::invalid_argument("--out " + out + ": contains a " + name +
+                                  " that erp gap plan did not write; choose another folder");
     fs::remove(file);
   }
 }

@@ -4,13 +4,13 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/gap/closed_loop/experiment.hpp"
 
-/// The graph that `erp gap plan` writes: a motion to record next.
+/// The graph that `erp gap plan` writes: the motion of the next experiment.
 namespace launch::gap {
 
-/// Removes an earlier plan's graph from a folder, so that nobody launches it. Throws std::invalid_argument of files
-/// that no plan wrote.
-void make_way(const std::string& folder);
-/// Writes graph.xml, with what it needs: the robot to be recorded, moved by that excitation.
+/// Removes the graph of an earlier plan from a folder, so that it cannot be launched by mistake. Throws
+/// std::invalid_argument if the folder holds files of the same names that erp gap plan did not write.
+void remove_earlier_plan(const std::string& folder);
+/// Writes graph.xml, reference.xml and trajectory.csv: the robot executes the excitation and is recorded.
 void write_graph(const std::string& folder, const std::string& robot_file, const erp::Robot& robot,
                  const sim::Excitation& excitation);
 

@@ -23,31 +23,31 @@ namespace {
 namespace residuals = sim::residuals;
 namespace checks = sim::checks;
 
-/// What several recordings share is said once.
-class Remarks {
+/// Collects messages; joins the files of equal messages, so that each message appears once.
+class Messages {
  public:
   void add(const std::string& file, const std::vector<std::string>& of_file) {
-    for (const std::string& remark : of_file) {
-      const std::string what = remark.substr(file.size());  // each begins with its recording
-      const auto said = std::ranges::find(all_, what, &Remark::what);
-      if (said == all_.end()) all_.push_back({file, what});
-      else said->files += ", " + file;
+    for (const std::string& message : of_file) {
+      const std::string text = message.substr(file.size());  // each begins with the file name
+      const auto same = std::ranges::find(all_, text, &Message::text);
+      if (same == all_.end()) all_.push_back({file, text});
+      else same->files += ", " + file;
     }
   }
   std::vector<std::string> take() const {
     std::vector<std::string> lines;
-    for (const Remark& remark : all_) lines.push_back(remark.files + remark.what);
+    for (const Message& message : all_) lines.push_back(message.files + message.text);
     return lines;
   }
 
  private:
-  struct Remark {
-    std::string files, what;
+  struct Message {
+    std::string files, text;
   };
-  std::vector<Remark> all_;
+  std::vector<Message> all_;
 };
 
-/// The recordings so far, to find copies: data that an effect was fitted to cannot judge it.
+/// Hashes of the recordings read so far. Rejects copies, since data used for fitting cannot validate the fit.
 class Originals {
  public:
   /// Throws std::invalid_argument if another recording holds the same values.
@@ -56,7 +56,7 @@ class Originals {
     const auto same = std::ranges::find(all_, hash, &Original::hash);
     if (same != all_.end())
       throw std::invalid_argument(
-          fmt::format("{}: holds the same values as {}: a copy; leave it out", file, same->file));
+          fmt::format("{}: holds the same values as {}; remove the copy", file, same->file));
     all_.push_back({file, hash});
   }
 
@@ -88,45 +88,48 @@ erp::Robot read_chains(const std::string& robot_file) {
 
 Reading read_episodes(const erp::Robot& robot, const std::vector<std::string>& recordings) {
   Reading read;
-  Remarks odd;
+  Messages suspicious;
   Originals originals;
   for (const std::string& file : recordings) {
     const auto table =
         recording::read_table(file, {.robot = robot.name, .sequences = true, .sent = true});
     originals.add(file, table);
-    read.episodes.push_back(residuals::lay_out(table, robot, file, read.mended));
+    read.episodes.push_back(residuals::lay_out(table, robot, file, read.corrections));
     const residuals::Episode& episode = read.episodes.back();
     const double seconds = double(table.rows()) * episode.period_s;
     if (checks::nothing_changes(episode))
-      throw std::invalid_argument(
-          fmt::format("{}: nothing changes in it: every signal of {} holds one value for {:.1f} s; "
-                      "record the robot while it moves",
-                      file, robot.name, seconds));
+      throw std::invalid_argument(fmt::format(
+          "{}: no signal changes: every signal of {} holds one value for {:.1f} s; record the "
+          "robot while it moves",
+          file, robot.name, seconds));
     if (residuals::windows_of(episode, {}).empty())
-      read.mended.push_back(fmt::format(
-          "{}: {:.2g} s are too short to judge anything by: it counts for nothing", file, seconds));
-    odd.add(file, checks::table_checks(table, robot, file));
-    odd.add(file, checks::column_checks(episode, robot));
+      read.corrections.push_back(
+          fmt::format("{}: {:.2g} s are too short to evaluate any stage; the recording is ignored",
+                      file, seconds));
+    suspicious.add(file, checks::table_checks(table, robot, file));
+    suspicious.add(file, checks::column_checks(episode, robot));
   }
-  read.odd = odd.take();
-  residuals::keep_common(read.episodes, robot, read.mended);
-  sim::estimation::repair_defective_rows(read.episodes, read.mended);
-  sim::estimation::undo(sim::estimation::row_timing(read.episodes), read.episodes, read.mended);
-  sim::estimation::apply_limits(robot, read.episodes, read.mended);
+  read.suspicious = suspicious.take();
+  residuals::keep_common(read.episodes, robot, read.corrections);
+  sim::estimation::repair_defective_rows(read.episodes, read.corrections);
+  sim::estimation::undo(sim::estimation::row_timing(read.episodes), read.episodes,
+                        read.corrections);
+  sim::estimation::apply_limits(robot, read.episodes, read.corrections);
   return read;
 }
 
-bool can_judge(const std::vector<residuals::Episode>& episodes) {
+bool can_evaluate(const std::vector<residuals::Episode>& episodes) {
   return std::ranges::any_of(
       episodes, [](const residuals::Episode& e) { return !residuals::windows_of(e, {}).empty(); });
 }
 
-void tell(const std::vector<std::string>& list, std::ostream& remarks) {
-  for (const std::string& remark : list) remarks << remark << "\n";
+void print_lines(const std::vector<std::string>& messages, std::ostream& remarks) {
+  for (const std::string& message : messages) remarks << message << "\n";
 }
 
 void print_suspicious(const Reading& read, std::ostream& remarks) {
-  for (const std::string& odd : read.odd) remarks << "mend first  " << odd << "\n";
+  for (const std::string& fault : read.suspicious)
+    remarks << "fix the recording first: " << fault << "\n";
 }
 
 }  // namespace launch::gap

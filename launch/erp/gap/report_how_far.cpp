@@ -13,16 +13,16 @@ using svg::escaped;
 
 namespace {
 
-/// How far a channel was closed, in words where a share says nothing.
+/// Gap closure of a channel; text where a percentage has no meaning.
 std::string closed_of(const Closed& c, bool with_interval) {
   if (!c.has_gap())
-    return c.after > 1.5 * std::max(c.before, c.floor) ? "was no gap, is one now" : "–";
+    return c.after > 1.5 * std::max(c.before, c.floor) ? "no gap before, gap after" : "–";
   if (c.after > c.before) return fmt::format("{:.1f} times as large", c.after / c.before);
-  return fmt::format("{:.1f} %{}", 100 * std::min(1.0, c.closed),  // beyond is noise
-                     with_interval ? closed_interval(c) : "");
+  return fmt::format("{:.1f} %{}", 100 * std::min(1.0, c.closed),  // the excess is noise
+                     with_interval ? closure_interval(c) : "");
 }
 
-std::string share_of(double error, double driven_by) {
+std::string relative(double error, double driven_by) {
   return driven_by > 0 ? fmt::format("{:.2f} %", 100 * error / driven_by) : "–";
 }
 
@@ -30,26 +30,26 @@ std::string share_of(double error, double driven_by) {
 
 std::string page::stages(const Diagnosis& d) {
   std::string html =
-      "<table><tr><th>stage</th><th>residual</th><th>floor</th><th>after</th><th>closed</th>"
-      "<th>of what drives it, before</th><th>after</th></tr>\n";
+      "<table><tr><th>stage</th><th>residual before</th><th>noise</th><th>residual after</th>"
+      "<th>closed</th><th>share of the stage's input, before</th><th>after</th></tr>\n";
   for (const Closed& c : d.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
         escaped(c.channel), c.before, c.unit, c.floor, c.after, closed_of(c, true),
-        share_of(c.before, c.driven_by), share_of(c.after, c.driven_by));
+        relative(c.before, c.driven_by), relative(c.after, c.driven_by));
   return html + "</table>\n";
 }
 
-std::string page::free_running(const Diagnosis& d, const sim::closed_loop::FreeRun& run) {
+std::string page::free_run(const Diagnosis& d, const sim::closed_loop::FreeRun& run) {
   if (run.channels.empty()) return "";
   std::string html = fmt::format(
-      "<h2>The simulator let run freely</h2>\n<p>On the references of {}, in closed "
-      "loop with the firmware: {:.3g} times what noise alone would do before, {:.3g} after. "
-      "That is: {}{}.</p>\n<table><tr><th>channel</th><th>before</th><th>noise "
-      "alone</th>"
-      "<th>after</th><th>closed</th></tr>\n",
-      judged_on(d), run.all.before, run.all.after, closed_words(run.all), closed_interval(run.all));
+      "<h2>Free-run simulation</h2>\n<p>The simulator runs the references of {} in closed loop "
+      "with the firmware. Error: {:.3g} times the noise before, {:.3g} after: {}{}.</p>\n"
+      "<table><tr><th>channel</th><th>error before</th><th>noise</th><th>error after</th>"
+      "<th>closed</th></tr>\n",
+      validation_data(d), run.all.before, run.all.after, closure_text(run.all),
+      closure_interval(run.all));
   for (const Closed& c : run.channels)
     html += fmt::format(
         "<tr><td>{}</td><td>{:.3g} {}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td></tr>\n",

@@ -4,21 +4,21 @@
 #include "sim/gap/closed_loop/free_run.hpp"
 #include "sim/gap/diagnosis/diagnose.hpp"
 
-/// The parts of report.html, each a piece of the page; empty when there is nothing to say.
+/// The sections of report.html, each as HTML; empty if there is nothing to report.
 namespace launch::gap::page {
 
-std::string name_of(const sim::diagnosis::IdentifiedEffect& named);  ///< "coulomb on m.gear"
+std::string name_of(const sim::diagnosis::IdentifiedEffect& effect);  ///< "coulomb on m.gear"
 
-// where
+// location
 std::string chains(const sim::diagnosis::Diagnosis& diagnosis);
-std::string moments(const sim::diagnosis::Diagnosis& diagnosis);  ///< the worst
-// which
+std::string worst_windows(const sim::diagnosis::Diagnosis& diagnosis);
+// identification
 std::string ranking(const sim::diagnosis::Diagnosis& diagnosis);
 std::string constants(const sim::diagnosis::Diagnosis& diagnosis);
 std::string unexplained(const sim::diagnosis::Diagnosis& diagnosis);
-// how far
+// gap closure
 std::string stages(const sim::diagnosis::Diagnosis& diagnosis);
-std::string free_running(const sim::diagnosis::Diagnosis& diagnosis,
-                         const sim::closed_loop::FreeRun& run);
+std::string free_run(const sim::diagnosis::Diagnosis& diagnosis,
+                     const sim::closed_loop::FreeRun& run);
 
 }  // namespace launch::gap::page

@@ -12,78 +12,79 @@ using svg::escaped;
 
 namespace {
 
-/// How many places share as much as this one, for the sensors cannot tell them apart; it is in it.
-std::ptrdiff_t alike(const Diagnosis& d, const Attribution& one) {
+/// Number of places with the same share as this one, including it. The sensors cannot distinguish them.
+std::ptrdiff_t group_size(const Diagnosis& d, const Attribution& one) {
   return std::ranges::count_if(d.where, [&](const Attribution& p) { return p.share == one.share; });
 }
 
-/// The places that share the largest part.
-std::string alike(const Diagnosis& d) {
+/// The group of places with the largest share, if it has several.
+std::string group_text(const Diagnosis& d) {
   std::string names;
-  if (d.where.empty() || alike(d, d.where[0]) < 2) return "";
+  if (d.where.empty() || group_size(d, d.where[0]) < 2) return "";
   for (const Attribution& place : d.where)
     if (place.share == d.where[0].share)
       names += fmt::format("{}{} of {}", names.empty() ? "" : ", ", sim::effects::word(place.stage),
                            escaped(place.on));
-  return "<p>It is in one of these, which recordings of these sensors do not tell apart: " + names +
-         ".</p>\n";
+  return "<p>The gap is in one of these stages, which the recorded sensors do not distinguish: " +
+         names + ".</p>\n";
 }
 
-/// When the residual lives; once for places that are told apart by nothing.
+/// Conditions under which the residual is largest; once for places that cannot be distinguished.
 std::string when(const Diagnosis& d) {
   std::string html;
   for (const Attribution& place : d.where) {
     if (place.when.empty()) continue;
-    const auto told = fmt::format("{:.0f} % of the residual lives in the {} fifth of the {}.</p>\n",
-                                  100 * place.when[0].share, place.when[0].fifth,
-                                  escaped(place.when[0].variable));
-    if (html.find(told) == std::string::npos)
+    const auto text = fmt::format(
+        "{:.0f} % of the residual occurs in the {} fifth of the range of the {}.</p>\n",
+        100 * place.when[0].share, place.when[0].fifth, escaped(place.when[0].variable));
+    if (html.find(text) == std::string::npos)
       html +=
-          fmt::format("<p>{} of {}: {}", sim::effects::word(place.stage), escaped(place.on), told);
+          fmt::format("<p>{} of {}: {}", sim::effects::word(place.stage), escaped(place.on), text);
   }
   return html;
 }
 
 }  // namespace
 
-/// The chain of each actuator or joint that has a part of the gap.
+/// The chain of stages of each actuator or joint that has a share of the gap.
 std::string page::chains(const Diagnosis& d) {
   const std::vector<std::string> names{"bus",     "motor", "gearbox",  "spindle", "tendon",
                                        "routing", "joint", "skeleton", "sensor"};
   std::vector<std::string> places;
   for (const Attribution& place : d.where)
     if (!std::ranges::count(places, place.on)) places.push_back(place.on);
-  std::string html = "<h2>Where</h2>\n";
+  std::string html = "<h2>Location of the gap</h2>\n";
   const std::vector<double> none(names.size(), 0.0);
-  const std::vector<std::string> quiet(names.size(), "–");
+  const std::vector<std::string> no_notes(names.size(), "–");
   if (places.empty())
-    html += svg::chain(d.not_evaluated.empty() ? "every stage is at its floor"
-                                               : "every stage that could be judged is at its floor",
-                       names, none, quiet);
+    html += svg::chain(d.not_evaluated.empty()
+                           ? "the residual of every stage is within its noise"
+                           : "the residual of every evaluated stage is within its noise",
+                       names, none, no_notes);
   if (!d.not_evaluated.empty())
-    html += fmt::format("<p class=\"note\">Not judged: {}.</p>\n",
+    html += fmt::format("<p class=\"note\">Not evaluated: {}.</p>\n",
                         escaped(fmt::format("{}", fmt::join(d.not_evaluated, ", "))));
   for (const std::string& on : places) {
     auto shares = none;
-    auto notes = quiet;
+    auto notes = no_notes;
     for (const Attribution& place : d.where) {
       if (place.on != on || !(place.share > 0)) continue;
       const auto stage = static_cast<std::size_t>(place.stage);
-      const auto count = alike(d, place);
+      const auto count = group_size(d, place);
       shares[stage] += place.share;
       notes[stage] = count > 1 ? fmt::format("one of {}", count)
                                : fmt::format("{:.0f} %", 100 * shares[stage]);
     }
     html += svg::chain(on, names, shares, notes);
   }
-  return html + alike(d) + when(d);
+  return html + group_text(d) + when(d);
 }
 
-std::string page::moments(const Diagnosis& d) {
+std::string page::worst_windows(const Diagnosis& d) {
   if (d.worst.empty()) return "";
   std::string html =
-      "<h2>The worst moments</h2>\n<p class=\"note\">The green band is twice the noise; where a "
-      "line breaks, a window cannot be judged, as when a shaft rests.</p>\n";
+      "<h2>Largest residuals</h2>\n<p class=\"note\">The green band is twice the noise. A line is "
+      "interrupted where the residual cannot be evaluated, for example while a shaft rests.</p>\n";
   for (const WorstWindow& m : d.worst)
     html += svg::plot(
         {fmt::format("{} of {}, {}", sim::effects::word(m.stage), m.on, m.recording), "time, s",

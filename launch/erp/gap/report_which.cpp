@@ -30,18 +30,19 @@ std::string page::ranking(const Diagnosis& d) {
     rows.push_back(name_of(n)), cells.push_back(n.signature);
     cells.back().push_back(std::abs(n.likeness));
   }
-  columns.push_back("like the first");
+  columns.push_back("similarity to the first");
   std::string html =
-      "<h2>Which</h2>\n<p class=\"note\">Effects on the robot as described, each alone; first "
-      "those that remove "
-      "30 % of some stage's excess, of equals the plainer." +
+      "<h2>Candidate effects</h2>\n<p class=\"note\">Each effect alone, added to the robot as "
+      "described. Effects that remove 30 % of the excess of a stage come first; of equal effects "
+      "the simpler one comes first." +
       std::string(d.as_built && d.answer.empty()
-                      ? " None is part of the answer, which is constants."
+                      ? " None is part of the answer, which consists of constants."
                       : "") +
-      "</p>\n" + svg::bars("Share of the gap that each effect alone takes away, held out", bars, 1);
+      "</p>\n" + svg::bars("Gap closure of each effect alone on " + validation_data(d), bars, 1);
   if (!rows.empty())
-    html +=
-        svg::matrix("Signatures: at which stage an effect shows, in percent", rows, columns, cells);
+    html += svg::matrix(
+        "Signatures: share of the change that an effect causes at each stage, in percent", rows,
+        columns, cells);
   return html;
 }
 
@@ -63,7 +64,7 @@ std::string table_of(const std::vector<ConstantEstimate>& constants, Shown shown
   for (const ConstantEstimate& c : constants)
     if (shown(c)) rows += row_of(c);
   if (rows.empty()) return "<p>None.</p>\n";
-  return "<table><tr><th>on</th><th>constant</th><th>robot.xml</th><th>found</th><th>95 % "
+  return "<table><tr><th>on</th><th>constant</th><th>robot.xml</th><th>estimate</th><th>95 % "
          "interval</th><th></th></tr>\n" +
          rows + "</table>\n";
 }
@@ -72,29 +73,29 @@ std::string table_of(const std::vector<ConstantEstimate>& constants, Shown shown
 
 std::string page::constants(const Diagnosis& d) {
   if (d.constants.empty()) return "";
-  return "<h2>Constants</h2>\n<p class=\"note\">All were estimated together, each with its "
-         "tolerance "
-         "as prior. Those that the recordings show to be off:</p>\n" +
-         table_of(d.constants, [](const auto& c) { return c.beyond || is_off(c); }) +
-         fmt::format("<details><summary>All {}</summary>\n", d.constants.size()) +
+  return "<h2>Constants</h2>\n<p class=\"note\">All constants are estimated jointly, with their "
+         "tolerances as prior. Constants that deviate from robot.xml:</p>\n" +
+         table_of(d.constants, [](const auto& c) { return c.beyond || deviates(c); }) +
+         fmt::format("<details><summary>All {} constants</summary>\n", d.constants.size()) +
          table_of(d.constants, [](const auto&) { return true; }) + "</details>\n";
 }
 
 std::string page::unexplained(const Diagnosis& d) {
   if (d.unexplained.empty()) return "";
-  std::string html = "<h2>What no effect explains</h2>\n";
+  std::string html = "<h2>Unexplained residuals</h2>\n";
   if (d.verdict == Verdict::supported)
-    html += "<p>Small beside the gap that is explained, but more than noise:</p>\n";
+    html +=
+        "<p>These residuals are small compared with the explained gap, but exceed the noise:</p>\n";
   for (const Unexplained& u : d.unexplained) {
-    html += fmt::format("<p>{} of {}: {:.3g} times its noise.", sim::effects::word(u.stage),
-                        escaped(u.on), std::sqrt(1 + u.excess));
+    html += fmt::format("<p>{} of {}: residual {:.3g} times its noise.",
+                        sim::effects::word(u.stage), escaped(u.on), std::sqrt(1 + u.excess));
     if (!u.shape) {
       html += "</p>\n";
       continue;
     }
     html += fmt::format(
-        " A map over the {} foretells {:.0f} % of it, a constant {:.0f} %. Grey: its spread; noise "
-        "alone stays within the green band.</p>\n",
+        " A function of the {} predicts {:.0f} % of it, a constant {:.0f} %. Grey: standard "
+        "deviation; green: noise.</p>\n",
         escaped(u.shape->variable), 100 * std::max(0.0, u.shape->explained),
         100 * u.shape->constant);
     std::vector<double> low = u.shape->mean, high = u.shape->mean;

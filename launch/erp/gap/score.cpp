@@ -20,16 +20,16 @@ std::string type_of(const Json& j) { return j["type"].get<std::string>(); }
 std::string on_of(const Json& j) { return j["on"].get<std::string>(); }
 bool same(const Json& a, const Json& b) { return type_of(a) == type_of(b) && on_of(a) == on_of(b); }
 
-/// Shares of yes.
+/// A success rate.
 struct Rate {
   int yes = 0, of = 0;
   void count(bool is) { ++of, yes += is; }
-  std::string told() const {
+  std::string text() const {
     return of ? fmt::format("{:5.1f} %  ({} of {})", 100.0 * yes / of, yes, of) : "-";
   }
 };
 
-/// What one kind of case came to.
+/// Score of all cases of one kind.
 struct Score {
   std::map<std::string, Rate> rates;
   std::vector<std::string> failures;
@@ -44,7 +44,7 @@ std::vector<Json> answer_of(const Json& diagnosis) {
   return all;
 }
 
-std::string what(const Json& truth) {
+std::string hidden_text(const Json& truth) {
   std::string text;
   for (const Json& h : truth["hidden"]) {
     text += fmt::format("{}{} on {}", text.empty() ? "" : " + ", type_of(h), on_of(h));
@@ -54,7 +54,7 @@ std::string what(const Json& truth) {
   return text;
 }
 
-std::string said(const Json& diagnosis) {
+std::string reported_text(const Json& diagnosis) {
   std::string text = diagnosis["verdict"].get<std::string>();
   for (const Json& effect : answer_of(diagnosis))
     text += fmt::format(", {} on {}", type_of(effect), on_of(effect));
@@ -65,7 +65,8 @@ std::string said(const Json& diagnosis) {
 }
 
 std::string failure(const Json& truth, const Json& diagnosis) {
-  return fmt::format("{}: {} | {}", truth["case"].get<std::string>(), what(truth), said(diagnosis));
+  return fmt::format("{}: {} | {}", truth["case"].get<std::string>(), hidden_text(truth),
+                     reported_text(diagnosis));
 }
 
 bool located(const Json& hidden, const Json& diagnosis) {
@@ -73,7 +74,7 @@ bool located(const Json& hidden, const Json& diagnosis) {
          diagnosis["where"][0]["on"] == hidden["on"];
 }
 
-/// How many places are named first, alike.
+/// Number of places with the largest share.
 std::size_t group_size(const Json& diagnosis) {
   std::size_t size = 0;
   for (const Json& place : diagnosis["where"])
@@ -81,7 +82,7 @@ std::size_t group_size(const Json& diagnosis) {
   return size;
 }
 
-/// The place that is named first, with other stages that could not be told from it.
+/// Whether the hidden effect is at one of the places with the largest share.
 bool in_group(const Json& hidden, const Json& diagnosis) {
   for (const Json& place : diagnosis["where"])
     if (place["on"] == hidden["on"] && place["stage"] == hidden["stage"] &&
@@ -90,20 +91,20 @@ bool in_group(const Json& hidden, const Json& diagnosis) {
   return false;
 }
 
-/// Counts the intervals that hold the true value, of parameters that both call the same.
+/// Counts the intervals that contain the true value, for parameters that truth and diagnosis have in common.
 void count_intervals(const Json& hidden, const Json& effect, Rate& rate) {
   for (const auto& [name, value] : hidden["parameters"].items())
     if (effect["intervals"].contains(name))
       rate.count(effect["intervals"][name][0] <= value && value <= effect["intervals"][name][1]);
 }
 
-/// Of a gap that is no more than noise a share says nothing.
+/// Gap closure by the true effect. If the gap is within the noise, a percentage has no meaning.
 std::string truth_closes(double share) {
   return share < 0 || share > 1.1 ? "a gap within the noise"
                                   : fmt::format("truth closes {:.0f} %", 100 * share);
 }
 
-/// `most`: what the truth closes, if the library has it.
+/// `most`: gap closure by the true effect, if the library has it.
 void score_single(const Json& truth, const Json& d, std::optional<double> most, Score& score) {
   const Json& hidden = truth["hidden"][0];
   const auto answer = answer_of(d);
@@ -117,9 +118,10 @@ void score_single(const Json& truth, const Json& d, std::optional<double> most, 
   score.set_size += static_cast<double>(std::max<std::size_t>(1, d["confusable"].size()));
   ++score.sets;
   for (const Json& effect : d["effects"])
-    if (same(effect, hidden)) count_intervals(hidden, effect, score.rates["4 interval holds"]);
-  score.rates["6 confident and the stage wrong"].count(d["verdict"] == "supported" && !in_set &&
-                                                       !in_group(hidden, d));
+    if (same(effect, hidden))
+      count_intervals(hidden, effect, score.rates["4 interval contains true value"]);
+  score.rates["6 supported, but wrong stage"].count(d["verdict"] == "supported" && !in_set &&
+                                                    !in_group(hidden, d));
   score.group_size += double(group_size(d)), score.groups += !d["where"].empty();
   constexpr double worth_closing = 0.02;
   if (most && *most > worth_closing)
@@ -140,8 +142,8 @@ void score_none(const Json& truth, const Json& d, Score& score) {
   if (!none || !stage) score.failures.push_back(failure(truth, d));
 }
 
-/// They are in one set of what could not be told apart.
-bool stand_for_each_other(const Json& diagnosis, const Json& one, const Json& other) {
+/// Whether two effects are in the same set of equivalent effects.
+bool equivalent(const Json& diagnosis, const Json& one, const Json& other) {
   for (const Json& a : diagnosis["confusable"])
     for (const Json& b : diagnosis["confusable"])
       if (a["set"] == b["set"] && same(a, one) && same(b, other)) return true;
@@ -150,15 +152,15 @@ bool stand_for_each_other(const Json& diagnosis, const Json& one, const Json& ot
 
 void score_pair(const Json& truth, const Json& d, Score& score) {
   const auto answer = answer_of(d);
-  const auto tells = [&](const Json& effect, const Json& hidden) {
-    return same(effect, hidden) || stand_for_each_other(d, effect, hidden);
+  const auto matches = [&](const Json& effect, const Json& hidden) {
+    return same(effect, hidden) || equivalent(d, effect, hidden);
   };
   int found = 0, right = 0;
   for (const Json& hidden : truth["hidden"])
-    found += std::ranges::any_of(answer, [&](const Json& a) { return tells(a, hidden); });
+    found += std::ranges::any_of(answer, [&](const Json& a) { return matches(a, hidden); });
   for (const Json& a : answer)
-    right += std::ranges::any_of(truth["hidden"], [&](const Json& h) { return tells(a, h); });
-  score.rates["1 both in the answer or its set"].count(found == 2);
+    right += std::ranges::any_of(truth["hidden"], [&](const Json& h) { return matches(a, h); });
+  score.rates["1 both effects in answer or set"].count(found == 2);
   score.precision += answer.empty() ? 0 : double(right) / double(answer.size());
   score.recall += found / 2.0, ++score.answers;
   if (found < 2) score.failures.push_back(failure(truth, d));
@@ -169,22 +171,22 @@ void score_null(const Json& truth, const Json& d, Score& score) {
   score.rates["1 false alarms"].count(alarm);
   if (alarm)
     score.failures.push_back(
-        fmt::format("{}: nothing | {}", truth["case"].get<std::string>(), said(d)));
+        fmt::format("{}: nothing | {}", truth["case"].get<std::string>(), reported_text(d)));
 }
 
-/// Whether an effect is one that constants stand for.
+/// Whether an effect is the deviation of a constant.
 bool is_constant(const Json& effect, const std::vector<std::string>& of_constants) {
   return std::ranges::count(of_constants, type_of(effect)) > 0;
 }
 
-/// The constant of a diagnosis that is that number; null: none is.
+/// The constant of a diagnosis that corresponds to a true number; null if there is none.
 Json constant_of(const Json& number, const Json& d) {
   for (const Json& c : d["constants"])
     if (c["on"] == number["on"] && c["name"] == number["name"]) return c;
   return {};
 }
 
-/// Of constants that the recordings determined, whose intervals hold the number drawn.
+/// Counts the intervals that contain the true number, for constants that the recordings determine.
 void count_numbers(const Json& truth, const Json& d, Rate& rate) {
   for (const Json& number : truth["numbers"])
     if (const Json c = constant_of(number, d);
@@ -192,19 +194,20 @@ void count_numbers(const Json& truth, const Json& d, Rate& rate) {
       rate.count(c["interval"][0] <= number["value"] && number["value"] <= c["interval"][1]);
 }
 
-/// Of estimated numbers: which errors of twice their interval are said to differ, and which of those are none.
-void count_named(const Json& truth, const Json& d, Rate& named, Rate& falsely) {
+/// Counts errors larger than their interval that are reported to differ, and reported errors of constants that are
+/// exact.
+void count_named(const Json& truth, const Json& d, Rate& reported, Rate& false_reports) {
   for (const Json& number : truth["numbers"]) {
     const Json c = constant_of(number, d);
     if (c.is_null()) continue;
     const double nominal = c["nominal"], error = number["value"].get<double>() - nominal;
     const double half = (c["interval"][1].get<double>() - c["interval"][0].get<double>()) / 2;
-    if (std::abs(error) > 2 * half) named.count(c["differs"]);
-    if (c["differs"]) falsely.count(std::abs(error) < 1e-9 * std::abs(nominal));
+    if (std::abs(error) > 2 * half) reported.count(c["differs"]);
+    if (c["differs"]) false_reports.count(std::abs(error) < 1e-9 * std::abs(nominal));
   }
 }
 
-/// Nothing hidden, but every number a little off, or some of them.
+/// Scores robots without a hidden effect whose constants deviate.
 void score_tolerance(const Json& truth, const Json& d, const std::vector<std::string>& of_constants,
                      Score& score) {
   const auto answer = answer_of(d);
@@ -213,14 +216,14 @@ void score_tolerance(const Json& truth, const Json& d, const std::vector<std::st
   const bool explained = d["verdict"] == "supported" || d["verdict"] == "no_gap";
   const double closed = d["verdict"] == "no_gap" ? 1 : d["gap"]["closed"].get<double>();
   score.rates["1 explained by constants alone"].count(explained && !structural);
-  score.rates["2 98 % closed"].count(closed >= 0.98);
-  count_numbers(truth, d, score.rates["4 interval holds the number"]);
+  score.rates["2 98 % of the gap closed"].count(closed >= 0.98);
+  count_numbers(truth, d, score.rates["4 interval contains constant"]);
   if (const Json free = d["gap"].value("free_running", Json::object());
       !free.empty() && free["before"] > 1.5 * free["floor"].get<double>())
-    score.rates["3 90 % of the free run"].count(explained && free["closed"] >= 0.9);
+    score.rates["3 90 % closed in free run"].count(explained && free["closed"] >= 0.9);
   if (truth["kind"] == "many")
-    count_named(truth, d, score.rates["5 named, of errors seen"],
-                score.rates["6 falsely, of those named"]);
+    count_named(truth, d, score.rates["5 visible errors reported"],
+                score.rates["6 false among reported errors"]);
   if (!explained || structural) score.failures.push_back(failure(truth, d));
 }
 
@@ -233,13 +236,13 @@ std::vector<std::string> effects_of_constants(const erp::Robot& robot) {
 void print(const std::string& kind, const Score& score, std::ostream& out) {
   out << kind << "\n";
   for (const auto& [name, rate] : score.rates)
-    out << fmt::format("  {:<29} {}\n", name.substr(2), rate.told());
+    out << fmt::format("  {:<29} {}\n", name.substr(2), rate.text());
   if (score.sets > 0)
     out << fmt::format("  {:<29} {:5.2f}\n", "mean set size", score.set_size / score.sets);
   if (score.groups > 0)
     out << fmt::format("  {:<29} {:5.2f}\n", "mean group size", score.group_size / score.groups);
   if (score.closings > 0)
-    out << fmt::format("  {:<29} {:5.1f} %\n", "closed, of what truth closes",
+    out << fmt::format("  {:<29} {:5.1f} %\n", "closure relative to truth",
                        100 * score.closed / score.closings);
   if (score.answers > 0) {
     const double p = score.precision / score.answers, r = score.recall / score.answers;
@@ -255,9 +258,8 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
   const Json manifest = Json::parse(read_text(folder + "/cases.json"));
   const std::string sealed = read_text(truth_file);
   if (sha256(sealed) != manifest["truth_sha256"])
-    throw std::invalid_argument(truth_file + ": is not the truth of " + folder +
-                                ", its hash is another; give the file that --truth named when the "
-                                "cases were made");
+    throw std::invalid_argument(truth_file + ": its hash differs from that of the truth of " +
+                                folder + "; pass the --truth file of erp gap blind make");
   const Json truths = Json::parse(sealed);
   std::vector<std::string> of_constants;
   std::map<std::string, Score> scores;
@@ -275,7 +277,7 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
     Score& score = scores[kind];
     if (hides == "single") {
       score_single(truth, d, built ? std::nullopt : closed_by_truth(folder, truth), score);
-      if (built) count_numbers(truth, d, score.rates["7 interval holds the number"]);
+      if (built) count_numbers(truth, d, score.rates["7 interval contains constant"]);
     }
     if (hides == "many" || (hides == "null" && built)) {
       if (of_constants.empty())
@@ -288,7 +290,7 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
   }
   for (const auto& [kind, score] : scores) print(kind, score, out);
   if (missing)
-    out << fmt::format("{} of {} cases not diagnosed: erp gap blind run {}\n", missing,
+    out << fmt::format("{} of {} cases not diagnosed; run erp gap blind run {}\n", missing,
                        truths.size(), folder);
   return missing ? 5 : 0;
 }

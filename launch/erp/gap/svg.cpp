@@ -24,7 +24,7 @@ std::string opened(int width, int height) {
                      width, height);
 }
 
-/// White to dark blue.
+/// Colour from white (0) to dark blue (1).
 std::string shade(double share) {
   const double s = std::clamp(share, 0.0, 1.0);
   return fmt::format("rgb({:.0f},{:.0f},{:.0f})", 255 - 225 * s, 255 - 165 * s, 255 - 95 * s);
@@ -32,7 +32,7 @@ std::string shade(double share) {
 
 struct Range {
   double low = 1e300, high = -1e300;
-  void hold(double v) {
+  void include(double v) {
     if (!std::isnan(v)) low = std::min(low, v), high = std::max(high, v);
   }
   void widen() {
@@ -43,7 +43,7 @@ struct Range {
   double at(double v) const { return (v - low) / (high - low); }
 };
 
-/// About four round numbers.
+/// About four round values within the range.
 std::vector<double> ticks(const Range& range) {
   const double rough = (range.high - range.low) / 4;
   const double power = std::pow(10, std::floor(std::log10(rough)));
@@ -72,10 +72,10 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
   const double w = axes.width - left - right, h = axes.height - top - bottom;
   Range x, y;
   for (const Line& line : lines) {
-    for (const double v : line.x) x.hold(v);
-    for (const double v : line.y) y.hold(v);
+    for (const double v : line.x) x.include(v);
+    for (const double v : line.y) y.include(v);
   }
-  if (axes.band > 0) y.hold(axes.band), y.hold(-axes.band);
+  if (axes.band > 0) y.include(axes.band), y.include(-axes.band);
   if (x.low > x.high) x = {0, 1};
   y.widen();
   const auto px = [&](double v) { return left + w * x.at(v); };
@@ -92,7 +92,7 @@ std::string plot(const Axes& axes, const std::vector<Line>& lines) {
   svg += text(left + w / 2, axes.height - 6, axes.x_label, "middle");
   svg += text(axes.width - right, 16, axes.y_label, "end");
   double legend = left + w;
-  // From the last, which is drawn widest, to the first: where they are one, all of them are seen.
+  // The last line is drawn first and widest, so that all lines are visible where they coincide.
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     const double wide = 1.4 + 1.2 * double(lines.rend() - line - 1);
     std::string path;

@@ -37,7 +37,7 @@ std::optional<double> closed_by_truth(const std::string& folder,
   const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
   const std::string place = folder + "/" + truth["case"].get<std::string>();
   const auto d = nlohmann::ordered_json::parse(read_text(place + "/diagnosis.json"));
-  std::vector<std::string> files;  // wherever it was diagnosed from
+  std::vector<std::string> files;  // the diagnosis may have used other paths
   for (const auto& name : d["held_out"])
     files.push_back(place + "/" +
                     std::filesystem::path(name.get<std::string>()).filename().string());

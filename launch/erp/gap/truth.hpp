@@ -5,10 +5,11 @@
 
 namespace launch::gap {
 
+/// SHA-256 hash as hexadecimal digits.
 std::string sha256(const std::string& text);
 
-/// The fraction of the gap that what was hidden closes, with its true parameters as the library
-/// has them, on the recordings that the diagnosis held out. Nothing: it is not in the library.
+/// Gap closure of the hidden effects with their true parameters, on the recordings that the diagnosis held out;
+/// empty if the library does not have a hidden effect.
 std::optional<double> closed_by_truth(const std::string& folder,
                                       const nlohmann::ordered_json& truth);
 

@@ -20,7 +20,7 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
                                                 : fmt::format("{:.0f} %", 100 * gap.share);
   if (!gap.judged) {
     out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n",
-                       sim::effects::word(gap.stage), gap.on, "not judged", "-", "-", "-",
+                       sim::effects::word(gap.stage), gap.on, "not evaluated", "-", "-", "-",
                        gap.windows);
     return;
   }
@@ -29,49 +29,49 @@ void print_row(const diagnosis::StageGap& gap, std::ostream& out) {
                      gap.floor > 0 ? gap.rms / gap.floor : 0, share, gap.windows);
 }
 
-/// The bus changes no residual: what the ECUs followed says how late it is.
+/// Delay of the bus. It changes no residual; the ages of the commands that the ECUs executed show it.
 struct Bus {
   std::vector<diagnosis::Ages> ages;
-  bool there, told, late;
-  bool explained = false;  ///< late as an effect of the bus has it
+  bool present, evaluated, late;
+  bool explained = false;  ///< an effect of the bus explains the ages
   double voltage_late_s;   ///< row_timing.hpp
 };
 
-Bus look_at_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& episodes) {
+Bus evaluate_bus(const erp::Robot& robot, const std::vector<residuals::Episode>& episodes) {
   Bus bus;
   for (const auto& e : episodes) bus.ages.push_back(diagnosis::command_ages(e, robot));
-  bus.there = robot.drives.empty(), bus.told = bus.there && diagnosis::told(bus.ages);
+  bus.present = robot.drives.empty(), bus.evaluated = bus.present && diagnosis::has_enough_ages(bus.ages);
   bus.voltage_late_s = episodes.empty() ? 0 : episodes[0].voltage_late_s;
-  bus.late = bus.told && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
+  bus.late = bus.evaluated && diagnosis::late_share(bus.ages) > diagnosis::practical_late;
   const auto fits = diagnosis::fit_bus(bus.ages, bus.ages, robot, {});
   bus.explained = !fits.empty() && fits[0].supported;
   return bus;
 }
 
-/// Whether anything could be judged.
-bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>& gaps,
-                 const Bus& bus, std::ostream& out) {
+/// Returns whether any stage could be evaluated.
+bool print_summary(const erp::Robot& robot, const std::vector<diagnosis::StageGap>& gaps,
+                   const Bus& bus, std::ostream& out) {
   std::string open;
   for (const auto& gap : gaps)
     if (gap.open)
       open += fmt::format("{}{} of {}", open.empty() ? "" : ", ", sim::effects::word(gap.stage),
                           gap.on);
-  auto unjudged = diagnosis::not_evaluated(robot, gaps);
-  if (bus.there && !bus.told) unjudged.emplace_back("the bus");
-  const bool some = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
-  if (!unjudged.empty())
-    out << fmt::format("not judged, for lack of signals or of motion: {}\n",
-                       fmt::join(unjudged, ", "));
+  auto not_evaluated = diagnosis::not_evaluated(robot, gaps);
+  if (bus.present && !bus.evaluated) not_evaluated.emplace_back("the bus");
+  const bool any = std::ranges::any_of(gaps, &diagnosis::StageGap::judged);
+  if (!not_evaluated.empty())
+    out << fmt::format("not evaluated, because signals or motion are missing: {}\n",
+                       fmt::join(not_evaluated, ", "));
   if (bus.late && !bus.explained)
     out << fmt::format(
-        "in {:.0f} % of the ticks with a new command the ECUs followed an older one by their law, "
-        "and no effect of the bus explains how old: a wrong tension or shaft column would look the "
-        "same\n",
+        "in {:.0f} % of the ticks with a new command the ECUs appear to have executed an older "
+        "command, but no effect of the bus explains the ages; check the tension and shaft columns, "
+        "whose errors look the same\n",
         100 * diagnosis::late_share(bus.ages));
   else if (bus.late)
     out << fmt::format(
-        "the bus is late: in {:.0f} % of the ticks with a new command the ECUs followed "
-        "an older one, {:.3g} ms old in the mean\n",
+        "the bus is late: in {:.0f} % of the ticks with a new command the ECUs executed an older "
+        "command, {:.3g} ms old on average\n",
         100 * diagnosis::late_share(bus.ages), 1e3 * diagnosis::mean_age_s(bus.ages));
   if (const double late_s = bus.voltage_late_s; late_s > 0)
     out << fmt::format(
@@ -79,11 +79,13 @@ bool print_words(const erp::Robot& robot, const std::vector<diagnosis::StageGap>
         "time\n",
         1e3 * late_s);
   if (!open.empty()) out << "the gap is in: " << open << "\n";
-  else if (!some) out << nothing_judged;
-  else if (bus.late) out << "no gap elsewhere: the residuals of what was judged are noise\n";
-  else if (unjudged.empty()) out << "no gap: the residuals of every stage are noise\n";
-  else out << "no gap in the others: their residuals are noise\n";
-  return some;
+  else if (!any) out << nothing_evaluated;
+  else if (bus.late)
+    out << "no gap elsewhere: the residuals of all evaluated stages are within their noise\n";
+  else if (not_evaluated.empty())
+    out << "no gap: the residuals of all stages are within their noise\n";
+  else out << "no gap in the other stages: their residuals are within their noise\n";
+  return any;
 }
 
 }  // namespace
@@ -92,12 +94,12 @@ int where(const std::string& robot_file, const std::vector<std::string>& recordi
           std::ostream& out, std::ostream& remarks) {
   const erp::Robot robot = read_chains(robot_file);
   const Reading read = read_episodes(robot, recordings);
-  tell(read.mended, remarks), print_suspicious(read, remarks);
+  print_lines(read.corrections, remarks), print_suspicious(read, remarks);
   const auto gaps = diagnosis::localize(robot, read.episodes);
   out << fmt::format("{:<8} {:<24} {:>13} {:>9} {:>7} {:>7} {:>8}\n", "stage", "on", "residual",
-                     "floor", "times", "share", "windows");
+                     "noise", "ratio", "share", "windows");
   for (const auto& gap : gaps) print_row(gap, out);
-  return print_words(robot, gaps, look_at_bus(robot, read.episodes), out) ? 0 : 5;
+  return print_summary(robot, gaps, evaluate_bus(robot, read.episodes), out) ? 0 : 5;
 }
 
 }  // namespace launch::gap

@@ -10,22 +10,22 @@
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "launch/erp/verbs/ask.hpp"
 #include "launch/erp/gap/gap.hpp"
+#include "launch/erp/verbs/component_check.hpp"
+#include "sim/control/loop_shaping/joint_loops.hpp"
 #include "sim/learning/calibration/parameters.hpp"
-#include "sim/model/cameras/view.hpp"
-#include "sim/model/effects/library.hpp"
 #include "sim/learning/experience/base_file.hpp"
 #include "sim/learning/experience/task.hpp"
-#include "sim/learning/muscle_networks/learnt_lengths.hpp"
-#include "sim/control/loop_shaping/joint_loops.hpp"
-#include "sim/learning/sensorimotor/learnt_file.hpp"
+#include "sim/learning/muscle_networks/learned_lengths.hpp"
+#include "sim/learning/sensorimotor/learned_map_file.hpp"
 #include "sim/learning/synergy/task.hpp"
+#include "sim/model/cameras/view.hpp"
+#include "sim/model/effects/library.hpp"
 
 namespace launch {
 namespace {
 
-/// Checks files, each once, and whatever a graph names.
+/// Checks files, each once, and the files that a graph names.
 class Checker {
  public:
   Checker(std::ostream& out, const CheckComponent& component) : out_(out), component_(component) {}
@@ -36,12 +36,12 @@ class Checker {
     try {
       check_as(xml::read_document(file), file);
     } catch (const xml::Errors& errors) {
-      complain(errors.what());
+      print_errors(errors.what());
     } catch (const std::invalid_argument& error) {
-      complain(file + ": " + error.what());
+      print_errors(file + ": " + error.what());
     }
   }
-  int exit_code() const { return sound_ ? 0 : 2; }
+  int exit_code() const { return valid_ ? 0 : 2; }
 
  private:
   void check_as(const xml::Element& root, const std::string& file) {
@@ -50,64 +50,64 @@ class Checker {
       sim::effects::equip(robot);
       launch::gap::read_chains(file);  // throws if a tolerance matches no number
       erp::refuse_overload(robot);
-      praise(file);
+      print_ok(file);
       if (!robot.can_buses.empty())
         for (const erp::BusLoad& load : erp::bus_loads(robot))
           out_ << "  bus " << to_string(load) << '\n';
     } else if (root.name == erp::Graph::element) {
       const erp::Graph graph = erp::read_graph(file);
-      praise(file);
+      print_ok(file);
       check(graph.robot);
       for (const erp::GraphComponent& line : graph.components)
         if (!line.config.empty()) check(line.config);
     } else if (reads_as_one_of<sim::calibration::Choice, sim::cameras::ViewConfig,
-                               sim::muscle_networks::LearntMuscles, sim::loop_shaping::JointShape,
-                               sim::sensorimotor::LearntFile, sim::experience::Task,
+                               sim::muscle_networks::LearnedMuscles, sim::loop_shaping::JointShape,
+                               sim::sensorimotor::LearnedMapFile, sim::experience::Task,
                                sim::experience::BaseFile, sim::synergy::Task,
                                sim::synergy::BankFile>(root.name, file)) {
-      praise(file);
+      print_ok(file);
     } else {
       check_config(root, file);
     }
   }
 
-  /// Files that configs and verbs name. Throws Errors.
+  /// Reads a file that a config or a verb names, by its root element. Throws Errors.
   template <class... Kind>
   bool reads_as_one_of(const std::string& root, const std::string& file) {
     return ((root == Kind::element && (xml::read<Kind>(file), true)) || ...);
   }
 
   void check_config(const xml::Element& root, const std::string& file) {
-    const auto mistakes = component_ ? component_(root.name, file) : std::nullopt;
-    if (!mistakes)
-      complain(to_string(
+    const auto errors = component_ ? component_(root.name, file) : std::nullopt;
+    if (!errors)
+      print_errors(to_string(
           xml::error_in(root.name, root.place, "no component of this type is installed",
                         xml::did_you_mean(root.name, {erp::Robot::element, erp::Graph::element}) +
                             ", or the type of a component")));
-    else if (!mistakes->empty()) complain(*mistakes);
-    else praise(file);
+    else if (!errors->empty()) print_errors(*errors);
+    else print_ok(file);
   }
 
-  void praise(const std::string& file) { out_ << file << ": ok\n"; }
-  void complain(const std::string& lines) {
-    sound_ = false;
+  void print_ok(const std::string& file) { out_ << file << ": ok\n"; }
+  void print_errors(const std::string& lines) {
+    valid_ = false;
     out_ << lines << (lines.ends_with('\n') ? "" : "\n");
   }
 
   std::ostream& out_;
   const CheckComponent& component_;
   std::set<std::string> done_;
-  bool sound_ = true;
+  bool valid_ = true;
 };
 
 }  // namespace
 
-CheckComponent ask_program(std::function<std::string(const std::string&)> find) {
+CheckComponent check_by_program(std::function<std::string(const std::string&)> find) {
   return [find = std::move(find)](const std::string& type,
                                   const std::string& file) -> std::optional<std::string> {
     const std::string program = find(type);
     if (program.empty()) return std::nullopt;
-    return ask_to_check({program, "--config", file});
+    return check_component({program, "--config", file});
   };
 }
 
@@ -123,7 +123,7 @@ void print_schema(const std::string& kind, std::ostream& out) {
   else if (kind == erp::Graph::element) out << xml::schema<erp::Graph>();
   else
     throw xml::Errors({{{"--schema " + kind, 0, 0},
-                        "there is no such schema",
+                        "no schema has this name",
                         xml::did_you_mean(kind, {erp::Robot::element, erp::Graph::element})}});
 }
 

@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
-/// `erp check FILE…`: every mistake in XML files, without starting anything.
+/// `erp check FILE…`: all errors in XML files, without starting a graph.
 namespace launch {
 
-/// What a component says about its config file: the lines of its mistakes, "" when there are none,
-/// nothing when no component of that type is known.
+/// Checks the config file of a component. Returns its errors, one per line, "" if there are none,
+/// and nothing if the component type is unknown.
 using CheckComponent =
     std::function<std::optional<std::string>(const std::string& type, const std::string& file)>;
 
-/// Asks the component's own program: `PROGRAM --config FILE --check`. `find` gives the program of a
-/// type, or "".
-CheckComponent ask_program(std::function<std::string(const std::string& type)> find);
+/// Checks with the component's own program: `PROGRAM --config FILE --check`. `find` returns the
+/// program of a type, or "".
+CheckComponent check_by_program(std::function<std::string(const std::string& type)> find);
 
 /// Checks each file by its root element: a robot, a graph with the robot and the configs it names,
-/// or a component's config. Prints one line a mistake, or `FILE: ok`. Returns 0, or 2 when there
-/// are mistakes.
+/// or a component's config. Prints one line per error, or `FILE: ok`. Returns 0, or 2 if there are
+/// errors.
 int check(const std::vector<std::string>& files, std::ostream& out,
           const CheckComponent& component = {});
 

@@ -6,14 +6,14 @@
 
 namespace launch {
 
-/// Durations of one window, and their order statistics. Empty: all zero.
+/// Values of one window and their order statistics; 0 without values.
 class Spread {
  public:
   void add(double value) { values_.push_back(value), sorted_ = false; }
   void clear() { values_.clear(); }
   std::size_t count() const { return values_.size(); }
 
-  /// The smallest value that at least a fraction `q` of the values does not exceed.
+  /// Quantile: the smallest value that is not below a fraction `q` of the values.
   double quantile(double q) {
     if (values_.empty()) return 0;
     if (!sorted_) std::sort(values_.begin(), values_.end()), sorted_ = true;

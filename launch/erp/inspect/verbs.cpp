@@ -5,8 +5,9 @@
 #include <stdexcept>
 
 #include "launch/erp/inspect/check.hpp"
-#include "launch/erp/inspect/listen.hpp"
-#include "launch/erp/inspect/look.hpp"
+#include "launch/erp/inspect/graph_view.hpp"
+#include "launch/erp/inspect/reference.hpp"
+#include "launch/erp/inspect/topic_view.hpp"
 #include "launch/erp/run/program.hpp"
 #include "launch/erp/text/duration.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"
@@ -14,57 +15,71 @@
 namespace launch {
 
 void add_check(CLI::App& app, Chosen& chosen) {
-  auto* verb = app.add_subcommand("check", "Find every mistake in robot, graph and config files");
+  auto* verb =
+      app.add_subcommand("check", "Check robot, graph and config files and print all errors");
   auto files = std::make_shared<std::vector<std::string>>();
   auto schema = std::make_shared<std::string>();
-  auto* named = verb->add_option("files", *files, "XML files; a graph brings what it names");
-  verb->add_option("--schema", *schema, "print the XSD of robot or graph instead")->excludes(named);
+  auto* named =
+      verb->add_option("files", *files, "XML files; for a graph, also the files that it names");
+  verb->add_option("--schema", *schema, "print the XSD of robot or graph instead of checking files")
+      ->excludes(named);
   verb->callback([files, schema, &chosen] {
     chosen = [files, schema] {
       if (!schema->empty()) return print_schema(*schema, std::cout), 0;
       if (files->empty()) throw std::invalid_argument("check: name at least one file");
       const auto find = [](const std::string& type) { return find_program(type, "."); };
-      return check(*files, std::cout, ask_program(find));
+      return check(*files, std::cout, check_by_program(find));
     };
   });
 }
 
-void add_look(CLI::App& app, Chosen& chosen) {
-  app.add_subcommand("ps", "Components on the bus: state, rate, age of their input, jitter")
+void add_help(CLI::App& app, Chosen& chosen) {
+  auto* verb = app.add_subcommand(
+      "help", "Print all elements and attributes of robot or graph: type, range, default, meaning");
+  auto format = std::make_shared<std::string>();
+  verb->add_option("format", *format, "robot or graph")->required();
+  verb->callback(
+      [format, &chosen] { chosen = [format] { return print_reference(*format, std::cout), 0; }; });
+}
+
+void add_graph_view(CLI::App& app, Chosen& chosen) {
+  app.add_subcommand("ps", "List components on the bus: state, rate, age of their input, jitter")
       ->callback([&chosen] { chosen = [] { return show_components(std::cout); }; });
-  app.add_subcommand("ls", "Topics on the bus: type, who writes, who reads")->callback([&chosen] {
+  app.add_subcommand("ls", "List topics on the bus: type, writers, readers")->callback([&chosen] {
     chosen = [] { return show_topics(std::cout); };
   });
-  auto* graph =
-      app.add_subcommand("graph", "The running graph in DOT, for graphviz: erp graph | dot -Tsvg");
+  auto* graph = app.add_subcommand(
+      "graph", "Print the running graph in DOT, for graphviz: erp graph | dot -Tsvg");
   auto all = std::make_shared<bool>(false);
-  graph->add_flag("--all", *all, "with heartbeats, lifecycle, events and the tools of erp");
+  graph->add_flag("--all", *all, "include heartbeats, lifecycle, events and the tools of erp");
   graph->callback([all, &chosen] { chosen = [all] { return show_graph(*all, std::cout); }; });
 }
 
-static void add_one_listen(CLI::App& app, Chosen& chosen, const char* name, const char* help,
-                           int (*listen)(const ListenOptions&, std::ostream&),
-                           bool counts_messages) {
+static void add_topic_verb(CLI::App& app, Chosen& chosen, const char* name, const char* help,
+                           int (*view)(const TopicViewOptions&, std::ostream&),
+                           bool has_message_count) {
   auto* verb = app.add_subcommand(name, help);
-  auto options = std::make_shared<ListenOptions>();
+  auto options = std::make_shared<TopicViewOptions>();
   auto duration = std::make_shared<std::string>();
-  verb->add_option("topic", options->topic, "any topic of erp ls")->required();
-  verb->add_option("--for", *duration, "end after 20s, 500ms, 2min … (default: at Ctrl-C)");
-  if (counts_messages)
-    verb->add_option("-n", options->messages, "end after so many messages")->check(above_zero());
-  verb->callback([options, duration, listen, &chosen] {
-    chosen = [options, duration, listen] {
+  verb->add_option("topic", options->topic, "topic, as listed by erp ls")->required();
+  verb->add_option("--for", *duration, "duration: 20s, 500ms, 2min … (default: until Ctrl-C)");
+  if (has_message_count)
+    verb->add_option("-n", options->messages, "number of messages to print (default: until Ctrl-C)")
+        ->check(above_zero());
+  verb->callback([options, duration, view, &chosen] {
+    chosen = [options, duration, view] {
       if (!duration->empty()) options->for_s = parse_duration_s(*duration);
-      return listen(*options, std::cout);
+      return view(*options, std::cout);
     };
   });
 }
 
-void add_listen(CLI::App& app, Chosen& chosen) {
-  add_one_listen(app, chosen, "hz", "Rate of a topic and spread of its intervals", show_rate,
+void add_topic_view(CLI::App& app, Chosen& chosen) {
+  add_topic_verb(app, chosen, "hz", "Print rate of a topic and quantiles of its intervals",
+                 show_rate, false);
+  add_topic_verb(app, chosen, "echo", "Print messages of a topic as YAML", echo, true);
+  add_topic_verb(app, chosen, "delay", "Print age of messages of a topic on arrival", show_delay,
                  false);
-  add_one_listen(app, chosen, "echo", "Messages of a topic as YAML", echo, true);
-  add_one_listen(app, chosen, "delay", "Age of a topic's messages on arrival", show_delay, false);
 }
 
 }  // namespace launch

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "launch/erp/inspect/meaning.hpp"
+#include "launch/erp/inspect/value_names.hpp"
 
 namespace launch {
 namespace {
@@ -11,7 +11,7 @@ bool holds_structures(const recording::Values& values) {
   return !values.empty() && values.front().members() != nullptr;
 }
 
-/// Text that YAML could take for something else is quoted.
+/// Quotes text that YAML would read as another type.
 std::string scalar(const recording::Value& value) {
   const std::string* text = value.text();
   if (!text) return recording::to_text(value);
@@ -25,18 +25,18 @@ std::string scalar(const recording::Value& value) {
   if (!text->empty() && letter(text->front()) && text->back() != ' ' && !reserved &&
       std::all_of(text->begin(), text->end(), plain))
     return *text;
-  recording::Value list;  // JSON's quotes are YAML's too
+  recording::Value list;  // JSON quotes are valid in YAML
   list.data = recording::Values{value};
   const std::string json = recording::to_text(list);
   return json.substr(1, json.size() - 2);
 }
 
-/// The word for a small number, behind it as a comment.
-std::string remark(const recording::Structure& type, std::size_t field,
-                   const recording::Value& value) {
+/// The name of an enumeration value or of bits, as a comment after the value.
+std::string name_comment(const recording::Structure& type, std::size_t field,
+                         const recording::Value& value) {
   const auto* number = std::get_if<std::uint64_t>(&value.data);
-  const std::string meaning = number ? meaning_of(type.name, type.fields[field].name, *number) : "";
-  return meaning.empty() ? "" : "  # " + meaning;
+  const std::string name = number ? value_name(type.name, type.fields[field].name, *number) : "";
+  return name.empty() ? "" : "  # " + name;
 }
 
 std::string list_of_structures(const recording::Values& values, int indent) {
@@ -59,7 +59,7 @@ std::string to_yaml(const recording::Members& message, int indent) {
     if (const auto* members = value.members()) yaml += "\n" + to_yaml(*members, indent + 2);
     else if (const auto* values = value.elements(); values && holds_structures(*values))
       yaml += "\n" + list_of_structures(*values, indent + 2);
-    else yaml += " " + scalar(value) + remark(*message.type, i, value) + "\n";
+    else yaml += " " + scalar(value) + name_comment(*message.type, i, value) + "\n";
   }
   return yaml;
 }

@@ -5,8 +5,8 @@
 
 namespace launch {
 
-/// A message as YAML: a line a field, structures indented, sequences of structures as lists of
-/// them, sequences of numbers in one line.
+/// A message as YAML: one line per field, structures indented, sequences of structures as lists,
+/// sequences of numbers on one line.
 std::string to_yaml(const recording::Members& message, int indent = 0);
 
 }  // namespace launch

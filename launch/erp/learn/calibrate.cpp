@@ -8,7 +8,7 @@
 #include "launch/erp/learn/poses.hpp"
 #include "launch/erp/learn/report.hpp"
 #include "launch/erp/text/text_files.hpp"
-#include "sim/learning/calibration/newton_learner.hpp"
+#include "sim/learning/calibration/newton_calibration.hpp"
 
 namespace launch {
 
@@ -26,29 +26,30 @@ int calibrate_check(const std::string& robot_file, const PoseFiles& files, std::
 }
 
 int calibrate_run(const CalibrateOptions& options, std::ostream& out, std::ostream& remarks) {
-  const auto pool = sim::make_pool(options.course.threads);
+  const auto pool = sim::make_pool(options.training.threads);
   const erp::Robot robot = erp::read_robot(options.robot);
   const calibration::Parameters parameters(robot, xml::read<calibration::Choice>(options.choice));
   const auto poses = read_poses(robot, options.poses);
-  const auto learner = make_calibration({parameters, poses}, options.how);
-  const bool ended = run_course(*learner, options.course, *pool, remarks);
-  const auto slope = turns(parameters, learner->best(), poses.learn, *pool).slope;
+  const auto training = make_calibration({parameters, poses}, options.how);
+  const bool ended = run_training(*training, options.training, *pool, remarks);
+  const auto slope = turns(parameters, training->best(), poses.learn, *pool).slope;
   if (!pool->first()) return 0;
 
   const auto identified = calibration::identified(slope, calibration::NewtonOptions{}.sigma_rad);
-  const std::string& folder = options.course.folder;
-  const erp::Robot calibrated = parameters.robot_at(learner->best());
+  const std::string& folder = options.training.folder;
+  const erp::Robot calibrated = parameters.robot_at(training->best());
   write_file(folder + "/robot.xml", erp::write_robot(calibrated));
-  write_file(folder + "/parameters.csv", parameters_csv(parameters, learner->best(), identified));
+  write_file(folder + "/parameters.csv", parameters_csv(parameters, training->best(), identified));
   print_errors(robot, poses,
                {errors_of("before", parameters.start(), poses),
-                errors_of("after", parameters.at(learner->best()), poses),
-                simulated_errors("simulated", calibrated, poses, options.course.threads)},
+                errors_of("after", parameters.at(training->best()), poses),
+                simulated_errors("simulated", calibrated, poses, options.training.threads)},
                out);
-  out << fmt::format("after {} rounds, {} poses judged\n", learner->rounds(),
-                     learner->judged_poses());
+  out << fmt::format("{} rounds, {} poses evaluated\n", training->rounds(),
+                     training->judged_poses());
   print_identified(parameters, identified, out);
-  out << fmt::format("{}/robot.xml is the calibrated robot, curve.svg how it came to be\n", folder);
+  out << fmt::format(
+      "{}/robot.xml is the calibrated robot, curve.svg the course of the calibration\n", folder);
   return ended ? 0 : 1;
 }
 

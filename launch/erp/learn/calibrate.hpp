@@ -4,22 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "launch/erp/learn/course.hpp"
+#include "launch/erp/learn/training_run.hpp"
 #include "sim/learning/calibration/strategy.hpp"
 
-/// `erp calibrate`: the model fitted to poses in which the robot stood still. Each returns the exit
+/// `erp calibrate`: fits the model to poses of the robot at rest. Each function returns the exit
 /// code; all throw xml::Errors, RecordingError and std::invalid_argument for bad input.
 namespace launch {
 
-/// What to record: each pose that a trajectory holds, held so long, and midway between neighbours,
-/// by their line lengths; as a trajectory for `target`.
+/// Prints the motion to record, as a trajectory for `target`: each pose that the given trajectory
+/// holds, and the mean line lengths between neighbours, each held for `still_s`.
 struct TourOptions {
   std::string lengths;
   double still_s = 2, way_s = 1.5;
 };
 int calibrate_tour(const TourOptions& options, std::ostream& out);
 
-/// Recordings, and which of their still poses check: those of `check`, or every second of `learn`.
+/// Recordings with training poses and check poses. Without `check`, every second pose of `learn` is
+/// a check pose.
 struct PoseFiles {
   std::vector<std::string> learn, check;
 };
@@ -28,16 +29,16 @@ struct CalibrateOptions {
   std::string robot, choice;
   PoseFiles poses;
   sim::calibration::StrategyOptions how;
-  CourseOptions course;
+  TrainingRunOptions training;
 };
-/// Leaves robot.xml, parameters.csv, state.xml, curve.csv and curve.svg.
+/// Writes robot.xml, parameters.csv, state.xml, curve.csv and curve.svg.
 int calibrate_run(const CalibrateOptions& options, std::ostream& out, std::ostream& remarks);
 
-/// How far a robot.xml is off in poses.
+/// Prints the pose errors of a robot.xml.
 int calibrate_check(const std::string& robot, const PoseFiles& poses, std::ostream& out);
 
-/// A robot.xml that is as far off the poses as asked, by joint, to try a calibration on: parameters
-/// drawn at random, scaled muscle by muscle until it is so.
+/// Writes a robot.xml with the requested pose errors by joint, to test a calibration: random
+/// parameters, scaled muscle by muscle.
 struct PerturbOptions {
   std::string robot, choice, out;
   PoseFiles poses;

@@ -14,7 +14,7 @@ std::string unit_of(const std::string& metric) {
   return metric.substr(metric.find_last_of('_') + 1);
 }
 
-/// As a string that gnuplot does not read anything into.
+/// A gnuplot string in which nothing is interpreted.
 std::string quoted(std::string text) {
   for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2)
     text.insert(k, "'");
@@ -31,7 +31,8 @@ void draw_curve(const std::vector<sim::training_loop::Metric>& metrics, const st
 
   PlotScript plot{.panels = static_cast<int>(units.size())};
   plot.commands = fmt::format(
-      "set datafile separator ','\nset grid\nset key outside right\nset lmargin 12\nset rmargin 30\nset multiplot layout {},1\n"
+      "set datafile separator ','\nset grid\nset key outside right\nset lmargin 12\nset rmargin "
+      "30\nset multiplot layout {},1\n"
       "set yrange [0:*]\n",
       units.size());
   for (const std::string& unit : units) {

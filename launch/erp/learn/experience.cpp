@@ -10,8 +10,8 @@
 #include "launch/erp/learn/task_poses.hpp"
 #include "launch/erp/text/gnuplot.hpp"
 #include "launch/erp/text/text_files.hpp"
-#include "sim/learning/training_loop/dice.hpp"
-#include "sim/learning/simulated_training/experience_lesson.hpp"
+#include "sim/learning/simulated_training/experience_training.hpp"
+#include "sim/learning/training_loop/random_stream.hpp"
 
 namespace launch {
 namespace {
@@ -19,27 +19,27 @@ namespace {
 using sim::Vec3;
 using sim::experience::FeedbackKind;
 using sim::experience::Task;
-using sim::simulated_training::ExperienceLesson;
+using sim::simulated_training::ExperienceTraining;
 
 constexpr std::array ways{FeedbackKind::none, FeedbackKind::linear, FeedbackKind::fuzzy};
 constexpr std::array way_names{"feed-forward", "linear", "fuzzy"};
 
 std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, const Task& task,
-                                                          const ExperienceLesson& lesson, int start,
-                                                          const Vec3& target_m) {
+                                                          const ExperienceTraining& training,
+                                                          int start, const Vec3& target_m) {
   using namespace sim::experience;
   if (kind == FeedbackKind::linear)
-    return linear_feedback(lesson.base(), start, target_m, task.closing_per_s);
+    return linear_feedback(training.base(), start, target_m, task.closing_per_s);
   if (kind == FeedbackKind::fuzzy)
-    return fuzzy_feedback(lesson.base(), start, xml::resolved(task.rules, task.place.file));
+    return fuzzy_feedback(training.base(), start, xml::resolved(task.rules, task.place.file));
   return nullptr;
 }
 
-/// Fresh targets, each reached in each way, from one start after the other.
+/// New targets, each reached with each kind of feedback, with alternating starts.
 class Tests {
  public:
-  Tests(const ExperienceLesson& lesson, const erp::Robot& robot, const Task& task)
-      : lesson_(lesson), robot_(robot), task_(task) {
+  Tests(const ExperienceTraining& training, const erp::Robot& robot, const Task& task)
+      : training_(training), robot_(robot), task_(task) {
     if (task.rules.empty()) kinds_.pop_back();
   }
 
@@ -52,13 +52,13 @@ class Tests {
           const Vec3 off_m = ended(k / kinds_.size(), kinds_[k % kinds_.size()], nullptr);
           return sim::Pool::Numbers(off_m.begin(), off_m.end());
         },
-        options.course, pool, remarks);
+        options.training, pool, remarks);
     return off_m_.size() == all;
   }
   std::size_t count() const { return off_m_.size() / kinds_.size(); }
   std::size_t kinds() const { return kinds_.size(); }
   Vec3 target_m(std::size_t test) const {
-    return lesson_.fresh_target(static_cast<std::uint64_t>(task_.seed), test);
+    return training_.fresh_target(static_cast<std::uint64_t>(task_.seed), test);
   }
   Vec3 off_m(std::size_t test, std::size_t kind) const {
     return Eigen::Map<const Vec3>(off_m_[test * kinds_.size() + kind].data());
@@ -70,20 +70,22 @@ class Tests {
   }
 
  private:
-  /// The hand's offset at the end, without the noise of seeing it.
-  Vec3 ended(std::size_t test, FeedbackKind kind, sim::simulated_training::HandTrack* kept) const {
-    const int start = static_cast<int>(test % lesson_.file().starts.all.size());
+  /// The hand's final offset, without measurement noise.
+  Vec3 ended(std::size_t test, FeedbackKind kind,
+             sim::simulated_training::HandTrack* result) const {
+    const int start = static_cast<int>(test % training_.file().starts.all.size());
     const Vec3 target = target_m(test);
-    auto reach = lesson_.reach(start, target, feedback(kind, task_, lesson_, start, target));
-    sim::simulated_training::HandTrack own, &track = kept ? *kept : own;
-    constexpr std::uint64_t of_noise = 77;  // apart from the dice that draw the target
-    const auto seed = sim::training_loop::dice(static_cast<std::uint64_t>(task_.seed), test, of_noise)();
+    auto reach = training_.reach(start, target, feedback(kind, task_, training_, start, target));
+    sim::simulated_training::HandTrack own, &track = result ? *result : own;
+    constexpr std::uint64_t of_noise = 77;  // a stream different from that of the target
+    const auto seed =
+        sim::training_loop::random_stream(static_cast<std::uint64_t>(task_.seed), test, of_noise)();
     if (!play(reach, robot_, task_.hand, task_.noise_m, seed, &track))
       return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     return track.hand_m.back() - target;
   }
 
-  const ExperienceLesson& lesson_;
+  const ExperienceTraining& training_;
   const erp::Robot& robot_;
   const Task& task_;
   std::vector<FeedbackKind> kinds_{ways.begin(), ways.end()};
@@ -91,8 +93,8 @@ class Tests {
 };
 
 void print_offsets(const Tests& tests, std::ostream& out) {
-  out << fmt::format("offset at rest, {} fresh targets, mm\n{:<14}{:>22}{:>22}{:>22}\n",
-                     tests.count(), "", "x  mean / most", "y  mean / most", "z  mean / most");
+  out << fmt::format("offset at rest, {} new targets, mm\n{:<14}{:>22}{:>22}{:>22}\n",
+                     tests.count(), "", "x  mean / max", "y  mean / max", "z  mean / max");
   for (std::size_t kind = 0; kind < tests.kinds(); ++kind) {
     Vec3 sum = Vec3::Zero(), most = Vec3::Zero();
     std::size_t tripped = 0;
@@ -123,7 +125,7 @@ std::string csv_of(const Tests& tests) {
   return text;
 }
 
-/// The first test's hand, axis by axis, with either feedback, beside where it shall be.
+/// Path of the hand in the first test, by axis, with both kinds of feedback, and the target.
 PlotScript figure(const Tests& tests) {
   constexpr std::array colours{"#0072B2", "#D55E00"};
   std::string data, plots;
@@ -160,27 +162,27 @@ PlotScript figure(const Tests& tests) {
 }  // namespace
 
 int learn_experience(const ExperienceOptions& options, std::ostream& out, std::ostream& remarks) {
-  const auto pool = sim::make_pool(options.course.threads);
+  const auto pool = sim::make_pool(options.training.threads);
   const erp::Robot robot = erp::read_robot(options.robot);
   auto task = xml::read<Task>(options.task);
   if (options.seed != 0) task.seed = options.seed;
-  ExperienceLesson lesson(robot, task, task_poses(options.task, task.starts, robot));
-  CourseOptions course = options.course;
-  course.rounds = task.rounds;
-  if (!run_course(lesson, course, *pool, remarks)) return 1;
-  if (pool->first()) write_file(course.folder + "/base.xml", lesson.state());
-  Tests tests(lesson, robot, task);
+  ExperienceTraining training(robot, task, task_poses(options.task, task.starts, robot));
+  TrainingRunOptions run = options.training;
+  run.rounds = task.rounds;
+  if (!run_training(training, run, *pool, remarks)) return 1;
+  if (pool->first()) write_file(run.folder + "/base.xml", training.state());
+  Tests tests(training, robot, task);
   if (!tests.run(options, *pool, remarks)) return 1;
   if (!pool->first()) return 0;
   if (options.tests > 0) {
-    write_file(course.folder + "/tests.csv", csv_of(tests));
-    draw(figure(tests), course.folder + "/figure.svg");
+    write_file(run.folder + "/tests.csv", csv_of(tests));
+    draw(figure(tests), run.folder + "/figure.svg");
     print_offsets(tests, out);
   }
-  if (lesson.tripped() > 0)
-    out << fmt::format("{} tries ended by an ECU that tripped: not learnt from\n",
-                       lesson.tripped());
-  out << fmt::format("{0}/base.xml is what the component experience reaches with\n", course.folder);
+  if (training.tripped() > 0)
+    out << fmt::format("{} trials ended by an ECU that tripped; they are not in the base\n",
+                       training.tripped());
+  out << fmt::format("{0}/base.xml is the base for the component experience\n", run.folder);
   return 0;
 }
 

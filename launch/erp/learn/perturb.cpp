@@ -17,18 +17,19 @@ namespace calibration = sim::calibration;
 
 namespace {
 
-/// By joint that moves.
+/// Requested errors by movable joint.
 std::vector<double> off_rad(const erp::Robot& robot, std::map<std::string, double> off_deg) {
   std::vector<double> off;
   for (const erp::Joint& joint : robot.joints()) {
     if (sim::coordinates_of(joint.type) == 0) continue;
-    const auto asked = off_deg.extract(joint.name);
-    off.push_back(asked ? asked.mapped() * std::numbers::pi / 180
-                        : std::numeric_limits<double>::quiet_NaN());
+    const auto requested = off_deg.extract(joint.name);
+    off.push_back(requested ? requested.mapped() * std::numbers::pi / 180
+                            : std::numeric_limits<double>::quiet_NaN());
   }
   if (!off_deg.empty())
     throw std::invalid_argument("robot \"" + robot.name + "\" has no joint \"" +
-                                off_deg.begin()->first + "\" that moves; name one of its joints");
+                                off_deg.begin()->first +
+                                "\" that moves; name one of its movable joints");
   return off;
 }
 

@@ -3,7 +3,7 @@
 
 namespace launch {
 
-/// The still poses of recordings.
+/// Reads the poses at rest of recordings.
 sim::calibration::PoseSet read_poses(const erp::Robot& robot, const PoseFiles& files);
 
 }  // namespace launch

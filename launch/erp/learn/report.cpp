@@ -17,7 +17,8 @@ namespace {
 namespace calibration = sim::calibration;
 using calibration::Quantity;
 
-/// Of its spread, from which on nothing is known of a parameter; chosen.
+/// Remaining uncertainty, relative to the spread, above which a parameter counts as undetermined;
+/// chosen.
 constexpr double unknown = 0.9;
 
 std::vector<std::string> joints_of(const erp::Robot& robot) {
@@ -32,7 +33,7 @@ struct Change {
   const char* unit = "";
 };
 
-/// In units that people use.
+/// A change in customary units.
 Change change_of(const calibration::Parameter& parameter, double x) {
   const double off = parameter.spread * x;
   const bool relative = parameter.what == Quantity::stiffness || parameter.what == Quantity::radius;
@@ -51,7 +52,7 @@ ErrorColumn errors_of(const std::string& name, const calibration::Candidate& can
 ErrorColumn simulated_errors(const std::string& name, const erp::Robot& robot,
                              const calibration::PoseSet& poses, int threads) {
   ErrorColumn column{name, {}, {}};
-  const std::array parts{std::pair(&poses.learn, &column.learnt),
+  const std::array parts{std::pair(&poses.learn, &column.learned),
                          std::pair(&poses.check, &column.checked)};
   sim::in_parallel(poses.check.empty() ? 1 : 2, threads, [&](std::size_t k) {
     const std::vector<calibration::StillPose>& part = *parts[k].first;
@@ -68,7 +69,7 @@ ErrorColumn simulated_errors(const std::string& name, const erp::Robot& robot,
 void print_errors(const erp::Robot& robot, const calibration::PoseSet& poses,
                   const std::vector<ErrorColumn>& columns, std::ostream& out) {
   constexpr double degree = std::numbers::pi / 180;
-  out << fmt::format("{:<24} {:>6}", "mean angle off, degrees", "poses");
+  out << fmt::format("{:<24} {:>6}", "mean error, degrees", "poses");
   for (const ErrorColumn& column : columns) out << fmt::format(" {:>10}", column.name);
   const auto names = joints_of(robot);
   const auto rows = [&](const char* of, std::size_t count, auto errors) {
@@ -78,7 +79,7 @@ void print_errors(const erp::Robot& robot, const calibration::PoseSet& poses,
         out << fmt::format(" {:>10.2f}", (column.*errors).mean_rad[j] / degree);
     }
   };
-  rows("learnt", poses.learn.size(), &ErrorColumn::learnt);
+  rows("learned", poses.learn.size(), &ErrorColumn::learned);
   rows("checked", poses.check.size(), &ErrorColumn::checked);
   out << '\n';
 }
@@ -88,12 +89,12 @@ void print_identified(const calibration::Parameters& parameters,
   std::string names;
   int count = 0;
   for (std::size_t k = 0; k < parameters.list().size(); ++k)
-    if (identified.left[static_cast<Eigen::Index>(k)] > unknown)
+    if (identified.remaining[static_cast<Eigen::Index>(k)] > unknown)
       names += (count++ ? ", " : "") + parameters.name_of(parameters.list()[k]);
   out << fmt::format("identified: {} combinations of {} parameters\n", identified.combinations,
                      parameters.size());
   if (count > 0)
-    out << fmt::format("not identified, as far off as before ({} of {}): {}\n", count,
+    out << fmt::format("not identified, uncertain as before ({} of {}): {}\n", count,
                        parameters.size(), names);
 }
 
@@ -105,7 +106,7 @@ std::string parameters_csv(const calibration::Parameters& parameters, const Eige
     const Change change = change_of(parameters.list()[k], x[at]);
     text += fmt::format("{},{:.4g},{},{:.3f}\n",
                         recording::csv_cell(parameters.name_of(parameters.list()[k])), change.by,
-                        change.unit, identified.left[at]);
+                        change.unit, identified.remaining[at]);
   }
   return text;
 }

@@ -9,23 +9,23 @@
 #include "interfaces/xml/xml.hpp"
 #include "launch/erp/text/gnuplot.hpp"
 #include "launch/erp/text/text_files.hpp"
-#include "sim/learning/sensorimotor/learnt_file.hpp"
+#include "sim/learning/sensorimotor/learned_map_file.hpp"
 
 namespace launch {
 namespace {
 
 namespace fs = std::filesystem;
-using sim::simulated_training::SensorimotorLesson;
+using sim::simulated_training::SensorimotorTraining;
 
 struct Spread {
   double mean = 0, deviation = 0;
 };
 
-/// Of |e| over goals, in one try.
-Spread spread(const SensorimotorLesson& lesson, std::size_t attempt) {
+/// Mean and deviation of |e| over goals in one trial.
+Spread spread(const SensorimotorTraining& training, std::size_t attempt) {
   double sum = 0, squares = 0;
-  const auto n = static_cast<double>(lesson.goals().size());
-  for (const auto& goal : lesson.goals())
+  const auto n = static_cast<double>(training.goals().size());
+  for (const auto& goal : training.goals())
     sum += goal.errors[attempt], squares += std::pow(goal.errors[attempt], 2);
   return {sum / n, std::sqrt(std::max(0.0, squares / n - std::pow(sum / n, 2)))};
 }
@@ -36,16 +36,17 @@ sim::cameras::ViewConfig view_of(const sim::sensorimotor::Experiment& experiment
       (fs::path(file).parent_path() / experiment.view).string());
 }
 
-std::size_t tries(const SensorimotorLesson& lesson) {
-  return lesson.goals().empty() ? 0 : lesson.goals().front().errors.size();
+std::size_t trials(const SensorimotorTraining& training) {
+  return training.goals().empty() ? 0 : training.goals().front().errors.size();
 }
 
 std::string sense_name(Eigen::Index sense) {
   return fmt::format("{}{}", sense % 2 ? 'y' : 'x', sense / 2 ? std::to_string(sense / 2 + 1) : "");
 }
 
-void print_synergies(const SensorimotorLesson& lesson, const erp::Robot& robot, std::ostream& out) {
-  const Eigen::MatrixXd q = lesson.learnt().q();
+void print_synergies(const SensorimotorTraining& training, const erp::Robot& robot,
+                     std::ostream& out) {
+  const Eigen::MatrixXd q = training.learned().q();
   out << fmt::format("{:<24}", "Q");
   for (Eigen::Index s = 0; s < q.rows(); ++s) out << fmt::format(" {:>8}", sense_name(s));
   for (Eigen::Index m = 0; m < q.cols(); ++m) {
@@ -55,19 +56,20 @@ void print_synergies(const SensorimotorLesson& lesson, const erp::Robot& robot, 
   out << '\n';
 }
 
-void print_errors(const SensorimotorLesson& lesson, std::ostream& out) {
-  if (tries(lesson) == 0) return;
-  const Spread first = spread(lesson, 0), last = spread(lesson, tries(lesson) - 1);
+void print_errors(const SensorimotorTraining& training, std::ostream& out) {
+  if (trials(training) == 0) return;
+  const Spread first = spread(training, 0), last = spread(training, trials(training) - 1);
   out << fmt::format(
-      "error over {} goals, tangent of the angle seen: try 1 {:.4f} ± {:.4f}, try {} {:.4f} ± "
-      "{:.4f}: {:.1f} % of the first\n",
-      lesson.goals().size(), first.mean, first.deviation, tries(lesson), last.mean, last.deviation,
-      100 * last.mean / first.mean);
+      "error over {} goals, tangent of the viewing angle: trial 1 {:.4f} ± {:.4f}, trial {} {:.4f} "
+      "± "
+      "{:.4f}, {:.1f} % of the first\n",
+      training.goals().size(), first.mean, first.deviation, trials(training), last.mean,
+      last.deviation, 100 * last.mean / first.mean);
 }
 
-/// Squares as large as Q's numbers, filled where they are positive; and the error by try.
-PlotScript figure(const SensorimotorLesson& lesson, const erp::Robot& robot) {
-  const Eigen::MatrixXd q = lesson.learnt().q();
+/// Q as squares whose area is the magnitude, filled if positive; and the error by trial.
+PlotScript figure(const SensorimotorTraining& training, const erp::Robot& robot) {
+  const Eigen::MatrixXd q = training.learned().q();
   std::string data = "$q << E\n", muscles, senses;
   for (Eigen::Index m = 0; m < q.cols(); ++m) {
     muscles += fmt::format("{}'{}' {}", m ? "," : "", robot.actuators[std::size_t(m)].name, m);
@@ -78,8 +80,9 @@ PlotScript figure(const SensorimotorLesson& lesson, const erp::Robot& robot) {
   for (Eigen::Index s = 0; s < q.rows(); ++s)
     senses += fmt::format("{}'{}' {}", s ? "," : "", sense_name(s), s);
   data += "E\n$e << E\n";
-  for (std::size_t k = 0; k < tries(lesson); ++k)
-    data += fmt::format("{} {} {}\n", k + 1, spread(lesson, k).mean, spread(lesson, k).deviation);
+  for (std::size_t k = 0; k < trials(training); ++k)
+    data +=
+        fmt::format("{} {} {}\n", k + 1, spread(training, k).mean, spread(training, k).deviation);
   PlotScript plot{.panels = 2};
   plot.commands =
       data +
@@ -93,7 +96,7 @@ PlotScript figure(const SensorimotorLesson& lesson, const erp::Robot& robot) {
       "rgb "
       "'#D55E00' title 'recruited for -'\n"
       "set xtics autofreq norotate\nset ytics autofreq\nset xrange [0:*]\nset yrange [0:*]\n"
-      "set grid\nset xlabel 'try'\nset ylabel 'error, in senses'\n"
+      "set grid\nset xlabel 'trial'\nset ylabel 'error, in units of the senses'\n"
       "plot $e using 1:2:3 with yerrorbars lw 1.5 lc rgb '#888888' title 'spread over goals', $e "
       "using 1:2 with linespoints lw 2 pt 7 lc rgb '#0072B2' title 'mean'\nunset multiplot\n";
   return plot;
@@ -114,27 +117,26 @@ int learn_goals(const std::string& robot_file, const std::string& experiment_fil
 
 int learn_sensorimotor(const SensorimotorOptions& options, std::ostream& out,
                        std::ostream& remarks) {
-  const auto pool = sim::make_pool(options.course.threads);
+  const auto pool = sim::make_pool(options.training.threads);
   const erp::Robot robot = erp::read_robot(options.robot);
   auto experiment = xml::read<sim::sensorimotor::Experiment>(options.experiment);
   if (options.seed != 0) experiment.seed = options.seed;
-  SensorimotorLesson lesson(robot, view_of(experiment, options.experiment), experiment);
-  CourseOptions course = options.course;
-  course.rounds = 1 + experiment.session.tries;
-  const bool ended = run_course(lesson, course, *pool, remarks);
+  SensorimotorTraining training(robot, view_of(experiment, options.experiment), experiment);
+  TrainingRunOptions run = options.training;
+  run.rounds = 1 + experiment.session.trials;
+  const bool ended = run_training(training, run, *pool, remarks);
   if (!pool->first()) return 0;
-  write_file(course.folder + "/learnt.xml", lesson.state());
-  draw(figure(lesson, robot), course.folder + "/figure.svg");
-  print_synergies(lesson, robot, out);
-  print_errors(lesson, out);
-  if (lesson.limited() > 0)
-    out << fmt::format(
-        "{} tries asked a muscle for more than {:.0f} N above rest and were scaled down\n",
-        lesson.limited(), experiment.session.most_N);
+  write_file(run.folder + "/learnt.xml", training.state());
+  draw(figure(training, robot), run.folder + "/figure.svg");
+  print_synergies(training, robot, out);
+  print_errors(training, out);
+  if (training.limited() > 0)
+    out << fmt::format("{} trials exceeded {:.0f} N above rest at a muscle and were scaled down\n",
+                       training.limited(), experiment.session.most_N);
   out << fmt::format(
-      "{0}/learnt.xml is what the component sensorimotor can begin with, "
+      "{0}/learnt.xml is an initial map for the component sensorimotor, "
       "{0}/figure.svg shows it\n",
-      course.folder);
+      run.folder);
   return ended ? 0 : 1;
 }
 

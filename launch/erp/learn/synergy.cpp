@@ -11,17 +11,17 @@
 #include "launch/erp/learn/task_poses.hpp"
 #include "launch/erp/text/gnuplot.hpp"
 #include "launch/erp/text/text_files.hpp"
-#include "sim/learning/simulated_training/synergy_lesson.hpp"
+#include "sim/learning/simulated_training/synergy_training.hpp"
 
 namespace launch {
 namespace {
 
-using sim::simulated_training::SynergyLesson;
-using Test = SynergyLesson::Test;
+using sim::simulated_training::SynergyTraining;
+using Test = SynergyTraining::Test;
 
-constexpr std::array kept_shares{1.0, 0.5, 0.25, 0.1};
+constexpr std::array bank_shares{1.0, 0.5, 0.25, 0.1};
 
-/// A bank cut to a share of its plans, at the fresh targets.
+/// A bank reduced to a share of its plans, and its tests.
 struct Tested {
   double share;
   sim::synergy::Bank bank;
@@ -47,23 +47,23 @@ Test test_of(const std::vector<double>& n) {
   return {{n[0], n[1], n[2]}, n[3] != 0, {n[4] != 0, n[5], n[6], n[7], n[8], n[9]}, n[10]};
 }
 
-/// With each share of the bank; nothing: interrupted.
-std::vector<Tested> tested(const SynergyLesson& lesson, std::uint64_t seed,
+/// Tests each share of the bank; empty: interrupted.
+std::vector<Tested> tested(const SynergyTraining& training, std::uint64_t seed,
                            const SynergyOptions& options, const sim::Pool& pool,
                            std::ostream& remarks) {
   std::vector<Tested> results;
-  for (const double share : kept_shares) {
-    results.push_back({.share = share, .bank = lesson.bank(), .tests = {}});
+  for (const double share : bank_shares) {
+    results.push_back({.share = share, .bank = training.bank(), .tests = {}});
     results.back().bank.cut(
-        static_cast<std::size_t>(share * double(lesson.bank().plans().size()) + 0.5));
+        static_cast<std::size_t>(share * double(training.bank().plans().size()) + 0.5));
   }
   const auto count = static_cast<std::size_t>(options.tests);
   const auto all = run_tests(
       count * results.size(),
       [&](std::size_t k) {
-        return numbers_of(lesson.test(results[k / count].bank, seed, k % count));
+        return numbers_of(training.test(results[k / count].bank, seed, k % count));
       },
-      options.course, pool, remarks);
+      options.training, pool, remarks);
   if (all.size() < count * results.size()) return {};
   for (std::size_t k = 0; k < all.size(); ++k) results[k / count].tests.push_back(test_of(all[k]));
   return results;
@@ -83,7 +83,7 @@ double came_back_percent(const std::vector<Test>& tests) {
          static_cast<double>(tests.size());
 }
 
-double middle(std::vector<double> numbers) {
+double median(std::vector<double> numbers) {
   if (numbers.empty()) return 0;
   const auto k = static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::ranges::nth_element(numbers, numbers.begin() + k);
@@ -109,18 +109,18 @@ void print(const std::vector<Tested>& results, std::ostream& out) {
     if (test.outcome.struck) speeds.push_back(test.outcome.strike_speed_m_per_s);
     stayed.push_back(100 * test.outcome.stayed), jerks.push_back(test.relative_jerk);
   }
-  out << fmt::format("{} fresh targets struck{:>7.1f} %, by height\n", tests.size(),
+  out << fmt::format("{} new targets, struck{:>7.1f} %; by height:\n", tests.size(),
                      struck_percent(tests));
   print_heights(tests, out);
   out << fmt::format(
-      "hand at the strike {:.3f} m/s, {:.0f} % of the time after the signal in the zone, jerk "
-      "{:.1f} "
-      "times the least (medians)\n",
-      middle(speeds), middle(stayed), middle(jerks));
+      "medians: hand speed at the strike {:.3f} m/s, {:.0f} % of the time after the signal in the "
+      "zone, "
+      "jerk {:.1f} times the minimum\n",
+      median(speeds), median(stayed), median(jerks));
   for (const Tested& result : results)
     out << fmt::format(
-        "{:>4.0f} % of the bank, {:>3} plans of {:>2} synergies (90 %): struck{:>6.1f} %, came "
-        "back from{:>6.1f} %\n",
+        "{:>4.0f} % of the bank, {:>3} plans, {:>2} synergies (90 %): struck{:>6.1f} %, "
+        "returned{:>6.1f} %\n",
         100 * result.share, result.bank.plans().size(), components(result.bank, 0.9),
         struck_percent(result.tests), came_back_percent(result.tests));
 }
@@ -138,7 +138,7 @@ std::string csv_of(const std::vector<Tested>& results) {
   return text;
 }
 
-/// What is left of the bank, each part a bank of its own.
+/// Writes each reduced bank to its own file.
 void write_parts(const std::vector<Tested>& results, const sim::synergy::BankFile& file,
                  const std::string& folder) {
   for (const Tested& part : results)
@@ -147,7 +147,8 @@ void write_parts(const std::vector<Tested>& results, const sim::synergy::BankFil
                  text_of(file, part.bank));
 }
 
-/// Struck and missed targets from the side and from above, and how few plans do.
+/// Struck and missed targets from the side and from above, and the success rate against the number
+/// of plans.
 PlotScript figure(const std::vector<Tested>& results) {
   std::string data = "$t << E\n";
   for (const Test& test : results.front().tests)
@@ -169,7 +170,7 @@ PlotScript figure(const std::vector<Tested>& results) {
   return {.commands = data +
                       "set multiplot layout 1,3\nset grid\nset key below\nset size ratio -1\n" +
                       view("from the side", 1, 3, "x", "z") + view("from above", 1, 2, "x", "y") +
-                      "set size noratio\nset title 'the bank cut down'\nset xlabel 'plans'\n"
+                      "set size noratio\nset title 'reduced bank'\nset xlabel 'plans'\n"
                       "set ylabel 'struck %'\nset yrange [0:100]\nset logscale x 2\n"
                       "plot $b using 1:2 with linespoints lw 2 pt 7 lc rgb '#0072B2' notitle\n"
                       "unset multiplot\n",
@@ -179,28 +180,28 @@ PlotScript figure(const std::vector<Tested>& results) {
 }  // namespace
 
 int learn_synergy(const SynergyOptions& options, std::ostream& out, std::ostream& remarks) {
-  const auto pool = sim::make_pool(options.course.threads);
+  const auto pool = sim::make_pool(options.training.threads);
   const erp::Robot robot = erp::read_robot(options.robot);
   auto task = xml::read<sim::synergy::Task>(options.task);
   if (options.seed != 0) task.seed = options.seed;
-  SynergyLesson lesson(robot, task, task_poses(options.task, task.poses, robot));
-  CourseOptions course = options.course;
-  course.rounds = task.rounds;
-  if (!run_course(lesson, course, *pool, remarks)) return 1;
-  if (pool->first()) write_file(course.folder + "/bank.xml", lesson.state());
+  SynergyTraining training(robot, task, task_poses(options.task, task.poses, robot));
+  TrainingRunOptions run = options.training;
+  run.rounds = task.rounds;
+  if (!run_training(training, run, *pool, remarks)) return 1;
+  if (pool->first()) write_file(run.folder + "/bank.xml", training.state());
   if (options.tests > 0) {
     const auto results =
-        tested(lesson, static_cast<std::uint64_t>(task.seed), options, *pool, remarks);
+        tested(training, static_cast<std::uint64_t>(task.seed), options, *pool, remarks);
     if (results.empty()) return 1;
     if (!pool->first()) return 0;
-    write_file(course.folder + "/tests.csv", csv_of(results));
-    write_parts(results, lesson.file(), course.folder);
-    draw(figure(results), course.folder + "/figure.svg");
+    write_file(run.folder + "/tests.csv", csv_of(results));
+    write_parts(results, training.file(), run.folder);
+    draw(figure(results), run.folder + "/figure.svg");
     print(results, out);
   }
   if (!pool->first()) return 0;
-  out << fmt::format("{}/bank.xml is what the component synergy strikes with{}\n", course.folder,
-                     options.tests > 0 ? "; or bank_25.xml, a quarter of its plans" : "");
+  out << fmt::format("{}/bank.xml is the bank for the component synergy{}\n", run.folder,
+                     options.tests > 0 ? "; bank_25.xml has a quarter of its plans" : "");
   return 0;
 }
 

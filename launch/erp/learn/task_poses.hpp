@@ -6,7 +6,7 @@
 
 namespace launch {
 
-/// The rows of the poses.csv that a task names; none named: where the robot starts.
+/// The rows of the poses.csv that a task names, or the robot's starting pose if it names none.
 std::vector<sim::Pose> task_poses(const std::string& task_file, const std::string& poses,
                                   const erp::Robot& robot);
 

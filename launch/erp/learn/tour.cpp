@@ -34,7 +34,7 @@ References midway(References a, const References& b) {
   return a;
 }
 
-/// References that do not change for a while, each once.
+/// References that stay constant for at least 0.5 s, each once.
 std::vector<References> holds(const recording::Table& table,
                               const std::vector<std::size_t>& columns) {
   constexpr double still_m = 1e-5, least_s = 0.5;  // chosen
@@ -58,8 +58,8 @@ int calibrate_tour(const TourOptions& options, std::ostream& out) {
   const auto held = holds(plan, references);
   if (held.size() < 2)
     throw std::invalid_argument(options.lengths +
-                                ": holds fewer than two poses for half a second; give a trajectory "
-                                "of line lengths, as erp model lengths writes it");
+                                ": holds fewer than two poses for half a second; use a trajectory "
+                                "of line lengths, as written by erp model lengths");
   recording::Table tour;
   for (const auto& column : plan.columns) tour.columns.push_back({column.name, {}});
   double time_s = 0;

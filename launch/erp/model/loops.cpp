@@ -7,15 +7,15 @@
 #include "interfaces/recording/csv.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "launch/erp/text/gnuplot.hpp"
-#include "sim/control/pose_plan.hpp"
 #include "sim/control/loop_shaping/loop_curves.hpp"
+#include "sim/control/pose_plan.hpp"
 
 namespace launch {
 namespace {
 
 namespace shaping = sim::loop_shaping;
 
-/// Bones and tendons at rest in a pose.
+/// Sets the model to a pose at rest.
 void place(sim::Musculoskeletal& model, const sim::Pose& pose) {
   std::vector<sim::JointReading> readings;
   for (std::size_t j = 0; j < pose.size(); ++j) {
@@ -39,8 +39,8 @@ PlotScript script(const shaping::JointLoops& loops, const std::string& robot) {
   std::string data = "$loops << E\n";
   for (const auto& p : shaping::loop_curves(loops, 0.05, 50, 200))
     data +=
-        fmt::format("{:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g}\n", p.Hz, p.wanted.largest,
-                    p.wanted.smallest, p.got.largest, p.got.smallest, p.s, p.t);
+        fmt::format("{:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g}\n", p.Hz, p.desired.largest,
+                    p.desired.smallest, p.achieved.largest, p.achieved.smallest, p.s, p.t);
   PlotScript plot{.panels = 2};
   plot.commands =
       data +
@@ -48,11 +48,11 @@ PlotScript script(const shaping::JointLoops& loops, const std::string& robot) {
       robot +
       "'\nset xlabel 'frequency  [Hz]'\nset style fill transparent solid 0.3 noborder\n"
       "set ylabel 'singular values of the loop'\n"
-      "plot $loops using 1:2:3 with filledcurves lc rgb '#D55E00' title 'wanted shape', "
+      "plot $loops using 1:2:3 with filledcurves lc rgb '#D55E00' title 'desired shape', "
       "$loops using 1:4:5 with filledcurves lc rgb '#0072B2' title 'with K'\n"
-      "set ylabel 'and of the closed loop'\n"
+      "set ylabel 'singular values of the closed loop'\n"
       "plot $loops using 1:6 with lines lw 2 lc rgb '#D55E00' title 'S: disturbances', "
-      "$loops using 1:7 with lines lw 2 lc rgb '#0072B2' title 'T: following, noise'\n"
+      "$loops using 1:7 with lines lw 2 lc rgb '#0072B2' title 'T: tracking, noise'\n"
       "unset multiplot\n";
   return plot;
 }
@@ -66,7 +66,7 @@ int model_loops(const ModelLoopsOptions& options, std::ostream& out) {
   sim::Musculoskeletal model(robot);
   const shaping::JointLoops loops = shaping::joint_loops(model, shape);
   out << fmt::format(
-      "{}: stability margin {:.3f}, of {:.3f} that this shape allows (0.25 and more is good)\n"
+      "{}: stability margin {:.3f}, maximum for this shape {:.3f} (0.25 or more is good)\n"
       "{:<10} {:>8} {:>14} {:>13}    {}\n",
       robot.name, loops.robust.margin, loops.robust.greatest_margin, "posture", "margin",
       "slowest pole", "sensitivity", "crossover by joint, Hz");

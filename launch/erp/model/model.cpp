@@ -14,8 +14,8 @@
 #include "interfaces/xml/xml.hpp"
 #include "launch/erp/text/text_files.hpp"
 #include "sim/control/pose_plan.hpp"
-#include "sim/model/effects/library.hpp"
 #include "sim/formats/formats.hpp"
+#include "sim/model/effects/library.hpp"
 #include "sim/model/skeleton/joint_reading.hpp"
 
 namespace launch {
@@ -28,15 +28,15 @@ std::string in_format_of(const std::string& file, const erp::Robot& robot) {
   if (file.ends_with(".sdf")) return formats::to_sdf(robot);
   if (file.ends_with(".svg")) return formats::to_svg(robot);
   throw std::invalid_argument(
-      file + ": no format has this ending; write .dae, .mjcf.xml, .urdf, .sdf or .svg");
+      file + ": unknown file name extension; use .dae, .mjcf.xml, .urdf, .sdf or .svg");
 }
 
 erp::Robot from_format_of(const std::string& file) {
   if (file.ends_with(".dae")) return formats::from_collada(file);
   if (file.ends_with(".urdf")) return formats::from_urdf(file);
   if (file.ends_with(".sdf")) return formats::from_sdf(file);
-  throw std::invalid_argument(
-      file + ": no format that can be read has this ending; give .dae, .urdf or .sdf");
+  throw std::invalid_argument(file +
+                              ": cannot import this file name extension; use .dae, .urdf or .sdf");
 }
 
 std::vector<sim::TimedPose> poses_in(const std::string& file, const erp::Robot& robot) {
@@ -48,7 +48,7 @@ std::vector<sim::TimedPose> poses_in(const std::string& file, const erp::Robot& 
   }
 }
 
-std::string told(const erp::Drive& drive) {
+std::string description(const erp::Drive& drive) {
   const auto* slide = std::get_if<erp::Slide>(&drive.load.at(0));
   const char* unit = drive.control == erp::DriveControl::voltage   ? "V"
                      : drive.control == erp::DriveControl::current ? "A"
@@ -58,13 +58,13 @@ std::string told(const erp::Drive& drive) {
                                ? fmt::format("a slide of {:.6g} kg", slide->mass_kg)
                                : fmt::format("a shaft of {:.6g} kg m²",
                                              std::get<erp::Shaft>(drive.load.at(0)).inertia_kg_m2);
-  return fmt::format("{}: {:.6g} {} a volt of control, {}", drive.name, drive.gain, unit, load);
+  return fmt::format("{}: {:.6g} {} per volt of control, {}", drive.name, drive.gain, unit, load);
 }
 
 }  // namespace
 
-ModelFigures figures_of(const erp::Robot& robot) {
-  ModelFigures f{.name = robot.name};
+ModelProperties properties_of(const erp::Robot& robot) {
+  ModelProperties f{.name = robot.name};
   for (const auto& body : robot.bodies()) ++f.bodies, f.mass_kg += mass_of(body).mass_kg;
   for (const auto& joint : robot.joints())
     ++f.joints, f.degrees_of_freedom += sim::coordinates_of(joint.type);
@@ -82,7 +82,7 @@ ModelFigures figures_of(const erp::Robot& robot) {
 
 int model_info(const std::string& robot_file, bool json, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
-  const ModelFigures f = figures_of(robot);
+  const ModelProperties f = properties_of(robot);
   out << fmt::format(
       fmt::runtime(json ? "{{\"robot\": \"{}\", \"bodies\": {}, \"joints\": {}, "
                           "\"degrees_of_freedom\": {}, \"actuators\": {}, \"muscles\": {}, "
@@ -94,7 +94,7 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
       f.name, f.bodies, f.joints, f.degrees_of_freedom, f.actuators, f.muscles, f.mass_kg, f.ecus,
       f.buses, f.drives);
   for (const erp::Drive& drive : robot.drives)
-    if (!json) out << fmt::format("drive               {}\n", told(drive));
+    if (!json) out << fmt::format("drive               {}\n", description(drive));
   if (!json)
     for (const erp::Effect& effect : robot.effects)
       out << fmt::format("effect              {} on {}\n", effect.type, effect.on);
@@ -107,11 +107,12 @@ int model_export(const std::string& robot_file, const std::string& out_file) {
   const bool skeleton = out_file.ends_with(".urdf") || out_file.ends_with(".sdf");
   if (skeleton && !robot.actuators.empty())
     fmt::print(stderr,
-               "{} has the skeleton alone: {} actuators with tendons and sensors are left out\n",
+               "{} contains only the skeleton; the format cannot represent {} actuators with "
+               "tendons and sensors\n",
                out_file, robot.actuators.size());
   if (!out_file.ends_with(".dae") && !out_file.ends_with(".svg") && !robot.effects.empty())
-    fmt::print(stderr, "{} has the nominal robot: {} effects are left out\n", out_file,
-               robot.effects.size());
+    fmt::print(stderr, "{} contains the nominal robot; the format cannot represent {} effects\n",
+               out_file, robot.effects.size());
   return 0;
 }
 
@@ -128,14 +129,16 @@ int model_effects(const std::string& part, std::ostream& out) {
     const sim::effects::About& about = sim::effects::about(effect);
     if (about.type.find(part) == about.type.npos) continue;
     any = true;
-    const bool whole = about.seat == sim::effects::Seat::robot;
-    out << fmt::format("{}  on: {}  shown by: {}\n", about.type,
-                       whole ? "robot, by its name" : word(about.seat), about.shown_by);
+    const bool on_robot = about.seat == sim::effects::Seat::robot;
+    out << fmt::format("{}  on: {}  excitation: {}\n", about.type,
+                       on_robot ? "robot, by its name" : word(about.seat), about.shown_by);
     for (const auto& p : sim::effects::parameters(effect))
       out << fmt::format("    {:<26} {:>8} … {:<8} default {}{}\n", p.name, p.bounds.low,
-                         p.bounds.high, *p.value, p.fitted ? "" : ", which erp gap takes as it is");
+                         p.bounds.high, *p.value, p.fitted ? "" : ", not fitted by erp gap");
   }
-  if (!any) throw std::invalid_argument("no type of effect contains \"" + part + "\"");
+  if (!any)
+    throw std::invalid_argument("no effect type contains \"" + part +
+                                "\"; erp model effects lists all");
   return 0;
 }
 
@@ -149,7 +152,7 @@ int model_balance(const std::string& robot_file, double least_N, double rest_N, 
     part.pretensions.push_back(
         {{}, robot.actuators[k].name, std::round(100 * holding.tension_N[k]) / 100});
   out << xml::write(part);
-  fmt::print(stderr, "left unbalanced: {:.3g} Nm\n", holding.unbalanced_Nm);
+  fmt::print(stderr, "unbalanced torque: {:.3g} Nm\n", holding.unbalanced_Nm);
   return 0;
 }
 
@@ -160,7 +163,7 @@ int model_lengths(const std::string& robot_file, const std::string& table_file, 
   const sim::LengthPlan plan =
       sim::lengths_through(robot, poses, {.holding = {.rest_N = rest_N, .least_N = least_N}});
   recording::write_csv(plan.table, out);
-  fmt::print(stderr, "left unbalanced: at most {:.3g} Nm, at {:.6g} s\n", plan.unbalanced_Nm,
+  fmt::print(stderr, "unbalanced torque: at most {:.3g} Nm, at {:.6g} s\n", plan.unbalanced_Nm,
              plan.at_s);
   return 0;
 }

@@ -1,4 +1,4 @@
-# Writes OUT: the files of FOLDER as C++ strings.  cmake -DFOLDER=… -DOUT=… -P embed.cmake
+# Writes the files of FOLDER as C++ strings to OUT.  cmake -DFOLDER=… -DOUT=… -P embed.cmake
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*)
 set(lines "")
 foreach(file ${files})

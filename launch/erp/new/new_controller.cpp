@@ -11,7 +11,7 @@ namespace launch {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t longest_name = 32;  // `component` is a string<32> on the bus
+constexpr std::size_t longest_name = 32;  // `component` is a string<32> in messages
 constexpr auto reserved = std::to_array<std::string_view>(
     {"sim", "plant", "gateway", "replay", "logger", "reference", "target", "length_control",
      "force_control", "gap_monitor", "controller", "erp", "node", "main", "test"});
@@ -33,22 +33,23 @@ bool is_snake_case(const std::string& name) {
 }
 
 void check_name(const std::string& name) {
-  const auto refuse = [&name](const std::string& why) {
-    throw std::invalid_argument("\"" + name + "\" cannot name a controller: " + why);
+  const auto reject = [&name](const std::string& reason) {
+    throw std::invalid_argument("\"" + name + "\" cannot be the name of a controller: " + reason);
   };
-  if (!is_snake_case(name)) refuse("write lower-case words joined by _, such as my_controller");
-  if (name.size() > longest_name) refuse("it is longer than 32 letters");
+  if (!is_snake_case(name)) reject("use lower-case words joined by _, such as my_controller");
+  if (name.size() > longest_name) reject("it has more than 32 characters");
   if (std::find(keywords.begin(), keywords.end(), name) != keywords.end())
-    refuse("it is a word of C++");
+    reject("it is a keyword of C++");
   if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
-    refuse("a program of that name exists already");
+    reject("a program of this name exists already");
 }
 
 std::string filled(std::string text, const std::string& name) {
-  for (const auto& [mark, value] :
+  for (const auto& [placeholder, value] :
        {std::pair<std::string, std::string>{"@name@", name}, {"@Class@", class_name(name)}})
-    for (auto at = text.find(mark); at != text.npos; at = text.find(mark, at + value.size()))
-      text.replace(at, mark.size(), value);
+    for (auto at = text.find(placeholder); at != text.npos;
+         at = text.find(placeholder, at + value.size()))
+      text.replace(at, placeholder.size(), value);
   return text;
 }
 

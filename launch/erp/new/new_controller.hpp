@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-/// `erp new controller NAME DIR`: a project of one controller, built against the installed package.
+/// `erp new controller NAME DIR`: creates a project of one controller that is built against the
+/// installed package.
 namespace launch {
 
-/// A file of the project, with `@name@` and `@Class@` left open. The files of
-/// launch/erp/new/templates/controller, compiled in.
+/// A file of the project with the placeholders `@name@` and `@Class@`: a file of
+/// launch/erp/new/templates/controller, compiled into `erp`.
 struct Template {
   const char* file;
   const char* text;
@@ -18,9 +19,9 @@ std::span<const Template> controller_templates();
 /// `tension_hold` → `TensionHold`.
 std::string class_name(const std::string& snake_case_name);
 
-/// Writes the project and returns its files. `folder` must not exist or be empty.
-/// Throws std::invalid_argument for a name that is not snake_case, is too long for the bus, or
-/// would hide a component of ours; std::runtime_error when a file cannot be written.
+/// Writes the project and returns its files. `folder` must not exist or be empty. Throws
+/// std::invalid_argument for a name that is not snake_case, is too long for the bus, or is the name
+/// of an existing component; std::runtime_error if a file cannot be written.
 std::vector<std::filesystem::path> new_controller(const std::string& name,
                                                   const std::filesystem::path& folder);
 

@@ -13,9 +13,9 @@ namespace {
 
 using recording::Column;
 
-constexpr double line_over_s = 0.1;  // chosen
+constexpr double line_span_s = 0.1;  // chosen
 
-/// Sums over a window that moves along, for the straight line through it.
+/// Sums over a moving window, for the line fitted to it.
 struct Window {
   double n = 0, t = 0, tt = 0, y = 0, ty = 0;
   void add(double time_s, double value, double sign) {
@@ -29,19 +29,19 @@ struct Window {
   }
 };
 
-/// RMS about the straight line through the values within half of `line_over_s`.
-double swing(const std::vector<double>& time_s, const std::vector<double>& values) {
+/// RMS about the line fitted to the values within ± `line_span_s` / 2.
+double ripple(const std::vector<double>& time_s, const std::vector<double>& values) {
   double squares = 0;
   Window window;
-  std::size_t first = 0, last = 0;  // of the window: first … last − 1
-  const auto take = [&](std::size_t k, double sign) {
+  std::size_t first = 0, last = 0;  // the window is first … last − 1
+  const auto add = [&](std::size_t k, double sign) {
     window.add(time_s[k] - time_s.front(), values[k], sign);
   };
   for (std::size_t k = 0; k < values.size(); ++k) {
-    while (last < values.size() && time_s[last] <= time_s[k] + line_over_s / 2) take(last++, 1);
-    while (time_s[first] < time_s[k] - line_over_s / 2) take(first++, -1);
-    const double off = values[k] - window.line_at(time_s[k] - time_s.front());
-    squares += off * off;
+    while (last < values.size() && time_s[last] <= time_s[k] + line_span_s / 2) add(last++, 1);
+    while (time_s[first] < time_s[k] - line_span_s / 2) add(first++, -1);
+    const double deviation = values[k] - window.line_at(time_s[k] - time_s.front());
+    squares += deviation * deviation;
   }
   return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
 }
@@ -65,7 +65,7 @@ Effort effort_of(const recording::Table& table, const std::string& actuator, dou
     if (!std::isnan(power_W)) e.energy_J += power_W * (time.values[k + 1] - time.values[k]);
   }
   if (!tension_N.empty()) e.mean_N /= static_cast<double>(tension_N.size());
-  e.swing_N = swing(time_s, tension_N);
+  e.ripple_N = ripple(time_s, tension_N);
   return e;
 }
 
@@ -80,16 +80,16 @@ std::vector<Effort> efforts(const recording::Table& table, double from_s) {
 
 int log_effort(const std::string& path, double from_s, std::ostream& out) {
   return guarded([&] {
-    out << fmt::format("{:<24} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "actuator", "least N",
-                       "mean N", "largest N", "swing N", "energy J");
+    out << fmt::format("{:<24} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "actuator", "min N", "mean N",
+                       "max N", "ripple N", "energy J");
     double energy_J = 0;
     for (const Effort& e : efforts(recording::read_table(path), from_s)) {
       out << fmt::format("{:<24} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.3f} {:>12.3f}\n", e.actuator,
-                         e.least_N, e.mean_N, e.largest_N, e.swing_N, e.energy_J);
+                         e.least_N, e.mean_N, e.largest_N, e.ripple_N, e.energy_J);
       energy_J += e.energy_J;
     }
-    out << fmt::format("{:<24} {:>56.3f}\n", "together", energy_J);
-    return written(out);
+    out << fmt::format("{:<24} {:>56.3f}\n", "total", energy_J);
+    return flush_or_throw(out);
   });
 }
 

@@ -7,15 +7,15 @@
 #include <ostream>
 
 #include "interfaces/recording/mcap_reader.hpp"
-#include "launch/erp/verbs/guarded.hpp"
 #include "launch/erp/record/plot.hpp"
+#include "launch/erp/verbs/guarded.hpp"
 #include "sim/model/skeleton/joint_path.hpp"
 
 namespace launch {
 namespace {
 
 constexpr double period_s = 0.002, degrees = 180 / std::numbers::pi;
-constexpr std::size_t most_points = 2000;  // a curve
+constexpr std::size_t most_points = 2000;  // per curve
 
 using Position = std::array<double, 4>;
 
@@ -23,14 +23,14 @@ erp::JointType type_of(int dof) {
   return dof == 3 ? erp::JointType::spherical : erp::JointType::revolute;
 }
 
-/// u of q₁ ⊖ q₀.
-std::array<double, 3> way(int dof, const Position& from, const Position& to) {
+/// The rotation vector u of q₁ ⊖ q₀.
+std::array<double, 3> difference(int dof, const Position& from, const Position& to) {
   return sim::way_between(type_of(dof), from, to);
 }
 
-/// An angle, or a ball joint's turn from all frames parallel.
-std::array<double, 3> turn(int dof, const Position& at) {
-  return way(dof, dof == 3 ? Position{1, 0, 0, 0} : Position{}, at);
+/// The joint angle, or the rotation vector of a ball joint from its zero pose.
+std::array<double, 3> angles(int dof, const Position& at) {
+  return difference(dof, dof == 3 ? Position{1, 0, 0, 0} : Position{}, at);
 }
 
 std::string curve(const recording::JointTrack& track, std::size_t axis) {
@@ -40,24 +40,25 @@ std::string curve(const recording::JointTrack& track, std::size_t axis) {
   for (const auto& [sequence, position] : track.at)
     if (k++ % stride == 0)
       points += fmt::format("{:.4f} {:.5f}\n", period_s * static_cast<double>(sequence),
-                            degrees * turn(track.dof, position)[axis]);
+                            degrees * angles(track.dof, position)[axis]);
   return points;
 }
 
-PlotScript script(const recording::JointTracks& was, const recording::JointTracks& wanted,
+PlotScript script(const recording::JointTracks& actual, const recording::JointTracks& desired,
                   const LogJointsOptions& options) {
   PlotScript plot;
   std::string data, panels;
-  for (const auto& [joint, track] : was) {
-    const auto other = wanted.find(joint);
-    if (other == wanted.end()) continue;
+  for (const auto& [joint, track] : actual) {
+    const auto other = desired.find(joint);
+    if (other == desired.end()) continue;
     for (std::size_t axis = 0; axis < (track.dof == 3 ? 3U : 1U); ++axis) {
       const int n = plot.panels++;
-      data += fmt::format("$was{} << E\n{}E\n$wanted{} << E\n{}E\n", n, curve(track, axis), n,
+      data += fmt::format("$actual{} << E\n{}E\n$desired{} << E\n{}E\n", n, curve(track, axis), n,
                           curve(other->second, axis));
       panels += fmt::format(
           "set ylabel '{}{}  [°]'\n"
-          "plot $was{} with lines lc rgb '#0072B2' lw 2 title '{}', $wanted{} with lines dt 2 lw 2 "
+          "plot $actual{} with lines lc rgb '#0072B2' lw 2 title '{}', $desired{} with lines dt 2 "
+          "lw 2 "
           "lc rgb '#D55E00' title '{}'\n",
           joint, track.dof == 3 ? std::string(" ") + "xyz"[axis] : "", n, options.of, n,
           options.against);
@@ -80,22 +81,22 @@ void print(const std::vector<JointError>& errors, const LogJointsOptions& option
 
 }  // namespace
 
-std::vector<JointError> joint_errors(const recording::JointTracks& was,
-                                     const recording::JointTracks& wanted, double from_s) {
+std::vector<JointError> joint_errors(const recording::JointTracks& actual,
+                                     const recording::JointTracks& desired, double from_s) {
   std::vector<JointError> errors;
-  for (const auto& [joint, track] : was) {
-    const auto other = wanted.find(joint);
-    if (other == wanted.end()) continue;
+  for (const auto& [joint, track] : actual) {
+    const auto other = desired.find(joint);
+    if (other == desired.end()) continue;
     JointError e{joint};
     for (const auto& [sequence, position] : track.at) {
-      const auto asked = other->second.at.find(sequence);
+      const auto same_frame = other->second.at.find(sequence);
       const double time_s = period_s * static_cast<double>(sequence);
-      if (asked == other->second.at.end() || time_s < from_s) continue;
-      const auto u = way(track.dof, position, asked->second);
-      const double apart = std::hypot(u[0], u[1], u[2]);
-      e.rms_rad += apart * apart;
+      if (same_frame == other->second.at.end() || time_s < from_s) continue;
+      const auto u = difference(track.dof, position, same_frame->second);
+      const double error_rad = std::hypot(u[0], u[1], u[2]);
+      e.rms_rad += error_rad * error_rad;
       ++e.frames;
-      if (apart > e.largest_rad) e.largest_rad = apart, e.largest_at_s = time_s;
+      if (error_rad > e.largest_rad) e.largest_rad = error_rad, e.largest_at_s = time_s;
     }
     if (e.frames > 0) e.rms_rad = std::sqrt(e.rms_rad / static_cast<double>(e.frames));
     errors.push_back(e);
@@ -106,11 +107,11 @@ std::vector<JointError> joint_errors(const recording::JointTracks& was,
 int log_joints(const std::string& path, const LogJointsOptions& options, std::ostream& out) {
   return guarded([&] {
     const recording::McapReader reader(path);
-    const auto was = recording::joint_tracks(reader, options.of);
-    const auto wanted = recording::joint_tracks(reader, options.against);
-    print(joint_errors(was, wanted, options.from_s), options, out);
-    if (!options.out.empty()) draw(script(was, wanted, options), options.out);
-    return written(out);
+    const auto actual = recording::joint_tracks(reader, options.of);
+    const auto desired = recording::joint_tracks(reader, options.against);
+    print(joint_errors(actual, desired, options.from_s), options, out);
+    if (!options.out.empty()) draw(script(actual, desired, options), options.out);
+    return flush_or_throw(out);
   });
 }
 

@@ -5,7 +5,7 @@
 
 #include "interfaces/recording/joint_tracks.hpp"
 
-/// `erp log joints`: how near one account of the joints is to another.
+/// `erp log joints`: difference between two sources of joint angles.
 namespace launch {
 
 struct JointError {
@@ -14,17 +14,19 @@ struct JointError {
   double rms_rad = 0, largest_rad = 0, largest_at_s = 0;
 };
 
-/// Of ball joints the angle of the turn between the two. Frames before `from_s` are left out.
-std::vector<JointError> joint_errors(const recording::JointTracks& was,
-                                     const recording::JointTracks& wanted, double from_s);
+/// Error of each joint that both have; for a ball joint, the angle of the rotation between the two.
+/// Ignores frames before `from_s`.
+std::vector<JointError> joint_errors(const recording::JointTracks& actual,
+                                     const recording::JointTracks& desired, double from_s);
 
 struct LogJointsOptions {
   std::string of = "sim", against = "joint_target";
   double from_s = 0;
-  std::string out;  ///< a picture; empty: none
+  std::string out;  ///< picture file; empty: none
 };
 
-/// Prints a row a joint, and draws both. Returns 0 done, 1 could not be written, 2 bad input.
+/// Prints one row per joint, and draws both sources if requested. Returns 0 done, 1 not written, 2
+/// bad input.
 int log_joints(const std::string& path, const LogJointsOptions& options, std::ostream& out);
 
 }  // namespace launch

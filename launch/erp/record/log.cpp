@@ -8,9 +8,9 @@
 #include "interfaces/recording/csv.hpp"
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/topic_csv.hpp"
-#include "launch/erp/verbs/guarded.hpp"
 #include "launch/erp/record/plot.hpp"
 #include "launch/erp/text/columns.hpp"
+#include "launch/erp/verbs/guarded.hpp"
 
 namespace launch {
 namespace {
@@ -29,7 +29,7 @@ std::string bytes(std::size_t size) {
                          : decimal("%.1f MB", static_cast<double>(size) * 1e-6);
 }
 
-/// A topic's channels, one per writer and type, added up.
+/// Sum over the channels of a topic, one per writer and type.
 struct TopicRow {
   std::string type;
   std::uint64_t messages = 0, missing = 0, restarts = 0, writers = 0;
@@ -60,7 +60,7 @@ std::map<std::string, TopicRow> rows_of(const McapReader& reader) {
   return rows;
 }
 
-/// The longest any topic lasted; topics may be stamped by different clocks.
+/// Duration of the longest topic; topics may have stamps of different clocks.
 double duration_s(const std::map<std::string, TopicRow>& rows) {
   std::uint64_t longest_ns = 0;
   for (const auto& [topic, row] : rows)
@@ -74,7 +74,7 @@ void print_head(const McapReader& reader, std::ostream& out) {
       << " messages in " << reader.contents().chunks << " chunks, by " << reader.contents().library
       << '\n';
   if (!reader.complete())
-    out << "  " << reader.truncation() << "; save what can be read with: erp log recover "
+    out << "  " << reader.truncation() << "; recover the readable messages with: erp log recover "
         << reader.path() << '\n';
 }
 
@@ -107,7 +107,7 @@ int log_info(const std::string& path, std::ostream& out) {
     out << '\n';
     print_topics(reader, out);
     print_attachments(reader, out);
-    return written(out);
+    return flush_or_throw(out);
   });
 }
 
@@ -116,16 +116,16 @@ int log_export(const std::string& path, std::ostream& out, const LogExportOption
     if (options.topic.empty())
       recording::write_csv(recording::read_table(path, {.robot = options.robot}), out);
     else recording::write_topic_csv(McapReader(path), options.topic, out);
-    return written(out);
+    return flush_or_throw(out);
   });
 }
 
-int log_recover(const std::string& in, const std::string& out, std::ostream& said) {
+int log_recover(const std::string& in, const std::string& out, std::ostream& report) {
   return guarded([&] {
     const auto recovered = recording::recover(in, out);
-    for (const std::string& problem : recovered.problems) said << problem << '\n';
-    said << out << ": " << recovered.messages << " messages and " << recovered.attachments
-         << " attachments\n";
+    for (const std::string& problem : recovered.problems) report << problem << '\n';
+    report << out << ": " << recovered.messages << " messages and " << recovered.attachments
+           << " attachments\n";
     return recovered.messages + recovered.attachments > 0 ? 0 : 1;
   });
 }

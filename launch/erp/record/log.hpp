@@ -3,33 +3,33 @@
 #include <string>
 #include <vector>
 
-/// `erp log info|export|recover|plot`: what a person does with a recording.
-/// All return 0 done, 1 the result could not be written, 2 the input is bad; errors go to stderr
-/// with place, value and remedy.
+/// `erp log info|export|recover|plot`. All functions return 0 done, 1 result not written, 2 bad
+/// input, and print errors on stderr with place, value and remedy.
 namespace launch {
 
 struct LogExportOptions {
-  std::string topic;  ///< empty: one row per sensor_frame; else this topic's messages
-  std::string robot;  ///< empty: the only one
+  std::string topic;  ///< empty: one row per sensor_frame; else the messages of this topic
+  std::string robot;  ///< empty: the only robot of the recording
 };
 
 struct LogPlotOptions {
-  /// Which curves: actuators or joints ("flexor"), signals ("tension_N"), or one of both
-  /// ("flexor.tension_N"). Empty: tension, line length and joint angle of everything.
+  /// Curves to draw: actuators or joints ("flexor"), signals ("tension_N"), or single curves
+  /// ("flexor.tension_N"). Empty: tensions, line lengths and joint angles of all.
   std::vector<std::string> signals;
-  std::string robot;  ///< empty: the only one
-  std::string title;  ///< empty: the file's name
+  std::string robot;  ///< empty: the only robot of the recording
+  std::string title;  ///< empty: the file name
 };
 
-/// Duration, topics with counts, rates and missing messages, attachments, whole or cut off.
+/// Prints duration, topics with counts, rates and missing messages, attachments, and whether the
+/// file is complete.
 int log_info(const std::string& path, std::ostream& out);
 
-/// The recording (MCAP or CSV) as CSV.
+/// Prints the recording (MCAP or CSV) as CSV.
 int log_export(const std::string& path, std::ostream& out, const LogExportOptions& options = {});
 
-/// Copies what can be read of `in` into the new file `out`, and says what could not. Returns 1 when
-/// there was nothing.
-int log_recover(const std::string& in, const std::string& out, std::ostream& said);
+/// Copies all readable messages of `in` into the new file `out` and prints the losses to `report`.
+/// Returns 1 if there are no readable messages.
+int log_recover(const std::string& in, const std::string& out, std::ostream& report);
 
 /// Draws the recording (MCAP or CSV) into `out`, an .svg or .png file. Needs gnuplot.
 int log_plot(const std::string& path, const std::string& out, const LogPlotOptions& options = {});

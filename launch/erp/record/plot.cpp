@@ -16,13 +16,13 @@ using recording::Column;
 using recording::Table;
 using Values = std::vector<double>;
 
-/// One panel: what it shows, in which unit, and which mode's references belong there.
+/// One panel: its signal, its unit, and the mode whose references it shows.
 struct Panel {
   const char* signal;
   const char* label;
   double scale;
   erp::Mode mode;
-  bool standard;  ///< shown unless something else is asked for
+  bool standard;  ///< shown by default
 };
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr Panel panels[] = {{"tension_N", "tension  [N]", 1, erp::Mode::force, true},
@@ -33,15 +33,17 @@ constexpr Panel panels[] = {{"tension_N", "tension  [N]", 1, erp::Mode::force, t
                             {"angle_rad", "joint angle  [°]", degrees, erp::Mode::off, true},
                             {"qw", "joint rotation  [°]", 2 * degrees, erp::Mode::off, true}};
 
-// Colours that colour-blind eyes tell apart, after Okabe & Ito and Tol. Joints begin at `joint`.
+// Colours for colour-blind readers, after Okabe & Ito and Tol. Joints start at
+// `first_joint_colour`.
 constexpr std::array<unsigned, 12> colours{0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
                                            0xE69F00, 0x56B4E9, 0x882255, 0x44AA99,
                                            0x999933, 0x332288, 0xAA4499, 0x661100};
 constexpr std::size_t first_joint_colour = 6;
-constexpr std::size_t most_points = 2000;  // a curve; more than a screen has columns
+constexpr std::size_t most_points = 2000;  // per curve; more than a screen has columns
 constexpr std::size_t most_keys = 14;      // entries that fit beside one panel
 
-/// gnuplot's literal string. What could end it or be run by it is replaced by its look-alike.
+/// A literal string of gnuplot. Quotes and backquotes are replaced, so that the text is never
+/// executed.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -56,7 +58,7 @@ std::string rgb(unsigned colour) {
   std::snprintf(text.data(), text.size(), "'#%06X'", colour);
   return text.data();
 }
-/// Half as bright: a reference stays visible on top of the curve that follows it.
+/// Half the brightness, so that a reference is visible on top of the measured curve.
 unsigned dark(unsigned colour) { return (colour >> 1) & 0x7F7F7F; }
 
 std::string number(double value) {
@@ -69,8 +71,8 @@ void put_point(std::string& out, double time_s, double value) {
   out += number(time_s) + " " + number(value) + "\n";
 }
 
-/// The lowest and the highest of each stretch of samples, so that no peak is lost; a blank line
-/// where nothing was measured.
+/// Minimum and maximum of each interval of samples, so that no peak is lost; a blank line where no
+/// value was measured.
 std::string thinned(const Values& time_s, const Values& values) {
   const std::size_t stretch = std::max<std::size_t>(1, 2 * values.size() / most_points);
   std::string out;
@@ -91,13 +93,14 @@ std::string thinned(const Values& time_s, const Values& values) {
   return out;
 }
 
-/// What was asked for in a panel's unit: the reference while the ECU follows it, else the target.
-Values wanted_values(const Table& table, const std::string& owner, const Panel& panel) {
+/// Desired values in the unit of the panel: the reference while the ECU follows it, else the
+/// target.
+Values desired_values(const Table& table, const std::string& owner, const Panel& panel) {
   const auto pick = [&](const char* mode_name, const char* value_name, std::size_t row) {
     const Column* mode = table.find(owner + mode_name);
     const Column* value = table.find(owner + value_name);
-    const bool ours = mode && value && mode->values[row] == static_cast<double>(panel.mode);
-    return ours ? value->values[row] : recording::not_taken;
+    const bool in_mode = mode && value && mode->values[row] == static_cast<double>(panel.mode);
+    return in_mode ? value->values[row] : recording::not_taken;
   };
   Values values(table.rows(), recording::not_taken);
   if (panel.mode == erp::Mode::off) return values;
@@ -111,7 +114,7 @@ Values wanted_values(const Table& table, const std::string& owner, const Panel& 
 
 Values measured_values(const Column& column, const Panel& panel) {
   Values values = column.values;
-  // A unit quaternion turns by 2 acos |w|, whatever the axis.
+  // A unit quaternion is a rotation by 2 acos |w| about any axis.
   if (std::string_view(panel.signal) == "qw")
     for (double& w : values) w = std::acos(std::min(1.0, std::abs(w)));
   for (double& value : values) value *= panel.scale;
@@ -170,7 +173,7 @@ class Script {
     constexpr auto* dashes = " with lines linewidth 1.3 dashtype (9,6) linecolor rgb ";
     const std::string_view signal = panel.signal;
     const bool joint = signal == "angle_rad" || signal == "qw";
-    std::string measured, wanted;
+    std::string measured, desired;
     std::size_t curve = 0;
     for (const std::string& owner : table_.owners(signal)) {
       if (!chosen(signals, owner, panel)) continue;
@@ -180,13 +183,13 @@ class Script {
       const unsigned colour = colours[(curve + (joint ? first_joint_colour : 0)) % colours.size()];
       measured += (measured.empty() ? "" : ", ") + data + " with lines linewidth 2 linecolor rgb " +
                   rgb(colour) + (curve < most_keys ? " title " + quoted(owner) : " notitle");
-      const std::string reference = block(wanted_values(table_, owner, panel));
-      if (!reference.empty()) wanted += ", " + reference + dashes + rgb(dark(colour)) + " notitle";
+      const std::string reference = block(desired_values(table_, owner, panel));
+      if (!reference.empty()) desired += ", " + reference + dashes + rgb(dark(colour)) + " notitle";
       ++curve;
     }
     if (measured.empty()) return;
-    if (!wanted.empty()) wanted += std::string(", NaN") + dashes + "'#333333' title 'asked for'";
-    plots_.push_back("set ylabel " + quoted(panel.label) + "\nplot " + measured + wanted + "\n");
+    if (!desired.empty()) desired += std::string(", NaN") + dashes + "'#333333' title 'desired'";
+    plots_.push_back("set ylabel " + quoted(panel.label) + "\nplot " + measured + desired + "\n");
   }
 
   const Table& table_;
@@ -196,19 +199,20 @@ class Script {
   std::size_t blocks_ = 0;
 };
 
-/// Every signal asked for must name something.
+/// Throws RecordingError if a requested signal matches no curve.
 void check_signals(const Table& table, const std::vector<std::string>& signals,
                    const std::string& place) {
   for (const std::string& signal : signals) {
     bool known = false;
-    std::string there;
+    std::string available;
     for (const Panel& panel : panels)
       for (const std::string& owner : table.owners(panel.signal)) {
         known = known || chosen({signal}, owner, panel);
-        there += (there.empty() ? "" : ", ") + owner + "." + panel.signal;
+        available += (available.empty() ? "" : ", ") + owner + "." + panel.signal;
       }
     if (!known)
-      throw recording::RecordingError(place + ": no signal \"" + signal + "\"; there are " + there);
+      throw recording::RecordingError(place + ": no signal \"" + signal + "\"; there are " +
+                                      available);
   }
 }
 
@@ -219,8 +223,8 @@ PlotScript plot_script(const Table& table, const std::vector<std::string>& signa
   check_signals(table, signals, place);
   const Script script(table, signals);
   if (script.empty())
-    throw recording::RecordingError(place + ": holds no samples to draw; see erp log info " +
-                                    place);
+    throw recording::RecordingError(
+        place + ": contains no samples of the signals; see erp log info " + place);
   return script.finish(title);
 }
 

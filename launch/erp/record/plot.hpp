@@ -7,9 +7,9 @@
 
 namespace launch {
 
-/// One panel a signal, stacked over a common time: solid what was measured, dashed what was asked
-/// for (the reference in the panel's mode, else the target). `signals` as in LogPlotOptions;
-/// `place` names the recording in errors. Throws RecordingError when nothing matches.
+/// One panel per signal over a common time axis. Solid: measured value. Dashed: desired value, that
+/// is the reference in the mode of the panel, else the target. `signals` as in LogPlotOptions;
+/// `place` names the recording in errors. Throws RecordingError when no signal matches.
 PlotScript plot_script(const recording::Table& table, const std::vector<std::string>& signals,
                        const std::string& title, const std::string& place);
 

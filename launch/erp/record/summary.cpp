@@ -10,11 +10,11 @@
 namespace launch {
 namespace {
 
-constexpr double worth_saying = 0.98;  // a recording that misses more of its run says so; chosen
+constexpr double complete_fraction = 0.98;  // a shorter recording is reported; chosen
 
 using Values = std::vector<double>;
 
-/// What a mode measures.
+/// The signal that a mode controls.
 const char* measured_signal(erp::Mode mode) {
   switch (mode) {
     case erp::Mode::voltage:
@@ -31,29 +31,30 @@ const char* measured_signal(erp::Mode mode) {
   return "";
 }
 
-/// One actuator's target beside what came of it; rows without both are left out.
-struct Followed {
+/// Target and measured value of one actuator, in rows that have both.
+struct TrackedActuator {
   std::string actuator;
   erp::Mode mode = erp::Mode::off;
   Values time_s, target, measured;
 };
 
-/// The columns that say what an actuator was to do: a planner's target, or, when nobody published
-/// one, what the ECU itself followed. A voltage is no target: nothing measures it.
-struct Wanted {
+/// Columns of the desired value of an actuator: the published target, or without one the reference
+/// of the ECU. A voltage is not a target, since no control loop tracks it.
+struct DesiredColumns {
   const recording::Column *mode = nullptr, *value = nullptr;
   explicit operator bool() const { return mode && value; }
 };
 
-Wanted wanted(const recording::Table& table, const std::string& actuator) {
-  const Wanted planned{table.find(actuator + ".target_mode"), table.find(actuator + ".target")};
-  if (planned) return planned;
+DesiredColumns desired_columns(const recording::Table& table, const std::string& actuator) {
+  const DesiredColumns target{table.find(actuator + ".target_mode"),
+                              table.find(actuator + ".target")};
+  if (target) return target;
   return {table.find(actuator + ".mode"), table.find(actuator + ".reference")};
 }
 
-Followed follow(const recording::Table& table, const std::string& actuator) {
-  Followed one{actuator, erp::Mode::off, {}, {}, {}};
-  const auto [modes, values] = wanted(table, actuator);
+TrackedActuator tracked_actuator(const recording::Table& table, const std::string& actuator) {
+  TrackedActuator one{actuator, erp::Mode::off, {}, {}, {}};
+  const auto [modes, values] = desired_columns(table, actuator);
   const auto* running = table.find(actuator + ".mode");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (std::isnan(values->values[row]) || std::isnan(modes->values[row])) continue;
@@ -70,52 +71,54 @@ Followed follow(const recording::Table& table, const std::string& actuator) {
   return one;
 }
 
-std::vector<Followed> followed(const recording::Table& table) {
-  std::vector<Followed> all;
+std::vector<TrackedActuator> tracked_actuators(const recording::Table& table) {
+  std::vector<TrackedActuator> all;
   for (const auto& actuator : table.owners("mode"))
-    if (wanted(table, actuator))
-      if (auto one = follow(table, actuator); !one.target.empty()) all.push_back(std::move(one));
+    if (desired_columns(table, actuator))
+      if (auto one = tracked_actuator(table, actuator); !one.target.empty())
+        all.push_back(std::move(one));
   return all;
 }
 
-double rms_error(const Followed& f, std::size_t from) {
+double rms_error(const TrackedActuator& f, std::size_t from) {
   double sum = 0;
   for (std::size_t i = from; i < f.target.size(); ++i)
     sum += (f.measured[i] - f.target[i]) * (f.measured[i] - f.target[i]);
   return std::sqrt(sum / static_cast<double>(f.target.size() - from));
 }
 
-/// The row of the only change of the target; nothing when it changes more often or never.
-std::optional<std::size_t> only_jump(const Values& target) {
-  std::optional<std::size_t> jump;
+/// The row of the only change of the target; nothing if there is no change or more than one.
+std::optional<std::size_t> single_step(const Values& target) {
+  std::optional<std::size_t> step;
   for (std::size_t i = 1; i < target.size(); ++i) {
     if (target[i] == target[i - 1]) continue;
-    if (jump) return std::nullopt;
-    jump = i;
+    if (step) return std::nullopt;
+    step = i;
   }
-  return jump;
+  return step;
 }
 
-/// When the measured signal first passed a part of the way from → to, after `start`.
-std::optional<double> passed_s(const Followed& f, std::size_t start, double level, bool upward) {
+/// First time after `start` when the measured signal passes `level`.
+std::optional<double> passed_s(const TrackedActuator& f, std::size_t start, double level,
+                               bool upward) {
   for (std::size_t i = start; i < f.measured.size(); ++i)
     if (upward ? f.measured[i] >= level : f.measured[i] <= level) return f.time_s[i];
   return std::nullopt;
 }
 
-StepResponse response_of(const Followed& f, std::size_t jump) {
-  StepResponse r{f.actuator, f.mode, f.target[jump - 1], f.target[jump], f.time_s[jump], {}, 0, 0};
-  const double way = r.to - r.from;
-  const auto low = passed_s(f, jump, r.from + 0.1 * way, way > 0);
-  const auto high = passed_s(f, jump, r.from + 0.9 * way, way > 0);
+StepResponse response_of(const TrackedActuator& f, std::size_t step) {
+  StepResponse r{f.actuator, f.mode, f.target[step - 1], f.target[step], f.time_s[step], {}, 0, 0};
+  const double height = r.to - r.from;
+  const auto low = passed_s(f, step, r.from + 0.1 * height, height > 0);
+  const auto high = passed_s(f, step, r.from + 0.9 * height, height > 0);
   if (low && high) r.rise_s = *high - *low;
-  for (std::size_t i = jump; i < f.measured.size(); ++i)
-    r.overshoot = std::max(r.overshoot, (f.measured[i] - r.to) * (way > 0 ? 1 : -1));
-  r.steady_rms = rms_error(f, jump + (f.target.size() - jump) / 2);
+  for (std::size_t i = step; i < f.measured.size(); ++i)
+    r.overshoot = std::max(r.overshoot, (f.measured[i] - r.to) * (height > 0 ? 1 : -1));
+  r.steady_rms = rms_error(f, step + (f.target.size() - step) / 2);
   return r;
 }
 
-/// Lengths are small numbers: shown in mm.
+/// Value with unit; lengths in mm.
 std::string amount(double value, erp::Mode mode) {
   if (mode == erp::Mode::length) return fmt::format("{:.3f} mm", 1000 * value);
   return fmt::format("{:.3f} {}", value, erp::unit_of(mode));
@@ -125,7 +128,7 @@ std::string amount(double value, erp::Mode mode) {
 
 std::vector<Tracking> tracking(const recording::Table& table) {
   std::vector<Tracking> all;
-  for (const auto& f : followed(table)) {
+  for (const auto& f : tracked_actuators(table)) {
     Tracking t{f.actuator, f.mode, rms_error(f, 0), 0, f.target.size()};
     for (std::size_t i = 0; i < f.target.size(); ++i)
       t.largest = std::max(t.largest, std::abs(f.measured[i] - f.target[i]));
@@ -136,8 +139,8 @@ std::vector<Tracking> tracking(const recording::Table& table) {
 
 std::vector<StepResponse> step_responses(const recording::Table& table) {
   std::vector<StepResponse> all;
-  for (const auto& f : followed(table))
-    if (const auto jump = only_jump(f.target)) all.push_back(response_of(f, *jump));
+  for (const auto& f : tracked_actuators(table))
+    if (const auto step = single_step(f.target)) all.push_back(response_of(f, *step));
   return all;
 }
 
@@ -156,26 +159,26 @@ void print_steps(const std::vector<StepResponse>& steps, std::ostream& out) {
     out << fmt::format(
         "{} steps {} -> {} at {:.3f} s: rise (10-90 %) {}, overshoot {}, steady RMS {}\n",
         s.actuator, amount(s.from, s.mode), amount(s.to, s.mode), s.at_s,
-        s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "never reached",
+        s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "not reached",
         amount(s.overshoot, s.mode), amount(s.steady_rms, s.mode));
 }
 
-/// A logger that was killed leaves its part behind as NAME.1.mcap, NAME.2.mcap …
+/// A logger that was killed leaves its parts as NAME.1.mcap, NAME.2.mcap …
 void print_parts(const std::vector<std::string>& parts, std::ostream& out) {
   if (parts.size() == 1) {
     out << "recording " << parts.front() << '\n';
     return;
   }
-  out << "recording in " << parts.size() << " parts, because the logger was started again:\n";
+  out << "recording in " << parts.size() << " parts, because the logger was restarted:\n";
   for (const auto& part : parts) out << "  " << part << '\n';
-  out << "a part that was cut off is mended by: erp log recover PART\n";
+  out << "recover an incomplete part with: erp log recover PART\n";
 }
 
 }  // namespace
 
 int print_summary(const RecordedRun& run, std::ostream& out) try {
   print_parts(run.parts, out);
-  if (run.lasted_s < 0) return 0;  // nothing moved
+  if (run.active_s < 0) return 0;  // the device never ran
   recording::TableOptions options;
   options.lines = options.targets = true;
   options.robot = run.robot;
@@ -183,8 +186,9 @@ int print_summary(const RecordedRun& run, std::ostream& out) try {
   const double span_s = table.columns.front().values.back();
   out << fmt::format("{} {:.2f} s", run.parts.size() > 1 ? "the last part covers" : "it covers",
                      span_s)
-      << (span_s < worth_saying * run.lasted_s ? fmt::format(" of the run's {:.2f} s", run.lasted_s)
-                                               : "")
+      << (span_s < complete_fraction * run.active_s
+              ? fmt::format(" of the run's {:.2f} s", run.active_s)
+              : "")
       << '\n';
   print_tracking(tracking(table), out);
   print_steps(step_responses(table), out);

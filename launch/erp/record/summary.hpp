@@ -7,10 +7,10 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/values.hpp"
 
-/// What a run achieved, from its recording: how well each actuator followed its target.
+/// Summary of a run from its recording: tracking error and step response of each actuator.
 namespace launch {
 
-/// Error = measured − target, in the target's unit, while the ECU was running.
+/// Error = measured − target, in the unit of the target, while the ECU is running.
 struct Tracking {
   std::string actuator;
   erp::Mode mode = erp::Mode::off;
@@ -18,27 +18,28 @@ struct Tracking {
   std::size_t rows = 0;
 };
 
-/// The answer to a target that jumps once. Rise: from 10 % to 90 % of the jump, as measured.
-/// Steady: RMS of the error over the second half of what follows the jump.
+/// Response to a target with a single step. Rise: from 10 % to 90 % of the step, measured. Steady:
+/// RMS of the error over the second half of the time after the step.
 struct StepResponse {
   std::string actuator;
   erp::Mode mode = erp::Mode::off;
   double from = 0, to = 0, at_s = 0;
-  std::optional<double> rise_s;  ///< nothing: it never got there
+  std::optional<double> rise_s;  ///< absent: 90 % was not reached
   double overshoot = 0, steady_rms = 0;
 };
 
 std::vector<Tracking> tracking(const recording::Table& table);
 std::vector<StepResponse> step_responses(const recording::Table& table);
 
-/// What a run left.
+/// The recordings of a run.
 struct RecordedRun {
-  std::vector<std::string> parts;  ///< its recordings, oldest first; at least one
+  std::vector<std::string> parts;  ///< files, oldest first; at least one
   std::string robot;
-  double lasted_s = -1;  ///< from the first moment all were active; negative: nothing moved
+  double active_s =
+      -1;  ///< time since all components became active; negative: the device never ran
 };
-/// Names the recordings and prints tracking and step responses of the last one. Returns 0, or 1
-/// when it cannot be read.
+/// Prints the file names, and tracking errors and step responses of the last file. Returns 0, or 1
+/// if it cannot be read.
 int print_summary(const RecordedRun& run, std::ostream& out);
 
 }  // namespace launch

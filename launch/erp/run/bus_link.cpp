@@ -4,7 +4,7 @@
 
 namespace launch {
 
-constexpr int event_depth = 64;  // chosen: a burst of notices from one component
+constexpr int event_depth = 64;  // chosen: a burst of events from one component
 
 BusLink::BusLink(std::string robot)
     : robot_(std::move(robot)),
@@ -13,27 +13,27 @@ BusLink::BusLink(std::string robot)
       peers_(participant_, wake_, self_),
       states_(participant_, wake_),
       events_(participant_, wake_, event_depth),
-      clock_(participant_, unheeded_),
+      clock_(participant_, clock_wake_),
       commands_(participant_) {}
 
-void BusLink::poll(const Hearing& hearing) {
+void BusLink::poll(const Handlers& handlers) {
   wake_.clear();
-  const auto only_ours = [this](const auto& use) {
+  const auto of_robot = [this](const auto& use) {
     return [this, &use](const auto& message) {
       if (robot_ == message.robot) use(message);
     };
   };
-  states_.take(only_ours(hearing.state));
-  events_.take(only_ours(hearing.event));
-  clock_.take(only_ours(hearing.clock));
+  states_.take(of_robot(handlers.state));
+  events_.take(of_robot(handlers.event));
+  clock_.take(of_robot(handlers.clock));
 }
 
 std::vector<node::Peer> BusLink::peers() {
-  peers_.look();
-  std::vector<node::Peer> ours;
+  peers_.discover();
+  std::vector<node::Peer> found;
   for (const auto& peer : peers_.known())
-    if (peer.robot == robot_) ours.push_back(peer);
-  return ours;
+    if (peer.robot == robot_) found.push_back(peer);
+  return found;
 }
 
 void BusLink::command(const std::string& component, erp::Lifecycle target) {

@@ -6,24 +6,25 @@
 #include "components/node/peers.hpp"
 #include "interfaces/values.hpp"
 
-/// The launcher's end of the bus: hears the components of one robot, and tells them to activate.
+/// The launcher's DDS participant: receives messages of the components of one robot and sends them
+/// lifecycle commands.
 namespace launch {
 
 class BusLink {
  public:
   explicit BusLink(std::string robot);
 
-  struct Hearing {
+  struct Handlers {
     std::function<void(const erp::ComponentState&)> state;
     std::function<void(const erp::Event&)> event;
     std::function<void(const erp::Clock&)> clock;
   };
-  /// Hands over everything that arrived since the last call.
-  void poll(const Hearing& hearing);
-  /// Every participant of the robot that is on the bus, ours too.
+  /// Passes each message received since the last call to its handler.
+  void poll(const Handlers& handlers);
+  /// Every participant of the robot on the bus, including the launcher.
   std::vector<node::Peer> peers();
   void command(const std::string& component, erp::Lifecycle target);
-  int descriptor() const { return wake_.descriptor(); }  ///< readable when something arrived
+  int descriptor() const { return wake_.descriptor(); }  ///< readable when a message has arrived
 
  private:
   std::string robot_;
@@ -31,7 +32,7 @@ class BusLink {
   node::Entity participant_;
   node::Wake wake_;
   node::Peers peers_;
-  node::Wake unheeded_;  ///< the clock's: thousands of ticks a second need not wake us
+  node::Wake clock_wake_;  ///< not polled: thousands of ticks per second must not wake the launcher
   node::Reader<erp::ComponentState> states_;
   node::Reader<erp::Event> events_;
   node::Reader<erp::Clock> clock_;

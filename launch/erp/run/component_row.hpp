@@ -5,8 +5,8 @@
 
 namespace launch {
 
-/// What a component's heartbeat says, as figures of the table.
-inline void fill_figures(Row& row, const erp::ComponentState& state) {
+/// Copies the measurements of a component's heartbeat into its table row.
+inline void fill_measurements(Row& row, const erp::ComponentState& state) {
   row.pid = state.pid;
   row.rate_Hz = state.rate_Hz;
   row.age_p50_us = node::quantile_us(state.age_bins, 0.5);

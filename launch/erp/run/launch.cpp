@@ -8,13 +8,13 @@
 #include "components/node/clock.hpp"
 #include "components/node/security.hpp"
 #include "interfaces/robot/robot.hpp"
-#include "launch/erp/verbs/ask.hpp"
-#include "launch/erp/text/duration.hpp"
+#include "launch/erp/record/summary.hpp"
 #include "launch/erp/run/plan.hpp"
 #include "launch/erp/run/program.hpp"
 #include "launch/erp/run/run.hpp"
 #include "launch/erp/run/run_folder.hpp"
-#include "launch/erp/record/summary.hpp"
+#include "launch/erp/text/duration.hpp"
+#include "launch/erp/verbs/component_check.hpp"
 
 namespace launch {
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ erp::Graph graph_of(const LaunchOptions& options) {
   return graph;
 }
 
-/// Every XML file that makes this run what it is, parts of the robot included.
+/// Every XML file that defines this run, including the parts of the robot.
 std::vector<std::string> sources(const erp::Graph& graph, const erp::Robot& robot) {
   std::set<std::string> files{graph.place.file, graph.robot};
   const auto add = [&files](const auto& items) {
@@ -43,23 +43,23 @@ std::vector<std::string> sources(const erp::Graph& graph, const erp::Robot& robo
   return {unique.begin(), unique.end()};
 }
 
-/// Mistakes in configs and settings, said by the programs that will read them, before any of them
-/// starts. Throws std::invalid_argument with all of them.
-void ask_components(const Plan& plan) {
-  std::string mistakes;
+/// Checks configs and settings with the programs of the components before any of them starts.
+/// Throws std::invalid_argument with all errors.
+void check_components(const Plan& plan) {
+  std::string errors;
   for (const auto& process : plan.processes) {
-    const std::string said = ask_to_check(process.argv);
-    if (!said.empty()) mistakes += (mistakes.empty() ? "" : "\n") + process.name + ": " + said;
+    const std::string found = check_component(process.argv);
+    if (!found.empty()) errors += (errors.empty() ? "" : "\n") + process.name + ": " + found;
   }
-  while (mistakes.ends_with('\n')) mistakes.pop_back();
-  if (!mistakes.empty()) throw std::invalid_argument(mistakes);
+  while (errors.ends_with('\n')) errors.pop_back();
+  if (!errors.empty()) throw std::invalid_argument(errors);
 }
 
-/// The run's recordings, oldest first: a restarted logger has moved what was there out of its way.
+/// The recordings of the run, oldest first. A restarted logger has renamed the part before it.
 std::vector<std::string> parts_of(const std::string& recording, fs::file_time_type since) {
   std::vector<std::string> parts;
   std::error_code ignored;
-  const auto ours = [&](const fs::path& path) {
+  const auto of_this_run = [&](const fs::path& path) {
     return fs::exists(path, ignored) && fs::file_size(path, ignored) > 0 &&
            fs::last_write_time(path, ignored) >= since;
   };
@@ -68,15 +68,15 @@ std::vector<std::string> parts_of(const std::string& recording, fs::file_time_ty
     auto part = last;
     part.replace_extension("." + std::to_string(k) + last.extension().string());
     if (!fs::exists(part, ignored)) break;
-    if (ours(part)) parts.push_back(part.string());
+    if (of_this_run(part)) parts.push_back(part.string());
   }
-  if (ours(last)) parts.push_back(recording);
+  if (of_this_run(last)) parts.push_back(recording);
   return parts;
 }
 
-/// The bus of this process and of its children. Refuses a folder that will not do before anything
-/// is started.
-void protect(const std::optional<std::string>& folder) {
+/// Sets DDS Security for this process and its children. Rejects an invalid folder before any
+/// process starts.
+void set_security(const std::optional<std::string>& folder) {
   if (folder) setenv("ERP_SECURITY", folder->empty() ? "" : fs::absolute(*folder).c_str(), 1);
   node::security_config();
 }
@@ -84,30 +84,31 @@ void protect(const std::optional<std::string>& folder) {
 }  // namespace
 
 int launch_graph(const LaunchOptions& options) {
-  protect(options.security);
+  set_security(options.security);
   const erp::Graph graph = graph_of(options);
   const erp::Robot robot = erp::read_robot(graph.robot);
   if (!robot.drives.empty())
     throw std::invalid_argument(graph.robot + ": drive \"" + robot.drives[0].name +
-                                "\" has no place in a graph: ECUs move tendons; recordings of it "
-                                "are for erp gap diagnose");
+                                "\" cannot run in a graph, where ECUs move tendons; use its "
+                                "recordings with erp gap diagnose");
   const std::string graph_folder = fs::absolute(options.graph_file).parent_path().string();
   const auto find = [&](const std::string& type) { return find_program(type, graph_folder); };
 
   const double patience_s = parse_duration_s(options.patience);
-  Wishes wishes{{}, ".", sources(graph, robot)};
-  for (const auto& setting : options.settings) wishes.settings.push_back(parse_setting(setting));
-  ask_components(make_plan(graph, wishes, find));  // refuses bad input before a folder is made
-  wishes.folder = make_run_folder(options.folder, graph.name, node::wall_ns());
-  const FolderClaim claim(wishes.folder);
-  Plan plan = make_plan(graph, wishes, find);
-  plan.most_restarts = options.most_restarts;
+  RunOptions run_options{{}, ".", sources(graph, robot)};
+  for (const auto& setting : options.settings)
+    run_options.settings.push_back(parse_setting(setting));
+  check_components(make_plan(graph, run_options, find));  // before the folder is created
+  run_options.folder = make_run_folder(options.folder, graph.name, node::wall_ns());
+  const FolderLock lock(run_options.folder);
+  Plan plan = make_plan(graph, run_options, find);
+  plan.max_restarts = options.max_restarts;
   plan.patience_s = patience_s;
   const auto since = fs::file_time_type::clock::now();
-  Run run(graph, robot.name, plan, wishes.folder);
+  Run run(graph, robot.name, plan, run_options.folder);
   const int exit_code = run.execute();
   const auto parts = parts_of(plan.recording, since);
-  if (!parts.empty()) print_summary({parts, robot.name, run.lasted_s()}, std::cout);
+  if (!parts.empty()) print_summary({parts, robot.name, run.active_s()}, std::cout);
   return exit_code;
 }
 

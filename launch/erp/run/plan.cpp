@@ -12,9 +12,9 @@
 namespace launch {
 namespace {
 
-const char* word_of(erp::Time time) {
-  for (const auto& [word, value] : xml::Names<erp::Time>::list)
-    if (value == time) return word;
+const char* name_of(erp::Time time) {
+  for (const auto& [name, value] : xml::Names<erp::Time>::list)
+    if (value == time) return name;
   return "";
 }
 
@@ -46,8 +46,8 @@ std::string type_of(const erp::GraphComponent& component) {
   return component.type.empty() ? component.name : component.type;
 }
 
-/// The graph's own line for an implicit component, or one without config. A plant that ends, for
-/// whatever reason, must come back: nothing moves without it.
+/// The line of the graph for an implicit component, or a default without config. The default
+/// restarts the plant after every end, since no actuator moves without it.
 erp::GraphComponent line_for(const erp::Graph& graph, const std::string& type) {
   for (const auto& component : graph.components)
     if (component.name == type) return component;
@@ -60,12 +60,12 @@ erp::GraphComponent line_for(const erp::Graph& graph, const std::string& type) {
 void check_graph(const erp::Graph& graph) {
   if (graph.hardware && graph.device == erp::Device::can && graph.time == erp::Time::lockstep)
     throw std::invalid_argument(
-        "lockstep cannot hold a real robot still; use --realtime, or hardware=\"false\"");
+        "a real robot cannot run in lockstep; use --realtime, or hardware=\"false\"");
   if (graph.device == erp::Device::replay && graph.replay.empty())
     throw std::invalid_argument("device replay without a recording; use --device replay:FILE");
 }
 
-std::vector<std::string> settings_of(const erp::Graph& graph, const Wishes& wishes,
+std::vector<std::string> settings_of(const erp::Graph& graph, const RunOptions& options,
                                      const PlannedProcess& process) {
   std::vector<std::string> settings;
   if (process.type == "gateway" || process.role == Role::robot_behind_bus)
@@ -73,13 +73,14 @@ std::vector<std::string> settings_of(const erp::Graph& graph, const Wishes& wish
   if (process.type == "replay") settings.push_back("file=" + graph.replay);
   if (process.role == Role::logger) {
     const auto& stem = process.name == "logger" ? graph.name : process.name;
-    settings.push_back("file=" + wishes.folder + "/" + stem + ".mcap");
-    settings.push_back("attach=" + xml::joined(wishes.attach, ":"));
+    settings.push_back("file=" + options.folder + "/" + stem + ".mcap");
+    settings.push_back("attach=" + xml::joined(options.attach, ":"));
   }
-  // a person's word comes last, and so wins
-  for (const auto& setting : wishes.settings) {
+  // settings of the command line override the others
+  for (const auto& setting : options.settings) {
     if (setting.component != process.name) continue;
-    std::erase_if(settings, [&](const auto& own) { return own.starts_with(setting.key + "="); });
+    std::erase_if(settings,
+                  [&](const auto& other) { return other.starts_with(setting.key + "="); });
     settings.push_back(setting.key + "=" + setting.value);
   }
   return settings;
@@ -92,7 +93,7 @@ std::string number(double value) {
   return text.str();
 }
 
-void fill_command_line(PlannedProcess& process, const erp::Graph& graph, const Wishes& wishes,
+void fill_command_line(PlannedProcess& process, const erp::Graph& graph, const RunOptions& options,
                        const std::string& config) {
   auto& argv = process.argv;
   const auto add = [&argv](const char* option, const std::string& value) {
@@ -101,26 +102,27 @@ void fill_command_line(PlannedProcess& process, const erp::Graph& graph, const W
   add("--name", process.name);
   add("--robot", graph.robot);
   if (!config.empty()) add("--config", config);
-  add("--time", word_of(graph.time));
-  // In lockstep the device counts the run's ticks; otherwise the launcher's clock ends the run.
+  add("--time", name_of(graph.time));
+  // In lockstep the device counts the ticks of the run; otherwise the launcher's clock ends the
+  // run.
   if (process.role == Role::device && graph.duration_s > 0 && graph.time == erp::Time::lockstep)
     add("--duration", number(graph.duration_s));
-  for (const auto& setting : settings_of(graph, wishes, process)) add("--set", setting);
+  for (const auto& setting : settings_of(graph, options, process)) add("--set", setting);
   argv.push_back("--managed");
 }
 
-void check_settings(const Plan& plan, const Wishes& wishes) {
+void check_settings(const Plan& plan, const RunOptions& options) {
   std::vector<std::string> names;
   for (const auto& process : plan.processes) names.push_back(process.name);
-  for (const auto& setting : wishes.settings)
+  for (const auto& setting : options.settings)
     if (std::find(names.begin(), names.end(), setting.component) == names.end())
       throw std::invalid_argument("--set " + setting.component + "." + setting.key +
                                   ": no such component in this run; " +
                                   xml::did_you_mean(setting.component, names));
 }
 
-/// Of one that the graph does not name, such as its device, there is no place to tell.
-[[noreturn]] void refuse_missing(const erp::GraphComponent& component, const std::string& type) {
+/// An implicit component, such as the device, has no place in a file to report.
+[[noreturn]] void throw_missing(const erp::GraphComponent& component, const std::string& type) {
   const std::string what = "component \"" + component.name + "\": no program \"" + type +
                            "\" beside erp, in $ERP_COMPONENT_PATH or in $PATH";
   const std::string remedy = xml::did_you_mean(type, own_programs());
@@ -129,8 +131,8 @@ void check_settings(const Plan& plan, const Wishes& wishes) {
 }
 
 std::string recording_of(const PlannedProcess& logger) {
-  for (const auto& word : logger.argv)
-    if (word.starts_with("file=")) return word.substr(5);
+  for (const auto& argument : logger.argv)
+    if (argument.starts_with("file=")) return argument.substr(5);
   return "";
 }
 
@@ -158,16 +160,17 @@ void choose_device(erp::Graph& graph, const std::string& text) {
   }
 }
 
-Plan make_plan(const erp::Graph& graph, const Wishes& wishes, const FindProgram& find_program) {
+Plan make_plan(const erp::Graph& graph, const RunOptions& options,
+               const FindProgram& find_program) {
   check_graph(graph);
   Plan plan;
   const auto add = [&](const erp::GraphComponent& component, Role role) {
     PlannedProcess process{component.name, type_of(component), role, component.restart, {}, {}};
     const std::string program = find_program(process.type);
-    if (program.empty()) refuse_missing(component, process.type);
+    if (program.empty()) throw_missing(component, process.type);
     process.argv.push_back(program);
-    process.log_file = wishes.folder + "/" + process.name + ".log";
-    fill_command_line(process, graph, wishes, component.config);
+    process.log_file = options.folder + "/" + process.name + ".log";
+    fill_command_line(process, graph, options, component.config);
     plan.processes.push_back(std::move(process));
   };
   for (const auto& component : graph.components)
@@ -179,7 +182,7 @@ Plan make_plan(const erp::Graph& graph, const Wishes& wishes, const FindProgram&
       add(component, Role::controller);
   if (needs_robot_behind_bus(graph)) add(line_for(graph, "sim"), Role::robot_behind_bus);
   add(line_for(graph, device_type(graph.device)), Role::device);
-  check_settings(plan, wishes);
+  check_settings(plan, options);
   if (plan.processes.front().role == Role::logger)
     plan.recording = recording_of(plan.processes.front());
   return plan;

@@ -19,7 +19,7 @@ namespace {
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// Closes itself; −1 is nothing.
+/// Owns a file descriptor; −1: none.
 struct Descriptor {
   int number = -1;
   ~Descriptor() { close(); }
@@ -28,9 +28,9 @@ struct Descriptor {
   }
 };
 
-/// From here to exec only async-signal-safe calls: the launcher has threads of DDS.
+/// Runs in the child. Only async-signal-safe calls up to exec: the launcher has DDS threads.
 [[noreturn]] void become(char* const* argv, pid_t parent, int death_signal, int input, int log,
-                         int complaint) {
+                         int error_pipe) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, death_signal);
   if (getppid() != parent) _exit(1);  // the launcher died before the line above
@@ -41,10 +41,10 @@ struct Descriptor {
   dup2(input, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
-  close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // also sockets that a library opened without it
+  close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // also sockets that a library opened without O_CLOEXEC
   execvp(argv[0], argv);
   const int error = errno;
-  [[maybe_unused]] const auto written = write(complaint, &error, sizeof error);
+  [[maybe_unused]] const auto written = write(error_pipe, &error, sizeof error);
   _exit(127);
 }
 
@@ -63,22 +63,22 @@ Process::Process(const std::vector<std::string>& argv, const std::string& log_fi
   if (log.number < 0) fail(errno, log_file);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail(errno, "pipe");
-  Descriptor complaint_out{ends[0]}, complaint_in{ends[1]};
+  Descriptor error_reader{ends[0]}, error_writer{ends[1]};
 
-  std::vector<char*> words;
-  for (const auto& word : argv) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
+  std::vector<char*> arguments;
+  for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) fail(errno, "fork");
   if (pid_ == 0)
-    become(words.data(), parent, death_signal, input.number, log.number, complaint_in.number);
-  setpgid(pid_, pid_);  // both sides set it, so that neither has to wait for the other
-  complaint_in.close();
+    become(arguments.data(), parent, death_signal, input.number, log.number, error_writer.number);
+  setpgid(pid_, pid_);  // parent and child set it, so that neither has to wait
+  error_writer.close();
 
-  // exec closes the pipe; an error number in it means there was no exec.
+  // exec closes the pipe; an error number in the pipe means that exec failed.
   int error = 0;
-  if (read(complaint_out.number, &error, sizeof error) == sizeof error) {
+  if (read(error_reader.number, &error, sizeof error) == sizeof error) {
     waitpid(pid_, nullptr, 0);
     fail(error, argv[0]);
   }
@@ -121,10 +121,10 @@ std::optional<Ending> Process::poll() {
 }
 
 void Process::collect(int wait_options) {
-  // Look first, reap after: while the zombie holds its number, the group can be named safely.
+  // WNOWAIT first, reap later: while the zombie keeps its pid, the group can be signalled safely.
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT | wait_options) != 0) {
-    ending_ = Ending{-1, 0};  // somebody else reaped it
+    ending_ = Ending{-1, 0};  // already reaped elsewhere
     return;
   }
   if (info.si_pid == 0) return;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// One program, started and watched. Linux: fork, exec, pidfd.
+/// One child process. Linux: fork, exec, pidfd.
 namespace launch {
 
 /// How a process ended: by its own exit code, or by a signal (`signal` ≠ 0).
@@ -21,24 +21,25 @@ std::string to_string(const Ending& ending);
 
 /// Owns a running program in a process group of its own.
 ///
-/// The program gets `death_signal` when the launcher dies (PR_SET_PDEATHSIG), inherits no
-/// descriptor but its log, reads nothing, and has no signal blocked. What it leaves behind in its
-/// group is killed when it ends. Must be created on the thread that lives as long as the launcher:
-/// the kernel ties the death signal to that thread.
+/// The program receives `death_signal` when the launcher dies (PR_SET_PDEATHSIG), inherits no
+/// descriptor except its log, has /dev/null as stdin, and has no signal blocked. When it ends, the
+/// remaining processes of its group are killed. Must be created on a thread that lives as long as
+/// the launcher: the kernel ties the death signal to that thread.
 class Process {
  public:
   /// Appends stdout and stderr to `log_file`. Throws std::system_error when the log cannot be
   /// opened or the program cannot be executed.
   Process(const std::vector<std::string>& argv, const std::string& log_file,
           int death_signal = SIGKILL);
-  ~Process();  ///< kills what still runs, and reaps it
+  ~Process();  ///< kills the group if it still runs, and reaps the program
   Process(Process&& other) noexcept;
   Process& operator=(Process&& other) noexcept;
 
   pid_t pid() const { return pid_; }
   int descriptor() const { return descriptor_; }  ///< a pidfd: readable once the program has ended
-  void send(int signal) const;                    ///< to the whole group; nothing once it has ended
-  std::optional<Ending> poll();  ///< reaps the program if it has ended; the same answer ever after
+  void send(int signal) const;                    ///< to the whole group; no effect after its end
+  std::optional<Ending>
+  poll();  ///< reaps the program if it has ended; repeated calls return the same
 
  private:
   void collect(int wait_options);

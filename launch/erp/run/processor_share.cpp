@@ -10,9 +10,9 @@
 namespace launch {
 namespace {
 
-constexpr std::int64_t shortest_interval_ns = 500'000'000;  // chosen: 10 ms ticks need some time
+constexpr std::int64_t shortest_interval_ns = 500'000'000;  // chosen: the counters tick in 10 ms
 
-/// User and system time so far. Fields 14 and 15 of proc(5) stat, counted after the name's ")".
+/// User and system time: fields 14 and 15 of proc(5) stat, counted after the ")" of the name.
 std::optional<double> busy_s(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;

@@ -3,12 +3,12 @@
 
 #include <cstdint>
 
-/// How busy a process keeps the processor, from /proc/PID/stat.
+/// Processor load of a process, from /proc/PID/stat.
 namespace launch {
 
 class ProcessorShare {
  public:
-  /// Percent of one core since the last call; −1 at the first call, or when the process is gone.
+  /// Percent of one core since the last call; −1 at the first call or when the process has ended.
   double measure(pid_t pid, std::int64_t now_ns);
 
  private:

@@ -2,18 +2,18 @@
 #include <string>
 #include <vector>
 
-/// Where a component's program lies.
+/// Search for the programs of components.
 namespace launch {
 
-/// The folder of the running `erp` itself.
+/// The folder of the running `erp`.
 std::string own_folder();
 
-/// The program of a component type. A type with a slash is a path, relative to `graph_folder`;
-/// otherwise these are searched: $ERP_COMPONENT_PATH, the folder of `erp`, `../libexec/erp` beside
-/// it, $PATH. Returns "" when there is none.
+/// The program of a component type. A type with a slash is a path relative to `graph_folder`. Other
+/// types are searched in $ERP_COMPONENT_PATH, the folder of `erp`, `../libexec/erp` relative to it,
+/// and $PATH. Returns "" if there is none.
 std::string find_program(const std::string& type, const std::string& graph_folder);
 
-/// What stands beside erp, without erp itself.
+/// The programs in the folder of `erp`, except `erp`.
 std::vector<std::string> own_programs();
 
 }  // namespace launch

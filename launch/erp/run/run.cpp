@@ -13,40 +13,40 @@
 #include "components/node/clock.hpp"
 #include "components/node/real_time.hpp"
 #include "components/node/security.hpp"
-#include "launch/erp/text/duration.hpp"
 #include "launch/erp/run/run_folder.hpp"
+#include "launch/erp/text/duration.hpp"
 
 namespace launch {
 namespace {
 
-constexpr int tick_ms = 20;                      // chosen: start-up advances by ticks
+constexpr int tick_ms = 20;                      // chosen: the start-up advances once per tick
 constexpr std::int64_t change_ns = 20'000'000;   // chosen
 constexpr std::int64_t redraw_ns = 200'000'000;  // chosen
 constexpr std::size_t shown_log_lines = 12;
-constexpr double behind_s = 0.2;  // chosen: worth a word at the end
+constexpr double reported_behind_s = 0.2;  // chosen: a larger delay is reported at the end
 
-std::vector<Charge> charges_of(const Plan& plan) {
-  std::vector<Charge> charges;
+std::vector<SupervisedProcess> processes_of(const Plan& plan) {
+  std::vector<SupervisedProcess> processes;
   for (const auto& process : plan.processes)
-    charges.push_back({process.name, process.restart,
-                       process.role == Role::device || process.role == Role::robot_behind_bus});
-  return charges;
+    processes.push_back({process.name, process.restart,
+                         process.role == Role::device || process.role == Role::robot_behind_bus});
+  return processes;
 }
 
-std::string word_of(erp::Severity severity) {
+std::string prefix_of(erp::Severity severity) {
   if (severity == erp::Severity::info) return "";
   return severity == erp::Severity::warning ? "warning: " : "fault: ";
 }
 
-std::string rival_text(const std::string& component, const std::string& robot, long pid) {
-  return "\"" + component + "\" of robot " + robot + " runs already on this bus, pid " +
-         std::to_string(pid) + "; end its graph, or set ERP_DOMAIN to a number of your own";
+std::string conflict_text(const std::string& component, const std::string& robot, long pid) {
+  return "\"" + component + "\" of robot " + robot + " already runs on this bus, pid " +
+         std::to_string(pid) + "; stop its graph, or set ERP_DOMAIN to another number";
 }
 
 Tuning tuning_of(const Plan& plan) {
   Tuning tuning;
-  tuning.restart.most = plan.most_restarts;
-  tuning.start_patience_ns = static_cast<std::int64_t>(1e9 * plan.patience_s);
+  tuning.restart.max_restarts = plan.max_restarts;
+  tuning.start_timeout_ns = static_cast<std::int64_t>(1e9 * plan.patience_s);
   return tuning;
 }
 
@@ -58,7 +58,7 @@ Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std
       folder_(folder),
       log_(folder + "/erp.log", std::ios::trunc),
       bus_(robot),
-      supervisor_(charges_of(plan_), tuning_of(plan_)),
+      supervisor_(processes_of(plan_), tuning_of(plan_)),
       time_(graph.duration_s, graph.time == erp::Time::lockstep),
       screen_(stdout),
       members_(plan_.processes.size()) {
@@ -70,31 +70,33 @@ Run::Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std
 
 int Run::execute() {
   time_.start(node::monotonic_ns());
-  if (finds_rival()) return 2;
-  say(graph_.name + ": " + std::to_string(members_.size()) + " processes, logs in " + folder_);
+  if (finds_conflict()) return 2;
+  print(graph_.name + ": " + std::to_string(members_.size()) + " processes, logs in " + folder_);
   if (const auto security = node::security_folder(); !security.empty())
-    say("only who holds a certificate of " + security + " takes part, until " +
-        node::security_expires());
+    print("DDS Security with the certificates of " + security + ", which expire on " +
+          node::security_expires());
   if (graph_.time != erp::Time::lockstep && !node::may_run_in_real_time())
-    say("no real-time priority (ulimit -r): on a busy machine loops come late, and limbs may swing");
+    print(
+        "no real-time priority: on a busy machine control loops may miss deadlines and oscillate; "
+        "raise ulimit -r to 20");
   supervisor_.start(time_.now_ns());
-  carry_out();
+  execute_actions();
   while (!supervisor_.done()) {
     wait();
     time_.tick(node::monotonic_ns());
-    hear_bus();
-    obey_signals();
+    poll_bus();
+    handle_signals();
     reap();
-    end_when_due();
+    stop_when_over();
     supervisor_.tick(time_.now_ns());
-    carry_out();
+    execute_actions();
     if (time_.now_ns() - drawn_ns_ < (screen_.is_terminal() ? redraw_ns : change_ns)) continue;
     screen_.show(status());
     drawn_ns_ = time_.now_ns();
   }
-  hear_bus();
+  poll_bus();
   screen_.show(status());
-  say_end();
+  print_end();
   return supervisor_.exit_code();
 }
 
@@ -105,65 +107,65 @@ void Run::wait() {
   poll(polled.data(), polled.size(), tick_ms);
 }
 
-void Run::hear_bus() {
-  bus_.poll({[this](const auto& message) { hear(message); },
-             [this](const auto& message) { hear(message); },
-             [this](const auto& message) { hear(message); }});
+void Run::poll_bus() {
+  bus_.poll({[this](const auto& message) { on_state(message); },
+             [this](const auto& message) { on_event(message); },
+             [this](const auto& message) { on_clock(message); }});
 }
 
-void Run::hear(const erp::ComponentState& state) {
+void Run::on_state(const erp::ComponentState& state) {
   const auto found = index_of_.find(state.component);
   if (found == index_of_.end()) return;
   Member& member = members_[found->second];
-  // A component of ours is in the group of the process that was started for it.
+  // A component of this run is in the process group of the process started for it.
   const pid_t group = getpgid(state.pid);
-  if (group < 0) return;  // a last word of one that is gone
-  if (!member.process || group != member.process->pid()) return refuse_stranger(state);
-  member.heard = state;
-  member.heard_ns = time_.now_ns();
-  supervisor_.heard(found->second,
-                    {static_cast<erp::Lifecycle>(state.lifecycle), state.peers, state.links},
-                    time_.now_ns());
+  if (group < 0) return;  // last heartbeat of a process that has ended
+  if (!member.process || group != member.process->pid()) return reject_conflict(state);
+  member.heartbeat = state;
+  member.heartbeat_ns = time_.now_ns();
+  supervisor_.on_heartbeat(found->second,
+                           {static_cast<erp::Lifecycle>(state.lifecycle), state.peers, state.links},
+                           time_.now_ns());
 }
 
-/// Two graphs cannot drive one robot: the one that comes second starts nothing.
-bool Run::finds_rival() {
+/// Two graphs cannot control one robot: the second one starts no process.
+bool Run::finds_conflict() {
   for (const auto until_ns = time_.now_ns() + node::discovery_ns(); time_.now_ns() < until_ns;
        time_.tick(node::monotonic_ns())) {
     wait();
     for (const auto& peer : bus_.peers()) {
       if (!index_of_.contains(peer.component)) continue;
-      say(rival_text(peer.component, peer.robot, peer.pid));
+      print(conflict_text(peer.component, peer.robot, peer.pid));
       return true;
     }
   }
   return false;
 }
 
-/// Of one that came while we started: the one that comes second gives way.
-void Run::refuse_stranger(const erp::ComponentState& state) {
+/// A component of another graph appeared during the start: this graph stops.
+void Run::reject_conflict(const erp::ComponentState& state) {
   if (supervisor_.stage() != Stage::starting && supervisor_.stage() != Stage::activating) return;
-  supervisor_.stop(rival_text(state.component, state.robot, state.pid), 2, time_.now_ns());
+  supervisor_.stop(conflict_text(state.component, state.robot, state.pid), 2, time_.now_ns());
 }
 
-void Run::hear(const erp::Event& event) {
+void Run::on_event(const erp::Event& event) {
   std::string text =
-      std::string(event.component) + ": " + word_of(static_cast<erp::Severity>(event.severity));
+      std::string(event.component) + ": " + prefix_of(static_cast<erp::Severity>(event.severity));
   if (event.subject[0] && std::string(event.subject) != event.component)
     text += std::string(event.subject) + ": ";
-  if (is_ending()) note(text + event.text);
-  else say(text + event.text);
+  if (is_ending()) log(text + event.text);
+  else print(text + event.text);
 }
 
-/// From the device's last word on, the others miss it: worth keeping, but no news.
+/// After the end of the device the others report it missing: logged, not printed.
 bool Run::is_ending() const {
-  const auto& device = members_.back().heard;
+  const auto& device = members_.back().heartbeat;
   return supervisor_.stage() == Stage::stopping ||
          (device && device->lifecycle == static_cast<std::uint8_t>(erp::Lifecycle::finalized));
 }
 
-void Run::hear(const erp::Clock& clock) {
-  time_.hear_device(clock.stamp_ns, clock.real_time_factor);
+void Run::on_clock(const erp::Clock& clock) {
+  time_.on_device_clock(clock.stamp_ns, clock.real_time_factor);
 }
 
 void Run::reap() {
@@ -173,27 +175,28 @@ void Run::reap() {
     const auto ending = process->poll();
     if (!ending) continue;
     process.reset();
-    supervisor_.ended(i, *ending, time_.now_ns());
+    supervisor_.on_exit(i, *ending, time_.now_ns());
   }
 }
 
-void Run::obey_signals() {
+void Run::handle_signals() {
   while (const int number = signals_.take()) {
     if (supervisor_.stage() == Stage::stopping) {
-      say("interrupted again; killing what still runs");
+      print("interrupted again; killing the remaining processes");
       supervisor_.kill_now();
     } else {
-      supervisor_.stop(number == SIGINT ? "interrupted" : "told to stop", 0, time_.now_ns());
+      supervisor_.stop(number == SIGINT ? "interrupted" : "terminated by a signal", 0,
+                       time_.now_ns());
     }
   }
 }
 
-void Run::end_when_due() {
+void Run::stop_when_over() {
   if (supervisor_.stage() == Stage::running) time_.running();
   if (time_.over()) supervisor_.stop(to_text_s(graph_.duration_s) + " are over", 0, time_.now_ns());
 }
 
-void Run::carry_out() {
+void Run::execute_actions() {
   for (const auto& action : supervisor_.take_actions()) {
     auto& process = members_[action.member].process;
     switch (action.kind) {
@@ -209,8 +212,8 @@ void Run::carry_out() {
       case Action::Kind::kill:
         if (process) process->send(SIGKILL);
         break;
-      case Action::Kind::say:
-        say(action.text);
+      case Action::Kind::print:
+        print(action.text);
         break;
       case Action::Kind::show_log:
         show_log(action.member);
@@ -222,45 +225,45 @@ void Run::carry_out() {
 void Run::spawn(std::size_t index) {
   const auto& planned = plan_.processes[index];
   std::string line;
-  for (const auto& word : planned.argv) line += word + " ";
+  for (const auto& argument : planned.argv) line += argument + " ";
   std::ofstream(planned.log_file, std::ios::app) << "$ " << line << '\n';
-  members_[index].heard.reset();
+  members_[index].heartbeat.reset();
   try {
-    // A killed launcher must not cost the recording its end.
+    // If the launcher is killed, the logger still has to close its file.
     const int death_signal = planned.role == Role::logger ? SIGTERM : SIGKILL;
     members_[index].process.emplace(planned.argv, planned.log_file, death_signal);
   } catch (const std::system_error& error) {
-    say(planned.name + ": " + error.what());
-    supervisor_.ended(index, {1, 0}, time_.now_ns());
+    print(planned.name + ": " + error.what());
+    supervisor_.on_exit(index, {1, 0}, time_.now_ns());
   }
 }
 
 void Run::show_log(std::size_t index) {
   const auto& file = plan_.processes[index].log_file;
-  say("  the end of " + file + ":");
-  for (const auto& line : last_lines(file, shown_log_lines)) say("  | " + line);
+  print("  last lines of " + file + ":");
+  for (const auto& line : last_lines(file, shown_log_lines)) print("  | " + line);
 }
 
-void Run::note(const std::string& text) {
+void Run::log(const std::string& text) {
   log_ << fmt::format("{:8.2f}  {}", time_.elapsed_s(), text) << std::endl;
 }
 
-void Run::say(const std::string& text) {
-  note(text);
-  screen_.say(time_.elapsed_s(), text);
+void Run::print(const std::string& text) {
+  log(text);
+  screen_.print(time_.elapsed_s(), text);
 }
 
-void Run::say_end() {
+void Run::print_end() {
   std::string text = graph_.name + ": ended after " + to_text_s(time_.elapsed_s());
-  if (time_.behind_s() > behind_s)
-    say("the device's time fell " + to_text_s(time_.behind_s()) +
-        " behind the clock: this machine was too busy for real time; --lockstep waits instead");
-  if (time_.device_s() >= 0) text += ", " + to_text_s(time_.device_s()) + " of the device's time";
+  if (time_.behind_s() > reported_behind_s)
+    print("the device time is " + to_text_s(time_.behind_s()) +
+          " behind real time because the machine is too busy; use --lockstep");
+  if (time_.device_s() >= 0) text += ", " + to_text_s(time_.device_s()) + " of device time";
   for (std::size_t i = 0; i < members_.size(); ++i)
     if (const auto count = supervisor_.restarts(i))
       text += ", " + plan_.processes[i].name + " restarted " + std::to_string(count) +
               (count == 1 ? " time" : " times");
-  say(text + ", exit code " + std::to_string(supervisor_.exit_code()));
+  print(text + ", exit code " + std::to_string(supervisor_.exit_code()));
 }
 
 }  // namespace launch

@@ -15,45 +15,45 @@
 #include "launch/erp/run/signals.hpp"
 #include "launch/erp/run/supervisor.hpp"
 
-/// One run of a graph: the supervisor's wishes carried out with real processes, the bus, a clock
-/// and a screen.
+/// One run of a graph: executes the actions of the supervisor with processes, bus, clock and
+/// screen.
 namespace launch {
 
 class Run {
  public:
   Run(const erp::Graph& graph, const std::string& robot, Plan plan, const std::string& folder);
 
-  /// Until the run has ended. Returns 0 when all ended well, 1 when a component failed for good,
-  /// 2 when one could not use its input.
+  /// Returns after the end of the run: 0 all processes ended normally, 1 a component failed
+  /// permanently or was killed, 2 bad input or a conflicting graph.
   int execute();
-  double lasted_s() const { return time_.lasted_s(); }  ///< see RunTime
+  double active_s() const { return time_.active_s(); }  ///< see RunTime
 
  private:
-  /// What belongs to one planned process while it runs.
+  /// State of one planned process during the run.
   struct Member {
     std::optional<Process> process;
-    std::optional<erp::ComponentState> heard;
-    std::int64_t heard_ns = 0;
+    std::optional<erp::ComponentState> heartbeat;
+    std::int64_t heartbeat_ns = 0;
     ProcessorShare share;
   };
 
   void wait();
-  void hear_bus();
-  void hear(const erp::ComponentState& state);
-  bool finds_rival();
-  void refuse_stranger(const erp::ComponentState& state);
-  void hear(const erp::Event& event);
-  void hear(const erp::Clock& clock);
+  void poll_bus();
+  void on_state(const erp::ComponentState& state);
+  bool finds_conflict();
+  void reject_conflict(const erp::ComponentState& state);
+  void on_event(const erp::Event& event);
+  void on_clock(const erp::Clock& clock);
   bool is_ending() const;
   void reap();
-  void obey_signals();
-  void end_when_due();
-  void carry_out();
+  void handle_signals();
+  void stop_when_over();
+  void execute_actions();
   void spawn(std::size_t index);
   void show_log(std::size_t index);
-  void note(const std::string& text);  ///< to erp.log alone
-  void say(const std::string& text);   ///< to erp.log and the screen
-  void say_end();
+  void log(const std::string& text);    ///< to erp.log only
+  void print(const std::string& text);  ///< to erp.log and the screen
+  void print_end();
   Row row(std::size_t index);
   std::string state_of(std::size_t index) const;
   Status status();
@@ -62,7 +62,7 @@ class Run {
   Plan plan_;
   std::string folder_;
   std::ofstream log_;
-  Signals signals_;  // before the bus, whose threads inherit the mask
+  Signals signals_;  // before the bus, whose threads inherit the signal mask
   BusLink bus_;
   Supervisor supervisor_;
   RunTime time_;

@@ -22,10 +22,10 @@ std::string utc_name(std::int64_t wall_ns) {
   return text;
 }
 
-std::string make_run_folder(const std::string& wished, const std::string& graph,
+std::string make_run_folder(const std::string& requested, const std::string& graph,
                             std::int64_t wall_ns) {
-  fs::path folder = wished;
-  if (wished.empty()) {
+  fs::path folder = requested;
+  if (requested.empty()) {
     const fs::path first = fs::path("erp_runs") / graph / utc_name(wall_ns);
     folder = first;
     for (int k = 2; fs::exists(folder); ++k) folder = first.string() + "-" + std::to_string(k);
@@ -38,7 +38,7 @@ std::string make_run_folder(const std::string& wished, const std::string& graph,
   return fs::canonical(folder).string();
 }
 
-FolderClaim::FolderClaim(const std::string& folder)
+FolderLock::FolderLock(const std::string& folder)
     : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
   close(descriptor_);
@@ -46,7 +46,7 @@ FolderClaim::FolderClaim(const std::string& folder)
                               "--out DIR");
 }
 
-FolderClaim::~FolderClaim() {
+FolderLock::~FolderLock() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 

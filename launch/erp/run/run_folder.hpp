@@ -3,32 +3,33 @@
 #include <string>
 #include <vector>
 
-/// The folder in which a run leaves its logs and its recording.
+/// The folder for the logs and the recording of a run.
 namespace launch {
 
-/// "2025-01-31T23-59-59Z", fit for a file name.
+/// "2025-01-31T23-59-59Z", usable as a file name.
 std::string utc_name(std::int64_t wall_ns);
 
-/// `wished`, or `erp_runs/<graph>/<UTC time>` under the current folder, with "-2", "-3" … behind
-/// when that exists. Creates it and returns its absolute path.
+/// Creates `requested`, or if it is empty `erp_runs/<graph>/<UTC time>` in the current folder, with
+/// suffix "-2", "-3" … if that exists. Returns the absolute path.
 /// Throws std::invalid_argument when it cannot be created.
-std::string make_run_folder(const std::string& wished, const std::string& graph,
+std::string make_run_folder(const std::string& requested, const std::string& graph,
                             std::int64_t wall_ns);
 
-/// A run's claim on its folder: two runs in one would mix their files. Ends with its process.
-class FolderClaim {
+/// Locks the folder of a run, since two runs in one folder would mix their files. The lock ends
+/// with the process.
+class FolderLock {
  public:
-  /// Throws std::invalid_argument when another run has it.
-  explicit FolderClaim(const std::string& folder);
-  ~FolderClaim();
-  FolderClaim(const FolderClaim&) = delete;
-  FolderClaim& operator=(const FolderClaim&) = delete;
+  /// Throws std::invalid_argument when another run has locked the folder.
+  explicit FolderLock(const std::string& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
 
  private:
   int descriptor_;
 };
 
-/// The last `count` lines of a file; fewer when it has fewer, none when it is not there.
+/// The last `count` lines of a file, or all if it has fewer; none if the file does not exist.
 std::vector<std::string> last_lines(const std::string& file, std::size_t count);
 
 }  // namespace launch

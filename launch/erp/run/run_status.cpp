@@ -1,16 +1,16 @@
 #include "launch/erp/run/component_row.hpp"
 #include "launch/erp/run/run.hpp"
 
-/// What a run shows of itself.
+/// The status of a run.
 namespace launch {
 namespace {
 
 constexpr std::int64_t silence_ns = 1'000'000'000;  // ten heartbeats
 
 template <class Enum>
-std::string word_of(Enum value) {
-  for (const auto& [word, named] : xml::Names<Enum>::list)
-    if (named == value) return word;
+std::string name_in(Enum value) {
+  for (const auto& [name, named] : xml::Names<Enum>::list)
+    if (named == value) return name;
   return "";
 }
 
@@ -19,7 +19,7 @@ std::string word_of(Enum value) {
 std::string Run::state_of(std::size_t index) const {
   const Phase phase = supervisor_.phase(index);
   const bool on_bus = phase == Phase::active || phase == Phase::inactive;
-  if (on_bus && time_.now_ns() - members_[index].heard_ns > silence_ns) return "silent";
+  if (on_bus && time_.now_ns() - members_[index].heartbeat_ns > silence_ns) return "silent";
   return name_of(phase);
 }
 
@@ -31,18 +31,18 @@ Row Run::row(std::size_t index) {
     row.pid = member.process->pid();
     row.cpu_percent = member.share.measure(member.process->pid(), time_.now_ns());
   }
-  if (member.heard) fill_figures(row, *member.heard);
+  if (member.heartbeat) fill_measurements(row, *member.heartbeat);
   return row;
 }
 
 Status Run::status() {
   Status status{.graph = graph_.name,
-                .device = word_of(graph_.device),
-                .time = word_of(graph_.time),
+                .device = name_in(graph_.device),
+                .time = name_in(graph_.time),
                 .stage = name_of(supervisor_.stage()),
                 .elapsed_s = time_.elapsed_s(),
                 .device_s = time_.device_s(),
-                .left_s = supervisor_.stage() == Stage::running ? time_.left_s() : -1};
+                .remaining_s = supervisor_.stage() == Stage::running ? time_.remaining_s() : -1};
   for (std::size_t i = 0; i < members_.size(); ++i) status.rows.push_back(row(i));
   return status;
 }

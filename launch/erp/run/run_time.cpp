@@ -4,11 +4,11 @@
 
 namespace launch {
 
-void RunTime::hear_device(std::int64_t stamp_ns, double real_time_factor) {
+void RunTime::on_device_clock(std::int64_t stamp_ns, double real_time_factor) {
   if (last_stamp_ns_ && stamp_ns > *last_stamp_ns_) device_ns_ += stamp_ns - *last_stamp_ns_;
-  if (!last_stamp_ns_) first_heard_ns_ = now_ns_;
+  if (!last_stamp_ns_) first_clock_ns_ = now_ns_;
   last_stamp_ns_ = stamp_ns;
-  heard_ns_ = now_ns_;
+  last_clock_ns_ = now_ns_;
   real_time_factor_ = real_time_factor;
 }
 
@@ -16,17 +16,17 @@ double RunTime::device_s() const {
   return last_stamp_ns_ ? 1e-9 * static_cast<double>(device_ns_) : -1;
 }
 
-double RunTime::lasted_s() const {
+double RunTime::active_s() const {
   if (!last_stamp_ns_ || lockstep_) return device_s();
   return running_since_ns_ ? 1e-9 * static_cast<double>(now_ns_ - *running_since_ns_) : 0;
 }
 
 double RunTime::behind_s() const {
   if (lockstep_ || !last_stamp_ns_) return 0;
-  return 1e-9 * static_cast<double>(heard_ns_ - first_heard_ns_) - device_s();
+  return 1e-9 * static_cast<double>(last_clock_ns_ - first_clock_ns_) - device_s();
 }
 
-double RunTime::left_s() const {
+double RunTime::remaining_s() const {
   if (duration_s_ <= 0 || !running_since_ns_) return -1;
   if (lockstep_)
     return real_time_factor_ > 0 ? std::max(0.0, duration_s_ - device_s()) / real_time_factor_ : -1;

@@ -24,7 +24,7 @@ Size size_of(std::FILE* out) {
 
 Screen::Screen(std::FILE* out) : out_(out), terminal_(isatty(fileno(out)) != 0) {}
 
-void Screen::say(double time_s, const std::string& text) {
+void Screen::print(double time_s, const std::string& text) {
   clear();
   std::fprintf(out_, "%8.2f  %s\n", time_s, text.c_str());
   draw();
@@ -40,10 +40,10 @@ void Screen::show(const Status& status) {
     return;
   }
   for (const auto& row : status.rows) {
-    auto& said = states_[row.name];
-    if (said == row.state) continue;
-    said = row.state;
-    say(status.elapsed_s, row.name + ": " + row.state);
+    auto& printed = states_[row.name];
+    if (printed == row.state) continue;
+    printed = row.state;
+    print(status.elapsed_s, row.name + ": " + row.state);
   }
 }
 

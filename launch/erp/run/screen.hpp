@@ -6,19 +6,19 @@
 
 #include "launch/erp/run/status_table.hpp"
 
-/// Where a run is shown: on a terminal a table redrawn in place below the lines said so far,
-/// anywhere else one plain line for each change.
+/// Output of a run: on a terminal a table that is redrawn below the printed lines, elsewhere one
+/// plain line per change.
 namespace launch {
 
 class Screen {
  public:
-  /// The last table stays when the screen goes: what is printed next stands below it.
+  /// The last table stays on the terminal after destruction.
   explicit Screen(std::FILE* out);
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// `time_s`: since the run began.
-  void say(double time_s, const std::string& text);
+  /// `time_s`: time since the start of the run.
+  void print(double time_s, const std::string& text);
   void show(const Status& status);
   bool is_terminal() const { return terminal_; }
 
@@ -29,8 +29,9 @@ class Screen {
   std::FILE* out_;
   bool terminal_;
   std::vector<std::string> table_;
-  std::size_t drawn_ = 0;                      ///< lines of the table on the terminal now
-  std::map<std::string, std::string> states_;  ///< as said last, where there is no terminal
+  std::size_t drawn_ = 0;  ///< lines of the table that are on the terminal
+  std::map<std::string, std::string>
+      states_;  ///< state printed last, by component; without a terminal
 };
 
 }  // namespace launch

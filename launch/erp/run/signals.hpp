@@ -1,16 +1,17 @@
 #pragma once
 
-/// Interruptions as something to read. Make it before any thread starts, so that all block them.
+/// Signals as a readable descriptor. Must be created before any thread starts, so that all threads
+/// block them.
 namespace launch {
 
 class Signals {
  public:
-  Signals();  ///< SIGINT, SIGTERM and SIGHUP, the closing of the terminal
+  Signals();  ///< SIGINT, SIGTERM and SIGHUP (terminal closed)
   ~Signals();
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
   int descriptor() const { return descriptor_; }
-  int take();  ///< the number of one that arrived, 0 when none did
+  int take();  ///< the number of a pending signal, 0 if there is none
 
  private:
   int descriptor_;

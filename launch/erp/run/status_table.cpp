@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "launch/erp/text/duration.hpp"
 #include "launch/erp/text/columns.hpp"
+#include "launch/erp/text/duration.hpp"
 
 namespace launch {
 namespace {
@@ -26,7 +26,7 @@ std::string microseconds(double duration_us) {
 }
 
 std::vector<std::string> render_rows(const std::vector<Row>& rows) {
-  // what tells most stands left: a narrow terminal cuts off the right
+  // the most important columns are on the left: a narrow terminal cuts off the right
   std::vector<std::vector<std::string>> cells{{"component", "state", "pid", "rate", "age p50",
                                                "p99", "cpu", "restarts", "missed", "overruns",
                                                "jitter p99", "note"}};
@@ -44,7 +44,7 @@ std::vector<std::string> render(const Status& status) {
   std::string head = status.graph + "  " + status.stage + "  device " + status.device + ", " +
                      status.time + "  " + to_text_s(status.elapsed_s);
   if (status.device_s >= 0) head += ", device at " + to_text_s(status.device_s);
-  if (status.left_s >= 0) head += ", " + to_text_s(status.left_s) + " left";
+  if (status.remaining_s >= 0) head += ", " + to_text_s(status.remaining_s) + " left";
   std::vector<std::string> lines{head};
   for (auto& line : render_rows(status.rows)) lines.push_back(std::move(line));
   return lines;

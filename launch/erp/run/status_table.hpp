@@ -6,23 +6,23 @@
 /// The status of a run as lines of text. Pure.
 namespace launch {
 
-/// One component. Ages and jitter in µs; 0 and less: not measured.
+/// One component. Ages and jitter in µs; 0 or less: not measured.
 struct Row {
   std::string name, state;
   long pid = 0;
   double rate_Hz = 0;
   double age_p50_us = 0, age_p99_us = 0, jitter_p99_us = 0;
   std::uint64_t overruns = 0, missed = 0;
-  long restarts = -1;       ///< negative: not known, for who only looks on
+  long restarts = -1;       ///< negative: not known, as in erp ps
   double cpu_percent = -1;  ///< of one core; negative: not measured
-  std::string note;         ///< the last thing it said
+  std::string note;         ///< the last note of its heartbeat
 };
 
 struct Status {
   std::string graph, device, time, stage;
-  double elapsed_s = 0;  ///< real time since the start
-  double device_s = -1;  ///< time of the device; negative: not heard
-  double left_s = -1;    ///< real time to go; negative: no end is set
+  double elapsed_s = 0;     ///< real time since the start
+  double device_s = -1;     ///< device time; negative: no clock message received
+  double remaining_s = -1;  ///< remaining real time; negative: no limit
   std::vector<Row> rows;
 };
 

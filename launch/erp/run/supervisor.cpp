@@ -18,8 +18,8 @@ std::string seconds(std::int64_t duration_ns) {
 
 }  // namespace
 
-Supervisor::Supervisor(std::vector<Charge> charges, Tuning tuning) : tuning_(tuning) {
-  for (auto& charge : charges) members_.push_back({std::move(charge), BackOff(tuning.restart)});
+Supervisor::Supervisor(std::vector<SupervisedProcess> processes, Tuning tuning) : tuning_(tuning) {
+  for (auto& process : processes) members_.push_back({std::move(process), BackOff(tuning.restart)});
 }
 
 void Supervisor::start(std::int64_t now_ns) {
@@ -36,7 +36,7 @@ void Supervisor::tick(std::int64_t now_ns) {
   if (stage_ == Stage::activating || stage_ == Stage::running) activate_next(now_ns);
 }
 
-void Supervisor::heard(std::size_t index, const Heartbeat& heartbeat, std::int64_t now_ns) {
+void Supervisor::on_heartbeat(std::size_t index, const Heartbeat& heartbeat, std::int64_t now_ns) {
   Member& member = members_[index];
   if (heartbeat.links != member.heartbeat.links) member.links_since_ns = now_ns;
   member.heartbeat = heartbeat;
@@ -51,33 +51,33 @@ void Supervisor::heard(std::size_t index, const Heartbeat& heartbeat, std::int64
     member.phase = Phase::active;
 }
 
-void Supervisor::ended(std::size_t index, const Ending& ending, std::int64_t now_ns) {
+void Supervisor::on_exit(std::size_t index, const Ending& ending, std::int64_t now_ns) {
   Member& member = members_[index];
-  const std::string what = member.charge.name + ": " + to_string(ending);
+  const std::string what = member.process.name + ": " + to_string(ending);
   if (stage_ == Stage::stopping) {
-    const bool obeyed = ending.clean() || (ending.signal == SIGTERM && !member.killed);
-    member.phase = obeyed ? Phase::ended : Phase::failed;
-    if (obeyed) return;
+    const bool stopped = ending.clean() || (ending.signal == SIGTERM && !member.killed);
+    member.phase = stopped ? Phase::ended : Phase::failed;
+    if (stopped) return;
     exit_code_ = std::max(exit_code_, 1);
-    say(what + " while stopping");
+    print(what + " while stopping");
     if (!member.killed) act(Action::Kind::show_log, index);
     return;
   }
   member.phase = Phase::ended;
-  if (ending.clean() && member.charge.ends_run)
-    return stop(member.charge.name + " has reached the end of the run", 0, now_ns);
+  if (ending.clean() && member.process.ends_run)
+    return stop(member.process.name + " has reached the end of the run", 0, now_ns);
   if (!ending.signal && ending.code == bad_input)
-    return fail(index, what + ", it cannot use what it was given", bad_input, now_ns);
-  if (member.charge.restart == erp::Restart::always ||
-      (!ending.clean() && member.charge.restart == erp::Restart::on_failure))
+    return fail(index, what + ", input rejected", bad_input, now_ns);
+  if (member.process.restart == erp::Restart::always ||
+      (!ending.clean() && member.process.restart == erp::Restart::on_failure))
     return restart(index, ending, now_ns);
-  if (ending.clean()) return say(member.charge.name + " has ended");
+  if (ending.clean()) return print(member.process.name + " has ended");
   fail(index, what + ", restart=\"never\"", 1, now_ns);
 }
 
 void Supervisor::restart(std::size_t index, const Ending& ending, std::int64_t now_ns) {
   Member& member = members_[index];
-  const std::string what = member.charge.name + ": " + to_string(ending);
+  const std::string what = member.process.name + ": " + to_string(ending);
   const auto delay_ns = member.back_off.fail(now_ns);
   const std::size_t k = member.back_off.restarts_in_window();
   if (!delay_ns)
@@ -88,8 +88,8 @@ void Supervisor::restart(std::size_t index, const Ending& ending, std::int64_t n
   ++member.restarts;
   member.phase = Phase::backing_off;
   member.spawn_due_ns = now_ns + *delay_ns;
-  say(what + ", restart " + std::to_string(k) + " of " + std::to_string(tuning_.restart.most) +
-      " in " + seconds(*delay_ns));
+  print(what + ", restart " + std::to_string(k) + " of " +
+        std::to_string(tuning_.restart.max_restarts) + " in " + seconds(*delay_ns));
   if (k == 1 && !ending.clean()) act(Action::Kind::show_log, index);
 }
 
@@ -103,10 +103,10 @@ void Supervisor::fail(std::size_t index, const std::string& why, int exit_code,
 void Supervisor::stop(const std::string& why, int exit_code, std::int64_t now_ns) {
   exit_code_ = std::max(exit_code_, exit_code);
   if (stage_ == Stage::stopping || stage_ == Stage::done) return;
-  say(why + "; stopping");
+  print(why + "; stopping");
   stage_ = Stage::stopping;
   for (auto& member : members_) {
-    member.asked_ns.reset();
+    member.requested_ns.reset();
     if (member.phase == Phase::waiting || member.phase == Phase::backing_off)
       member.phase = Phase::ended;
   }
@@ -130,7 +130,7 @@ bool Supervisor::alive(const Member& member) const {
 }
 
 bool Supervisor::ready(const Member& member, std::int64_t now_ns) const {
-  // each sees the others and the launcher: (n − 1) + 1
+  // each discovers the other processes and the launcher: (n − 1) + 1
   const auto n = std::count_if(members_.begin(), members_.end(),
                                [this](const Member& other) { return alive(other); });
   return member.phase == Phase::inactive && member.heartbeat.peers >= n &&
@@ -144,7 +144,7 @@ void Supervisor::spawn_due(std::int64_t now_ns) {
     member.phase = Phase::starting;
     member.heartbeat = {};
     member.finalized = false;
-    member.asked_ns.reset();
+    member.requested_ns.reset();
     act(Action::Kind::spawn, index_of(member));
   }
 }
@@ -153,13 +153,13 @@ void Supervisor::await_all(std::int64_t now_ns) {
   std::string missing;
   for (const auto& member : members_)
     if (member.phase != Phase::active && member.phase != Phase::ended && !ready(member, now_ns))
-      missing += (missing.empty() ? "" : ", ") + member.charge.name;
+      missing += (missing.empty() ? "" : ", ") + member.process.name;
   if (missing.empty()) {
     stage_ = Stage::activating;
-    return say("all components are ready");
+    return print("all components are ready");
   }
-  if (now_ns - started_ns_ >= tuning_.start_patience_ns)
-    stop("not ready after " + seconds(tuning_.start_patience_ns) + ": " + missing, 1, now_ns);
+  if (now_ns - started_ns_ >= tuning_.start_timeout_ns)
+    stop("not ready after " + seconds(tuning_.start_timeout_ns) + ": " + missing, 1, now_ns);
 }
 
 void Supervisor::activate_next(std::int64_t now_ns) {
@@ -167,42 +167,43 @@ void Supervisor::activate_next(std::int64_t now_ns) {
   for (auto& member : members_) {
     if (member.phase == Phase::active || member.phase == Phase::ended) continue;
     all_active = false;
-    const bool asked_lately = member.asked_ns && now_ns - *member.asked_ns < tuning_.resend_ns;
-    if (ready(member, now_ns) && !asked_lately) {
-      member.asked_ns = now_ns;
+    const bool recently_requested =
+        member.requested_ns && now_ns - *member.requested_ns < tuning_.resend_ns;
+    if (ready(member, now_ns) && !recently_requested) {
+      member.requested_ns = now_ns;
       act(Action::Kind::activate, index_of(member));
     }
-    if (stage_ == Stage::activating) return;  // in order: the others wait for this one
+    if (stage_ == Stage::activating) return;  // in order: one at a time
   }
   if (all_active && stage_ == Stage::activating) {
     stage_ = Stage::running;
-    say("all components are active");
+    print("all components are active");
   }
 }
 
 void Supervisor::stop_next(std::int64_t now_ns) {
-  bool waiting = false;  // for one that is still at work
-  bool all_gone = true;
+  bool waiting = false;  // for a member that is not finalized
+  bool all_ended = true;
   for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
     if (!alive(*member)) continue;
-    all_gone = false;
-    if (!member->asked_ns && !waiting) {
+    all_ended = false;
+    if (!member->requested_ns && !waiting) {
       member->phase = Phase::stopping;
-      member->asked_ns = now_ns;
+      member->requested_ns = now_ns;
       act(Action::Kind::terminate, index_of(*member));
     }
     waiting |= !member->finalized;
-    kill_if_late(*member, now_ns);
+    kill_if_overdue(*member, now_ns);
   }
-  if (all_gone) stage_ = Stage::done;
+  if (all_ended) stage_ = Stage::done;
 }
 
-void Supervisor::kill_if_late(Member& member, std::int64_t now_ns) {
-  if (member.killed || !member.asked_ns) return;
-  if (now_ns - *member.asked_ns < tuning_.stop_patience_ns) return;
+void Supervisor::kill_if_overdue(Member& member, std::int64_t now_ns) {
+  if (member.killed || !member.requested_ns) return;
+  if (now_ns - *member.requested_ns < tuning_.stop_timeout_ns) return;
   member.killed = true;
-  say(member.charge.name + " did not stop within " + seconds(tuning_.stop_patience_ns) +
-      "; killing it");
+  print(member.process.name + " did not stop within " + seconds(tuning_.stop_timeout_ns) +
+        "; killing it");
   act(Action::Kind::kill, index_of(member));
 }
 

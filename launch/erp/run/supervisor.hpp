@@ -10,34 +10,35 @@
 #include "launch/erp/run/back_off.hpp"
 #include "launch/erp/run/process.hpp"
 
-/// The life of a graph as a pure state machine: events and the time go in, actions come out.
+/// The life cycle of a graph as a pure state machine: inputs are events and time, outputs are
+/// actions.
 ///
 ///   starting ──all ready──▶ activating ──all active──▶ running ──stop──▶ stopping ──▶ done
 ///
-/// A component is ready when it is inactive, sees every other process and the launcher on the bus,
-/// and its links have not changed for a while. Members are activated in the order given and
-/// stopped in reverse, each waiting until the one before has said that it is finalized, or is gone.
+/// A component is ready when it is inactive, has discovered every other process and the launcher,
+/// and its links have not changed for `settle_ns`. Members are activated in the given order and
+/// stopped in reverse, each after the one before has reported `finalized` or has ended.
 namespace launch {
 
-/// One process to look after.
-struct Charge {
+/// A process under supervision.
+struct SupervisedProcess {
   std::string name;
   erp::Restart restart = erp::Restart::on_failure;
-  bool ends_run = false;  ///< a device: when it exits 0 by itself, the run is over
+  bool ends_run = false;  ///< a device: the run ends when it exits with 0
 };
 
-/// What a component says of itself on `component_state`.
+/// State of a component from its message on `component_state`.
 struct Heartbeat {
   erp::Lifecycle lifecycle = erp::Lifecycle::unconfigured;
   std::uint32_t peers = 0, links = 0;
 };
 
-/// Chosen, all of them.
+/// All values are chosen.
 struct Tuning {
-  std::int64_t settle_ns = 200'000'000;  ///< links unchanged for so long
-  std::int64_t resend_ns = 200'000'000;  ///< an activation nobody followed is sent again
-  std::int64_t start_patience_ns = 60'000'000'000;
-  std::int64_t stop_patience_ns = 5'000'000'000;  ///< from SIGTERM to SIGKILL
+  std::int64_t settle_ns = 200'000'000;  ///< links unchanged for this time
+  std::int64_t resend_ns = 200'000'000;  ///< until an activation without effect is sent again
+  std::int64_t start_timeout_ns = 60'000'000'000;
+  std::int64_t stop_timeout_ns = 5'000'000'000;  ///< from SIGTERM to SIGKILL
   BackOff::Tuning restart;
 };
 
@@ -47,21 +48,21 @@ const char* name_of(Phase phase);
 const char* name_of(Stage stage);
 
 struct Action {
-  enum class Kind { spawn, activate, terminate, kill, say, show_log };
+  enum class Kind { spawn, activate, terminate, kill, print, show_log };
   Kind kind;
   std::size_t member = 0;
-  std::string text;  ///< for `say`
+  std::string text;  ///< for `print`
 };
 
 class Supervisor {
  public:
-  explicit Supervisor(std::vector<Charge> charges, Tuning tuning = {});
+  explicit Supervisor(std::vector<SupervisedProcess> processes, Tuning tuning = {});
 
   void start(std::int64_t now_ns);
   void tick(std::int64_t now_ns);
-  void heard(std::size_t member, const Heartbeat& heartbeat, std::int64_t now_ns);
-  void ended(std::size_t member, const Ending& ending, std::int64_t now_ns);
-  /// Ends the run in order. `exit_code` 0 for a person's wish; the worst code given counts.
+  void on_heartbeat(std::size_t member, const Heartbeat& heartbeat, std::int64_t now_ns);
+  void on_exit(std::size_t member, const Ending& ending, std::int64_t now_ns);
+  /// Stops the run in order. `exit_code` is 0 at the user's request; the largest code given counts.
   void stop(const std::string& why, int exit_code, std::int64_t now_ns);
   void kill_now();
 
@@ -74,15 +75,15 @@ class Supervisor {
 
  private:
   struct Member {
-    Charge charge;
+    SupervisedProcess process;
     BackOff back_off;
     Phase phase = Phase::waiting;
     Heartbeat heartbeat;
-    std::int64_t links_since_ns = 0;       ///< when the links last changed
-    std::optional<std::int64_t> asked_ns;  ///< when it was last told to activate or to end
+    std::int64_t links_since_ns = 0;           ///< when the links last changed
+    std::optional<std::int64_t> requested_ns;  ///< time of the last request to activate or to end
     std::int64_t spawn_due_ns = 0;
     bool killed = false;
-    bool finalized = false;  ///< has said its last word; the process only has to end
+    bool finalized = false;  ///< has reported `finalized`; only the process has to end
     std::size_t restarts = 0;
   };
 
@@ -92,11 +93,11 @@ class Supervisor {
   void await_all(std::int64_t now_ns);
   void activate_next(std::int64_t now_ns);
   void stop_next(std::int64_t now_ns);
-  void kill_if_late(Member& member, std::int64_t now_ns);
+  void kill_if_overdue(Member& member, std::int64_t now_ns);
   void restart(std::size_t index, const Ending& ending, std::int64_t now_ns);
   void fail(std::size_t index, const std::string& why, int exit_code, std::int64_t now_ns);
   void act(Action::Kind kind, std::size_t index = 0, std::string text = "");
-  void say(const std::string& text) { act(Action::Kind::say, 0, text); }
+  void print(const std::string& text) { act(Action::Kind::print, 0, text); }
   std::size_t index_of(const Member& member) const {
     return static_cast<std::size_t>(&member - members_.data());
   }

@@ -7,34 +7,32 @@
 namespace launch {
 
 void add_launch(CLI::App& app, Chosen& chosen) {
-  auto* verb = app.add_subcommand("launch", "Start a graph, look after it, end it in order");
+  auto* verb = app.add_subcommand("launch", "Start, supervise and stop a graph");
   auto options = std::make_shared<LaunchOptions>();
-  verb->add_option("graph", options->graph_file, "the graph's XML file")->required();
-  verb->add_option("--device", options->device, "sim, can or replay:FILE, instead of the graph's");
+  verb->add_option("graph", options->graph_file, "XML file of the graph")->required();
+  verb->add_option("--device", options->device,
+                   "device: sim, can or replay:FILE (default: as in the graph)");
   auto* lockstep = verb->add_flag_callback(
       "--lockstep", [options] { options->time = erp::Time::lockstep; },
-      "as fast as it goes; a repetition exports the same, bit by bit");
+      "run as fast as possible; two runs export identical bits");
   verb->add_flag_callback(
-          "--realtime", [options] { options->time = erp::Time::realtime; },
-          "at the pace of the clock")
+          "--realtime", [options] { options->time = erp::Time::realtime; }, "run in real time")
       ->excludes(lockstep);
-  verb->add_option(
-      "--for", options->duration,
-      "end after 20s, 500ms, 2min …; of the device's time in lockstep, else by the clock");
+  verb->add_option("--for", options->duration,
+                   "duration: 20s, 500ms, 2min …; device time in lockstep, else real time");
   verb->add_option("--set", options->settings,
-                   "component.key=value: one parameter of one component; repeatable")
+                   "component.key=value: set a parameter of a component; repeatable")
       ->allow_extra_args(false);
-  verb->add_option("--restarts", options->most_restarts,
-                   "how often within 30 s a component is started again before it is given up")
+  verb->add_option("--restarts", options->max_restarts,
+                   "maximum number of restarts of one component within 30 s")
       ->capture_default_str();
-  verb->add_option("--patience", options->patience,
-                   "how long components may take to be ready before the launch is given up")
+  verb->add_option("--patience", options->patience, "time limit until all components are ready")
       ->capture_default_str();
   verb->add_option("--out", options->folder,
                    "folder for logs and recording (default: erp_runs/<graph>/<UTC time>)");
   verb->add_option("--security", options->security,
-                   "folder of erp security make: nobody else is heard, or hears (ERP_SECURITY)");
-  verb->footer("Ctrl-C stops the graph in order; a second one kills it.");
+                   "folder of erp security make: use DDS Security (default: ERP_SECURITY)");
+  verb->footer("Ctrl-C stops the graph in order; a second Ctrl-C kills it.");
   verb->callback([options, &chosen] { chosen = [options] { return launch_graph(*options); }; });
 }
 

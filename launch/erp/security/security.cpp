@@ -35,7 +35,7 @@ void check(bool worked, const char* operation) {
 
 struct Party {
   const char* name;
-  Key key{EVP_EC_gen("prime256v1"), EVP_PKEY_free};  // the curve that DDS Security names
+  Key key{EVP_EC_gen("prime256v1"), EVP_PKEY_free};  // the curve required by DDS Security
   Certificate certificate{X509_new(), X509_free};
 };
 
@@ -45,35 +45,38 @@ void extend(X509* certificate, int kind, const char* value) {
   check(extension && X509_add_ext(certificate, extension.get(), -1), "extend a certificate");
 }
 
-void number_at_random(X509* certificate) {
+void set_random_serial(X509* certificate) {
   unsigned char bytes[16];
-  check(RAND_bytes(bytes, sizeof bytes) == 1, "draw a number");
+  check(RAND_bytes(bytes, sizeof bytes) == 1, "draw a random number");
   bytes[0] &= 0x7f;  // positive
   const std::unique_ptr<BIGNUM, decltype(&BN_free)> number(BN_bin2bn(bytes, sizeof bytes, nullptr),
                                                            BN_free);
-  check(BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate)), "number");
+  check(BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate)),
+        "set a serial number");
 }
 
-void say_name(X509_NAME* into, const char* organisation, const char* name) {
+void add_name(X509_NAME* into, const char* organisation, const char* name) {
   const auto add = [&](const char* field, const char* value) {
     const auto* text = reinterpret_cast<const unsigned char*>(value);
-    check(X509_NAME_add_entry_by_txt(into, field, MBSTRING_ASC, text, -1, -1, 0) == 1, "name");
+    check(X509_NAME_add_entry_by_txt(into, field, MBSTRING_ASC, text, -1, -1, 0) == 1,
+          "name a certificate");
   };
   add("O", organisation), add("CN", name);
 }
 
-/// `by` vouches that the key of `whose` is its own.
-void certify(Party& whose, const Party& by, const Validity& validity) {
-  X509* c = whose.certificate.get();
+/// Fills the certificate of `subject` and signs it with the key of `by`.
+void certify(Party& subject, const Party& by, const Validity& validity) {
+  X509* c = subject.certificate.get();
   check(X509_set_version(c, X509_VERSION_3) == 1, "make a certificate");
-  number_at_random(c);
+  set_random_serial(c);
   check(ASN1_TIME_set(X509_getm_notBefore(c), validity.from_s) &&
             ASN1_TIME_set(X509_getm_notAfter(c), validity.until_s),
         "date a certificate");
-  say_name(X509_get_subject_name(c), security_organisation, whose.name);
-  check(X509_set_issuer_name(c, X509_get_subject_name(by.certificate.get())) == 1, "name");
-  check(X509_set_pubkey(c, whose.key.get()) == 1, "certify a key");
-  const bool authority = &whose == &by;
+  add_name(X509_get_subject_name(c), security_organisation, subject.name);
+  check(X509_set_issuer_name(c, X509_get_subject_name(by.certificate.get())) == 1,
+        "name an issuer");
+  check(X509_set_pubkey(c, subject.key.get()) == 1, "certify a key");
+  const bool authority = &subject == &by;
   extend(c, NID_basic_constraints, authority ? "critical,CA:TRUE" : "critical,CA:FALSE");
   extend(c, NID_key_usage,
          authority ? "critical,keyCertSign,digitalSignature"
@@ -81,7 +84,7 @@ void certify(Party& whose, const Party& by, const Validity& validity) {
   check(X509_sign(c, by.key.get(), EVP_sha256()) > 0, "sign a certificate");
 }
 
-/// S/MIME, as DDS Security wants its documents.
+/// Writes a document as S/MIME, the format required by DDS Security.
 void write_signed(BIO* out, const std::string& text, const Party& by) {
   constexpr int flags = PKCS7_TEXT | PKCS7_DETACHED;
   const Bio in(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())), BIO_free);
@@ -92,7 +95,7 @@ void write_signed(BIO* out, const std::string& text, const Party& by) {
       "sign a document");
 }
 
-/// A folder's files, each made once.
+/// Creates the files of a new folder; existing files are not overwritten.
 class Writer {
  public:
   explicit Writer(fs::path folder) : folder_(std::move(folder)) {

@@ -3,20 +3,20 @@
 #include <string>
 #include <vector>
 
-/// `erp security make DIR`: what a robot's processes need to know each other by.
+/// `erp security make DIR`: certificates by which the processes of a robot authenticate each other.
 namespace launch {
 
-/// When its certificates are valid, seconds since 1970.
+/// Validity of the certificates, in seconds since 1970.
 struct Validity {
   std::int64_t from_s = 0, until_s = 0;
 };
-/// From a day ago, for the robot's other machines whose clocks are behind, for so many days.
+/// From one day ago, for machines whose clocks are slow, for `days` days from now.
 Validity valid_for_days(int days);
 
-/// Writes an authority, an identity that it vouches for, and what it permits, into a folder that
-/// must not exist or be empty; returns the files. Keys are for their owner alone.
-/// Throws std::invalid_argument for a folder in use, std::runtime_error when a file cannot be
-/// written.
+/// Writes a certificate authority, an identity with a certificate of it, and the signed governance
+/// and permissions documents into `folder`, which must not exist or be empty. Returns the files.
+/// Only their owner can read the keys. Throws std::invalid_argument for a folder that is not empty,
+/// std::runtime_error if a file cannot be written.
 std::vector<std::filesystem::path> make_security(const std::filesystem::path& folder,
                                                  const Validity& validity);
 

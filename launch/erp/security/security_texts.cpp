@@ -12,10 +12,11 @@ constexpr auto header = R"(<?xml version="1.0" encoding="utf-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_{}.xsd">
 )";
 
-// ERP_DOMAIN's
+// the range of ERP_DOMAIN
 constexpr auto domains = "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
 
-// Metadata are whole submessages, with what they carry: encrypted once, the data need no more.
+// Metadata protection encrypts whole submessages including their data, so data protection is not
+// needed.
 constexpr auto rule = R"(
   <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
   <enable_join_access_control>true</enable_join_access_control>

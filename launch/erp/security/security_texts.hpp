@@ -3,17 +3,17 @@
 
 #include "launch/erp/security/security.hpp"
 
-/// The two documents of DDS Security 1.1 that the authority signs, chapter 9.4.
+/// The two documents that the authority signs (DDS Security 1.1, chapter 9.4).
 namespace launch {
 
 inline constexpr const char* security_organisation = "erp";
 inline constexpr const char* security_identity = "robot";
 
-/// What is protected, and how: nobody without a certificate, discovery, liveliness and every
-/// message encrypted.
+/// Governance: only participants with a certificate; discovery, liveliness and all messages
+/// encrypted.
 std::string governance_text();
 
-/// Whom the certificate names may say and hear everything.
+/// Permissions: the holder of the certificate may publish and subscribe to every topic.
 std::string permissions_text(const Validity& validity);
 
 }  // namespace launch

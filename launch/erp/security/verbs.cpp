@@ -8,13 +8,14 @@
 namespace launch {
 
 void add_security(CLI::App& app, Chosen& chosen) {
-  auto* verb = app.add_subcommand("security", "Who may drive a robot, and listen to it");
+  auto* verb = app.add_subcommand("security", "Access control of a robot by DDS Security");
   verb->require_subcommand(1);
-  auto* make = verb->add_subcommand("make", "An authority of your own, and an identity of its");
+  auto* make = verb->add_subcommand(
+      "make", "Create a certificate authority and an identity with a certificate");
   auto folder = std::make_shared<std::string>();
   auto days = std::make_shared<int>(730);
-  make->add_option("dir", *folder, "a folder that is not there yet")->required();
-  make->add_option("--days", *days, "how long its certificates are valid")
+  make->add_option("dir", *folder, "new folder")->required();
+  make->add_option("--days", *days, "validity of the certificates, days")
       ->check(CLI::Range(1, 36500))
       ->capture_default_str();
   make->callback([folder, days, &chosen] {

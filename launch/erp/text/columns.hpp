@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-/// Text in columns. Pure.
+/// Text tables. Pure.
 namespace launch {
 
-/// Cells padded to the widest of their column.
+/// One line per row; each cell padded to the widest cell of its column.
 std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows,
                                const std::vector<bool>& right_aligned);
 
-/// At most `width` characters of UTF-8 text.
+/// The first `width` characters of a UTF-8 text.
 std::string clipped(const std::string& text, std::size_t width);
 
 }  // namespace launch

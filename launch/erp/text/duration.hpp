@@ -2,14 +2,14 @@
 #include <cstdint>
 #include <string>
 
-/// Durations as people write and read them.
+/// Durations as text.
 namespace launch {
 
-/// "20s", "500ms", "2min", "1.5h"; without a unit, seconds.
-/// Throws std::invalid_argument for anything else, zero and negative included.
+/// Parses "20s", "500ms", "2min", "1.5h"; a number without unit is in seconds.
+/// Throws std::invalid_argument for other texts and for values of 0 or less.
 double parse_duration_s(const std::string& text);
 
-/// Short, three figures: "0.85 s", "20 s", "2 min 05 s".
+/// At most three significant digits below a minute: "0.85 s", "20 s", "2 min 05 s".
 std::string to_text_s(double duration_s);
 
 }  // namespace launch

@@ -33,10 +33,11 @@ std::string terminal(const std::string& file, int panels) {
   constexpr auto* font = " font 'DejaVu Sans,11' background rgb 'white'";
   if (file.ends_with(".png")) return "set terminal pngcairo noenhanced" + size + font + "\n";
   if (file.ends_with(".svg")) return "set terminal svg noenhanced" + size + font + "\n";
-  throw recording::RecordingError(file + ": can draw .svg and .png only; name the picture so");
+  throw recording::RecordingError(file +
+                                  ": can draw .svg and .png only; choose one of these extensions");
 }
 
-/// Runs gnuplot with these three open files as its stdin, stdout, stderr; returns its wait status.
+/// Runs gnuplot with three open files as stdin, stdout and stderr; returns its wait status.
 int run_gnuplot(int in, int out, int err) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -57,12 +58,12 @@ int run_gnuplot(int in, int out, int err) {
   return status;
 }
 
-std::string first_words(std::FILE* file) {
+std::string first_characters(std::FILE* file) {
   char text[400];
   std::rewind(file);
-  std::string words(text, std::fread(text, 1, sizeof text, file));
-  while (words.ends_with('\n')) words.pop_back();
-  return words;
+  std::string message(text, std::fread(text, 1, sizeof text, file));
+  while (message.ends_with('\n')) message.pop_back();
+  return message;
 }
 
 }  // namespace
@@ -78,12 +79,12 @@ void draw(const PlotScript& script, const std::string& file) {
   const int out = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (out < 0)
     throw std::invalid_argument(file + ": cannot create: " + std::strerror(errno) +
-                                "; name another with --out");
+                                "; name another file with --out");
   try {
     const int status = run_gnuplot(fileno(in.get()), out, fileno(err.get()));
     const off_t size = ::lseek(out, 0, SEEK_END);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || size <= 0)
-      throw recording::WriteError(file + ": gnuplot failed: " + first_words(err.get()) +
+      throw recording::WriteError(file + ": gnuplot failed: " + first_characters(err.get()) +
                                   "; check the disk, or export the recording and draw it yourself");
     if (::rename(part.c_str(), file.c_str()) != 0)
       throw recording::WriteError(file + ": cannot rename: " + std::strerror(errno) +

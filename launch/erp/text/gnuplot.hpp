@@ -1,10 +1,10 @@
 #pragma once
 #include <string>
 
-/// Pictures by gnuplot.
+/// Pictures drawn by gnuplot.
 namespace launch {
 
-/// A picture as gnuplot commands, the terminal left out.
+/// A picture as gnuplot commands, without `set terminal`.
 struct PlotScript {
   std::string commands;
   int panels = 0;
@@ -13,8 +13,9 @@ struct PlotScript {
 constexpr int picture_width = 1400;  ///< pixels
 constexpr int picture_height(int panels) { return 110 + 230 * panels; }
 
-/// Runs gnuplot; the file appears whole or not at all. Throws RecordingError when its name does not
-/// end in .svg or .png or gnuplot is missing or fails, WriteError when it cannot be written.
+/// Runs gnuplot and writes `file` atomically. Throws RecordingError when its name does not end in
+/// .svg or .png or when gnuplot is not installed, WriteError when gnuplot fails,
+/// std::invalid_argument when the file cannot be created.
 void draw(const PlotScript& script, const std::string& file);
 
 }  // namespace launch

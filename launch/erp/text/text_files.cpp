@@ -9,7 +9,7 @@ namespace launch {
 
 std::string read_text(const std::string& file) {
   if (std::filesystem::is_directory(file))
-    throw std::invalid_argument(file + ": is a folder; name a file in it");
+    throw std::invalid_argument(file + ": this is a folder; name a file in it");
   std::ifstream in(file);
   if (!in) throw std::invalid_argument(file + ": cannot be read; check the name");
   return {std::istreambuf_iterator<char>(in), {}};
@@ -26,16 +26,16 @@ void make_folder(const std::string& folder) {
   std::filesystem::create_directories(folder, failed);
   if (failed)
     throw std::invalid_argument(folder + ": this folder cannot be made: " + failed.message() +
-                                "; name another");
+                                "; name another folder");
 }
 
 void check_folder(const std::string& folder) {
   namespace fs = std::filesystem;
-  fs::path first_made;
+  fs::path first_created;
   for (fs::path path = fs::absolute(folder); !fs::exists(path); path = path.parent_path())
-    first_made = path;
+    first_created = path;
   make_folder(folder);
-  if (!first_made.empty()) fs::remove_all(first_made);
+  if (!first_created.empty()) fs::remove_all(first_created);
 }
 
 }  // namespace launch

@@ -1,14 +1,15 @@
 #pragma once
 #include <string>
 
-/// Files of text, and the folders they go to. All throw std::invalid_argument with the name.
+/// Text files and their folders. All functions throw std::invalid_argument with the file name.
 namespace launch {
 
 std::string read_text(const std::string& file);
 void write_file(const std::string& file, const std::string& text);
-/// With those above it, if they are not there.
+/// Creates the folder and its parents if they do not exist.
 void make_folder(const std::string& folder);
-/// Throws as make_folder would, and leaves nothing behind: before long work whose result goes there.
+/// Throws as make_folder would, and removes what it created. Call it before a long computation
+/// whose result will be written to `folder`.
 void check_folder(const std::string& folder);
 
 }  // namespace launch

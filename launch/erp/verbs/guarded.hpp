@@ -3,10 +3,11 @@
 
 #include "interfaces/recording/error.hpp"
 
-/// What verbs that read recordings have in common.
+/// Error handling of verbs that read recordings.
 namespace launch {
 
-/// Runs `work`; says what went wrong on stderr, and as an exit code.
+/// Runs `work` and returns its exit code. Prints an error of the recording on stderr and returns 1
+/// (not written) or 2 (not readable).
 template <class Work>
 int guarded(Work&& work) {
   try {
@@ -20,7 +21,8 @@ int guarded(Work&& work) {
   }
 }
 
-inline int written(std::ostream& out) {
+/// Flushes `out` and returns 0. Throws WriteError when that fails.
+inline int flush_or_throw(std::ostream& out) {
   if (out.flush()) return 0;
   throw recording::WriteError(
       "the output could not be written; free some space or name another file");

@@ -8,11 +8,12 @@
 
 #include "launch/erp/text/text_files.hpp"
 
-/// What verbs have in common.
+/// Helpers of all verbs.
 namespace launch {
 
-/// Prints, or writes a file: only once all is computed, because what is read may include that file.
-inline int give(const std::string& file, const std::function<int(std::ostream&)>& print) {
+/// Prints to stdout, or writes `file` if it is not empty. Writes after the computation has ended,
+/// since its input may include that file.
+inline int write_output(const std::string& file, const std::function<int(std::ostream&)>& print) {
   std::ostringstream text;
   const int code = print(text);
   if (file.empty()) return std::cout << text.str(), code;
@@ -24,13 +25,13 @@ inline int all_cores() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-/// An option's number must be above 0.
+/// Accepts numbers above 0.
 inline CLI::Validator above_zero() {
-  return {[](std::string& said) {
+  return {[](std::string& text) {
             double value = 0;
-            return CLI::detail::lexical_cast(said, value) && value > 0
+            return CLI::detail::lexical_cast(text, value) && value > 0
                        ? std::string()
-                       : said + " is not above 0; give a positive number";
+                       : text + " is not above 0; give a positive number";
           },
           ""};
 }

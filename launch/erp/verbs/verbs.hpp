@@ -2,16 +2,17 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-/// The parts of the command line. Each adds its verbs to `app`; parsing one sets `chosen`.
+/// The families of verbs. Each function adds its verbs to `app`; parsing a verb sets `chosen`.
 namespace launch {
 
-/// What the chosen verb does; returns the exit code.
+/// Function that executes the chosen verb; returns the exit code.
 using Chosen = std::function<int()>;
 
 void add_launch(CLI::App& app, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
-void add_look(CLI::App& app, Chosen& chosen);    ///< ps, ls, graph
-void add_listen(CLI::App& app, Chosen& chosen);  ///< hz, echo, delay
+void add_help(CLI::App& app, Chosen& chosen);
+void add_graph_view(CLI::App& app, Chosen& chosen);  ///< ps, ls, graph
+void add_topic_view(CLI::App& app, Chosen& chosen);  ///< hz, echo, delay
 void add_log(CLI::App& app, Chosen& chosen);
 void add_model(CLI::App& app, Chosen& chosen);
 void add_gap(CLI::App& app, Chosen& chosen);

@@ -22,7 +22,7 @@ StateSpace repeated(const StateSpace& one, Index times) {
   return side_by_side(std::vector<StateSpace>(static_cast<std::size_t>(times), one));
 }
 
-/// From torques that act to angles.
+/// From joint torques to joint angles.
 StateSpace bones(Musculoskeletal& model) {
   const auto hinges = hinges_of(model);
   const auto n = static_cast<Index>(hinges.size());
@@ -39,8 +39,8 @@ StateSpace bones(Musculoskeletal& model) {
   return g;
 }
 
-/// What stands between the torque asked for and the one that acts.
-StateSpace one_way(const JointShape& shape) {
+/// Actuator dynamics: from commanded to actual torque.
+StateSpace torque_dynamics(const JointShape& shape) {
   const double lag = 1 / shape.smooth_s, pade = 2 / shape.delay_s;
   const StateSpace follows = first_order(0, lag, lag);
   return in_series(in_series(first_order(-1, pade, pade), follows), follows);
@@ -51,8 +51,8 @@ StateSpace one_weight(const JointShape& shape, double friction_per_s) {
   const double wc = to_rad_per_s * shape.crossover_Hz, wi = to_rad_per_s * shape.integral_Hz;
   const double zero = std::max(wc / shape.lead, friction_per_s);
   const StateSpace bare = in_series(first_order(1, wi, 0), first_order(1, zero, wc * shape.lead));
-  const double way = std::abs(response(one_way(shape), wc)(0, 0)) / (wc * wc);
-  const double k = 1 / (std::abs(response(bare, wc)(0, 0)) * way);
+  const double plant_gain = std::abs(response(torque_dynamics(shape), wc)(0, 0)) / (wc * wc);
+  const double k = 1 / (std::abs(response(bare, wc)(0, 0)) * plant_gain);
   return in_series(bare, constant(MatrixXd::Constant(1, 1, k)));
 }
 
@@ -65,8 +65,9 @@ std::vector<Hinge> hinges_of(const Musculoskeletal& model) {
     const int first = model.skeleton().first_of(static_cast<int>(j));
     if (first < 0) continue;
     if (joints[j].type != erp::JointType::revolute)
-      throw std::invalid_argument("joint \"" + joints[j].name +
-                                  "\" is no hinge: puller-follower control knows no others");
+      throw std::invalid_argument(
+          "joint \"" + joints[j].name +
+          "\" is not a hinge: puller-follower control supports only revolute joints");
     hinges.push_back({joints[j].name, static_cast<int>(j), first, joints[j].viscous_Nm_s_per_rad,
                       joints[j].coulomb_Nm});
   }
@@ -74,7 +75,7 @@ std::vector<Hinge> hinges_of(const Musculoskeletal& model) {
 }
 
 StateSpace hinge_plant(Musculoskeletal& model, const JointShape& shape) {
-  return in_series(repeated(one_way(shape), model.coordinates()), bones(model));
+  return in_series(repeated(torque_dynamics(shape), model.coordinates()), bones(model));
 }
 
 void align(const MatrixXd& inertia, std::span<const Hinge> hinges, const JointShape& shape,
@@ -116,11 +117,11 @@ JointLoops joint_loops(Musculoskeletal& model, const JointShape& shape) {
 
 MatrixXd JointLoops::holding() const {
   const Index first = robust.controller.states(), n = shape.states(), m = shape.outputs();
-  MatrixXd rests(n + m, n), asks = MatrixXd::Zero(n + m, m);
+  MatrixXd rests(n + m, n), unit_outputs = MatrixXd::Zero(n + m, m);
   rests << shape.a, shape.c;
-  asks.bottomRows(m).setIdentity();
+  unit_outputs.bottomRows(m).setIdentity();
   MatrixXd states = MatrixXd::Zero(first + n, m);
-  states.bottomRows(n) = rests.completeOrthogonalDecomposition().solve(asks);
+  states.bottomRows(n) = rests.completeOrthogonalDecomposition().solve(unit_outputs);
   return states;
 }
 
@@ -130,7 +131,7 @@ JointLoops moved(const JointLoops& loops, Musculoskeletal& model, const JointSha
 
 namespace {
 
-/// The highest frequency at which the loop through joint `j` alone is 1, Hz.
+/// Highest frequency at which the loop gain of joint `j` is 1, Hz.
 double crossover_Hz(const std::vector<MatrixXcd>& inverse_closed, const std::vector<double>& w,
                     Index j) {
   double found = 0;

@@ -4,21 +4,22 @@
 #include <vector>
 
 #include "interfaces/xml/fields.hpp"
-#include "sim/model/actuator/musculoskeletal.hpp"
 #include "sim/control/loop_shaping/robust_loop.hpp"
+#include "sim/model/actuator/musculoskeletal.hpp"
 
 /// H-infinity loop shaping of a robot's hinges (paper, 5.2), from torques to angles.
 ///
 ///   G    H v̇ = τ(t − T) − µ v,  q̇ = v      viscous friction µ, delay T (Padé of order 1);
-///                                            τ follows what is asked by 1/(1 + T_s s)²
-///   W₁ = A k (s + ω_i)/s · (s + z)/(s + α ω_c)               k: |W₁ G| is about 1 at ω_c
-///   z  = ω_c/α, or µ/h where that is more: friction alone then gives the phase
-///   A  = H but for its diagonal, √(h² + (µ/ω_c)²)            1/A is G at ω_c, its phase aside
+///                                            τ follows the commanded torque with 1/(1 + T_s s)²
+///   W₁ = A k (s + ω_i)/s · (s + z)/(s + α ω_c)               k: such that |W₁ G| ≈ 1 at ω_c
+///   z  = max(ω_c/α, µ/h): with large friction no further phase lead is needed
+///   A  = H with the diagonal √(h² + (µ/ω_c)²)                1/A: magnitude of G at ω_c
 ///   K  = W₁ K∞
 ///
-/// K∞ is designed in one posture. A follows the posture: the inertia that a joint has to move
-/// changes manifold, that of a forearm's rotation as the elbow bends, and no fixed A keeps a margin
-/// over all (seven_dof: 0.01 of 0.39 are left). Gravity is not in G: it is compensated on line.
+/// K∞ is designed in one posture; A is updated with the posture. The inertia about a joint varies
+/// strongly, for example that of the forearm's rotation with the elbow angle, and no constant A keeps a
+/// margin in all postures (on seven_dof, 0.01 of 0.39 remain). G does not contain gravity, which is
+/// compensated online.
 namespace sim::loop_shaping {
 
 /// `<loops crossover_Hz="2.5"/>`, a file.
@@ -39,11 +40,11 @@ struct JointShape {
   }
 };
 
-/// A joint that a loop can be closed around.
+/// A joint with a control loop.
 struct Hinge {
   std::string name;
-  int joint;       ///< of RobotTree::joints
-  int coordinate;  ///< of SkeletonModel
+  int joint;       ///< index in RobotTree::joints
+  int coordinate;  ///< index in SkeletonModel
   double viscous_Nm_s_per_rad, coulomb_Nm;
 };
 /// Throws std::invalid_argument for a robot with joints that turn about more than one axis.
@@ -55,33 +56,32 @@ struct JointLoops {
   RobustLoop robust;          ///< of G W₁
 
   StateSpace weight() const { return in_series(shape, constant(alignment)); }  ///< W₁
-  /// From rad to what A turns into Nm.
+  /// K without A: from rad to the input of A.
   StateSpace core() const { return in_series(robust.controller, shape); }
-  /// The core's states of rest, A x = 0, that ask for 1 of an output: what W₁'s integrators hold. A
-  /// column for each output; zero without integrators.
+  /// Equilibrium states of the core, A x = 0, with output 1 (stored in the integrators of W₁). One
+  /// column per output; zero without integrators.
   Eigen::MatrixXd holding() const;
   StateSpace controller() const { return in_series(robust.controller, weight()); }  ///< K
 };
 
-/// A where the bones have inertia H. No heap.
+/// A for the inertia matrix H. No heap.
 void align(const Eigen::MatrixXd& inertia, std::span<const Hinge> hinges, const JointShape& shape,
            Eigen::MatrixXd& alignment);
 
-/// G where the model is placed now.
+/// G in the current posture of the model.
 StateSpace hinge_plant(Musculoskeletal& model, const JointShape& shape);
-/// Designs the loops where the model is placed now. Throws as hinges_of and stabilised.
+/// Designs the loops in the current posture of the model. Throws like hinges_of and stabilised.
 JointLoops joint_loops(Musculoskeletal& model, const JointShape& shape);
 
-/// What loops are worth with the G and A of another posture.
+/// Robustness of loops in a posture.
 struct LoopCheck {
-  double margin;          ///< ε that is left
-  double slowest_per_s;   ///< largest real part of the closed loop's poles
-  double most_sensitive;  ///< largest singular value of (1 + G K)⁻¹
-  std::vector<double>
-      crossover_Hz;  ///< where each joint's own loop, the others closed, falls below 1
+  double margin;                     ///< remaining ε
+  double slowest_per_s;              ///< largest real part of the closed loop's poles
+  double most_sensitive;             ///< largest singular value of (1 + G K)⁻¹
+  std::vector<double> crossover_Hz;  ///< of each joint's loop with the other loops closed
 };
 LoopCheck checked(const JointLoops& loops);
-/// The same loops where the model is placed now.
+/// The same K∞ with the G and A of the current posture of the model.
 JointLoops moved(const JointLoops& loops, Musculoskeletal& model, const JointShape& shape);
 
 }  // namespace sim::loop_shaping

@@ -5,17 +5,17 @@
 
 namespace sim::loop_shaping {
 
-/// Singular values over frequency, largest and smallest.
+/// Largest and smallest singular value.
 struct Spread {
   double largest, smallest;
 };
 
-/// What a Bode plot is of many loops.
+/// A point of a singular value plot, the multivariable Bode plot.
 struct LoopPoint {
   double Hz;
-  Spread wanted;  ///< of G W₁
-  Spread got;     ///< of G K
-  double s, t;    ///< largest of (1 + G K)⁻¹ and of (1 + G K)⁻¹ G K
+  Spread desired;   ///< of G W₁
+  Spread achieved;  ///< of G K
+  double s, t;      ///< largest singular value of (1 + G K)⁻¹ and of (1 + G K)⁻¹ G K
 };
 std::vector<LoopPoint> loop_curves(const JointLoops& loops, double low_Hz, double high_Hz,
                                    int count);

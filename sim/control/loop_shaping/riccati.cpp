@@ -14,8 +14,8 @@ namespace {
 
 /// The matrix with the same eigenvectors and the eigenvalues' signs: S ← (c S + (c S)⁻¹)/2.
 MatrixXd sign_of(MatrixXd s) {
-  constexpr int most_steps = 100;
-  for (int k = 0; k < most_steps; ++k) {
+  constexpr int max_steps = 100;
+  for (int k = 0; k < max_steps; ++k) {
     const Eigen::PartialPivLU<MatrixXd> lu(s);
     const double log_determinant = lu.matrixLU().diagonal().array().abs().log().sum();
     if (!std::isfinite(log_determinant)) break;  // an eigenvalue on the imaginary axis

@@ -8,8 +8,8 @@ namespace sim::loop_shaping {
 ///   Aᵀ X + X A − X G X + Q = 0,    A − G X stable,    G = Gᵀ ≥ 0,  Q = Qᵀ ≥ 0
 ///
 /// from the sign of the Hamiltonian matrix (Roberts 1980; scaling by the determinant: Byers 1987).
-/// Throws std::domain_error where none is found: an unstable mode that G does not reach or Q does
-/// not see.
+/// Throws std::domain_error if there is none: an unstable mode is not stabilisable through G or not
+/// detectable through Q.
 Eigen::MatrixXd riccati(const Eigen::MatrixXd& a, const Eigen::MatrixXd& g,
                         const Eigen::MatrixXd& q);
 

@@ -14,20 +14,21 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-RobustLoop stabilised(const StateSpace& shaped, double give) {
-  if (!shaped.d.isZero() || !(give > 1))
-    throw std::invalid_argument("a plant without direct feed-through, and a give above 1");
+RobustLoop stabilised(const StateSpace& shaped, double gamma_factor) {
+  if (!shaped.d.isZero() || !(gamma_factor > 1))
+    throw std::invalid_argument(
+        "the plant must have no direct feed-through, and gamma_factor must be above 1");
   const auto& [a, b, c, d] = shaped;
   const MatrixXd x = riccati(a, b * b.transpose(), c.transpose() * c);
   const MatrixXd z = riccati(a.transpose(), c.transpose() * c, b * b.transpose());
   const MatrixXd xz = x * z;
   const double least =
       std::sqrt(1 + Eigen::EigenSolver<MatrixXd>(xz, false).eigenvalues().real().maxCoeff());
-  const double gamma = give * least, square = gamma * gamma;
+  const double gamma = gamma_factor * least, square = gamma * gamma;
   const Index n = a.rows();
   const MatrixXd l = (1 - square) * MatrixXd::Identity(n, n) + xz;
   const MatrixXd gain = square * l.transpose().partialPivLu().solve(z * c.transpose());
-  // The formulas are for u = K y: from r − y it is the same with the other sign.
+  // The formulas are for u = K y; for u = K (r − y) the sign changes.
   return {{a - b * b.transpose() * x + gain * c, gain, -b.transpose() * x,
            MatrixXd::Zero(shaped.inputs(), shaped.outputs())},
           1 / gamma,

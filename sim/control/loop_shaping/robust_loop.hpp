@@ -1,7 +1,7 @@
 #pragma once
 #include "sim/control/loop_shaping/state_space.hpp"
 
-/// Robust stabilisation of a loop of a given shape.
+/// Robust stabilisation of a loop with a given shape.
 ///
 /// G_s = M⁻¹ N, normalised coprime factors. K∞ stabilises every (M + Δ_M)⁻¹ (N + Δ_N) with
 /// ‖[Δ_N Δ_M]‖∞ < ε; the largest ε follows from two Riccati equations without a search:
@@ -11,8 +11,8 @@
 ///
 ///   K∞ = (A − B Bᵀ X + γ² L⁻ᵀ Z Cᵀ C,  γ² L⁻ᵀ Z Cᵀ,  Bᵀ X),   L = (1 − γ²) 1 + X Z
 ///
-/// for a γ somewhat above the smallest. An ε of 0.25 and more is a good design: K∞ then changes
-/// little of the wanted shape.
+/// for a γ slightly above its minimum. A design with ε ≥ 0.25 is good: K∞ then changes the desired
+/// shape only little.
 ///
 /// Source: McFarlane and Glover 1992 (paper, 5.2); formulas as in Skogestad and Postlethwaite,
 /// Multivariable Feedback Control, 2nd edition, 9.4.
@@ -20,15 +20,15 @@ namespace sim::loop_shaping {
 
 struct RobustLoop {
   StateSpace controller;       ///< K∞, for u = K∞ (r − y)
-  double margin = 0;           ///< ε that it gives
-  double greatest_margin = 0;  ///< ε that any controller can give to this shape
+  double margin = 0;           ///< ε of this controller
+  double greatest_margin = 0;  ///< largest ε of any controller for this shape
 };
 
-/// `give`: γ over the smallest γ, above 1. Throws std::invalid_argument for a plant with direct
+/// `gamma_factor`: ratio of γ to its minimum, above 1. Throws std::invalid_argument for a plant with direct
 /// feed-through, std::domain_error for one that cannot be stabilised.
-RobustLoop stabilised(const StateSpace& shaped, double give = 1.1);
+RobustLoop stabilised(const StateSpace& shaped, double gamma_factor = 1.1);
 
-/// 1/‖[K; 1](1 + G K)⁻¹[1 G]‖∞ over those frequencies: the ε that K really gives to G.
+/// 1/‖[K; 1](1 + G K)⁻¹[1 G]‖∞ over these frequencies: the ε that K actually achieves for G.
 double margin_of(const StateSpace& plant, const StateSpace& controller, double low_rad_per_s,
                  double high_rad_per_s, int count = 400);
 

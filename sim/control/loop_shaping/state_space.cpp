@@ -36,7 +36,7 @@ StateSpace in_series(const StateSpace& first, const StateSpace& then) {
 
 namespace {
 
-/// Puts a block below and to the right of the others.
+/// Appends a block to a block-diagonal matrix.
 void append(MatrixXd& blocks, const MatrixXd& block) {
   const Index r = blocks.rows(), c = blocks.cols();
   blocks.conservativeResizeLike(MatrixXd::Zero(r + block.rows(), c + block.cols()));
@@ -70,7 +70,7 @@ StateSpace closed(const StateSpace& plant, const StateSpace& controller) {
   return loop;
 }
 
-// 2/T (z − 1)/(z + 1) for s; its state is (1 − A T/2) x − B T/2 u.
+// s = 2/T (z − 1)/(z + 1); the discrete state is (1 − A T/2) x − B T/2 u.
 Sampled::Sampled(const StateSpace& system, double period_s)
     : state_(Eigen::VectorXd::Zero(system.states())), next_(state_) {
   const Index n = system.states();

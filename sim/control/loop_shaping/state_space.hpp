@@ -17,32 +17,31 @@ struct StateSpace {
 
 /// y = gain · u.
 StateSpace constant(const Eigen::MatrixXd& gain);
-/// (k₁ s + k₀)/(s + p), from one input to one output.
+/// (k₁ s + k₀)/(s + p), with one input and one output.
 StateSpace first_order(double k1, double k0, double pole_per_s);
-/// What one system gives is what the next takes.
+/// Series connection: the output of `first` is the input of `then`.
 StateSpace in_series(const StateSpace& first, const StateSpace& then);
-/// Systems that know nothing of each other: all inputs, all outputs.
+/// Parallel systems without coupling, with all inputs and all outputs.
 StateSpace side_by_side(std::span<const StateSpace> systems);
 /// C (jω − A)⁻¹ B + D.
 Eigen::MatrixXcd response(const StateSpace& system, double rad_per_s);
 /// Largest real part of the eigenvalues of A, 1/s; negative: stable.
 double slowest_pole_per_s(const StateSpace& system);
-/// The system that u = −K y closes around G: from r, with u = K (r − y), to y. G without direct
-/// feed-through.
+/// The closed loop of G and K from r to y, with u = K (r − y). G must have no direct feed-through.
 StateSpace closed(const StateSpace& plant, const StateSpace& controller);
 
-/// The same at instants a period apart, by the trapezoidal rule:
+/// A discrete-time system, from a continuous one by the trapezoidal rule (Tustin):
 ///
 ///   x⁺ = Φ x + Γ u,   y = C′ x + D′ u
 ///
-/// A state-space system to be stepped: no heap in `step`.
+/// No heap in `step`.
 class Sampled {
  public:
   Sampled(const StateSpace& system, double period_s);
 
-  /// y of this instant; then on to the next.
+  /// Returns y at this instant and advances the state by one period.
   const Eigen::VectorXd& step(const Eigen::VectorXd& u);
-  /// It begins in a state of rest, A x = 0.
+  /// Sets the state to an equilibrium, A x = 0.
   void begin(const Eigen::VectorXd& rest) { state_ = rest; }
 
  private:

@@ -1,5 +1,4 @@
-// How the bones of a blind robot move: friction, springs and stops of its joints, H q̈ = τ − C −
-// τ_G.
+// Motion of the bones of a blind robot: friction, springs and stops of its joints, H q̈ = τ − C − τ_G.
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +13,11 @@ namespace j = joint_state;
 
 constexpr double reach_rad = 2e-4, settles_s = 2e-3;  // of a bristle
 constexpr double stop_Nm_per_rad = 300, stop_Nm_s_per_rad = 1;
-constexpr double loose_s = 2e-4;  // in which a loose shaft is taken along: twice the step
+constexpr double loose_s = 2e-4;  // time constant at the ends of the play: twice the step
 
-/// Torque of the bearing along one of its axes; ds: of its bristle.
-double rub(const erp::Joint& joint, const JointEffects& q, double speed, double v, double bristle,
-           double& ds) {
+/// Friction torque of a joint about one of its axes; ds: rate of its bristle.
+double friction(const erp::Joint& joint, const JointEffects& q, double speed, double v,
+                double bristle, double& ds) {
   const double dry = std::max(0.0, joint.coulomb_Nm + q.dry_Nm) +
                      q.stribeck_Nm * std::exp(-speed / q.stribeck_rad_per_s);
   ds = (v - speed * bristle) / bristle_reach(reach_rad, speed);
@@ -27,8 +26,8 @@ double rub(const erp::Joint& joint, const JointEffects& q, double speed, double 
          q.drag * v * std::abs(v);
 }
 
-/// Torque of a hinge's spring and stops.
-double hold(const erp::Joint& joint, const JointEffects& q, double angle, double v) {
+/// Torque of the spring and the stops of a hinge.
+double spring_and_stops(const erp::Joint& joint, const JointEffects& q, double angle, double v) {
   double torque = -q.spring * (angle - q.rest_rad);
   const double over = angle - (joint.max_rad - q.max_in_rad);
   const double under = joint.min_rad + q.min_in_rad - angle;
@@ -37,12 +36,12 @@ double hold(const erp::Joint& joint, const JointEffects& q, double angle, double
   return torque;
 }
 
-/// What a hinge's sensor makes of its angle.
+/// Play and low-pass of a hinge's sensor.
 void sense(const JointEffects& q, const double* s, double* ds) {
   const double off = s[j::position] - s[j::bearing], half = q.loose_rad / 2;
   ds[j::bearing] = (std::max(0.0, off - half) + std::min(0.0, off + half)) / loose_s;
   const double seen = q.loose_rad > 0 ? s[j::bearing] : s[j::position];
-  ds[j::said] = q.angle.lag_s > 0 ? (seen - s[j::said]) / q.angle.lag_s : 0;
+  ds[j::reading] = q.angle.lag_s > 0 ? (seen - s[j::reading]) / q.angle.lag_s : 0;
 }
 
 /// q̇ = q ⊗ (0, ω)/2
@@ -72,11 +71,11 @@ void Plant::move_bones(const State& x, const Eigen::VectorXd& pulled, double gus
     double speed = 0;
     for (int d = 0; d < dofs; ++d) speed = std::hypot(speed, s[j::velocity + d]);
     for (int d = 0; d < dofs; ++d)
-      torque[first + d] +=
-          rub(tree_.joints[n], q, speed, s[j::velocity + d], s[j::bristle + d], ds[j::bristle + d]);
-    torque[first] += gust * q.gusts_Nm;
+      torque[first + d] += friction(tree_.joints[n], q, speed, s[j::velocity + d],
+                                    s[j::bristle + d], ds[j::bristle + d]);
+    torque[first] += gust * q.random_Nm;
     if (dofs != 1) continue;
-    torque[first] += hold(tree_.joints[n], q, s[j::position], s[j::velocity]);
+    torque[first] += spring_and_stops(tree_.joints[n], q, s[j::position], s[j::velocity]);
     sense(q, s, ds);
   }
   model_.bias(bias_);

@@ -8,13 +8,13 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/gap/blind/tolerance.hpp"
 
-/// A blind case: what is hidden in it, drawn from a seed.
+/// A blind case: hidden effects drawn from a seed.
 namespace sim::blind {
 
 enum class Kind { single, null, pair, outside, withheld, many };
 
-/// Something hidden. `type` as the library of effects calls it; of what the library has not,
-/// a name that begins with "outside_".
+/// A hidden effect. `type`: name in the library of effects; of laws that the library lacks, a name that
+/// begins with "outside_".
 struct Hidden {
   std::string type, stage, on;
   std::vector<std::pair<std::string, double>> parameters;
@@ -25,20 +25,20 @@ struct Case {
   Kind kind = Kind::single;
   std::vector<Hidden> hidden;
   HiddenEffects hidden_effects;
-  AsBuilt built;                      ///< draws nothing: as it is described
-  std::vector<std::string> withhold;  ///< what the diagnosis is told to do without
-  int drawn_anew = 0;                 ///< what would not have shown in any reading
+  AsBuilt built;                      ///< `drawn` is empty if the constants are as described
+  std::vector<std::string> withhold;  ///< types that the diagnosis may not use
+  int drawn_anew = 0;                 ///< number of draws rejected as invisible
 };
 
-/// `only`: types to draw from, empty: all. `shows`: of something alone (shows.hpp); what does not
-/// is drawn anew, fifty times at most. Throws std::invalid_argument for a robot without actuators
-/// or joints, and for a type that this kind never hides.
+/// `only`: types to draw from; empty: all. `shows`: whether an effect alone is visible (visibility.hpp);
+/// invisible effects are drawn again, at most fifty times. Throws std::invalid_argument for a robot without
+/// actuators or revolute joints, and for a type that this kind does not hide.
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
                const std::vector<std::string>& only = {},
                const std::function<bool(const HiddenEffects&)>& shows = {});
 
 const char* word(Kind kind);
-/// Throws std::invalid_argument for an unknown word.
+/// Throws std::invalid_argument for an unknown name.
 Kind kind_of(const std::string& word);
 
 }  // namespace sim::blind

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double shaft_reach_rad = 3e-4, shaft_settles_s = 2e-3;
 constexpr double line_reach_m = 4e-5, line_damps_N_s_per_m = 5;
-// A steel spindle of 4.5 mm with the gear's last wheel; the tooth is stiff, not rigid.
+// A steel spindle of 4.5 mm with the last gear wheel; the teeth are stiff, not rigid.
 constexpr double spindle_kg_m2 = 1e-6, tooth_Nm_per_rad = 120, steel_damps_s = 1.7e-4;
-constexpr double spindle_dry_Nm = 0.003;  // of what the gearbox has, beyond the play
+constexpr double spindle_dry_Nm = 0.003;  // part of the gearbox friction after the play
 constexpr double copper_per_K = 0.00393;
 constexpr double tau = 2 * 3.14159265358979323846;
 
@@ -22,7 +22,7 @@ double dead_zone(double x, double low, double high) {
   return x > high ? x - high : x < low ? x - low : 0;
 }
 
-/// Elements that slide: each a spring up to its yield.
+/// Rate of a sliding element: a spring up to its yield force.
 double slide_rate(double stress, double rate, double stiffness, double yield) {
   const bool loading = stress * rate > 0;
   const double share = std::abs(stress) / yield;
@@ -52,40 +52,43 @@ Plant::Line Plant::pull(Chain& k, const double* x, double path_rate, double* dx)
   const double shaft = k.two_masses ? x[c::spindle] : x[c::shaft];
   const double speed = k.two_masses ? x[c::spindle_speed] : x[c::speed];
   const double wound = k.radius_m * shaft + q.growth_m_per_rad * shaft * shaft / 2 +
-                       q.oval_m * (std::cos(shaft) - 1);
-  const double wound_slope = k.radius_m + q.growth_m_per_rad * shaft - q.oval_m * std::sin(shaft);
+                       q.eccentricity_m * (std::cos(shaft) - 1);
+  const double wound_slope =
+      k.radius_m + q.growth_m_per_rad * shaft - q.eccentricity_m * std::sin(shaft);
   const double change = k.shape.length_m - k.start_m;
-  const double path = k.shape.length_m + q.arm * change + q.arm_per_m * change * change / 2;
-  const double path_slope = 1 + q.arm + q.arm_per_m * change;
-  const double stretch = path + q.knot_m - k.rest_m + wound - x[c::lost];
+  const double path =
+      k.shape.length_m + q.moment_arm * change + q.moment_arm_per_m * change * change / 2;
+  const double path_slope = 1 + q.moment_arm + q.moment_arm_per_m * change;
+  const double stretch = path + q.length_offset_m - k.rest_m + wound - x[c::slip];
   const double rate = path_slope * path_rate + wound_slope * speed;  // slip is slow
 
   double force = spring_N(k, stretch) + k.damping * rate;
   if (q.line_m_per_N > 0) {  // Δx = x + c l/l₀ F, F = spring(x) + d ẋ
     const double free_length =
-        (k.shape.length_m - stretch) / k.start_m;  // what is wound up does not stretch
+        (k.shape.length_m - stretch) / k.start_m;  // the wound part does not stretch
     force = std::max(0.0, stretch - x[c::inner]) / (q.line_m_per_N * free_length);
     dx[c::inner] = (force - spring_N(k, x[c::inner])) / std::max(k.damping, line_damps_N_s_per_m);
   }
-  const double drawn = std::max(0.0, stretch);  // the line hangs slack beyond
-  force += q.creep_N_per_m * (drawn - x[c::flowed]);
-  if (q.fibres_N > 0) force += x[c::slide1] + x[c::slide2] + x[c::slide3];
+  const double drawn = std::max(0.0, stretch);  // a slack line does not stretch
+  force += q.creep_N_per_m * (drawn - x[c::crept]);
+  if (q.hysteresis_N > 0) force += x[c::slide1] + x[c::slide2] + x[c::slide3];
   if (q.slack_N > 0) force -= q.slack_N * (1 - std::exp(-stretch / q.slack_m));
   force = stretch > 0 ? std::max(0.0, force) : 0.0;
 
-  dx[c::flowed] = (drawn - x[c::flowed]) / q.creep_s;
-  if (q.fibres_N > 0)
+  dx[c::crept] = (drawn - x[c::crept]) / q.creep_s;
+  if (q.hysteresis_N > 0)
     for (std::size_t n = 0; n < 3; ++n) {
-      const double yield = q.fibres_N / 3, reach = q.fibres_m * (n == 0 ? 0.4 : n == 1 ? 1 : 2);
+      const double yield = q.hysteresis_N / 3;
+      const double reach = q.hysteresis_m * (n == 0 ? 0.4 : n == 1 ? 1 : 2);
       dx[c::slide1 + n] =
           slide_rate(x[c::slide1 + n], stretch > 0 ? rate : 0, yield / reach, yield);
     }
-  dx[c::lost] = q.slip_per_N * force * std::abs(wound_slope * speed);
+  dx[c::slip] = q.slip_per_N * force * std::abs(wound_slope * speed);
 
   const double line_speed = wound_slope * speed;
   dx[c::line_bristle] = bristle_rate(x[c::line_bristle], line_speed, line_reach_m);
   const double bend = bend_rad(k.shape);
-  double near = force * std::exp(q.rub * bend * x[c::line_bristle]);
+  double near = force * std::exp(q.capstan * bend * x[c::line_bristle]);
   if (q.snag_N > 0) {
     const double off = (change - q.snag_m) / 0.004;
     near += q.snag_N * std::exp(-off * off) * x[c::line_bristle];
@@ -112,8 +115,8 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
   const double rub = std::clamp(s + shaft_settles_s * dx[c::bristle], -1.2, 1.2);
   double load = line.wound_slope * line.motor_side_N;
   if (k.two_masses) {
-    const double low = q.play_rad > 0 ? -q.play_rad : 0.0;
-    const double stiff = q.twist_rad_per_Nm > 0 ? 1 / q.twist_rad_per_Nm : tooth_Nm_per_rad;
+    const double low = q.backlash_rad > 0 ? -q.backlash_rad : 0.0;
+    const double stiff = q.shaft_rad_per_Nm > 0 ? 1 / q.shaft_rad_per_Nm : tooth_Nm_per_rad;
     const double twist = dead_zone(x[c::shaft] - x[c::spindle], low, 0);
     const double touch = twist != 0 ? steel_damps_s * stiff * (omega - x[c::spindle_speed]) : 0;
     const double carried = stiff * twist + touch;
@@ -123,12 +126,12 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
     load = carried;
   }
   double dry = m.gear_coulomb_Nm + q.dry_Nm - (k.two_masses ? spindle_dry_Nm : 0) +
-               (rub > 0 ? q.one_way_Nm : -q.one_way_Nm);
+               (rub > 0 ? q.asymmetric_Nm : -q.asymmetric_Nm);
   dry += q.load_share * std::abs(load);
   dry += q.stribeck_Nm * std::exp(-std::abs(omega / q.stribeck_rad_per_s));
   dx[c::aged] =
-      (1 - x[c::aged]) / q.stuck_after_s - std::abs(omega) * x[c::aged] / q.freed_after_rad;
-  dry += q.stuck_Nm * x[c::aged];
+      (1 - x[c::aged]) / q.stiction_rest_s - std::abs(omega) * x[c::aged] / q.stiction_way_rad;
+  dry += q.stiction_Nm * x[c::aged];
   const double turned = q.turn_periods * x[c::shaft];
   dry += q.turn_sine_Nm * std::sin(turned) + q.turn_cosine_Nm * std::cos(turned);
   const double tooth = q.tooth_Nm * std::pow(0.5 + 0.5 * std::cos(x[c::shaft]), 8);
@@ -148,12 +151,12 @@ void Plant::turn(const Chain& k, const double* x, const Line& line, double volta
 }
 
 void Plant::lag(const Chain& k, const double* x, const Line& line, double* dx) const {
-  const auto follow = [&](std::size_t said, double value, const SensorEffects& sense) {
-    dx[said] = sense.lag_s > 0 ? (value - x[said]) / sense.lag_s : 0;
+  const auto follow = [&](std::size_t reading, double value, const SensorEffects& sense) {
+    dx[reading] = sense.lag_s > 0 ? (value - x[reading]) / sense.lag_s : 0;
   };
-  follow(c::said_shaft, x[c::shaft], k.q.shaft);
-  follow(c::said_current, x[c::current], k.q.current);
-  follow(c::said_tension, line.tension_N, k.q.tension);
+  follow(c::reading_shaft, x[c::shaft], k.q.shaft);
+  follow(c::reading_current, x[c::current], k.q.current);
+  follow(c::reading_tension, line.tension_N, k.q.tension);
 }
 
 }  // namespace sim::blind

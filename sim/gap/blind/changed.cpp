@@ -1,4 +1,4 @@
-// A robot whose bones are others than drawn.
+// A robot with other masses, a tilted base and flexible bones.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -25,7 +25,7 @@ Solid solid_of(const erp::Body& body) {
   return {m.mass_kg, {m.com_m[0], m.com_m[1], m.com_m[2]}, inertia};
 }
 
-void give(erp::Body& body, const Solid& s) {
+void set_mass(erp::Body& body, const Solid& s) {
   const Matrix3d& i = s.about_com;
   body.mass_kg = s.mass_kg, body.com_m = {s.com_m[0], s.com_m[1], s.com_m[2]};
   body.inertia_kg_m2 = {i(0, 0), i(1, 1), i(2, 2)};
@@ -39,7 +39,7 @@ Matrix3d of_point(double mass_kg, const Vector3d& r) {
   return mass_kg * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
-/// A thing that is two.
+/// Two rigid bodies joined to one.
 Solid joined(const Solid& a, const Solid& b) {
   Solid sum{a.mass_kg + b.mass_kg, {}, {}};
   sum.com_m = (a.mass_kg * a.com_m + b.mass_kg * b.com_m) / sum.mass_kg;
@@ -58,23 +58,24 @@ Solid with_hidden_effects(Solid s, const BodyEffects& q) {
   return s;
 }
 
-/// Sets the far half on a hinge at the centre of mass: two equal rods that together weigh the same.
-void bow(erp::Skeleton& part, std::size_t b) {
+/// Splits a body at its centre of mass into two equal rods on a hinge, with the same total mass.
+void split_by_hinge(erp::Skeleton& part, std::size_t b) {
   erp::Body& inner = part.bodies[b];
   erp::Body outer = inner;
   const Solid whole = solid_of(inner);
   const Vector3d along = whole.com_m.normalized();
   const double across = whole.about_com(0, 0);
-  const double far = std::sqrt(0.75 * across / whole.mass_kg);  // a rod's: some of it is its own
+  const double far = std::sqrt(
+      0.75 * across / whole.mass_kg);  // of a rod: part of the inertia belongs to each half
   const auto half = [&](double way) {
     Matrix3d own = (whole.about_com - of_point(whole.mass_kg, far * along)) / 2;
     return Solid{whole.mass_kg / 2, whole.com_m + way * far * along, own};
   };
   outer.name = inner.name + "_outer", outer.parts.clear();
-  give(inner, half(-1));
+  set_mass(inner, half(-1));
   Solid end = half(1);
   end.com_m -= whole.com_m;
-  give(outer, end);
+  set_mass(outer, end);
   for (std::size_t j = 0; j < part.joints.size(); ++j) {
     if (part.joints[j].child != inner.name) continue;
     erp::Joint hinge = part.joints[j];
@@ -105,8 +106,8 @@ erp::Robot changed(const erp::Robot& nominal, const HiddenEffects& hidden_effect
     for (std::size_t b = 0; b < count; ++b) {
       const auto found = hidden_effects.bodies.find(part.bodies[b].name);
       if (found == hidden_effects.bodies.end()) continue;
-      give(part.bodies[b], with_hidden_effects(solid_of(part.bodies[b]), found->second));
-      if (found->second.bend_rad_per_Nm > 0) bow(part, b);
+      set_mass(part.bodies[b], with_hidden_effects(solid_of(part.bodies[b]), found->second));
+      if (found->second.bend_rad_per_Nm > 0) split_by_hinge(part, b);
     }
   }
   return robot;

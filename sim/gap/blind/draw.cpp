@@ -16,7 +16,7 @@ std::size_t any(std::size_t count, Random& random) {
   return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
 }
 
-/// Revolute joints only: what has an angle to be loose, stopped or badly read.
+/// A revolute joint: effects on joints need an angle.
 std::size_t any_joint(const erp::Robot& robot, Random& random) {
   const auto joints = robot.joints();
   std::vector<std::size_t> turning;
@@ -31,7 +31,7 @@ Hidden hide(const EffectKind& kind, const erp::Robot& robot, HiddenEffects& hidd
   constexpr double hinge_rig_Nm = 3.75;
   Place place{
       hidden_effects, robot, any(robot.actuators.size(), random), any_joint(robot, random), {}};
-  place.stronger = joint_load_Nm(robot, place.joint) / hinge_rig_Nm;
+  place.strength = joint_load_Nm(robot, place.joint) / hinge_rig_Nm;
   std::vector<std::string> moved;
   for (const erp::Body& body : robot.bodies())
     if (erp::mass_of(body).mass_kg > 0) moved.push_back(body.name);
@@ -49,7 +49,7 @@ std::vector<const EffectKind*> among(std::span<const EffectKind> all,
     if (only.empty() || std::ranges::count(only, kind.type)) kinds.push_back(&kind);
   for (const std::string& type : only)
     if (std::ranges::none_of(all, [&](const EffectKind& kind) { return kind.type == type; }))
-      throw std::invalid_argument("\"" + type + "\" is not among what this kind of case hides");
+      throw std::invalid_argument("\"" + type + "\" is not an effect that this kind of case hides");
   return kinds;
 }
 
@@ -59,11 +59,11 @@ const char* word(Kind kind) {
   return std::ranges::find(words, kind, &std::pair<Kind, const char*>::first)->second;
 }
 
-Kind kind_of(const std::string& said) {
+Kind kind_of(const std::string& word) {
   for (const auto& [kind, name] : words)
-    if (said == name) return kind;
-  throw std::invalid_argument("kind \"" + said +
-                              "\" is none of single, null, pair, outside, withheld, many");
+    if (word == name) return kind;
+  throw std::invalid_argument("kind \"" + word +
+                              "\" is not one of single, null, pair, outside, withheld, many");
 }
 
 Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
@@ -106,7 +106,7 @@ Case draw_case(const erp::Robot& robot, Kind kind, std::uint64_t seed,
   if (kind == Kind::withheld) {
     const EffectKind& chosen = hide_one(in_library());
     blind.withhold.emplace_back(chosen.type);
-    for (const char* twin : chosen.twins) blind.withhold.emplace_back(twin);
+    for (const char* other : chosen.indistinguishable) blind.withhold.emplace_back(other);
   }
   return blind;
 }

@@ -5,29 +5,30 @@
 
 #include "sim/gap/blind/case.hpp"
 
-/// What may be hidden, and how large: a table.
+/// Table of the effects that can be hidden, with their ranges.
 namespace sim::blind {
 
 using Random = std::mt19937_64;
 
-/// Where it sits, for the drawing.
+/// Place of an effect, for the drawing.
 struct Place {
   HiddenEffects& hidden_effects;
   const erp::Robot& robot;
   std::size_t chain = 0, joint = 0;
   std::string body;
-  double stronger = 1;  ///< the joint, than hinge_rig's: what brakes or loads it is in proportion
+  double strength =
+      1;  ///< joint load relative to hinge_rig's; sizes of joint effects are proportional
 };
 
 struct EffectKind {
   const char* type;
   const char* stage;
   enum On { chain, joint, body, link, robot } on;  ///< link: a body on a hinge
-  /// Draws, sets the quirk and tells what was drawn.
+  /// Draws parameters, sets the hidden effect, returns names and values of the parameters.
   std::vector<std::pair<std::string, double>> (*draw)(Place&, Random&);
-  /// Types that foretell nearly the same readings with some parameters of theirs, by their
-  /// equations: they are withheld with it, or the right answer would be the twin.
-  std::vector<const char*> twins = {};
+  /// Types whose equations can predict nearly the same readings. They are withheld with it, otherwise one
+  /// of them would be a right answer.
+  std::vector<const char*> indistinguishable = {};
 };
 
 std::span<const EffectKind> in_library();

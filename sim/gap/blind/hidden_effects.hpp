@@ -3,58 +3,70 @@
 #include <string>
 #include <vector>
 
-/// What a blind case's robot has beyond its nominal description, as numbers of its own physics.
-/// Neutral values change nothing. Meanings: plant.hpp, chain.cpp, senses.hpp.
+/// Parameters of the hidden effects of a blind robot. Default values have no effect. Equations: chain.cpp,
+/// bones.cpp, record.cpp. "Outside": the library of effects lacks this law.
 namespace sim::blind {
 
 struct SensorEffects {
-  double offset = 0, gain = 0, rate = 0;  ///< added, share, per second
-  double lag_s = 0;                       ///< first order
-  double sine_rad = 0, cosine_rad = 0;    ///< of a disc off its centre
-  double step = 0;                        ///< coarser steps
-  double bend = 0;                        ///< outside the library: said += bend · value²
+  double offset = 0, gain = 0, rate = 0;  ///< offset, relative gain error, drift per second
+  double lag_s = 0;                       ///< time constant of a first-order low-pass
+  double sine_rad = 0, cosine_rad = 0;    ///< eccentricity of an encoder disc
+  double step = 0;                        ///< quantization step
+  double curvature = 0;                   ///< outside: reading += bend · value · |value|
 };
 
 struct ChainEffects {
-  double ohm = 0, torque = 0, henry = 0;  ///< shares of R, K_T with K_E, L
-  double kelvin_per_W = 0, heat_s = 20;
+  // Motor
+  double resistance = 0, torque_constant = 0,
+         inductance = 0;                 ///< relative errors; torque: K_T and K_E
+  double kelvin_per_W = 0, heat_s = 20;  ///< thermal resistance, time constant
   double cog_sine_Nm = 0, cog_cosine_Nm = 0;
-  double dead_V = 0, source_ohm = 0;
-  double driver_late_s = 0;      ///< less than a period
-  double saturation_per_A2 = 0;  ///< outside: K_T / (1 + c i²)
-  double dry_Nm = 0, one_way_Nm = 0, viscous = 0, load_share = 0;
+  double dead_V = 0, source_ohm = 0;  ///< dead band of the driver, resistance of the supply
+  double driver_late_s = 0;           ///< delay of the driver, below one period
+  double saturation_per_A2 = 0;       ///< outside: K_T / (1 + c i²)
+  // Gearbox
+  double dry_Nm = 0, asymmetric_Nm = 0, viscous = 0, load_share = 0;  ///< added friction
   double stribeck_Nm = 0, stribeck_rad_per_s = 0.3;
-  double stuck_Nm = 0, stuck_after_s = 1, freed_after_rad = 0.1;
-  double turn_sine_Nm = 0, turn_cosine_Nm = 0, turn_periods = 1;
-  double play_rad = 0, rotor = 0, twist_rad_per_Nm = 0;
-  double tooth_Nm = 0;  ///< outside: drags once a turn of the gearbox
-  double radius = 0, growth_m_per_rad = 0, slip_per_N = 0;
-  double oval_m = 0;  ///< outside: the spindle off its centre
-  double spring = 0, cubic = 0, damping = 0;
+  double stiction_Nm = 0, stiction_rest_s = 1,
+         stiction_way_rad = 0.1;                                  ///< grows at rest, ends by motion
+  double turn_sine_Nm = 0, turn_cosine_Nm = 0, turn_periods = 1;  ///< friction by shaft angle
+  double backlash_rad = 0, rotor = 0,
+         shaft_rad_per_Nm = 0;  ///< rotor: relative error of its inertia
+  double tooth_Nm = 0;          ///< outside: extra friction once per turn of the gearbox
+  // Spindle
+  double radius = 0, growth_m_per_rad = 0, slip_per_N = 0;  ///< radius: relative error
+  double eccentricity_m = 0;                                ///< outside: of the spindle
+  // Tendon and its guides
+  double spring = 0, cubic = 0, damping = 0;  ///< relative error; added N/m³; added N s/m
   double creep_N_per_m = 0, creep_s = 3;
-  double fibres_N = 0, fibres_m = 5e-4;  ///< elements that slide
-  double knot_m = 0, line_m_per_N = 0;
-  double slack_N = 0, slack_m = 1e-3;  ///< outside: a braid that straightens, F −= a (1−e^(−x/b))
-  double rub = 0, shift_m = 0, pulley = 0, arm = 0, arm_per_m = 0;
-  double snag_N = 0, snag_m = 0;  ///< outside: rubs at one place of its way
+  double hysteresis_N = 0, hysteresis_m = 5e-4;  ///< yield force and way of sliding elements (Iwan)
+  double length_offset_m = 0, line_m_per_N = 0;  ///< line_m_per_N: compliance of the line
+  double slack_N = 0, slack_m = 1e-3;  ///< outside: braid that straightens, F −= a (1−e^(−x/b))
+  double capstan = 0, attachment_shift_m = 0;
+  double pulley_radius = 0, moment_arm = 0, moment_arm_per_m = 0;  ///< relative errors
+  double snag_N = 0, snag_m = 0;  ///< outside: extra friction of the line at one position
   SensorEffects shaft, current, tension;
 };
 
 struct JointEffects {
-  double dry_Nm = 0, viscous = 0, stribeck_Nm = 0, stribeck_rad_per_s = 0.2;
-  double spring = 0, rest_rad = 0;
-  double min_in_rad = 0, max_in_rad = 0, loose_rad = 0;
-  double drag = 0;      ///< outside: τ = −c ω |ω|
-  double gusts_Nm = 0;  ///< outside: pushes that no law foretells
+  double dry_Nm = 0, viscous = 0, stribeck_Nm = 0, stribeck_rad_per_s = 0.2;  ///< added friction
+  double spring = 0, rest_rad = 0;        ///< passive stiffness in Nm/rad, its rest angle
+  double min_in_rad = 0, max_in_rad = 0;  ///< distance of early stops from min_rad and max_rad
+  double loose_rad = 0;                   ///< play of the angle sensor
+  double drag = 0;                        ///< outside: τ = −c ω |ω|
+  double random_Nm = 0;                   ///< outside: standard deviation of a random torque
   SensorEffects angle;
 };
 
 struct BodyEffects {
-  double mass = 0, com_m = 0, inertia = 0, payload_kg = 0, bend_rad_per_Nm = 0;
+  double mass = 0, inertia = 0;  ///< relative errors
+  double com_m = 0;              ///< shift of the centre of mass, outwards
+  double payload_kg = 0, bend_rad_per_Nm = 0;
 };
 
 struct HiddenEffects {
-  double command_delay_s = 0, frame_delay_s = 0, jitter_s = 0, loss = 0;
+  double command_delay_s = 0, frame_delay_s = 0, jitter_s = 0;
+  double loss = 0;  ///< probability that a command is lost
   double tilt_x_rad = 0, tilt_y_rad = 0;
   std::vector<ChainEffects> chains;
   std::vector<JointEffects> joints;

@@ -3,8 +3,8 @@
 
 namespace sim::blind {
 
-/// The torque that the tendons of a joint can turn it with, either way, Nm: half of Σ F_max |∂L/∂q|
-/// along its first axis, at the start.
+/// Torque of the tendons of a joint in one direction, in Nm: half of Σ F_max |∂L/∂q| about its first axis, in
+/// the initial pose.
 double joint_load_Nm(const erp::Robot& robot, std::size_t joint);
 
 }  // namespace sim::blind

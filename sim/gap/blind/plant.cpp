@@ -40,22 +40,22 @@ Plant::Plant(const erp::Robot& nominal, const HiddenEffects& hidden_effects)
   start(nominal);
 }
 
-/// At rest, lines at their pretension.
+/// Initial state: at rest, lines at their pretension.
 void Plant::start(const erp::Robot& nominal) {
   x_.assign(chains_.size() * c::count + joints_.size() * j::count, 0.0);
   for (std::size_t a = 0; a < chains_.size(); ++a) {
     double* x = &x_[a * c::count];
     const double pretension_N = nominal.actuators[a].tendon.pretension_N;
-    x[c::spindle] = -chains_[a].q.twist_rad_per_Nm * chains_[a].radius_m * pretension_N;
+    x[c::spindle] = -chains_[a].q.shaft_rad_per_Nm * chains_[a].radius_m * pretension_N;
     x[c::inner] = stretch_at(chains_[a], pretension_N);
-    x[c::flowed] = chains_[a].start_m - chains_[a].rest_m + chains_[a].radius_m * x[c::spindle];
-    x[c::said_tension] = pretension_N;
-    tension_N_.push_back(x[c::said_tension]);
+    x[c::crept] = chains_[a].start_m - chains_[a].rest_m + chains_[a].radius_m * x[c::spindle];
+    x[c::reading_tension] = pretension_N;
+    tension_N_.push_back(x[c::reading_tension]);
   }
   for (std::size_t n = 0; n < joints_.size(); ++n) {
     double* x = &x_[chains_.size() * c::count + n * j::count];
     for (std::size_t i = 0; i < 4; ++i) x[j::position + i] = joints_[n].position[i];
-    x[j::bearing] = x[j::said] = joints_[n].position[0];
+    x[j::bearing] = x[j::reading] = joints_[n].position[0];
   }
 }
 
@@ -106,23 +106,23 @@ bool Plant::run(std::span<const double> voltage_V, double duration_s, double gus
     for (std::size_t i = 0; i < n; ++i) x_[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
     time_s_ += h;
   }
-  derive(x_, voltage_V, gust, k1);  // the tensions of now
+  derive(x_, voltage_V, gust, k1);  // updates the tensions
   return std::ranges::all_of(x_, [](double v) { return std::isfinite(v); });
 }
 
 double Plant::shaft_rad(std::size_t a) const {
-  return x_[a * c::count + (chains_[a].q.shaft.lag_s > 0 ? c::said_shaft : c::shaft)];
+  return x_[a * c::count + (chains_[a].q.shaft.lag_s > 0 ? c::reading_shaft : c::shaft)];
 }
 double Plant::current_A(std::size_t a) const {
-  return x_[a * c::count + (chains_[a].q.current.lag_s > 0 ? c::said_current : c::current)];
+  return x_[a * c::count + (chains_[a].q.current.lag_s > 0 ? c::reading_current : c::current)];
 }
 double Plant::tension_N(std::size_t a) const {
-  return chains_[a].q.tension.lag_s > 0 ? x_[a * c::count + c::said_tension] : tension_N_[a];
+  return chains_[a].q.tension.lag_s > 0 ? x_[a * c::count + c::reading_tension] : tension_N_[a];
 }
 double Plant::angle_rad(std::size_t n) const {
   const double* x = &x_[chains_.size() * c::count + n * j::count];
   const JointEffects& q = joint_effects_[n];
-  return q.angle.lag_s > 0 ? x[j::said] : q.loose_rad > 0 ? x[j::bearing] : x[j::position];
+  return q.angle.lag_s > 0 ? x[j::reading] : q.loose_rad > 0 ? x[j::bearing] : x[j::position];
 }
 std::array<double, 4> Plant::quaternion(std::size_t n) const { return joints_[n].position; }
 

@@ -6,29 +6,28 @@
 #include "sim/gap/blind/hidden_effects.hpp"
 #include "sim/model/actuator/muscle_jacobian.hpp"
 
-/// The robot of a blind case, in continuous time: ordinary differential equations, solved by the
-/// classical Runge–Kutta method of order four at a small step. Written apart from the simulator
-/// and from the library of effects, so that the diagnosis cannot succeed by sharing their form:
+/// The robot of a blind case in continuous time: ordinary differential equations, integrated by the classical
+/// Runge–Kutta method of order four at a small step. Independent of the simulator and of the library of
+/// effects, so that the diagnosis cannot succeed by sharing their equations:
 ///
-/// - friction: one bristle a contact, ṡ = (ω − |ω| s / g(ω))/δ, torque τ (s + b ṡ)  (Dahl, LuGre)
+/// - friction: one bristle per contact, ṡ = (ω − |ω| s / g(ω))/δ, torque τ (s + b ṡ)  (Dahl, LuGre)
 /// - gear: X/e with e = η^(s sgn X), continuous through standstill
 /// - backlash: two masses and a dead zone; shaft: two masses and a spring
-/// - hysteresis: three elements that slide (Iwan); creep: a Maxwell element
+/// - hysteresis: three sliding elements (Iwan); creep: a Maxwell element
 /// - stops: springs and dampers
 ///
-/// It shares with the simulator the nominal bones (sim/model/skeleton: H, C, τ_G) and the paths of the
-/// tendons.
+/// Shared with the simulator: the nominal bones (sim/model/skeleton: H, C, τ_G) and the paths of the tendons.
 namespace sim::blind {
 
 class Plant {
  public:
   Plant(const erp::Robot& nominal, const HiddenEffects& hidden_effects);
 
-  /// On by `duration_s` with these voltages held. Returns false when the motion is not finite.
+  /// Advances by `duration_s` with constant voltages. Returns false if the motion is not finite.
   bool run(std::span<const double> voltage_V, double duration_s, double gust);
 
   double time_s() const { return time_s_; }
-  // What sensors follow, lags and looseness included.
+  // Inputs of the sensors, including lag and play.
   double shaft_rad(std::size_t actuator) const;
   double current_A(std::size_t actuator) const;
   double tension_N(std::size_t actuator) const;
@@ -76,7 +75,7 @@ class Plant {
   Eigen::VectorXd bias_;
 };
 
-/// The robot with other masses, a tilted base and bending bones: what can be told by constants.
+/// The robot with other masses, a tilted base and flexible bones: effects that a description can express.
 erp::Robot changed(const erp::Robot& nominal, const HiddenEffects& hidden_effects);
 
 }  // namespace sim::blind

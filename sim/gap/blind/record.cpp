@@ -20,24 +20,24 @@ namespace {
 
 constexpr double period_s = 0.002;
 
-/// One sensor: value to what it says.
-class Sense {
+/// One sensor: converts a value to a reading.
+class SensorModel {
  public:
-  Sense(const SensorEffects& hidden_effects, double noise, double step, double low, double high,
-        double turns = 1)
+  SensorModel(const SensorEffects& hidden_effects, double noise, double step, double low,
+              double high, double turns = 1)
       : q_(hidden_effects), noise_(noise), step_(step), low_(low), high_(high), turns_(turns) {}
 
   double read(double value, double time_s, std::mt19937_64& random) {
     const double disc = (ray_rad(turns_ * value) - ray_rad(0)) / turns_;
-    double said = (1 + q_.gain) * (value + disc) + q_.offset + q_.rate * time_s +
-                  q_.bend * value * std::abs(value);
-    said += noise_ * normal_(random);
-    if (q_.step > 0) said = q_.step * std::floor(said / q_.step + 0.5);
-    return std::clamp(step_ * std::floor(said / step_ + 0.5), low_, high_);
+    double reading = (1 + q_.gain) * (value + disc) + q_.offset + q_.rate * time_s +
+                     q_.curvature * value * std::abs(value);
+    reading += noise_ * normal_(random);
+    if (q_.step > 0) reading = q_.step * std::floor(reading / q_.step + 0.5);
+    return std::clamp(step_ * std::floor(reading / step_ + 0.5), low_, high_);
   }
 
  private:
-  /// From the centre of the disc, which goes round the axis, to the head at (1, 0).
+  /// Angle of the ray from the centre of the disc, which circles the axis, to the reading head at (1, 0).
   double ray_rad(double angle) const {
     const double s = std::sin(angle), c = std::cos(angle);
     return std::atan2(q_.sine_rad * s + q_.cosine_rad * c, 1 - q_.sine_rad * c + q_.cosine_rad * s);
@@ -51,7 +51,7 @@ class Sense {
 struct Unit {
   ecu_channel ecu{};
   EcuUnits units;
-  Sense shaft, current, tension;
+  SensorModel shaft, current, tension;
   double shaft_rad = 0, current_A = 0, tension_N = 0, voltage_V = 0;
 };
 
@@ -74,25 +74,25 @@ Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const Cha
   return unit;
 }
 
-/// What sets out and arrives later, in order.
+/// A queue of messages with delays, delivered in order.
 template <class What>
-class Line {
+class DelayQueue {
  public:
   void send(double due_s, What what) {
-    line_.emplace_back(line_.empty() ? due_s : std::max(due_s, line_.back().first),
-                       std::move(what));
+    queue_.emplace_back(queue_.empty() ? due_s : std::max(due_s, queue_.back().first),
+                        std::move(what));
   }
-  /// The newest that has arrived; null: nothing new.
+  /// The newest message that arrived; null: none.
   const What* arrived(double now_s) {
     bool any = false;
-    while (!line_.empty() && line_.front().first <= now_s + 1e-9)
-      last_ = std::move(line_.front().second), line_.pop_front(), any = true;
+    while (!queue_.empty() && queue_.front().first <= now_s + 1e-9)
+      last_ = std::move(queue_.front().second), queue_.pop_front(), any = true;
     return any ? &last_ : nullptr;
   }
   const What& last() const { return last_; }
 
  private:
-  std::deque<std::pair<double, What>> line_;
+  std::deque<std::pair<double, What>> queue_;
   What last_;
 };
 
@@ -117,7 +117,7 @@ class Run {
     name_columns();
   }
 
-  recording::Table go(const Excitation& excitation) {
+  recording::Table run(const Excitation& excitation) {
     measure();
     for (std::size_t row = 0; row < excitation.reference.size(); ++row) {
       const double now_s = static_cast<double>(row) * period_s;
@@ -125,10 +125,10 @@ class Run {
           hidden_effects_.command_delay_s + hidden_effects_.jitter_s * even_(random_);
       if (!(even_(random_) < hidden_effects_.loss))
         commands_.send(now_s + delay, excitation.reference[row]);
-      if (const auto* wanted = commands_.arrived(now_s)) heard_ = *wanted;
-      obey(excitation.mode);
+      if (const auto* command = commands_.arrived(now_s)) received_ = *command;
+      apply_command(excitation.mode);
       step();
-      frames_.send(now_s + period_s + hidden_effects_.frame_delay_s, said());
+      frames_.send(now_s + period_s + hidden_effects_.frame_delay_s, readings());
       frames_.arrived(now_s + period_s);
       put(now_s, excitation, row);
     }
@@ -141,12 +141,12 @@ class Run {
     for (std::string& name : recording::columns_of(nominal_))
       table_.columns.push_back({std::move(name), {}});
   }
-  void obey(erp::Mode mode) {
+  void apply_command(erp::Mode mode) {
     for (std::size_t a = 0; a < units_.size(); ++a)
-      if (heard_.empty()) ecu_command(&units_[a].ecu, ECU_REQUEST_ARM, 0);
+      if (received_.empty()) ecu_command(&units_[a].ecu, ECU_REQUEST_ARM, 0);
       else
         ecu_command(&units_[a].ecu, EcuUnits::request(mode),
-                    units_[a].units.setpoint(mode, heard_[a]));
+                    units_[a].units.setpoint(mode, received_[a]));
   }
   void measure() {
     const double now_s = plant_.time_s();
@@ -173,12 +173,12 @@ class Run {
     drive(before, volts);
     measure();
   }
-  /// Over a period, in which late drivers still apply the voltage before.
+  /// Advances one period; delayed drivers still apply the previous voltage at first.
   void drive(std::vector<double> volts, const std::vector<double>& now) {
     double done_s = 0;
     const auto until = [&](double end_s) {
       if (end_s > done_s && !plant_.run(volts, end_s - done_s, gust_))
-        throw NotFinite("the motion of a blind case is not finite: take other seeds");
+        throw NotFinite("the motion of a blind case is not finite: use other seeds");
       done_s = std::max(done_s, end_s);
     };
     std::vector<std::size_t> order(now.size());
@@ -188,7 +188,7 @@ class Run {
     for (const std::size_t a : order) until(late_s(a)), volts[a] = now[a];
     until(period_s);
   }
-  std::vector<double> said() {
+  std::vector<double> readings() {
     std::vector<double> all;
     for (const Unit& u : units_)
       all.insert(all.end(), {u.voltage_V, u.current_A, u.shaft_rad, u.tension_N});
@@ -221,10 +221,10 @@ class Run {
   std::normal_distribution<double> normal_;
   std::uniform_real_distribution<double> even_{0, 1};
   std::vector<Unit> units_;
-  std::vector<Sense> angles_;
+  std::vector<SensorModel> angles_;
   std::vector<erp::JointType> types_;
-  Line<std::vector<double>> commands_, frames_;
-  std::vector<double> heard_;
+  DelayQueue<std::vector<double>> commands_, frames_;
+  std::vector<double> received_;
   double gust_ = 0;
   recording::Table table_;
 };
@@ -233,7 +233,7 @@ class Run {
 
 recording::Table record(const erp::Robot& nominal, const Case& blind, const Excitation& excitation,
                         std::uint64_t seed) {
-  return Run(nominal, blind, seed).go(excitation);
+  return Run(nominal, blind, seed).run(excitation);
 }
 
 }  // namespace sim::blind

@@ -7,13 +7,13 @@
 
 namespace sim::blind {
 
-/// Motion that runs away from what numbers hold: a robot that would have broken.
+/// The motion diverged.
 struct NotFinite : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Runs the robot of a case under the real ECU firmware through an excitation, and returns what
-/// its sensors and the bus let one see: the columns of a recording. Throws NotFinite.
+/// Simulates the robot of a case with the ECU firmware and an excitation. Returns a table with the columns of a
+/// recording, after sensors and bus. Throws NotFinite.
 recording::Table record(const erp::Robot& nominal, const Case& blind, const Excitation& excitation,
                         std::uint64_t seed);
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-/// Where things are in the plant's state.
+/// Indices of the plant's state.
 namespace sim::blind {
 
 namespace chain_state {
@@ -11,19 +11,19 @@ enum : std::size_t {
   speed,
   bristle,  // motor and gearbox
   spindle,
-  spindle_speed,  // behind play or a soft shaft
-  lost,
-  flowed,
-  inner,  // of the spring behind a line that stretches
+  spindle_speed,  // after play or a compliant shaft
+  slip,           // line lost by slip
+  crept,          // stretch of the creep element
+  inner,          // stretch of the spring in series with a compliant line
   slide1,
   slide2,
   slide3,
   line_bristle,
   heat,
-  aged,  // of stiction
-  said_shaft,
-  said_current,
-  said_tension,
+  aged,           // ageing of stiction
+  reading_shaft,  // after the low-pass
+  reading_current,
+  reading_tension,
   count
 };
 }
@@ -33,18 +33,19 @@ enum : std::size_t {
   velocity = position + 4,
   bristle = velocity + 3,
   bearing = bristle + 3,
-  said,
+  reading,
   count
 };
 }
 
-/// Motion after which a bristle is fully bent; at speed longer, that it takes a step of the integrator at least.
+/// Motion after which a bristle is fully deflected. Longer at high speed, so that it takes at least one step of the
+/// integrator.
 inline double bristle_reach(double reach, double speed) {
   constexpr double least_s = 1e-4;
   return std::fmax(reach, least_s * std::abs(speed));
 }
 
-/// ṡ of a bristle; `most`: what it may bend to.
+/// ṡ of a bristle; `most`: its largest deflection.
 inline double bristle_rate(double s, double speed, double reach, double most = 1) {
   return (speed - std::abs(speed) * s / most) / bristle_reach(reach, speed);
 }

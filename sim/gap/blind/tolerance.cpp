@@ -11,9 +11,10 @@
 namespace sim::blind {
 namespace {
 
-/// What the next number is multiplied by.
+/// Returns the factor of the next constant.
 using Factor = std::function<double()>;
 
+/// Multiplies constants and lists them.
 class Draw {
  public:
   Draw(Factor factor, std::vector<Drawn>& drawn) : factor_(std::move(factor)), drawn_(drawn) {}
@@ -33,7 +34,7 @@ class Draw {
   std::vector<Drawn>& drawn_;
 };
 
-void off(erp::MotorType& m, const std::string& on, Draw& draw) {
+void multiply(erp::MotorType& m, const std::string& on, Draw& draw) {
   draw.number(on, "resistance_ohm", m.resistance_ohm);
   draw.number(on, "inductance_H", m.inductance_H);
   const double magnet = draw.factor();
@@ -49,7 +50,7 @@ void off(erp::MotorType& m, const std::string& on, Draw& draw) {
   draw.number(on, "gear_coulomb_Nm", m.gear_coulomb_Nm);
 }
 
-void off(erp::Body& body, Draw& draw) {
+void multiply(erp::Body& body, Draw& draw) {
   const erp::Mass was = erp::mass_of(body);
   if (!(was.mass_kg > 0)) return;
   const double mass = draw.factor(), com = draw.factor(), inertia = draw.factor();
@@ -73,14 +74,14 @@ AsBuilt multiplied(const erp::Robot& nominal, Factor factor, HiddenEffects& hidd
     erp::Actuator& actuator = built.robot.actuators[a];
     erp::MotorType motor = built.robot.motor_of(actuator);
     motor.name = actuator.name + "_motor";
-    off(motor, actuator.name, draw);
+    multiply(motor, actuator.name, draw);
     built.robot.motor_types.push_back(motor);
     actuator.motor = motor.name;
     draw.number(actuator.name, "radius_m", actuator.spindle.radius_m);
     draw.number(actuator.name, "stiffness_N_per_m", actuator.tendon.stiffness_N_per_m);
     draw.number(actuator.name, "damping_N_s_per_m", actuator.tendon.damping_N_s_per_m);
     const double arm = draw.factor();
-    hidden_effects.chains[a].arm += arm - 1;
+    hidden_effects.chains[a].moment_arm += arm - 1;
     draw.add(actuator.name, "moment_arm", arm);
   }
   for (erp::Skeleton& part : built.robot.skeletons) {
@@ -88,7 +89,7 @@ AsBuilt multiplied(const erp::Robot& nominal, Factor factor, HiddenEffects& hidd
       draw.number(joint.name, "viscous_Nm_s_per_rad", joint.viscous_Nm_s_per_rad);
       draw.number(joint.name, "coulomb_Nm", joint.coulomb_Nm);
     }
-    for (erp::Body& body : part.bodies) off(body, draw);
+    for (erp::Body& body : part.bodies) multiply(body, draw);
   }
   return built;
 }

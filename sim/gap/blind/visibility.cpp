@@ -33,25 +33,25 @@ Visibility::Visibility(const erp::Robot& robot) : robot_(robot) {
   HiddenEffects none;
   none.chains.resize(robot.actuators.size()), none.joints.resize(robot.joints().size());
   for (const int kind : {0, 1}) {
-    Walk walk{excitation(robot, kind, seconds, 1), {}, {}};
-    walk.plain = read(robot, none, walk.excitation, 1);
-    const auto again = read(robot, none, walk.excitation, 2);
-    for (std::size_t c = 0; c < walk.plain.columns.size(); ++c) {
-      const auto& [name, values] = walk.plain.columns[c];
-      walk.noise.push_back(is_read(name) ? rms(values, again.columns[c].values) / std::sqrt(2.0)
-                                         : 0);
+    Run run{excitation(robot, kind, seconds, 1), {}, {}};
+    run.plain = read(robot, none, run.excitation, 1);
+    const auto again = read(robot, none, run.excitation, 2);
+    for (std::size_t c = 0; c < run.plain.columns.size(); ++c) {
+      const auto& [name, values] = run.plain.columns[c];
+      run.noise.push_back(is_read(name) ? rms(values, again.columns[c].values) / std::sqrt(2.0)
+                                        : 0);
     }
-    walks_.push_back(std::move(walk));
+    runs_.push_back(std::move(run));
   }
 }
 
 bool Visibility::operator()(const HiddenEffects& hidden_effects) const {
-  return std::ranges::any_of(walks_, [&](const Walk& walk) {
+  return std::ranges::any_of(runs_, [&](const Run& run) {
     try {
-      const auto now = read(robot_, hidden_effects, walk.excitation, 1);
+      const auto now = read(robot_, hidden_effects, run.excitation, 1);
       for (std::size_t c = 0; c < now.columns.size(); ++c)
-        if (walk.noise[c] > 0 &&
-            rms(now.columns[c].values, walk.plain.columns[c].values) > walk.noise[c])
+        if (run.noise[c] > 0 &&
+            rms(now.columns[c].values, run.plain.columns[c].values) > run.noise[c])
           return true;
       return false;
     } catch (const NotFinite&) {

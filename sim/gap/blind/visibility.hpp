@@ -5,23 +5,23 @@
 
 namespace sim::blind {
 
-/// Whether anyone could see something hidden: a capstan's friction on a straight line, or a worn
-/// gear on a muscle that hardly pulls, changes no reading.
+/// Whether a hidden effect is visible in any reading. Capstan friction on a straight line, or a worn gear of a
+/// muscle with small forces, is not.
 class Visibility {
  public:
   explicit Visibility(const erp::Robot& robot);
-  /// In one signal at least it changes what is read by as much as noise does, rms, through one of
-  /// two excitations. True as well where the robot then falls apart.
+  /// Whether it changes at least one signal by more than its noise (rms) in one of two excitations. Also true
+  /// if the motion diverges.
   bool operator()(const HiddenEffects& hidden_effects) const;
 
  private:
-  struct Walk {
+  struct Run {
     Excitation excitation;
     recording::Table plain;
-    std::vector<double> noise;  ///< rms, by column; 0: not judged
+    std::vector<double> noise;  ///< rms, by column; 0: not evaluated
   };
   const erp::Robot& robot_;
-  std::vector<Walk> walks_;
+  std::vector<Run> runs_;
 };
 
 }  // namespace sim::blind

@@ -4,13 +4,13 @@
 
 #include "sim/gap/residuals/episode.hpp"
 
-/// Signs, units and dead columns of a recording, held against the robot's own laws (laws.hpp): a wrong
-/// one is no gap of the robot, and nothing that is fitted afterwards would mean anything.
+/// Detects wrong signs, wrong units and dead columns of a recording by the robot's own laws (laws.hpp). Such a defect
+/// is no gap of the robot, and it invalidates every later fit.
 namespace sim::checks {
 
-/// What is odd, one sentence each, with what it looks like and what to do; empty: nothing. Columns
-/// that stand still while others move (dead_columns.hpp), angles far beyond a joint's stops, then
-/// what would put most laws right (mending.hpp), then converters at the end of their range (at_limit.hpp).
+/// One message for each defect, with its probable cause and the remedy; empty: no defect found. In this order:
+/// constant columns while others change (dead_columns.hpp), angles far beyond a joint's stops, the corrections that
+/// make most laws consistent (corrections.hpp), converters at the end of their range (at_limit.hpp).
 std::vector<std::string> column_checks(const residuals::Episode& episode, const erp::Robot& robot);
 
 }  // namespace sim::checks

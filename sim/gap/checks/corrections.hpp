@@ -3,23 +3,24 @@
 
 #include "sim/gap/checks/laws.hpp"
 
-/// What may be wrong with the columns of a recording whose laws are odd, by a vote: each sign, unit
-/// and exchange of channels is tried, and what puts most laws right, less those that it spoils, is
-/// told. So one turned column is told once, and not as many as it contradicts.
+/// Finds which columns of a recording are wrong if its laws are violated. Every sign, unit and exchange of channels is
+/// tried. The correction with the highest score, laws repaired less laws broken, is reported. So one column of wrong
+/// sign is reported once, not once for each law that it violates.
 namespace sim::checks {
 
 struct Correction {
   enum class Kind { scaled, exchanged, contradicting } kind;
-  std::vector<Column> columns;  ///< one; or one half, then with whom each was exchanged; or a law's
-  double times = 1;             ///< of a scaled one: as large as it should be
-  const char* like = "";        ///< the unit it looks like and what to do; empty: none known
-  std::vector<Column> evidence;  ///< the other columns of the laws that it puts right
+  /// Scaled: the one column. Exchanged: the first half with the second half. Contradicting: all columns of the law.
+  std::vector<Column> columns;
+  double factor = 1;             ///< of a scaled column: recorded value / correct value
+  const char* remedy = "";       ///< the probable unit and what to do; empty: no known unit
+  std::vector<Column> evidence;  ///< the other columns of the laws that it repairs
 };
 
-/// Mendings that would do equally well.
-using Either = std::vector<Correction>;
+/// Corrections of the same score.
+using Alternatives = std::vector<Correction>;
 
-/// One after another until no law is odd; what is left contradicting last.
-std::vector<Either> corrections(const erp::Robot& robot, Laws& laws, Means means);
+/// One after another until no law is suspicious. A contradiction without a correction comes last.
+std::vector<Alternatives> corrections(const erp::Robot& robot, Laws& laws, Means means);
 
 }  // namespace sim::checks

@@ -9,17 +9,17 @@
 namespace sim::checks {
 namespace {
 
-constexpr double long_s = 2;  // chosen, as the shares below
+constexpr double shortest_s = 2;  // of a dead stretch; chosen, as are the thresholds below
 constexpr double of_supply = 0.1, of_range = 0.1, of_noise = 20;
-constexpr double of_noise_all_along = 5;  // where it says the same for a whole recording
-constexpr double way_m = 0.005, way_without_tension_m = 0.015;
+constexpr double of_noise_whole = 5;  // for a column that is constant in the whole recording
+constexpr double travel_m = 0.005, travel_without_tension_m = 0.015;
 
 struct Run {
   std::size_t from = 0, until = 0;
   std::size_t rows() const { return until - from; }
 };
 
-/// The longest stretch over which it says the same; a sample that was not taken says nothing else.
+/// The longest stretch of one constant value; missing samples (NaN) do not interrupt it.
 Run longest_run(const Signal& signal) {
   Run longest, run;
   double value = recording::not_taken;
@@ -46,12 +46,12 @@ const Signal& signal_of(const Episode& e, const Column& c) {
   return *all[static_cast<std::size_t>(c.quantity)];
 }
 
-/// What says that a column should move while it stands still, by the laws of these rows; empty: it
-/// may stand.
-class Movers {
+/// The columns that imply, by the laws of these rows, that a constant column should change; empty: it may be constant.
+class ExpectedChange {
  public:
-  Movers(const erp::Robot& robot, const Laws& laws, const Means& means, bool all_along)
-      : robot_(robot), laws_(laws), means_(means), all_along_(all_along) {}
+  ExpectedChange(const erp::Robot& robot, const Laws& laws, const Means& means,
+                 bool whole_recording)
+      : robot_(robot), laws_(laws), means_(means), whole_recording_(whole_recording) {}
 
   std::vector<Column> of(const Column& c) const {
     const bool of_motor = c.quantity == Quantity::voltage || c.quantity == Quantity::current;
@@ -76,26 +76,26 @@ class Movers {
   const erp::Actuator& actuator(std::size_t a) const { return robot_.actuators[a]; }
   const erp::MotorType& motor(std::size_t a) const { return robot_.motor_of(actuator(a)); }
 
-  /// i against V − K_E N ω, each times its factor; V.
-  Signal volts(std::size_t a, const Signal& part, double times, double of_speed) const {
+  /// factor · part + speed_factor · K_E N ω, in V; for a comparison of R i with V − K_E N ω.
+  Signal volts(std::size_t a, const Signal& part, double factor, double speed_factor) const {
     Signal sum = part;
     const Signal& speed = means_.actuators[a].speed_rad_per_s;
     const double back_emf = motor(a).back_emf_V_s_per_rad * motor(a).gear_ratio;
     for (std::size_t k = 0; k < sum.size(); ++k)
-      sum[k] = times * sum[k] + of_speed * back_emf * (speed.empty() ? 0 : speed[k]);
+      sum[k] = factor * sum[k] + speed_factor * back_emf * (speed.empty() ? 0 : speed[k]);
     return sum;
   }
-  /// The model of a drive has neither spring nor weight: nothing but its control turns it back.
+  /// The model of a drive has neither spring nor weight: only its control reverses its motion.
   std::vector<Column> of_control(std::size_t a) const {
     constexpr double fast = 0.2;  // of the fastest; chosen
     const Signal& speed = means_.actuators[a].speed_rad_per_s;
     double top = 0, last = 0;
     for (const double w : speed)
       if (std::isfinite(w)) top = std::fmax(top, std::abs(w));
-    int turns = 0;
+    int reversals = 0;
     for (const double w : speed)
-      if (std::abs(w) > fast * top) turns += last * w < 0, last = w;
-    if (!all_along_ || turns < 2) return {};
+      if (std::abs(w) > fast * top) reversals += last * w < 0, last = w;
+    if (!whole_recording_ || reversals < 2) return {};
     return {{Quantity::shaft, a}};
   }
   std::vector<Column> of_voltage(std::size_t a) const {
@@ -109,20 +109,21 @@ class Movers {
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
     const double step_A = 2 * sensors.current_range_A / std::exp2(sensors.current_bits);
     const double drop_A = spread_of(volts(a, voltage, 1, -1)) / motor(a).resistance_ohm;
-    const double times = all_along_ ? of_noise_all_along : of_noise;
-    if (spread_of(voltage) == 0 || !(drop_A > times * (step_A + sensors.current_noise_A)))
+    const double threshold = whole_recording_ ? of_noise_whole : of_noise;
+    if (spread_of(voltage) == 0 || !(drop_A > threshold * (step_A + sensors.current_noise_A)))
       return {};
     return {{Quantity::voltage, a}, {Quantity::shaft, a}};
   }
-  /// A shaft that is really stuck makes a spring of its tendon, whose law then holds.
+  /// If a shaft really stands still, its tendon acts as a spring, and the spring law holds.
   std::vector<Column> of_shaft(std::size_t a) const {
-    if (!spring_holds(a) && spread_of(means_.paths[a].length_m) > way_m) return laws_.crossed_by(a);
-    const bool drive = actuator(a).tendon.path.empty();  // nothing else holds a shaft for so long
+    if (!spring_holds(a) && spread_of(means_.paths[a].length_m) > travel_m)
+      return laws_.crossed_by(a);
+    const bool drive = actuator(a).tendon.path.empty();  // only a dead encoder is constant so long
     for (const Quantity control : {Quantity::voltage, Quantity::current})
       if (drive && spread_of(measured(control, a)) > 0) return {{control, a}};
     return {};
   }
-  /// A slack tendon is foretold a pull neither by its stretch nor by its motor.
+  /// For a slack tendon neither the spring law nor the motor current implies a tension.
   std::vector<Column> of_tension(std::size_t a) const {
     const erp::SensorType& sensors = robot_.sensors_of(actuator(a));
     const double slack_N = of_range * sensors.tension_range_N,
@@ -131,8 +132,8 @@ class Movers {
     const bool may_be_slack = tension.empty() || !(tension[0] > slack_N);
     const double least = may_be_slack ? slack_N : of_noise * (step_N + sensors.tension_noise_N);
     std::vector<Column> evidence;
-    for (const Law& law : laws_.held_against(means_, a))
-      if (law.kind == Law::Kind::spring && spread_of(law.foretold) > least)
+    for (const Law& law : laws_.evaluate(means_, a))
+      if (law.kind == Law::Kind::spring && spread_of(law.predicted) > least)
         evidence.assign(law.columns.begin(), law.columns.end() - 1);
     const Signal& current = measured(Quantity::current, a);
     const double pull_N_per_A =
@@ -140,28 +141,29 @@ class Movers {
     if (!current.empty() && !(pull_N_per_A * spread_of(current) > least)) return {};
     return evidence;
   }
-  /// Tendons that are drawn against each other hold a joint still, and their springs' laws then hold.
+  /// If antagonistic tendons hold a joint still, their spring laws hold.
   std::vector<Column> of_angle(std::size_t j) const {
     std::vector<Column> evidence;
     for (std::size_t a = 0; a < means_.actuators.size(); ++a) {
       if (!std::ranges::count(laws_.crossed_by(a), Column{Quantity::angle, j})) continue;
-      const bool weighed = !measured(Quantity::tension, a).empty();
-      if (weighed && spring_holds(a)) return {};
-      const double way = actuator(a).spindle.radius_m * spread_of(measured(Quantity::shaft, a));
-      if (way > (weighed ? way_m : way_without_tension_m)) evidence.push_back({Quantity::shaft, a});
+      const bool has_tension = !measured(Quantity::tension, a).empty();
+      if (has_tension && spring_holds(a)) return {};
+      const double travel = actuator(a).spindle.radius_m * spread_of(measured(Quantity::shaft, a));
+      if (travel > (has_tension ? travel_m : travel_without_tension_m))
+        evidence.push_back({Quantity::shaft, a});
     }
     return evidence;
   }
   bool spring_holds(std::size_t a) const {
-    for (const Law& law : laws_.held_against(means_, a))
-      if (law.kind == Law::Kind::spring) return law.good();
+    for (const Law& law : laws_.evaluate(means_, a))
+      if (law.kind == Law::Kind::spring) return law.is_satisfied();
     return false;
   }
 
   const erp::Robot& robot_;
   const Laws& laws_;
   const Means& means_;
-  const bool all_along_;
+  const bool whole_recording_;
 };
 
 }  // namespace
@@ -186,17 +188,18 @@ std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& r
        residuals::all_columns(episode.actuators.size(), episode.joints.size())) {
     const Signal& signal = signal_of(episode, column);
     const Run run = longest_run(signal);
-    const auto taken = std::ranges::count_if(signal, [](double x) { return !std::isnan(x); });
-    const bool all_along =
-        run.rows() > 0 && taken > 0 && std::ranges::all_of(signal, [&](double x) {
+    const auto valid = std::ranges::count_if(signal, [](double x) { return !std::isnan(x); });
+    const bool whole_recording =
+        run.rows() > 0 && valid > 0 && std::ranges::all_of(signal, [&](double x) {
           return std::isnan(x) || x == signal[run.from];
         });
-    if (!all_along && double(run.rows()) * episode.period_s < long_s) continue;
-    if (all_along && !whole) whole = laws.means(episode, 0, episode.rows);
-    const Means part = all_along ? Means{} : laws.means(episode, run.from, run.until);
-    const auto evidence = Movers(robot, laws, all_along ? *whole : part, all_along).of(column);
+    if (!whole_recording && double(run.rows()) * episode.period_s < shortest_s) continue;
+    if (whole_recording && !whole) whole = laws.means(episode, 0, episode.rows);
+    const Means part = whole_recording ? Means{} : laws.means(episode, run.from, run.until);
+    const auto evidence =
+        ExpectedChange(robot, laws, whole_recording ? *whole : part, whole_recording).of(column);
     if (!evidence.empty())
-      dead.push_back({column, signal[run.from], run.from, run.until, all_along, evidence});
+      dead.push_back({column, signal[run.from], run.from, run.until, whole_recording, evidence});
   }
   return dead;
 }

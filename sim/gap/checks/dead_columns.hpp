@@ -3,22 +3,22 @@
 
 #include "sim/gap/checks/laws.hpp"
 
-/// Columns that stand still while the others foretell that they move: an unplugged sensor, a channel
-/// that froze. An idle motor's voltage and current, and a slack tendon's tension, may stand still.
+/// Columns that are constant although other columns imply that they change: an unplugged sensor, a frozen channel.
+/// The voltage and current of an idle motor and the tension of a slack tendon may be constant.
 namespace sim::checks {
 
 struct DeadColumn {
   Column column;
-  double value;             ///< that it says
+  double value;             ///< the constant value
   std::size_t from, until;  ///< rows
-  bool all_along;
-  std::vector<Column> evidence;  ///< what moves meanwhile
+  bool whole_recording;
+  std::vector<Column> evidence;  ///< columns that change meanwhile
 };
 
-/// Every signal says one value all along, and no sensor even makes noise: no recording of a robot.
+/// Whether every signal has one constant value, without any sensor noise: no recording of a robot.
 bool nothing_changes(const Episode& episode);
 
-/// For two seconds, or all along.
+/// Columns that are dead for at least two seconds, or in the whole recording.
 std::vector<DeadColumn> dead_columns(const Episode& episode, const erp::Robot& robot, Laws& laws);
 
 }  // namespace sim::checks

@@ -11,27 +11,28 @@
 namespace sim::checks {
 namespace {
 
-constexpr double together = 0.8;          // correlation, from which a slope is believed; chosen
-constexpr double nothing_else = 0.98;     // the same, of what a measure that is off turns round
-constexpr double widest_of_torques = 30;  // friction and efficiency count twice; chosen
-constexpr double beyond_stretch = 2;      // times: of a path that is more than that; chosen
-constexpr double of_a_third = 1.0 / 3;
-constexpr int fewest = 30;
+constexpr double correlated = 0.8;           // smallest correlation of a meaningful slope; chosen
+constexpr double fully_correlated = 0.98;    // the same for a small difference; chosen
+constexpr double largest_torque_slope = 30;  // friction and efficiency act twice; chosen
+constexpr double beyond_stretch = 2;         // smallest path variation / possible stretch; chosen
+constexpr double largest_error = 1.0 / 3;    // relative, of a dimension of the tendon; chosen
+constexpr int fewest_samples = 30;
 
-/// The slope of y on x, and their correlation, when a mean and what goes with `beside` are taken
-/// from both.
-Line line_of(const Signal& x, const Signal& y, const Signal* beside = nullptr) {
-  std::vector<std::size_t> taken;
+/// Slope of y over x and their correlation, after the mean and the part proportional to `regressor` are removed from
+/// both.
+Line fit_line(const Signal& x, const Signal& y, const Signal* regressor = nullptr) {
+  std::vector<std::size_t> valid;
   for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
-    if (std::isfinite(x[k]) && std::isfinite(y[k]) && !(beside && !std::isfinite((*beside)[k])))
-      taken.push_back(k);
-  const auto n = static_cast<Eigen::Index>(taken.size());
-  if (n < fewest) return {};
-  Eigen::MatrixXd known(n, beside ? 2 : 1), sides(n, 2);
+    if (std::isfinite(x[k]) && std::isfinite(y[k]) &&
+        !(regressor && !std::isfinite((*regressor)[k])))
+      valid.push_back(k);
+  const auto n = static_cast<Eigen::Index>(valid.size());
+  if (n < fewest_samples) return {};
+  Eigen::MatrixXd known(n, regressor ? 2 : 1), sides(n, 2);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const std::size_t row = taken[static_cast<std::size_t>(k)];
+    const std::size_t row = valid[static_cast<std::size_t>(k)];
     known(k, 0) = 1;
-    if (beside) known(k, 1) = (*beside)[row];
+    if (regressor) known(k, 1) = (*regressor)[row];
     sides(k, 0) = x[row], sides(k, 1) = y[row];
   }
   sides -= known * known.colPivHouseholderQr().solve(sides);
@@ -41,12 +42,12 @@ Line line_of(const Signal& x, const Signal& y, const Signal* beside = nullptr) {
   return {xy / xx, xy / std::sqrt(xx * yy)};
 }
 
-/// Friction on the gearbox shaft.
-double dry_Nm(const erp::MotorType& m) {
+/// Coulomb friction at the gearbox shaft.
+double coulomb_Nm(const erp::MotorType& m) {
   return m.gear_ratio * m.rotor_coulomb_Nm + m.gear_coulomb_Nm;
 }
 
-/// Of what is not constant in it.
+/// Standard deviation.
 double rms(const Signal& signal) {
   double n = 0, sum = 0, square = 0;
   for (const double x : signal)
@@ -54,37 +55,42 @@ double rms(const Signal& signal) {
   return n > 0 ? std::sqrt(std::fmax(0, square / n - sum / n * sum / n)) : 0;
 }
 
-/// The stiffness between the two ends is known, and both were measured.
-bool stretches(const erp::Robot& robot, const erp::Actuator& actuator) {
+/// Whether the stiffness between the two ends is known and both ends are measured.
+bool has_measured_stretch(const erp::Robot& robot, const erp::Actuator& actuator) {
   const erp::Drive* drive = residuals::drive_of(robot, actuator.name);
   return !drive || (drive->find<erp::LoadEncoder>() && drive->stiffness_Nm_per_rad);
 }
 
-/// Its tension is no column, but the nothing that hangs on a gearbox shaft that has all the load.
-bool pulls_nothing(const erp::Robot& robot, const erp::Actuator& actuator) {
+/// Whether the tension is no column of the recording but a constant 0: a drive whose load is all at its gearbox shaft.
+bool has_no_tension(const erp::Robot& robot, const erp::Actuator& actuator) {
   const erp::Drive* drive = residuals::drive_of(robot, actuator.name);
-  return drive && !has_two_ends(*drive);
+  return drive && !has_load_sensor(*drive);
 }
 
 }  // namespace
 
-bool Law::is_consistent() const { return std::abs(line.correlation) > together; }
+bool Law::is_consistent() const { return std::abs(line.correlation) > correlated; }
 
-bool Law::is_inconclusive() const { return line.correlation != 0 && !good() && !suspicious(); }
+bool Law::is_inconclusive() const {
+  return line.correlation != 0 && !is_satisfied() && !suspicious();
+}
 
-bool Law::near() const { return line.slope < widest && line.slope > 1 / widest; }
+bool Law::has_plausible_slope() const {
+  return line.slope < largest_slope && line.slope > 1 / largest_slope;
+}
 
 bool Law::suspicious() const {
-  return std::abs(line.correlation) > (small_difference ? nothing_else : together) && !near();
+  return std::abs(line.correlation) > (small_difference ? fully_correlated : correlated) &&
+         !has_plausible_slope();
 }
 
 Means Laws::means(const Episode& episode, std::size_t from, std::size_t until) {
   Means means = means_of(episode, from, until);
-  find_paths(means);
+  compute_paths(means);
   return means;
 }
 
-void Laws::find_paths(Means& means) {
+void Laws::compute_paths(Means& means) {
   means.paths = bones_.paths(means.joints, means.rows, each(means.actuators.size()));
 }
 
@@ -94,7 +100,7 @@ std::vector<Column> Laws::crossed_by(std::size_t actuator) const {
   return joints;
 }
 
-std::vector<Law> Laws::held_against(const Means& means, std::size_t actuator) const {
+std::vector<Law> Laws::evaluate(const Means& means, std::size_t actuator) const {
   std::vector<Law> laws;
   motor(actuator, means, laws), torque(actuator, means, laws), tendon(actuator, means, laws);
   return laws;
@@ -106,15 +112,15 @@ void Laws::motor(std::size_t a, const Means& means, std::vector<Law>& laws) cons
   const Signal& speed = means.actuators[a].speed_rad_per_s;
   if (voltage.empty() || speed.empty()) return;
   const double back_emf = m.back_emf_V_s_per_rad * m.gear_ratio;
-  Signal foretold(means.rows), drop(means.rows);
+  Signal predicted(means.rows), drop(means.rows);
   for (std::size_t k = 0; k < means.rows; ++k)
-    foretold[k] = voltage[k] / back_emf,
+    predicted[k] = voltage[k] / back_emf,
     drop[k] = (voltage[k] - back_emf * speed[k]) / m.resistance_ohm;
   std::vector<Column> columns{{Quantity::voltage, a}, {Quantity::shaft, a}};
-  laws.push_back({Law::Kind::speed, columns, foretold, speed, line_of(foretold, speed)});
+  laws.push_back({Law::Kind::speed, columns, predicted, speed, fit_line(predicted, speed)});
   if (current.empty()) return;
   columns.push_back({Quantity::current, a});
-  laws.push_back({Law::Kind::current, columns, drop, current, line_of(drop, current)});
+  laws.push_back({Law::Kind::current, columns, drop, current, fit_line(drop, current)});
 }
 
 void Laws::torque(std::size_t a, const Means& means, std::vector<Law>& laws) const {
@@ -123,26 +129,27 @@ void Laws::torque(std::size_t a, const Means& means, std::vector<Law>& laws) con
   const Signal &current = means[{Quantity::current, a}], &tension = means[{Quantity::tension, a}];
   const auto& shaft = means.actuators[a];
   if (current.empty() || tension.empty() || shaft.acceleration_rad_per_s2.empty()) return;
-  Signal foretold(means.rows), torque(means.rows), way(means.rows);
+  Signal predicted(means.rows), torque(means.rows), direction(means.rows);
   for (std::size_t k = 0; k < means.rows; ++k) {
-    foretold[k] = robot_.actuators[a].spindle.radius_m * tension[k] +
-                  inertia * shaft.acceleration_rad_per_s2[k];
+    predicted[k] = robot_.actuators[a].spindle.radius_m * tension[k] +
+                   inertia * shaft.acceleration_rad_per_s2[k];
     torque[k] = m.gear_ratio * m.torque_Nm_per_A * current[k];
-    way[k] = (shaft.speed_rad_per_s[k] > 0) - (shaft.speed_rad_per_s[k] < 0);
+    direction[k] = (shaft.speed_rad_per_s[k] > 0) - (shaft.speed_rad_per_s[k] < 0);
   }
   std::vector<Column> columns{{Quantity::shaft, a}, {Quantity::tension, a}, {Quantity::current, a}};
-  if (!(rms(foretold) > dry_Nm(m))) return;  // within that anything may hold
-  if (pulls_nothing(robot_, robot_.actuators[a])) columns.erase(columns.begin() + 1);
-  laws.push_back({Law::Kind::torque, columns, foretold, torque, line_of(foretold, torque, &way),
-                  widest_of_torques});
+  if (!(rms(predicted) > coulomb_Nm(m))) return;  // dry friction could balance it
+  if (has_no_tension(robot_, robot_.actuators[a])) columns.erase(columns.begin() + 1);
+  laws.push_back({Law::Kind::torque, columns, predicted, torque,
+                  fit_line(predicted, torque, &direction), largest_torque_slope});
 }
 
-double Laws::swing_of_pull_N(std::size_t a, const Means& means) const {
+double Laws::tension_variation_N(std::size_t a, const Means& means) const {
   const erp::Actuator& actuator = robot_.actuators[a];
   const erp::MotorType& m = robot_.motor_of(actuator);
   const Signal& current = means[{Quantity::current, a}];
   if (current.empty()) return robot_.sensors_of(actuator).tension_range_N / 2;
-  return (m.gear_ratio * m.torque_Nm_per_A * rms(current) + dry_Nm(m)) / actuator.spindle.radius_m;
+  return (m.gear_ratio * m.torque_Nm_per_A * rms(current) + coulomb_Nm(m)) /
+         actuator.spindle.radius_m;
 }
 
 void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) const {
@@ -150,35 +157,35 @@ void Laws::tendon(std::size_t a, const Means& means, std::vector<Law>& laws) con
   const Signal& path = means.paths[a].length_m;
   if (shaft.empty() || path.empty()) return;
   const erp::Actuator& actuator = robot_.actuators[a];
-  const bool weighed = !tension.empty() && stretches(robot_, actuator);
+  const bool has_tension = !tension.empty() && has_measured_stretch(robot_, actuator);
   const Spring spring = Spring::of(actuator.tendon);
   const double pretension_m = spring.stretch_m(actuator.tendon.pretension_N);
   const double stiffness = spring.slope_N_per_m(pretension_m);
-  Signal line(means.rows), pull(means.rows);
+  Signal line(means.rows), spring_N(means.rows);
   for (std::size_t k = 0; k < means.rows; ++k) {
     line[k] = -actuator.spindle.radius_m * shaft[k];
-    pull[k] = stiffness * (path[k] - line[k]);
-    if (weighed) line[k] += tension[k] / stiffness;
+    spring_N[k] = stiffness * (path[k] - line[k]);
+    if (has_tension) line[k] += tension[k] / stiffness;
   }
   std::vector<Column> columns = crossed_by(a);
   columns.push_back({Quantity::shaft, a});
-  if (weighed) columns.push_back({Quantity::tension, a});
-  const double wound_m = of_a_third * actuator.spindle.radius_m * rms(shaft);
+  if (has_tension) columns.push_back({Quantity::tension, a});
+  const double smallest_change_m = largest_error * actuator.spindle.radius_m * rms(shaft);
   const Law path_law{.kind = Law::Kind::path,
                      .columns = columns,
-                     .foretold = path,
+                     .predicted = path,
                      .measured = line,
-                     .line = line_of(path, line),
-                     .small_difference = rms(path) < wound_m};
-  const double pull_N = weighed ? 0 : swing_of_pull_N(a, means);
-  if (rms(path) > beyond_stretch * pull_N / stiffness) laws.push_back(path_law);
-  if (weighed)
+                     .line = fit_line(path, line),
+                     .small_difference = rms(path) < smallest_change_m};
+  const double variation_N = has_tension ? 0 : tension_variation_N(a, means);
+  if (rms(path) > beyond_stretch * variation_N / stiffness) laws.push_back(path_law);
+  if (has_tension)
     laws.push_back({.kind = Law::Kind::spring,
                     .columns = columns,
-                    .foretold = pull,
+                    .predicted = spring_N,
                     .measured = tension,
-                    .line = line_of(pull, tension),
-                    .small_difference = rms(tension) < stiffness * wound_m});
+                    .line = fit_line(spring_N, tension),
+                    .small_difference = rms(tension) < stiffness * smallest_change_m});
 }
 
 }  // namespace sim::checks

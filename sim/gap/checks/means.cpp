@@ -22,9 +22,9 @@ Signal& Means::operator[](const Column& c) {
 
 const Signal& Means::operator[](const Column& c) const { return const_cast<Means&>(*this)[c]; }
 
-void Means::scale(const Column& column, double times) {
+void Means::scale(const Column& column, double factor) {
   const auto by = [&](Signal& signal) {
-    for (double& x : signal) x *= times;
+    for (double& x : signal) x *= factor;
   };
   by((*this)[column]);
   if (column.quantity == Quantity::shaft)
@@ -39,7 +39,7 @@ void Means::exchange(const Column& one, const Column& other) {
   std::swap(a.acceleration_rad_per_s2, b.acceleration_rad_per_s2);
 }
 
-void Means::forget(const Column& column) {
+void Means::remove(const Column& column) {
   (*this)[column].clear();
   if (column.quantity != Quantity::shaft) return;
   actuators[column.of].speed_rad_per_s.clear();
@@ -53,10 +53,10 @@ Means means_of(const Episode& e, std::size_t from, std::size_t until) {
   for (std::size_t k = from + bump.reach(); k + bump.reach() < until; k += stride)
     rows.push_back(k);
   means.rows = rows.size();
-  const auto each_row = [&](const Signal& signal, auto of_row) {
+  const auto each_row = [&](const Signal& signal, auto value_at) {
     Signal all;
     for (const std::size_t k : rows)
-      if (!signal.empty()) all.push_back(of_row(signal, k));
+      if (!signal.empty()) all.push_back(value_at(signal, k));
     return all;
   };
   const auto mean = [&](const Signal& s, std::size_t k) { return bump.mean(s, k); };

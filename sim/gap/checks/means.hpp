@@ -5,8 +5,8 @@
 #include "sim/gap/residuals/column.hpp"
 #include "sim/gap/residuals/skeletal.hpp"
 
-/// A recording thinned out: means under a window (bump.hpp) at every eighth row, in which columns can
-/// be scaled, exchanged and forgotten to see what would then be.
+/// A downsampled recording: means under a window (bump.hpp) at every eighth row. Its columns can be scaled, exchanged
+/// and removed to test corrections.
 namespace sim::checks {
 
 using residuals::Column, residuals::Episode, residuals::JointSignals, residuals::PathTrace,
@@ -21,17 +21,17 @@ struct Means {
   std::size_t rows = 0;
   std::vector<Actuator> actuators;
   std::vector<JointSignals> joints;
-  std::vector<PathTrace> paths;  ///< under these joints
+  std::vector<PathTrace> paths;  ///< at these joint angles
 
   Signal& operator[](const Column& column);
   const Signal& operator[](const Column& column) const;
-  /// The column as if it had been so many times as large; not the paths.
-  void scale(const Column& column, double times);
+  /// Multiplies the column, and the derivatives of a shaft angle, by `factor`. Does not update the paths.
+  void scale(const Column& column, double factor);
   void exchange(const Column& one, const Column& other);
-  void forget(const Column& column);
+  void remove(const Column& column);
 };
 
-/// Of rows `from` until before `until`; without the paths.
+/// Of the rows `from` … `until` − 1; without the paths.
 Means means_of(const Episode& episode, std::size_t from, std::size_t until);
 
 }  // namespace sim::checks

@@ -25,66 +25,67 @@ std::vector<std::string> parts_of(const erp::Robot& robot) {
   return names;
 }
 
-/// Whom a column is of; empty: of nobody, as the time.
-std::string owner_of(const std::string& column) {
+/// Name of the part that a column belongs to; empty: none, as for the time.
+std::string part_of(const std::string& column) {
   const auto dot = column.rfind('.');
   return dot == column.npos ? "" : column.substr(0, dot);
 }
 
-std::vector<std::string> strangers(const recording::Table& table, const erp::Robot& robot,
-                                   const std::string& name) {
+std::vector<std::string> unknown_columns(const recording::Table& table, const erp::Robot& robot,
+                                         const std::string& name) {
   const auto known = parts_of(robot);
-  std::vector<std::string> owners, suspicious;
+  std::vector<std::string> parts, reports;
   for (const auto& column : table.columns) {
-    const std::string owner = owner_of(column.name);
-    if (owner.empty() || std::ranges::count(known, owner) || std::ranges::count(owners, owner))
+    const std::string part = part_of(column.name);
+    if (part.empty() || std::ranges::count(known, part) || std::ranges::count(parts, part))
       continue;
-    owners.push_back(owner);
+    parts.push_back(part);
     const auto columns = std::ranges::count_if(
-        table.columns, [&](const auto& c) { return owner_of(c.name) == owner; });
-    suspicious.push_back(fmt::format("{}: {}{}: robot \"{}\" has no \"{}\": {}", name, column.name,
-                                     columns > 1 ? fmt::format(" and {} more", columns - 1) : "",
-                                     robot.name, owner, xml::did_you_mean(owner, known)));
+        table.columns, [&](const auto& c) { return part_of(c.name) == part; });
+    reports.push_back(fmt::format("{}: column {}{} is ignored: robot \"{}\" has no part \"{}\"; {}",
+                                  name, column.name,
+                                  columns > 1 ? fmt::format(" (and {} more)", columns - 1) : "",
+                                  robot.name, part, xml::did_you_mean(part, known)));
   }
-  return suspicious;
+  return reports;
 }
 
-/// Near the ECUs' period, but off by more than a clock is.
+/// Whether a period is near the ECUs' period but differs by more than the drift of a clock.
 bool is_another_clock(double period_s) {
   constexpr double drift = 0.005, near = 0.2;  // of the period; chosen
-  const double off = std::abs(period_s / residuals::tick_s - 1);
-  return off > drift && off < near;
+  const double deviation = std::abs(period_s / residuals::tick_s - 1);
+  return deviation > drift && deviation < near;
 }
 
 }  // namespace
 
 std::vector<std::string> table_checks(const recording::Table& table, const erp::Robot& robot,
                                       const std::string& name) {
-  std::vector<std::string> suspicious = strangers(table, robot, name);
+  std::vector<std::string> reports = unknown_columns(table, robot, name);
   const bool has_ecus = std::ranges::any_of(
       robot.actuators, [&](const auto& a) { return !residuals::drive_of(robot, a.name); });
-  constexpr double much = 0.03;  // of a period; chosen
+  constexpr double largest_jitter = 0.03;  // of a period; chosen
   const auto [period_s, jitter_s] = residuals::row_times(table);
   if (has_ecus && period_s > 1.5 * residuals::tick_s)
-    suspicious.push_back(fmt::format(
-        "{}: time_s: a row each {:.3g} ms, the ECUs' period is {:g} ms: gaps of motors "
-        "and gearboxes may be what is missing between the rows: record one each {:g} ms; if "
-        "they are that close, time_s is stretched",
+    reports.push_back(fmt::format(
+        "{}: time_s has one row per {:.3g} ms, but the ECUs' period is {:g} ms: a gap at a motor "
+        "or gearbox may be caused by the missing rows; record one row per {:g} ms; if the rows "
+        "have that period, correct time_s",
         name, 1e3 * period_s, 1e3 * residuals::tick_s, 1e3 * residuals::tick_s));
-  if (has_ecus && jitter_s < much * period_s && is_another_clock(period_s))
-    suspicious.push_back(
-        fmt::format("{}: time_s: a row each {:.4g} ms, the ECUs' period is {:g} ms: its clock runs "
-                    "{:.2g} % too {}; scale time_s, or every speed is wrong by that",
+  if (has_ecus && jitter_s < largest_jitter * period_s && is_another_clock(period_s))
+    reports.push_back(
+        fmt::format("{}: time_s has one row per {:.4g} ms, but the ECUs' period is {:g} ms: its "
+                    "clock runs {:.2g} % too {}, and every speed has this error; scale time_s",
                     name, 1e3 * period_s, 1e3 * residuals::tick_s,
                     100 * std::abs(period_s / residuals::tick_s - 1),
                     period_s > residuals::tick_s ? "fast" : "slowly"));
-  if (jitter_s > much * period_s)
-    suspicious.push_back(fmt::format(
-        "{}: time_s: rows come {:.2g} ms rms before and after an even {:.3g} ms: they are "
-        "laid out as even; if these are times of arrival, give those of measurement, or "
-        "the frames' numbers in a column sequence; if they are rounded, all digits",
+  if (jitter_s > largest_jitter * period_s)
+    reports.push_back(fmt::format(
+        "{}: time_s deviates by {:.2g} ms rms from an even period of {:.3g} ms; the rows are "
+        "treated as even; if these are times of arrival, record the times of measurement, or the "
+        "frame numbers in a column sequence; if they are rounded, write all digits",
         name, 1e3 * jitter_s, 1e3 * period_s));
-  return suspicious;
+  return reports;
 }
 
 }  // namespace sim::checks

@@ -5,16 +5,17 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// What is odd about a recording before a law is asked: columns of nobody, rows too far apart
-/// or not even.
+/// Defects of a recording that show without any law of the robot: unknown columns, rows too far apart, a wrong clock,
+/// uneven rows.
 namespace sim::checks {
 
-/// One sentence each, with a remedy; empty: nothing.
+/// One message for each defect, with the remedy; empty: no defect found.
 ///
-///   columns that begin with no actuator, joint or drive of the robot, which are passed over
-///   rows further apart than the ECUs' ticks: what is fast between two of them is not in the recording,
-///   and the laws of motors and gearboxes do not hold without it. Says nothing of drives.
-///   rows that come early and late by more than 3 % of their period, unless their frames are numbered
+///   columns of no actuator, joint or drive of the robot; they are ignored
+///   rows further apart than the ECUs' period: fast changes between two rows are not recorded, and the laws of motors
+///   and gearboxes do not hold without them. Not checked for drives.
+///   a row period that differs from the ECUs' period by 0.5 to 20 %
+///   rows that deviate by more than 3 % of their period, unless the frames are numbered
 std::vector<std::string> table_checks(const recording::Table& table, const erp::Robot& robot,
                                       const std::string& name);
 

@@ -23,7 +23,7 @@ erp::Robot with(const erp::Robot& robot, const Placed& placed) {
   return changed;
 }
 
-/// The share of the time for which a motor gets all the voltage that there is.
+/// Share of the time in which a motor is at the supply voltage.
 double saturated(const recording::Table& table, const erp::Robot& robot,
                  const erp::Actuator& actuator) {
   const auto& volts = table.find(actuator.name + ".voltage_V")->values;
@@ -59,22 +59,24 @@ void worse_of(const Extremes& a, Extremes& into) {
   if (a.to_stop_rad < into.to_stop_rad) into.to_stop_rad = a.to_stop_rad, into.nearest = a.nearest;
 }
 
+/// Reason why a run is not safe; empty: it is safe.
 std::string danger(const Extremes& e, const ExperimentOptions& options) {
   if (e.of_max_tension > options.of_max_tension)
-    return fmt::format("{} comes to {:.0f} % of its limit", e.tightest, 100 * e.of_max_tension);
-  if (e.to_stop_rad <= 0) return e.nearest + " meets its stop";
+    return fmt::format("tension of {} reaches {:.0f} % of its limit", e.tightest,
+                       100 * e.of_max_tension);
+  if (e.to_stop_rad <= 0) return e.nearest + " reaches its stop";
   if (e.to_stop_rad <= options.to_stop_rad)
     return fmt::format("{} comes within {:.3f} rad of its stop", e.nearest, e.to_stop_rad);
   return "";
 }
 
-/// Σ z² of a suspect at its best on what was rehearsed.
+/// Σ z² of a suspect, fitted to the predicted run.
 double square_of(const Evaluator& evaluator, const Placed& suspect) {
   const std::size_t only[] = {0};
   return diagnosis::fit(evaluator, evaluator.bare(), suspect, only).square;
 }
 
-/// An excitation that begins where the robot rests: at pretension, with no line taken in.
+/// An excitation that starts at rest: at pretension, with no line wound.
 Excitation from_rest(const erp::Robot& robot, int kind, double duration_s, std::uint64_t seed) {
   constexpr double ramp_s = 1;
   Excitation all = excitation(robot, kind, duration_s, seed);
@@ -91,21 +93,21 @@ Excitation from_rest(const erp::Robot& robot, int kind, double duration_s, std::
 
 double split(double other, double first) { return std::sqrt(std::max(0.0, other - first)); }
 
-Candidate try_out(const erp::Robot& robot, const std::vector<Placed>& suspects, int kind,
-                  std::uint64_t seed, const ExperimentOptions& options) {
+Candidate evaluate(const erp::Robot& robot, const std::vector<Placed>& suspects, int kind,
+                   std::uint64_t seed, const ExperimentOptions& options) {
   Candidate candidate{kind, seed};
-  const SetPoints score = set_points_of(from_rest(robot, kind, options.seconds, seed));
-  candidate.extremes = extremes_of(predict_run(robot, score, seed), robot);
+  const SetPoints set_points = set_points_of(from_rest(robot, kind, options.seconds, seed));
+  candidate.extremes = extremes_of(predict_run(robot, set_points, seed), robot);
   recording::Table truth;
   for (const Placed& suspect : suspects) {
-    const auto table = predict_run(with(robot, suspect), score, seed);
+    const auto table = predict_run(with(robot, suspect), set_points, seed);
     worse_of(extremes_of(table, robot), candidate.extremes);
     if (&suspect == &suspects.front()) truth = table;
   }
   candidate.unsafe = danger(candidate.extremes, options);
   if (!candidate.unsafe.empty()) return candidate;
   std::vector<std::string> remarks;
-  const Evaluator evaluator(robot, {residuals::lay_out(truth, robot, "rehearsed", remarks)});
+  const Evaluator evaluator(robot, {residuals::lay_out(truth, robot, "predicted run", remarks)});
   const std::size_t only[] = {0};
   const double first = square_of(evaluator, suspects[0]);
   for (std::size_t k = 1; k < suspects.size(); ++k)
@@ -120,14 +122,14 @@ Candidate try_out(const erp::Robot& robot, const std::vector<Placed>& suspects, 
 
 Experiment next_experiment(const erp::Robot& robot, const std::vector<Placed>& suspects,
                            const ExperimentOptions& options) {
-  if (suspects.empty()) throw std::invalid_argument("no suspect to split");
+  if (suspects.empty()) throw std::invalid_argument("no suspect: name at least one effect");
   Experiment experiment;
   experiment.candidates.resize(static_cast<std::size_t>(options.candidates));
   std::atomic<int> done = 0;
   in_parallel(experiment.candidates.size(), options.threads, [&](std::size_t k) {
     const std::uint64_t seed = options.seed + k / excitation_kinds;
     experiment.candidates[k] =
-        try_out(robot, suspects, static_cast<int>(k % excitation_kinds), seed, options);
+        evaluate(robot, suspects, static_cast<int>(k % excitation_kinds), seed, options);
     if (options.progress) options.progress(double(++done) / options.candidates);
   });
   std::ranges::stable_sort(experiment.candidates, [](const Candidate& a, const Candidate& b) {

@@ -22,11 +22,11 @@ using residuals::Episode;
 using residuals::Signal;
 
 constexpr double tick_s = 0.002;
-constexpr std::size_t held_rows = 10;  // a robot goes on by its last command for 20 ms
-constexpr double apart_rad = 0.05;     // from the initial pose, to count as starting there; chosen
+constexpr std::size_t held_rows = 10;  // a robot keeps its last command for 20 ms
+constexpr double apart_rad = 0.05;     // largest distance from the initial pose; chosen
 
-/// The first row of so many missing that what was asked meanwhile is not known; `rows`: none.
-std::size_t hole_of(const residuals::ActuatorSignals& actuator, std::size_t rows) {
+/// First row of a gap so long that the commands in it are unknown; `rows` if there is none.
+std::size_t first_long_gap(const residuals::ActuatorSignals& actuator, std::size_t rows) {
   const Signal& shaft = actuator.shaft_rad;
   std::size_t lost = 0;
   for (std::size_t k = 0; k < rows && !shaft.empty(); ++k) {
@@ -36,53 +36,55 @@ std::size_t hole_of(const residuals::ActuatorSignals& actuator, std::size_t rows
   return rows;
 }
 
-/// Why a recording cannot be run again; empty: it can.
+/// Reason why a recording cannot be simulated; empty: it can.
 std::string obstacle(const Episode& e, const erp::Robot& robot) {
-  if (std::abs(e.period_s / tick_s - 1) > 0.01) return "its rows are not the ECUs' ticks of 2 ms";
+  if (std::abs(e.period_s / tick_s - 1) > 0.01)
+    return "its row period differs from the ECU tick of 2 ms";
   for (std::size_t a = 0; a < e.actuators.size(); ++a)
     if (e.actuators[a].mode.empty() || e.actuators[a].reference.empty())
       return "it lacks mode and reference of " + robot.actuators[a].name;
   for (const auto& actuator : e.actuators)
-    if (const auto hole = hole_of(actuator, e.rows); hole < e.rows)
-      return "rows are missing at " + xml::write_number(double(hole) * tick_s) + " s";
+    if (const auto gap = first_long_gap(actuator, e.rows); gap < e.rows)
+      return "rows are missing at " + xml::write_number(double(gap) * tick_s) + " s";
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (const Signal& angle = e.joints[j].angle_rad;
         !angle.empty() && std::abs(angle[0] - joints[j].initial_rad) > apart_rad)
-      return joints[j].name + " does not start where the model does";
+      return joints[j].name + " does not start in the model's initial pose";
   return "";
 }
 
-/// `reference` as it was sent, in counts that mean what the model makes of them; where nobody recorded
-/// that, as it is.
-Signal asked_of(const residuals::ActuatorSignals& said, const erp::Robot& robot,
-                const erp::Actuator& actuator) {
+/// The set-point as sent, converted from counts with the model's units; `reference` if the counts were not recorded.
+Signal commanded(const residuals::ActuatorSignals& recorded, const erp::Robot& robot,
+                 const erp::Actuator& actuator) {
   const EcuUnits units(robot.motor_of(actuator), robot.sensors_of(actuator), actuator.spindle);
-  Signal asked = said.reference;
-  for (std::size_t k = 0; k < said.sent.size(); ++k)
-    if (!std::isnan(said.mode[k]) && !std::isnan(said.sent[k]))
-      asked[k] =
-          units.reference(EcuUnits::request(static_cast<erp::Mode>(std::lround(said.mode[k]))),
-                          static_cast<std::int32_t>(said.sent[k]));
-  return asked;
+  Signal reference = recorded.reference;
+  for (std::size_t k = 0; k < recorded.sent.size(); ++k)
+    if (!std::isnan(recorded.mode[k]) && !std::isnan(recorded.sent[k]))
+      reference[k] =
+          units.reference(EcuUnits::request(static_cast<erp::Mode>(std::lround(recorded.mode[k]))),
+                          static_cast<std::int32_t>(recorded.sent[k]));
+  return reference;
 }
 
-/// Where a row is missing the last command goes on, as it does in the robot.
+/// In missing rows the last command is kept, as in the robot.
 SetPoints set_points_of(const Episode& e, const erp::Robot& robot) {
-  SetPoints score(e.rows, std::vector<SetPoint>(e.actuators.size()));
-  std::vector<std::size_t> unsaid(e.actuators.size());
-  std::vector<Signal> asked;
+  SetPoints set_points(e.rows, std::vector<SetPoint>(e.actuators.size()));
+  std::vector<std::size_t> missing(e.actuators.size());
+  std::vector<Signal> references;
   for (std::size_t a = 0; a < e.actuators.size(); ++a)
-    asked.push_back(asked_of(e.actuators[a], robot, robot.actuators[a]));
+    references.push_back(commanded(e.actuators[a], robot, robot.actuators[a]));
   for (std::size_t k = 0; k < e.rows; ++k)
     for (std::size_t a = 0; a < e.actuators.size(); ++a) {
       const double mode = e.actuators[a].mode[k];
-      unsaid[a] = std::isnan(mode) ? unsaid[a] + 1 : 0;
-      if (k > 0 && unsaid[a] > 0 && unsaid[a] <= held_rows) score[k][a] = score[k - 1][a];
-      else if (std::isnan(mode)) score[k][a].reference = mode;
-      else if (mode != 0) score[k][a] = {static_cast<erp::Mode>(std::lround(mode)), asked[a][k]};
+      missing[a] = std::isnan(mode) ? missing[a] + 1 : 0;
+      if (k > 0 && missing[a] > 0 && missing[a] <= held_rows)
+        set_points[k][a] = set_points[k - 1][a];
+      else if (std::isnan(mode)) set_points[k][a].reference = mode;
+      else if (mode != 0)
+        set_points[k][a] = {static_cast<erp::Mode>(std::lround(mode)), references[a][k]};
     }
-  return score;
+  return set_points;
 }
 
 /// Squares of a channel's three errors over a second.
@@ -91,13 +93,13 @@ struct Second {
 };
 using Errors = std::map<std::string, std::pair<std::string, std::vector<Second>>>;
 
-/// Three rehearsals of one recording, compared with it.
+/// Three simulations of one recording, compared with it.
 Errors errors_of(const Episode& e, const erp::Robot& nominal, const erp::Robot& found,
                  std::uint64_t seed, const LearnedEcu* learned) {
-  const SetPoints score = set_points_of(e, nominal);
+  const SetPoints set_points = set_points_of(e, nominal);
   std::vector<std::string> remarks;
   const auto run = [&](const erp::Robot& robot, std::uint64_t noise) {
-    return residuals::lay_out(predict_run(robot, score, noise, {&nominal, learned}), nominal,
+    return residuals::lay_out(predict_run(robot, set_points, noise, {&nominal, learned}), nominal,
                               e.name, remarks);
   };
   const Episode before = run(nominal, seed), after = run(found, seed), again = run(found, seed + 1);
@@ -146,7 +148,7 @@ Closed all_of(const Errors& errors, std::span<const std::size_t> drawn) {
   return c;
 }
 
-/// The ECU's laws, where they are not those of our firmware and can be learned.
+/// Learned laws of the ECUs, if they differ from this product's firmware and can be learned.
 std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const erp::Robot& robot,
                                       std::vector<std::string>& remarks) {
   constexpr double ours = 0.05, known = 0.5;  // of the voltages' variance; of that; chosen
@@ -158,14 +160,14 @@ std::optional<LearnedEcu> foreign_ecu(std::span<const Episode> recordings, const
   double worst = 0;
   for (const auto& [mode, law] : ecu) worst = std::max(worst, law.unexplained);
   remarks.push_back(fmt::format(
-      "the free run's ECUs follow laws learned from the recordings, which leave {:.2g} % of the "
-      "variance of the voltages; this firmware's own leave {:.3g} %",
+      "the free run uses laws learned from the recordings for the ECUs: they leave {:.2g} % of the "
+      "variance of the voltages unexplained, this product's firmware {:.3g} %",
       100 * worst, 100 * std::min(1.0, unexplained)));
   return ecu;
 }
 
-/// A law learned from what was sent has the bus's delays in it, one learned from what the ECU says it
-/// followed has not.
+/// Whether the learned laws include the delays of the bus: they do if learned from set-points as sent, and do not if
+/// learned from set-points that the ECU reports.
 bool has_delays(const std::optional<LearnedEcu>& learned, std::span<const Episode> recordings) {
   return learned && std::ranges::all_of(recordings, [](const Episode& e) {
            return std::ranges::all_of(e.actuators, [](const auto& a) { return a.sent.empty(); });
@@ -191,7 +193,7 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
   std::vector<Errors> of_recording(recordings.size());
   std::vector<std::string> why(recordings.size());
   std::size_t done = 0;
-  std::mutex telling;
+  std::mutex reporting;
   in_parallel(recordings.size(), options.threads, [&](std::size_t r) {
     why[r] = obstacle(recordings[r], nominal);
     try {
@@ -201,13 +203,13 @@ FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
     } catch (const std::exception& failed) {
       why[r] = failed.what();
     }
-    const std::lock_guard lock(telling);
+    const std::lock_guard lock(reporting);
     if (options.progress) options.progress(double(++done) / double(recordings.size()));
   });
   Errors errors;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     if (!why[r].empty())
-      result.remarks.push_back(recordings[r].name + ": not run freely: " + why[r]);
+      result.remarks.push_back(recordings[r].name + ": left out of the free run: " + why[r]);
     for (const auto& [name, channel] : of_recording[r]) {
       errors[name].first = channel.first;
       auto& seconds = errors[name].second;

@@ -5,18 +5,18 @@
 #include "sim/gap/diagnosis/gap_closure.hpp"
 #include "sim/gap/residuals/episode.hpp"
 
-/// The gap as the simulator sees it: robot.xml is let run freely, in closed loop with the firmware,
-/// on what a recording was asked, and compared with what was recorded. A loop hides gaps in what it
-/// controls, so effort is compared as well: voltages, currents and tensions.
+/// The gap in closed loop: a free run of the simulator with the firmware and the set-points of a recording is
+/// compared with the recording. A loop hides errors in the quantity that it controls, so voltages, currents and
+/// tensions are compared as well.
 ///
-///   error = rms(simulated − recorded)        floor: of two rehearsals that differ in their noise
+///   error = rms(simulated − recorded)        floor: rms difference of two runs with different noise
 ///   all   = sqrt(mean (error/floor)²) over channels
 namespace sim::closed_loop {
 
 struct FreeRun {
   std::vector<diagnosis::Closed> channels;  ///< "flexor.tension_N" …
   diagnosis::Closed all;                    ///< unit "noise"
-  std::vector<std::string> remarks;         ///< recordings that were left out, and why
+  std::vector<std::string> remarks;         ///< recordings that were left out, with the reason
 };
 
 struct FreeRunOptions {
@@ -25,10 +25,9 @@ struct FreeRunOptions {
   std::function<void(double)> progress = {};  ///< 0 … 1
 };
 
-/// Of a robot as given and with what was found, over some recordings; intervals by blocks of them,
-/// a second each. Recordings in which a hinge does not start where the model starts, that lack
-/// modes or references, or in which a rehearsal fails, are left out with a remark. Where a
-/// spherical joint starts is not checked.
+/// Compares the nominal robot (before) and `found` (after) with the recordings. Intervals by a bootstrap over
+/// seconds. Left out with a remark: recordings in which a hinge does not start in the model's initial pose, that
+/// lack modes or references, or whose simulation fails. The start of spherical joints is not checked.
 FreeRun free_run(const erp::Robot& nominal, const erp::Robot& found,
                  std::span<const residuals::Episode> recordings,
                  const FreeRunOptions& options = {});

@@ -16,24 +16,27 @@ using residuals::Episode;
 using Phi = Eigen::Vector<double, Regressors::count>;
 
 constexpr double tick_s = residuals::tick_s;
-constexpr std::size_t most_lag = 3, least_rows = 500;   // chosen
-constexpr std::size_t oldest = 30, most_rows = 10'000;  // a command's age, a recording's rows; chosen
-constexpr double of_older = 0.1;  // of `enough`: one of many ages is always somewhat near; chosen
-constexpr double clipped = 0.98;                       // of the supply; chosen
+constexpr std::size_t most_lag = 3, least_rows = 500;  // chosen
+constexpr std::size_t oldest = 30;                     // rows, age of a command; chosen
+constexpr std::size_t most_rows = 10'000;              // of a recording; chosen
+constexpr double of_older = 0.1;  // of `enough`: the best of many ages always fits somewhat; chosen
+constexpr double clipped = 0.98;  // of the supply; chosen
 
-std::optional<Known> known_at(const ActuatorSignals& s, std::size_t row, std::size_t asked) {
-  if (asked >= s.reference.size() || s.shaft_rad.empty()) return {};
+std::optional<EcuInput> input_at(const ActuatorSignals& s, std::size_t row,
+                                 std::size_t command_row) {
+  if (command_row >= s.reference.size() || s.shaft_rad.empty()) return {};
   const auto of = [&](const residuals::Signal& signal) { return signal.empty() ? 0 : signal[row]; };
-  const Known known{s.reference[asked], s.shaft_rad[row], of(s.current_A), of(s.tension_N)};
-  const bool told =
+  const EcuInput known{s.reference[command_row], s.shaft_rad[row], of(s.current_A),
+                       of(s.tension_N)};
+  const bool complete =
       !std::isnan(known.reference + known.shaft_rad + known.current_A + known.tension_N);
-  return told ? std::optional(known) : std::nullopt;
+  return complete ? std::optional(known) : std::nullopt;
 }
 
-/// Rows of one actuator in one mode.
+/// Regressors and voltages of one actuator in one mode.
 struct Rows {
   std::vector<Phi> phi;
-  std::vector<std::array<double, most_lag + 1>> volts;  ///< that many rows later; NaN: not usable
+  std::vector<std::array<double, most_lag + 1>> volts;  ///< by lag in rows; NaN: not usable
 };
 
 bool in_mode(const ActuatorSignals& s, std::size_t row, erp::Mode mode) {
@@ -41,16 +44,16 @@ bool in_mode(const ActuatorSignals& s, std::size_t row, erp::Mode mode) {
          std::lround(s.mode[row]) == std::lround(double(mode));
 }
 
-/// `newest`: references and modes are those of the row after the sensors'.
+/// `newest`: references and modes are taken from the row after that of the sensors.
 void add_rows(const Episode& e, std::size_t a, erp::Mode mode, bool newest, double radius_m,
               double supply_V, Rows& rows) {
   const ActuatorSignals& s = e.actuators[a];
   if (s.mode.empty() || s.voltage_V.empty()) return;
   std::optional<Regressors> law;
   for (std::size_t k = 0; k < e.rows; ++k) {
-    const std::size_t asked = newest ? k + 1 : k;
-    const auto known = known_at(s, k, asked);
-    if (!in_mode(s, asked, mode) || !known) {
+    const std::size_t command_row = newest ? k + 1 : k;
+    const auto known = input_at(s, k, command_row);
+    if (!in_mode(s, command_row, mode) || !known) {
       law.reset();
       continue;
     }
@@ -81,7 +84,7 @@ LearnedLaw fit(const Rows& rows, std::size_t lag) {
   scale = normal.diagonal().cwiseMax(1e-12).cwiseSqrt();
   const Phi inverse = scale.cwiseInverse();
   Eigen::MatrixXd scaled = inverse.asDiagonal() * normal * inverse.asDiagonal();
-  scaled.diagonal().array() += 1e-8;  // columns that are one
+  scaled.diagonal().array() += 1e-8;  // regularization for collinear columns
   law.weights =
       inverse.asDiagonal() * Eigen::VectorXd(scaled.ldlt().solve(inverse.asDiagonal() * right));
   law.unexplained =
@@ -92,11 +95,11 @@ LearnedLaw fit(const Rows& rows, std::size_t lag) {
 
 }  // namespace
 
-Phi Regressors::next(const Known& known) {
+Phi Regressors::next(const EcuInput& known) {
   const double y = mode_ == erp::Mode::current ? known.current_A
                    : mode_ == erp::Mode::force ? known.tension_N
                                                : -radius_m_ * known.shaft_rad;
-  const Known& before = begun_ ? last_ : known;
+  const EcuInput& before = begun_ ? last_ : known;
   Phi phi;
   phi << 1, known.reference, (known.reference - before.reference) / tick_s, y,
       begun_ ? (y - last_y_) / tick_s : 0, integral_, (known.shaft_rad - before.shaft_rad) / tick_s,
@@ -142,7 +145,7 @@ struct Misfit {
   double square = 0, sum = 0, of = 0, rows = 0;
 };
 
-/// Of a firmware that follows commands `age` rows old.
+/// Adds the misfit of the firmware with commands `age` rows old.
 void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, std::size_t age,
                 Misfit& misfit) {
   const ActuatorSignals& s = e.actuators[a];
@@ -151,10 +154,10 @@ void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, std::s
   const EcuUnits units(robot.motor_of(actuator), robot.sensors_of(actuator), actuator.spindle);
   ecu_channel ecu = configured(robot, actuator);
   for (std::size_t k = age; k + 1 < std::min(e.rows, most_rows); ++k) {
-    const std::size_t asked = k + 1 - age;
-    const auto known = known_at(s, k, asked);
-    if (!known || std::isnan(s.mode[asked])) continue;
-    const auto mode = static_cast<erp::Mode>(std::lround(s.mode[asked]));
+    const std::size_t command_row = k + 1 - age;
+    const auto known = input_at(s, k, command_row);
+    if (!known || std::isnan(s.mode[command_row])) continue;
+    const auto mode = static_cast<erp::Mode>(std::lround(s.mode[command_row]));
     if (mode == erp::Mode::off) ecu_command(&ecu, ECU_REQUEST_ARM, 0);
     else ecu_command(&ecu, EcuUnits::request(mode), units.setpoint(mode, known->reference));
     const ecu_inputs inputs{
@@ -162,9 +165,9 @@ void add_misfit(const Episode& e, const erp::Robot& robot, std::size_t a, std::s
         std::int16_t(std::lround(known->current_A / units.current_A_per_count)),
         std::uint16_t(units.tension_zero_counts +
                       std::lround(known->tension_N / units.tension_N_per_count))};
-    const double foretold = units.voltage_V(ecu_tick(&ecu, &inputs)), v = s.voltage_V[k + 1];
+    const double predicted = units.voltage_V(ecu_tick(&ecu, &inputs)), v = s.voltage_V[k + 1];
     if (std::isnan(v) || mode == erp::Mode::off) continue;
-    misfit.square += (v - foretold) * (v - foretold);
+    misfit.square += (v - predicted) * (v - predicted);
     misfit.sum += v, misfit.of += v * v, ++misfit.rows;
   }
 }

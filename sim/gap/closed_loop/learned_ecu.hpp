@@ -7,53 +7,53 @@
 #include "interfaces/values.hpp"
 #include "sim/gap/residuals/episode.hpp"
 
-/// The control law of an ECU that is not this product's firmware, learned from recordings, so that a robot
-/// can be run freely under its own ECU. Of each actuator and mode
+/// The control law of an ECU with another firmware, learned from recordings, so that a free run can use it. For
+/// each actuator and mode
 ///
 ///   V(k) = w · φ(k − l),   φ = (1, ref, dref/dt, y, dy/dt, ∫(ref − y) dt, ω, i, F),   |V| ≤ supply
 ///
-/// y: what the mode controls (line wound −r θ, current or tension), ω: the shaft's speed, l: rows that
-/// the law needs. ref is that of the row after the sensors', which asks for the voltage, or that of the
-/// same row, whichever explains more. w by least squares over rows that are not clipped.
+/// y: controlled quantity of the mode (line wound −r θ, current or tension), ω: shaft speed, l: delay in rows.
+/// ref is taken from the row after that of the sensors, or from the same row, whichever explains more. w: least
+/// squares over rows below the supply voltage.
 namespace sim::closed_loop {
 
-/// What an ECU knows after a row.
-struct Known {
+/// Inputs of an ECU in one row.
+struct EcuInput {
   double reference = 0, shaft_rad = 0, current_A = 0, tension_N = 0;
 };
 
-/// One law's inputs, row by row since its mode began.
+/// Regressors φ of one law, row by row since the start of its mode.
 class Regressors {
  public:
   static constexpr int count = 9;
   Regressors(erp::Mode mode, double radius_m) : mode_(mode), radius_m_(radius_m) {}
-  Eigen::Vector<double, count> next(const Known& known);
+  Eigen::Vector<double, count> next(const EcuInput& known);
 
  private:
   erp::Mode mode_;
   double radius_m_;
   bool begun_ = false;
-  Known last_;
+  EcuInput last_;
   double last_y_ = 0, integral_ = 0;
 };
 
 struct LearnedLaw {
   Eigen::Vector<double, Regressors::count> weights;
   std::size_t lag = 1;     ///< rows
-  bool newest = true;      ///< the reference is that of the row after the sensors'
-  double unexplained = 1;  ///< share of the voltage's variance
+  bool newest = true;      ///< the reference is from the row after that of the sensors
+  double unexplained = 1;  ///< share of the variance of the voltage
 };
 
 /// By actuator and mode.
 using LearnedEcu = std::map<std::pair<std::size_t, erp::Mode>, LearnedLaw>;
 
-/// Laws of the modes voltage, length, current and force that recordings show for a second or more.
+/// Laws of the modes voltage, length, current and force that are recorded for at least one second.
 LearnedEcu learn(std::span<const residuals::Episode> recordings, const erp::Robot& robot);
 
-/// Share of the voltages' variance that this product's firmware, with the gains designed for `robot`,
-/// does not predict from what was measured: with the newest commands or, where that is more than
-/// `enough`, with those of one age (up to 60 ms) that leaves less than a tenth of `enough`. Near 0 if
-/// the recordings are of it, on a bus however late; 1: nothing to judge by.
+/// Share of the variance of the voltages that this product's firmware, with the gains designed for `robot`, does
+/// not predict from the measurements. It uses the newest commands or, if that share exceeds `enough`, commands
+/// of a constant age (up to 60 ms) whose share is below a tenth of `enough`. Near 0 for recordings of this
+/// firmware, even with a delayed bus; 1 if there is too little data.
 double unexplained_by_firmware(std::span<const residuals::Episode> recordings,
                                const erp::Robot& robot, double enough = 0.05);
 

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double tick_s = 0.002;
 
-class Stage {
+class PredictedRun {
  public:
-  Stage(const erp::Robot& robot, std::uint64_t seed, const Ecus& ecus)
+  PredictedRun(const erp::Robot& robot, std::uint64_t seed, const Ecus& ecus)
       : robot_(robot),
         simulated_(robot, ecus.configured ? *ecus.configured : robot, seed),
         noise_(seed),
@@ -33,11 +33,11 @@ class Stage {
       table_.columns.push_back({std::move(name), {}});
   }
 
-  recording::Table play(const SetPoints& score) {
-    for (const auto& asked : score) {
+  recording::Table run(const SetPoints& set_points) {
+    for (const auto& row : set_points) {
       before_ = last_;
       for (std::size_t a = 0; a < last_.size(); ++a)
-        if (!std::isnan(asked[a].reference)) last_[a] = asked[a];
+        if (!std::isnan(row[a].reference)) last_[a] = row[a];
       simulated_.tick(commanded());
       put(tick_s * static_cast<double>(table_.rows()));
     }
@@ -45,7 +45,7 @@ class Stage {
   }
 
  private:
-  /// A learned law at work: what it has seen since its mode began.
+  /// State of a learned law since the start of its mode.
   struct Loop {
     Regressors regressors;
     double radius_m, supply_V;
@@ -53,34 +53,35 @@ class Stage {
     std::vector<Eigen::Vector<double, Regressors::count>> seen;
   };
 
-  /// What the firmware is asked: what the recording was, or the voltage of a learned law.
+  /// Set-points for the firmware: those given, or the voltages of learned laws.
   std::vector<SetPoint> commanded() {
     std::vector<SetPoint> all = last_;
     if (table_.rows() == 0) return all;  // nothing is measured yet
     for (std::size_t a = 0; ecu_ && a < all.size(); ++a)
       for (const bool newest : {true, false}) {
-        const SetPoint& asked = newest ? last_[a] : before_[a];
-        if (const auto law = ecu_->find({a, asked.mode});
+        const SetPoint& command = newest ? last_[a] : before_[a];
+        if (const auto law = ecu_->find({a, command.mode});
             law != ecu_->end() && law->second.newest == newest)
-          all[a] = {erp::Mode::voltage, voltage_of(law->second, asked, a)};
+          all[a] = {erp::Mode::voltage, voltage_of(law->second, command, a)};
       }
     return all;
   }
-  double voltage_of(const LearnedLaw& law, const SetPoint& asked, std::size_t a) {
+  double voltage_of(const LearnedLaw& law, const SetPoint& command, std::size_t a) {
     Loop& loop = loops_[a];
-    if (loop.mode != asked.mode)
-      loop.mode = asked.mode, loop.regressors = {loop.mode, loop.radius_m}, loop.seen.clear();
-    const auto& said = simulated_.sample_of(a);
+    if (loop.mode != command.mode)
+      loop.mode = command.mode, loop.regressors = {loop.mode, loop.radius_m}, loop.seen.clear();
+    const auto& sample = simulated_.sample_of(a);
     const EcuUnits& units = simulated_.units(a);
-    loop.seen.push_back(loop.regressors.next({asked.reference, units.shaft_rad(said.encoder_counts),
-                                              said.current_counts * units.current_A_per_count,
-                                              units.tension_N(said.tension_counts)}));
+    loop.seen.push_back(
+        loop.regressors.next({command.reference, units.shaft_rad(sample.encoder_counts),
+                              sample.current_counts * units.current_A_per_count,
+                              units.tension_N(sample.tension_counts)}));
     const std::size_t back = std::min(law.lag, loop.seen.size());
     return std::clamp(law.weights.dot(loop.seen[loop.seen.size() - back]), -loop.supply_V,
                       loop.supply_V);
   }
 
-  /// As its sensor says, or as it is where there is none.
+  /// Reading of its sensor, or the true angle if it has none.
   double angle_of(std::size_t joint, const std::string& name) const {
     for (const erp::JointSensor& sensor : robot_.joint_sensors)
       for (const auto& analog : erp::samples(simulated_.frame().analogs))
@@ -92,18 +93,18 @@ class Stage {
   void put(double time_s) {
     std::size_t column = 0;
     const auto add = [&](double value) {
-      if (!std::isfinite(value)) throw std::runtime_error("the rehearsed motion is not finite");
+      if (!std::isfinite(value)) throw std::runtime_error("the predicted motion is not finite");
       table_.columns[column++].values.push_back(value);
     };
     add(time_s);
     for (std::size_t a = 0; a < last_.size(); ++a) {
-      const auto& said = simulated_.sample_of(a);
+      const auto& sample = simulated_.sample_of(a);
       const EcuUnits& units = simulated_.units(a);
       add(static_cast<double>(last_[a].mode)), add(last_[a].reference);
-      add(units.voltage_V(said.duty_counts));
-      add(said.current_counts * units.current_A_per_count);
-      add(units.shaft_rad(said.encoder_counts));
-      add(units.tension_N(said.tension_counts));
+      add(units.voltage_V(sample.duty_counts));
+      add(sample.current_counts * units.current_A_per_count);
+      add(units.shaft_rad(sample.encoder_counts));
+      add(units.tension_N(sample.tension_counts));
     }
     const auto joints = robot_.joints();
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -126,17 +127,17 @@ class Stage {
 }  // namespace
 
 SetPoints set_points_of(const Excitation& excitation) {
-  SetPoints score;
+  SetPoints set_points;
   for (const auto& row : excitation.reference) {
-    auto& asked = score.emplace_back();
-    for (const double reference : row) asked.push_back({excitation.mode, reference});
+    auto& by_actuator = set_points.emplace_back();
+    for (const double reference : row) by_actuator.push_back({excitation.mode, reference});
   }
-  return score;
+  return set_points;
 }
 
-recording::Table predict_run(const erp::Robot& robot, const SetPoints& score, std::uint64_t seed,
-                             const Ecus& ecus) {
-  return Stage(robot, seed, ecus).play(score);
+recording::Table predict_run(const erp::Robot& robot, const SetPoints& set_points,
+                             std::uint64_t seed, const Ecus& ecus) {
+  return PredictedRun(robot, seed, ecus).run(set_points);
 }
 
 }  // namespace sim::closed_loop

@@ -7,24 +7,24 @@
 #include "sim/gap/closed_loop/learned_ecu.hpp"
 #include "sim/world/simulated_robot.hpp"
 
-/// A robot under its ECUs, asked what a recording or a plan asks, in the simulator: what would have
-/// been recorded.
+/// Predicted run: simulates a robot under its ECUs with given set-points and returns the recording that results.
 namespace sim::closed_loop {
 
-/// By tick and actuator; a reference of NaN: as before, at the start nothing.
+/// By tick and actuator. A reference of NaN keeps the previous set-point; at the start there is none.
 using SetPoints = std::vector<std::vector<SetPoint>>;
 SetPoints set_points_of(const Excitation& excitation);
 
-/// Whose ECUs they are.
+/// Configuration of the ECUs.
 struct Ecus {
   const erp::Robot* configured =
-      nullptr;                          ///< the robot that gains are designed for; null: this one
-  const LearnedEcu* learned = nullptr;  ///< laws that take the place of the firmware's
+      nullptr;  ///< robot for which gains are designed; null: the simulated one
+  const LearnedEcu* learned = nullptr;  ///< laws that replace the firmware's
 };
 
-/// A table as interfaces/recording has it, a row a tick. The robot's effects act. Starts at the
-/// initial pose, at pretension. Throws as World does; std::runtime_error: the motion is not finite.
-recording::Table predict_run(const erp::Robot& robot, const SetPoints& score,
+/// Returns a table with the columns of a recording (interfaces/recording), one row per tick. The robot's effects
+/// are simulated. Starts in the initial pose at pretension. Throws as World, and std::runtime_error if the motion
+/// is not finite.
+recording::Table predict_run(const erp::Robot& robot, const SetPoints& set_points,
                              std::uint64_t seed = 1, const Ecus& ecus = {});
 
 }  // namespace sim::closed_loop

@@ -10,8 +10,8 @@ namespace sim::closed_loop {
 namespace {
 
 constexpr double dt_s = 0.001, quiet_s = 0.1;
-constexpr double full_at_rad = 0.1;  ///< off by so much, the whole supply drives; chosen
-constexpr double integral_s = 0.2;   ///< time constant of what adds up; chosen
+constexpr double full_at_rad = 0.1;  ///< error at which the supply voltage is reached; chosen
+constexpr double integral_s = 0.2;   ///< time constant of the integral part; chosen
 
 class Winder {
  public:
@@ -26,7 +26,7 @@ class Winder {
     for (int k = 0; dt_s * k < options.most_s; ++k) {
       const double at_s = dt_s * k;
       wind(shaft_rad, std::min(1.0, at_s / options.way_s));
-      if (at_s < options.way_s || !stands(shaft_rad, options)) still_since_s = at_s;
+      if (at_s < options.way_s || !is_at_rest(shaft_rad, options)) still_since_s = at_s;
       if (at_s - still_since_s > quiet_s) return {pose(), at_s, true};
     }
     return {pose(), options.most_s, false};
@@ -36,16 +36,16 @@ class Winder {
   void wind(const std::vector<double>& shaft_rad, double share) {
     for (std::size_t a = 0; a < voltage_V_.size(); ++a) {
       const double supply_V = robot_.motor_of(robot_.actuators[a]).supply_V;
-      const double wanted_rad = from_rad_[a] + share * (shaft_rad[a] - from_rad_[a]);
-      const double now_V = supply_V * (wanted_rad - world_.actuators()[a].shaft_rad) / full_at_rad;
+      const double desired_rad = from_rad_[a] + share * (shaft_rad[a] - from_rad_[a]);
+      const double now_V = supply_V * (desired_rad - world_.actuators()[a].shaft_rad) / full_at_rad;
       sum_V_[a] = std::clamp(sum_V_[a] + now_V * dt_s / integral_s, -supply_V, supply_V);
       voltage_V_[a] = std::clamp(now_V + sum_V_[a], -supply_V, supply_V);
     }
     world_.step(voltage_V_, dt_s);
-    if (!world_.sound()) throw std::runtime_error("the robot's motion is not finite");
+    if (!world_.is_finite()) throw std::runtime_error("the robot's motion is not finite");
   }
 
-  bool stands(const std::vector<double>& shaft_rad, const RestPoseOptions& options) const {
+  bool is_at_rest(const std::vector<double>& shaft_rad, const RestPoseOptions& options) const {
     for (std::size_t a = 0; a < shaft_rad.size(); ++a)
       if (std::abs(world_.actuators()[a].shaft_rad - shaft_rad[a]) > options.wound_rad)
         return false;

@@ -7,7 +7,7 @@
 
 namespace sim::diagnosis {
 namespace {
-constexpr double of_method = 0.02;  // what the method's own approximations may shift a value by
+constexpr double of_method = 0.02;  // error of a value by the approximation by windows; chosen
 }
 
 IdentifiedEffect identified(const effects::Placed& placed) {
@@ -36,7 +36,7 @@ IdentifiedEffect identified(const Ranked& ranked, double least_gain) {
 
 IdentifiedEffect identified(const BusFit& fit) {
   IdentifiedEffect n = identified(fit.placed);
-  const double of_ticks = of_method * std::abs(fit.value);  // ages are whole ticks
+  const double of_ticks = of_method * std::abs(fit.value);  // ages are integer numbers of ticks
   n.intervals[0] = {fit.low - of_ticks, fit.high + of_ticks};
   n.gain = fit.gain, n.gain_interval = {fit.gain, fit.gain}, n.supported = fit.supported;
   return n;
@@ -70,14 +70,14 @@ bool is_at_bound(const IdentifiedEffect& effect) {
 
 void control_discoveries(const std::vector<Ranked>& ranked, std::vector<IdentifiedEffect>& names) {
   constexpr double rate = 0.05;
-  std::vector<std::pair<double, std::size_t>> doubts;
-  for (std::size_t k = 0; k < ranked.size(); ++k) doubts.emplace_back(ranked[k].p_value, k);
-  std::ranges::sort(doubts);
-  const auto count = static_cast<double>(doubts.size());
+  std::vector<std::pair<double, std::size_t>> p_values;
+  for (std::size_t k = 0; k < ranked.size(); ++k) p_values.emplace_back(ranked[k].p_value, k);
+  std::ranges::sort(p_values);
+  const auto count = static_cast<double>(p_values.size());
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < doubts.size(); ++k)
-    if (doubts[k].first <= rate * static_cast<double>(k + 1) / count) kept = k + 1;
-  for (std::size_t k = kept; k < doubts.size(); ++k) names[doubts[k].second].supported = false;
+  for (std::size_t k = 0; k < p_values.size(); ++k)
+    if (p_values[k].first <= rate * static_cast<double>(k + 1) / count) kept = k + 1;
+  for (std::size_t k = kept; k < p_values.size(); ++k) names[p_values[k].second].supported = false;
 }
 
 }  // namespace sim::diagnosis

@@ -5,14 +5,14 @@
 #include "sim/gap/diagnosis/bus.hpp"
 #include "sim/gap/diagnosis/identification.hpp"
 
-/// An effect as an answer has it: named, sized, with what it gains.
+/// An identified effect: type, place, values, intervals and gain.
 namespace sim::diagnosis {
 
 /// An effect of the answer, or a candidate for it.
 struct IdentifiedEffect {
   std::string type, on;
   effects::Stage stage;
-  std::vector<std::string> names;  ///< of its parameters
+  std::vector<std::string> names;  ///< of its fitted parameters, as are values, bounds, intervals
   std::vector<double> values;
   std::vector<effects::Bounds> bounds;
   std::vector<Interval> intervals;  ///< 95 %, within the bounds
@@ -20,31 +20,32 @@ struct IdentifiedEffect {
   Interval gain_interval;
   bool supported = false;
   effects::Placed placed;
-  std::vector<double> signature = {};  ///< of what it changes, share at each `Diagnosis::stages`
-  std::vector<IdentifiedEffect> alternatives =
-      {};               ///< of one of the answer: what could stand for it as well
-  double likeness = 0;  ///< cosine of what it changes to what the first of the answer changes
+  std::vector<double> signature = {};  ///< share of its change Σ Δz² at each of `Diagnosis::stages`
+  std::vector<IdentifiedEffect> alternatives = {};  ///< effects indistinguishable from it
+  double likeness = 0;  ///< cosine between its change Δz and that of the best effect
 
   bool is(const effects::Placed& other) const {
     return placed.on == other.on && placed.effect.index() == other.effect.index();
   }
 };
 
-/// Without gain and intervals.
+/// The effect with its values; gain is 0, intervals are empty ranges at 0.
 IdentifiedEffect identified(const effects::Placed& placed);
-/// Supported: the interval of its gain is above `least_gain`, and it relieves a stage. Intervals of
-/// values are those of the fit's noise, and 2 % of the value for what the windows approximate.
+/// `supported` is set if the interval of the gain is above `least_gain` and the effect relieves a stage.
+/// Intervals of values: 1.96 standard errors of the fit, plus 2 % of the value for the approximation by
+/// windows.
 IdentifiedEffect identified(const Ranked& ranked, double least_gain);
 IdentifiedEffect identified(const BusFit& fit);
 
-/// Why its values are not determined: its intervals hold the neutral values of all its parameters, or one
-/// is at a bound that is not neutral; empty: they are.
+/// Reason why its values are not determined: its intervals include the neutral values of all its
+/// parameters, or a value is at a bound that is not neutral. Empty if they are determined.
 std::string undetermined(const IdentifiedEffect& effect);
 
-/// Whether a fitted value is at a bound that is not neutral: there a law is the limit of a simpler one.
+/// Whether a fitted value is at a bound that is not its neutral value. At such a bound a law
+/// degenerates to a simpler one.
 bool is_at_bound(const IdentifiedEffect& effect);
 
-/// Benjamini and Hochberg 1995, at 5 %: what is left of `supported`.
+/// Clears `supported` where a false discovery rate of 5 % requires it (Benjamini, Hochberg 1995).
 void control_discoveries(const std::vector<Ranked>& ranked, std::vector<IdentifiedEffect>& names);
 
 }  // namespace sim::diagnosis

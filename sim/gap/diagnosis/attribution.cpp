@@ -8,7 +8,7 @@
 namespace sim::diagnosis {
 namespace {
 
-/// When the residual of what sits there lives, at its most open stage.
+/// Regions of the residual of `on`, at its open stage with the largest share.
 std::vector<Region> when(const Problem& problem, const Evaluator& plain,
                          const std::vector<StageGap>& stages, const std::string& on) {
   const auto most =
@@ -17,7 +17,7 @@ std::vector<Region> when(const Problem& problem, const Evaluator& plain,
   return regions(plain, plain.bare(), most->stage, on, problem.sets.all());
 }
 
-/// The place of an effect, and those of what could stand for it.
+/// The place of an effect and those of its alternatives.
 std::vector<Part> group_of(const IdentifiedEffect& n) {
   std::vector<Part> group{{n.stage, n.on}};
   for (const IdentifiedEffect& other : n.alternatives)
@@ -26,7 +26,7 @@ std::vector<Part> group_of(const IdentifiedEffect& n) {
   return group;
 }
 
-/// What it closes, but for the bus, which closes nothing beside what does.
+/// The part of the gap that it closes; 0 for the bus beside other effects.
 Interval closed_by(const IdentifiedEffect& n, bool alone) {
   if (n.stage == effects::Stage::bus && !alone) return {0, 0};
   return {std::max(0.0, n.gain_interval.low), std::max(0.0, n.gain_interval.high)};
@@ -40,11 +40,11 @@ void add(std::vector<Attribution>& places, Attribution place) {
   same->interval.high = std::min(1.0, same->interval.high + place.interval.high);
 }
 
-/// The parts of the chain that could leave the gap, the likeliest first: the one whose effects come
-/// nearest to closing it, then the one where it shows.
+/// Parts that can cause the gap: those with the effects of highest gain first, then the part of the stage with
+/// the largest share.
 std::vector<Part> suspects(const Problem& problem, const Evaluator& plain,
                            const Attribution& widest, const std::vector<IdentifiedEffect>& ranked) {
-  constexpr double near = 0.3;  // of the gap; chosen
+  constexpr double near = 0.3;  // least gain that changes the order; chosen
   const auto likelihood = [&](const Part& part) {
     double gain = 0;
     for (const IdentifiedEffect& n : ranked)
@@ -58,9 +58,9 @@ std::vector<Part> suspects(const Problem& problem, const Evaluator& plain,
 
 }  // namespace
 
-std::vector<Attribution> where_of_answer(const Problem& problem, const Evaluator& plain,
-                                         const std::vector<StageGap>& stages,
-                                         const std::vector<IdentifiedEffect>& answer) {
+std::vector<Attribution> attribute_to_answer(const Problem& problem, const Evaluator& plain,
+                                             const std::vector<StageGap>& stages,
+                                             const std::vector<IdentifiedEffect>& answer) {
   const bool alone = answer.size() == 1;
   const auto gain = [&](const IdentifiedEffect& n) {
     return closed_by(n, alone).high > 0 ? std::max(0.0, n.gain) : 0;
@@ -81,9 +81,9 @@ std::vector<Attribution> where_of_answer(const Problem& problem, const Evaluator
   return places;
 }
 
-std::vector<Attribution> where_of_stages(const Problem& problem, const Evaluator& plain,
-                                         const std::vector<StageGap>& stages,
-                                         const std::vector<IdentifiedEffect>& ranked) {
+std::vector<Attribution> attribute_to_parts(const Problem& problem, const Evaluator& plain,
+                                            const std::vector<StageGap>& stages,
+                                            const std::vector<IdentifiedEffect>& ranked) {
   std::vector<Attribution> places;
   double whole = 0;
   for (const StageGap& gap : stages) whole += gap.open ? gap.excess : 0;

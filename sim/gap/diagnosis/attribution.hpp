@@ -6,10 +6,10 @@
 #include "sim/gap/diagnosis/residual_profile.hpp"
 #include "sim/gap/diagnosis/selection.hpp"
 
-/// Where the gap lies, told from its cause when that is known and from the open stages when not.
+/// Location of the gap: that of its cause if identified, otherwise derived from the open stages.
 namespace sim::diagnosis {
 
-/// A part of the gap: a stage of the whole chain, bus to sensors, as far as it can be told.
+/// A part of the robot, from bus to sensors, to which a share of the gap is attributed.
 struct Attribution {
   effects::Stage stage;
   std::string on;
@@ -18,7 +18,7 @@ struct Attribution {
   std::vector<Region> when;
 };
 
-/// What no effect explains.
+/// A stage that keeps a residual above noise with the answer.
 struct Unexplained {
   effects::Stage stage;
   std::string on;
@@ -26,22 +26,21 @@ struct Unexplained {
   std::optional<ResidualProfile> shape;
 };
 
-/// Of effects that explain the gap, each its share of what they close, in the order of the answer;
-/// places that cannot be told apart share one, and any of them may have all of it. The bus beside
-/// others has a share of 0: it changes no residual.
-std::vector<Attribution> where_of_answer(const Problem& problem, const Evaluator& plain,
-                                         const std::vector<StageGap>& stages,
-                                         const std::vector<IdentifiedEffect>& answer);
+/// For effects that explain the gap: the share of each in what they close, in the order of the answer.
+/// Indistinguishable places divide one share equally; the interval of each extends from 0 to all of it.
+/// The bus beside other effects has a share of 0 because it changes no residual.
+std::vector<Attribution> attribute_to_answer(const Problem& problem, const Evaluator& plain,
+                                             const std::vector<StageGap>& stages,
+                                             const std::vector<IdentifiedEffect>& answer);
 
-/// Without an answer: the parts of the chain that could leave such a gap (isolation.hpp), in equal
-/// shares, the one whose effects come nearest to closing it first; the open stages where no single
-/// part could.
-std::vector<Attribution> where_of_stages(const Problem& problem, const Evaluator& plain,
-                                         const std::vector<StageGap>& stages,
-                                         const std::vector<IdentifiedEffect>& ranked);
+/// Without an answer: the parts that can cause the gap (isolation.hpp), in equal shares, the part with the
+/// effect of highest gain first. If no single part can cause it: the open stages.
+std::vector<Attribution> attribute_to_parts(const Problem& problem, const Evaluator& plain,
+                                            const std::vector<StageGap>& stages,
+                                            const std::vector<IdentifiedEffect>& ranked);
 
-/// The stages that the selection leaves open, with the map that explains most of each; where it
-/// leaves none open, those that keep more than noise all the same, and are small beside the gap.
+/// The stages that the selection leaves open, each with the profile that explains most of its residual.
+/// If none is open: the stages with a residual above noise that is small compared with the gap.
 std::vector<Unexplained> unexplained(const Problem& problem, const Evaluator& evaluator,
                                      const Selection& selection);
 

@@ -10,8 +10,8 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// What `of(drawn)` gives for `draws` resamplings of `count` blocks, sorted; drawn: indices of
-/// blocks, `count` of them, with replacement. Source: Efron 1979; of blocks, Künsch 1989.
+/// Sorted values of `of(drawn)` for `draws` resamplings of `count` blocks. `drawn`: `count` indices of
+/// blocks, drawn with replacement. Source: Efron 1979; block bootstrap: Künsch 1989.
 template <class Of>
 std::vector<double> bootstrap(std::size_t count, int draws, std::uint64_t seed, Of of) {
   std::mt19937_64 random(seed);
@@ -26,7 +26,7 @@ std::vector<double> bootstrap(std::size_t count, int draws, std::uint64_t seed, 
   return values;
 }
 
-/// The middle `share` of sorted values.
+/// Interval that contains the middle `share` of the sorted values.
 inline Interval middle(const std::vector<double>& sorted, double share = 0.95) {
   if (sorted.empty()) return {};
   const auto at = [&](double q) {

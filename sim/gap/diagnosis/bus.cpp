@@ -14,16 +14,16 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr std::size_t oldest = 60;  // ticks; chosen
-constexpr double least_told = 0.6;  // chosen: below, the ECU has another law
+constexpr std::size_t oldest = 60;   // ticks; chosen
+constexpr double least_found = 0.6;  // share of ages; below it the ECU has another law; chosen
 
-/// One actuator's law as an offset and what a command adds: V = gain · reference + rest.
+/// Law of one actuator: V = gain · reference + rest.
 struct Law {
   double gain = 0;
-  std::vector<double> rest_V;  ///< NaN: not to be told
+  std::vector<double> rest_V;  ///< NaN: unknown
 };
 
-/// What the voltage would be without a command, from the row before; by mode.
+/// Law of the ECU firmware; `rest_V` from the measurements of the previous row, by mode.
 Law law_of(const residuals::ActuatorSignals& s, const erp::Robot& robot,
            const erp::Actuator& actuator, double period_s) {
   Law law;
@@ -62,55 +62,57 @@ void add_ages(const residuals::Episode& episode, const residuals::ActuatorSignal
               const Law& law, double tolerance_V, Ages& ages) {
   for (std::size_t k = oldest; k < law.rest_V.size(); ++k) {
     if (std::isnan(law.rest_V[k]) || !episode.judged(k)) continue;
-    const auto said_V = [&](std::size_t age) {
+    const auto predicted_V = [&](std::size_t age) {
       return law.gain * s.reference[k - age] + law.rest_V[k];
     };
-    if (!(std::abs(said_V(0) - said_V(1)) > 3 * tolerance_V)) continue;  // too alike
-    ++ages.tried;
+    if (!(std::abs(predicted_V(0) - predicted_V(1)) > 3 * tolerance_V))
+      continue;  // indistinguishable
+    ++ages.checked;
     for (std::size_t age = 0; age < oldest; ++age)
-      if (std::abs(said_V(age) - s.voltage_V[k]) < tolerance_V) {
-        ++ages.ticks[age], ++ages.told;
+      if (std::abs(predicted_V(age) - s.voltage_V[k]) < tolerance_V) {
+        ++ages.ticks[age], ++ages.found;
         break;
       }
   }
 }
 
-/// By what it says itself: it follows the one command with that set-point.
-void add_ages_said(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
-                   Ages& ages) {
+/// From the set-point that the ECU reports: the age of the one command with that set-point.
+void add_reported_ages(const residuals::Episode& episode, const residuals::ActuatorSignals& s,
+                       Ages& ages) {
   for (std::size_t k = oldest; k < s.sent.size(); ++k) {
-    if (!episode.judged(k) || !(std::abs(s.sent[k] - s.sent[k - 1]) > 0)) continue;  // too alike
-    std::vector<std::size_t> may_be;
+    if (!episode.judged(k) || !(std::abs(s.sent[k] - s.sent[k - 1]) > 0))
+      continue;  // indistinguishable
+    std::vector<std::size_t> matches;
     for (std::size_t age = 0; age < oldest; ++age)
-      if (s.sent[k - age] == s.followed[k]) may_be.push_back(age);
-    if (may_be.size() > 1) continue;  // the same was sent more than once
-    ++ages.tried;
-    if (may_be.size() == 1) ++ages.ticks[may_be[0]], ++ages.told;
+      if (s.sent[k - age] == s.followed[k]) matches.push_back(age);
+    if (matches.size() > 1) continue;  // the same set-point was sent several times
+    ++ages.checked;
+    if (matches.size() == 1) ++ages.ticks[matches[0]], ++ages.found;
   }
 }
 
-/// How often each age comes under an effect: commands sent every tick, heard in their order.
-std::vector<double> foretold(const effects::Placed& placed, double period_s) {
+/// Predicted share of each age with an effect: commands are sent every tick and received in order.
+std::vector<double> predicted_ages(const effects::Placed& placed, double period_s) {
   constexpr int ticks = 4000;
   effects::Acting acting(std::span(&placed, 1), placed.on, effects::Seat::robot);
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> even(0, 1);
   const auto draw = [&] { return even(random); };
-  std::deque<std::pair<double, int>> line;
+  std::deque<std::pair<double, int>> queue;
   std::vector<double> share(oldest, 0.0);
-  int heard = 0;
+  int received = 0;
   for (int k = 0; k < ticks; ++k) {
     const double now_s = k * period_s;
     const double late_s = acting.command_delay_s(draw) + acting.frame_delay_s(draw);
     if (!acting.loses_command(draw)) {
       const double due_s = now_s + late_s;
-      line.emplace_back(line.empty() ? due_s : std::max(due_s, line.back().first), k);
+      queue.emplace_back(queue.empty() ? due_s : std::max(due_s, queue.back().first), k);
     }
-    while (!line.empty() && line.front().first <= now_s + 1e-9)
-      heard = line.front().second, line.pop_front();
-    if (k > 200) share[std::min<std::size_t>(oldest - 1, std::size_t(k - heard))] += 1;
+    while (!queue.empty() && queue.front().first <= now_s + 1e-9)
+      received = queue.front().second, queue.pop_front();
+    if (k > 200) share[std::min<std::size_t>(oldest - 1, std::size_t(k - received))] += 1;
   }
-  constexpr double stray = 0.002;  // of ages read wrongly
+  constexpr double stray = 0.002;  // share of wrong ages; chosen
   for (double& s : share) s = (1 - stray) * s / (ticks - 201) + stray / oldest;
   return share;
 }
@@ -123,7 +125,8 @@ double likelihood(std::span<const Ages> ages, const std::vector<double>& share) 
   return sum;
 }
 
-std::vector<double> own_values(std::span<const Ages> ages) {
+/// Observed share of each age.
+std::vector<double> observed_ages(std::span<const Ages> ages) {
   std::vector<double> share(oldest, 1e-9);
   double whole = oldest * 1e-9;
   for (const Ages& one : ages)
@@ -133,22 +136,21 @@ std::vector<double> own_values(std::span<const Ages> ages) {
   return share;
 }
 
-/// The most likely value of the effect's one parameter, and those that are as likely but for a
-/// factor of e².
+/// Value of the effect's one parameter and its interval: values within a factor e² of the largest likelihood.
 BusFit fit_one(effects::Placed placed, std::span<const Ages> train) {
   const double period_s = train[0].period_s;
   BusFit best{placed, 0, 0, 0, 0, false};
   const effects::Parameter parameter = effects::parameters(placed.effect)[0];
-  std::vector<std::pair<double, double>> tried;
+  std::vector<std::pair<double, double>> candidates;
   constexpr int steps = 120;
   for (int n = 1; n <= steps; ++n) {
     *parameter.value = parameter.bounds.high * n / steps;
-    tried.emplace_back(likelihood(train, foretold(placed, period_s)), *parameter.value);
+    candidates.emplace_back(likelihood(train, predicted_ages(placed, period_s)), *parameter.value);
   }
-  const auto top = *std::ranges::max_element(tried);
+  const auto top = *std::ranges::max_element(candidates);
   best.low = best.high = top.second;
   double middle = 0, count = 0;
-  for (const auto& [likely, value] : tried)
+  for (const auto& [likely, value] : candidates)
     if (likely > top.first - 2)
       best.low = std::min(best.low, value), best.high = std::max(best.high, value), middle += value,
       ++count;
@@ -166,7 +168,7 @@ Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot) {
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const residuals::ActuatorSignals& s = episode.actuators[a];
     if (!s.sent.empty()) {
-      add_ages_said(episode, s, ages);
+      add_reported_ages(episode, s, ages);
       continue;
     }
     const Law law = law_of(s, robot, robot.actuators[a], episode.period_s);
@@ -176,15 +178,15 @@ Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot) {
   return ages;
 }
 
-bool told(std::span<const Ages> ages) {
-  std::size_t told = 0, tried = 0;
-  for (const Ages& one : ages) told += one.told, tried += one.tried;
-  return tried > 100 && static_cast<double>(told) > least_told * static_cast<double>(tried);
+bool has_enough_ages(std::span<const Ages> ages) {
+  std::size_t found = 0, checked = 0;
+  for (const Ages& one : ages) found += one.found, checked += one.checked;
+  return checked > 100 && static_cast<double>(found) > least_found * static_cast<double>(checked);
 }
 
 double late_share(std::span<const Ages> ages) {
-  if (!told(ages)) return 0;
-  const auto share = own_values(ages);
+  if (!has_enough_ages(ages)) return 0;
+  const auto share = observed_ages(ages);
   return 1 - share[0];
 }
 
@@ -199,17 +201,19 @@ double mean_age_s(std::span<const Ages> ages) {
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
                             const erp::Robot& robot, const std::vector<std::string>& withhold) {
   std::vector<BusFit> fits;
-  if (!told(train) || !told(held_out) || late_share(held_out) < practical_late) return fits;
+  if (!has_enough_ages(train) || !has_enough_ages(held_out) ||
+      late_share(held_out) < practical_late)
+    return fits;
   effects::Placed none{robot.name, *effects::neutral("bus_command_delay")};
-  const double before = likelihood(held_out, foretold(none, train[0].period_s));
-  const double most = likelihood(held_out, own_values(held_out));
+  const double before = likelihood(held_out, predicted_ages(none, train[0].period_s));
+  const double most = likelihood(held_out, observed_ages(held_out));
   for (const effects::AnyEffect& effect : effects::library()) {
     const effects::About& about = effects::about(effect);
     if (about.stage != effects::Stage::bus || std::ranges::count(withhold, about.type)) continue;
     BusFit fit = fit_one({robot.name, effect}, train);
-    fit.gain = (likelihood(held_out, foretold(fit.placed, train[0].period_s)) - before) /
+    fit.gain = (likelihood(held_out, predicted_ages(fit.placed, train[0].period_s)) - before) /
                std::max(most - before, 1e-9);
-    fit.supported = fit.gain > 0.965;  // chosen: two on the bus at once look like jitter with 0.956
+    fit.supported = fit.gain > 0.965;  // chosen: two effects at once resemble jitter with 0.956
     fits.push_back(std::move(fit));
   }
   std::ranges::stable_sort(fits, std::greater(), &BusFit::gain);

@@ -5,58 +5,59 @@
 #include <vector>
 
 #include "sim/gap/diagnosis/bootstrap.hpp"
-#include "sim/model/effects/library.hpp"
 #include "sim/gap/residuals/episode.hpp"
+#include "sim/model/effects/library.hpp"
 
-/// The bus, seen in what the ECUs did: which command, how old, they followed.
+/// Age of the commands that the ECUs followed, and the bus effect that explains its distribution.
 ///
-///   followed_k = sent_{k−a}                       a: the age in ticks; where both were recorded, else
-///   V_k = law(reference_{k−a}, measured)          of the voltage that was applied
+///   followed_k = sent_{k−a}                       a: age in ticks, if both set-points were recorded;
+///   V_k = law(reference_{k−a}, measured)          otherwise from the applied voltage
 ///
-/// Ticks whose command is that before it tell no age. The law is that of the ECU firmware with the
-/// gains designed for the robot (sim/control/gain_design), in length or force control; ticks at a limit
-/// are left out. An effect on the bus foretells how often each age comes; effects are compared by
-/// their likelihood. A recording whose voltages no command explains, of an ECU with another law, says
-/// nothing of the bus.
+/// Ticks whose command equals the previous one do not determine an age. The law is that of the ECU
+/// firmware with the gains designed for the robot (sim/control/gain_design), in length or force mode;
+/// ticks at a limit are left out. An effect on the bus predicts the frequency of each age; effects are
+/// compared by their likelihood. A recording whose voltages match no command (ECU with another law)
+/// does not determine the bus.
 namespace sim::diagnosis {
 
 struct Ages {
   double period_s = 0;
-  std::vector<std::size_t> ticks;   ///< how often each age was seen
-  std::size_t told = 0, tried = 0;  ///< ticks whose age was found, of those with commands to tell
+  std::vector<std::size_t> ticks;  ///< number of ticks by age
+  std::size_t checked = 0;         ///< ticks with a command that differs from the previous one
+  std::size_t found = 0;           ///< of these, ticks whose age was found
 };
 
-/// Of one recording, all actuators together.
+/// Ages of one recording, over all actuators.
 Ages command_ages(const residuals::Episode& episode, const erp::Robot& robot);
 
 struct BusFit {
   effects::Placed placed;
   double value = 0, low = 0, high = 0;
-  double gain = 0;  ///< log-likelihood on the held-out recordings: none 0, the ages' own shares 1
+  double gain =
+      0;  ///< log-likelihood on held-out recordings, scaled: no effect 0, observed shares 1
   bool supported = false;
 };
 
-/// The bus's effects, best first; empty where the ages are all 0 or cannot be told.
+/// Effects on the bus, best first. Empty if nearly all ages are 0, or too few ages were found.
 std::vector<BusFit> fit_bus(std::span<const Ages> train, std::span<const Ages> held_out,
                             const erp::Robot& robot, const std::vector<std::string>& withhold);
 
-/// More late ticks than a clock's drift leaves, as a share; chosen.
+/// Share of late ticks above which the bus counts as late; clock drift alone causes less. Chosen.
 inline constexpr double practical_late = 0.02;
 
-/// Enough ages were found, of enough ticks; else nothing is said of the bus.
-bool told(std::span<const Ages> ages);
+/// Whether enough ages were found to evaluate the bus.
+bool has_enough_ages(std::span<const Ages> ages);
 
-/// What a recording needs for that, in words.
-inline constexpr const char* bus_is_told_by =
-    "references that change from tick to tick: MCAP with the set-points sent and followed, or CSV "
-    "with mode, reference as sent (erp log export writes those followed) and voltage_V, in length "
-    "or "
-    "force mode";
+/// What to record so that the bus can be evaluated; part of messages.
+inline constexpr const char* bus_recording_needs =
+    "set-points that change every tick, in length or force mode: MCAP with the set-points sent and "
+    "followed, or CSV with mode, reference as sent (erp log export writes those followed) and "
+    "voltage_V";
 
-/// Of the commands that were followed, in the mean.
+/// Mean age of the commands that were followed.
 double mean_age_s(std::span<const Ages> ages);
 
-/// The share of ticks in which a command was not the newest.
+/// Share of ticks in which the followed command was not the newest.
 double late_share(std::span<const Ages> ages);
 
 }  // namespace sim::diagnosis

@@ -7,10 +7,10 @@
 namespace sim::diagnosis {
 namespace {
 
-Verdict judge(const Selection& selection, const Detected& detected,
-              const std::vector<StageGap>& stages) {
+Verdict verdict_of(const Selection& selection, const Detected& detected,
+                   const std::vector<StageGap>& stages) {
   const bool left = std::ranges::any_of(selection.left, &StageGap::open);
-  const bool coarse_alone = !detected.sensors.empty() && !left;  // and that is all held out shows
+  const bool coarse_alone = !detected.sensors.empty() && !left;  // coarse sensors explain all
   if (selection.gap && !coarse_alone)
     return selection.explained() ? Verdict::supported
            : selection.shown     ? Verdict::none_of_the_known
@@ -21,7 +21,7 @@ Verdict judge(const Selection& selection, const Detected& detected,
   return detected.sensors.empty() ? Verdict::no_gap : Verdict::supported;
 }
 
-/// The bus changes no residual: it comes last where others do.
+/// The bus changes no residual, so it comes after other effects.
 void add_bus(const Detected& detected, Diagnosis& d) {
   if (!detected.bus_differs()) return;
   constexpr double indistinguishable = 0.01;  // of the likelihood's gain; chosen
@@ -40,29 +40,28 @@ void add_ranked(const Detected& detected, Diagnosis& d) {
   put_first(d.ranked, detected.sensors);
 }
 
-/// What was seen without a fit comes first where it is all there is to say, the bus last where
-/// residuals have a cause of their own: it changes none of them.
+/// Coarse sensors come first, the bus last, because it changes no residual.
 void add_detected(const Detected& detected, Diagnosis& d) {
   put_first(d.answer, detected.sensors);
   add_ranked(detected, d);
   add_bus(detected, d);
 }
 
-/// It changes no residual, so it is the whole gap where they are closed.
+/// The bus changes no residual, so the whole gap is attributed to it if no stage is open.
 void add_unexplained_bus(const std::string& robot, const Detected& detected, Diagnosis& d) {
   d.warnings.push_back(fmt::format(
-      "in {:.0f} % of the ticks an ECU did not follow the newest command, and no effect of the bus "
-      "explains the age of those that it followed",
+      "bus: in {:.0f} % of the ticks an ECU followed an old command, and no effect of the library "
+      "explains the ages; check the bus load and the sender's timing",
       100 * detected.late));
   if (d.where.empty()) d.where.push_back({effects::Stage::bus, robot, 1, {1, 1}, {}});
 }
 
-/// Why constants that would explain the gap are not the answer.
+/// Reason why constants that would explain the gap are not the answer.
 void warn_of_unknown_law(const std::vector<StageGap>& left, Diagnosis& d) {
   const auto stage = std::ranges::max_element(left, {}, &StageGap::excess);
   d.warnings.push_back(
       fmt::format("only the {} of {} has a gap: an unknown law there is likelier than several "
-                  "wrong constants that cancel at every other stage",
+                  "wrong constants whose errors cancel at every other stage; inspect that part",
                   effects::word(stage->stage), stage->on));
 }
 
@@ -80,7 +79,7 @@ void conclude(const Question& q, const JointEstimate& built, Selection selection
   put_first(d.answer, q.detected.sensors);
   add_bus(q.detected, d);
   if (built.explained() && !d.answer.empty())
-    d.where = where_of_answer(q.problem, q.plain, d.stages, d.answer);
+    d.where = attribute_to_answer(q.problem, q.plain, d.stages, d.answer);
   else if (built.explained()) d.where = built.off;
   for (const StageGap& gap : built.left)
     if (gap.open && !built.explained())
@@ -94,7 +93,7 @@ void conclude(const Question& q, const JointEstimate& built, Selection selection
 }
 
 void conclude(const Question& q, const Selection& selection, Diagnosis& d) {
-  const Verdict verdict = judge(selection, q.detected, d.stages);
+  const Verdict verdict = verdict_of(selection, q.detected, d.stages);
   const bool explained = verdict == Verdict::supported;
   d.verdict = explained && !d.uses_held_out_data() ? Verdict::not_identifiable : verdict;
   d.ranked = selection.ranked, d.answer = selection.answer, d.interaction = selection.interaction;
@@ -102,11 +101,11 @@ void conclude(const Question& q, const Selection& selection, Diagnosis& d) {
   if (verdict == Verdict::not_identifiable)
     d.warnings.emplace_back(
         selection.gap
-            ? "the recordings held out show too little of the gap to judge what causes it; "
-              "record more motion that excites it, see where and when"
-            : "nothing could be judged; record all signals, of motions of some seconds");
-  d.where = explained ? where_of_answer(q.problem, q.plain, d.stages, d.answer)
-                      : where_of_stages(q.problem, q.plain, d.stages, d.ranked);
+            ? "the held-out recordings show too little of the gap to identify its cause; record "
+              "more motions like those under `where`, `when` of diagnosis.json"
+            : "no stage could be evaluated; record all signals during motions of several seconds");
+  d.where = explained ? attribute_to_answer(q.problem, q.plain, d.stages, d.answer)
+                      : attribute_to_parts(q.problem, q.plain, d.stages, d.ranked);
   if (q.detected.bus_unexplained()) add_unexplained_bus(q.problem.robot.name, q.detected, d);
   if (selection.gap) d.unexplained = unexplained(q.problem, q.known, selection);
   d.channels = closed_by_stage(q.problem, q.plain, q.known, selection.evaluation);

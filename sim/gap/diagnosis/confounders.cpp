@@ -15,10 +15,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double alike = 1e-9;     // of G's pivots: below it two changes are one
-constexpr double worth_it = 0.99;  // of what was left, at most: another takes the place of one
+constexpr double rank_tolerance = 1e-9;  // of the pivots of G
+constexpr double worth_it = 0.99;  // an effect is replaced if the remainder falls below this share
 
-/// Products of all directions: what each leaves is then told without the recordings.
+/// Scalar products of all sensitivities: remainders are computed from these alone.
 class Products {
  public:
   Products(const std::vector<Sensitivity>& all, int threads) : all_(all) {
@@ -34,14 +34,14 @@ class Products {
     });
   }
 
-  /// |δz| of one, once others stand for it.
-  double left(std::size_t hidden, const std::vector<std::size_t>& others) const {
+  /// |δz| of one effect that the others do not reproduce.
+  double remainder(std::size_t hidden, const std::vector<std::size_t>& others) const {
     std::vector<Index> at;
     for (const std::size_t o : others)
       for (Index c = 0; c < all_[o].span.cols(); ++c) at.push_back(begins_[o] + c);
     const VectorXd b = onto_(at, static_cast<Index>(hidden));
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> g;
-    g.setThreshold(alike);
+    g.setThreshold(rank_tolerance);
     g.compute(gram_(at, at));
     return std::sqrt(std::max(0.0, all_[hidden].first.squaredNorm() - b.dot(g.solve(b))));
   }
@@ -54,11 +54,11 @@ class Products {
 };
 
 struct Next {
-  std::size_t who = 0;
+  std::size_t index = 0;
   double left = std::numeric_limits<double>::infinity();
 };
 
-/// The one that leaves least of what is hidden beside those chosen.
+/// The effect with the smallest remainder of `hidden` together with those chosen.
 Next next(const std::vector<Sensitivity>& all, const Products& products, std::size_t hidden,
           std::vector<std::size_t> chosen) {
   const auto type = [&](std::size_t k) { return effects::about(all[k].perturbed.effect).type; };
@@ -67,12 +67,12 @@ Next next(const std::vector<Sensitivity>& all, const Products& products, std::si
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (type(k) == type(hidden) || all[k].span.cols() == 0) continue;
     chosen.back() = k;
-    if (const double left = products.left(hidden, chosen); left < best.left) best = {k, left};
+    if (const double left = products.remainder(hidden, chosen); left < best.left) best = {k, left};
   }
   return best;
 }
 
-/// Lets each of those chosen go in turn, if another beside the rest leaves less. Returns what is left.
+/// Replaces each chosen effect in turn if another has a smaller remainder with the rest. Returns the remainder.
 double exchange(const std::vector<Sensitivity>& all, const Products& products, std::size_t hidden,
                 std::vector<std::size_t>& chosen, double left) {
   for (std::size_t kept = 0, at = 0; kept < chosen.size(); at = (at + 1) % chosen.size()) {
@@ -80,27 +80,27 @@ double exchange(const std::vector<Sensitivity>& all, const Products& products, s
     rest.erase(rest.begin() + long(at));
     const Next better = next(all, products, hidden, rest);
     const bool worth = better.left < worth_it * left;
-    if (worth) chosen[at] = better.who, left = better.left;
+    if (worth) chosen[at] = better.index, left = better.left;
     kept = worth ? 1 : kept + 1;
   }
   return left;
 }
 
-/// The fewest that leave at most `share`, or as many as there may be.
-Indistinguishable stand_in(const std::vector<Sensitivity>& all, const Products& products,
-                           std::size_t hidden, const ConfounderOptions& options) {
-  const double shows = all[hidden].first.norm();
-  double left = shows;
+/// Adds effects until the remainder is at most `share`, or their number is `most`.
+Indistinguishable confounders_of(const std::vector<Sensitivity>& all, const Products& products,
+                                 std::size_t hidden, const ConfounderOptions& options) {
+  const double magnitude = all[hidden].first.norm();
+  double left = magnitude;
   std::vector<std::size_t> chosen;
-  while (shows >= shown && chosen.size() < options.most && left > options.share * shows) {
+  while (magnitude >= shown && chosen.size() < options.most && left > options.share * magnitude) {
     const Next more = next(all, products, hidden, chosen);
     if (std::isinf(more.left)) break;
-    chosen.push_back(more.who);
+    chosen.push_back(more.index);
     left = exchange(all, products, hidden, chosen, more.left);
   }
-  Indistinguishable twin{all[hidden].perturbed, {}, shows, left};
-  for (const std::size_t k : chosen) twin.others.push_back(all[k].perturbed);
-  return twin;
+  Indistinguishable result{all[hidden].perturbed, {}, magnitude, left};
+  for (const std::size_t k : chosen) result.others.push_back(all[k].perturbed);
+  return result;
 }
 
 }  // namespace
@@ -109,16 +109,15 @@ std::vector<Indistinguishable> confounders(const Evaluator& evaluator,
                                            const ConfounderOptions& options) {
   const auto all = sensitivities(evaluator, options.withhold, options.threads);
   const Products products(all, options.threads);
-  std::vector<Indistinguishable> indistinguishable_effects(all.size());
-  in_parallel(all.size(), options.threads, [&](std::size_t h) {
-    indistinguishable_effects[h] = stand_in(all, products, h, options);
+  std::vector<Indistinguishable> found(all.size());
+  in_parallel(all.size(), options.threads,
+              [&](std::size_t h) { found[h] = confounders_of(all, products, h, options); });
+  std::erase_if(found, [&](const Indistinguishable& t) {
+    return t.others.empty() || t.remaining > options.share * t.magnitude;
   });
-  std::erase_if(indistinguishable_effects, [&](const Indistinguishable& t) {
-    return t.others.empty() || t.left > options.share * t.shows;
-  });
-  std::ranges::stable_sort(indistinguishable_effects, {},
-                           [](const Indistinguishable& t) { return t.left / t.shows; });
-  return indistinguishable_effects;
+  std::ranges::stable_sort(found, {},
+                           [](const Indistinguishable& t) { return t.remaining / t.magnitude; });
+  return found;
 }
 
 }  // namespace sim::diagnosis

@@ -1,24 +1,25 @@
 #pragma once
 #include "sim/gap/diagnosis/indistinguishable.hpp"
 
-/// What several effects do together that one alone does.
+/// Effects whose change of the residuals several other effects reproduce together.
 ///
-///   left² = |δz|² − bᵀ G⁻¹ b     b = Sᵀ δz, G = Sᵀ S; S: what the parameters of the others change
+///   remaining² = |δz|² − bᵀ G⁻¹ b     b = Sᵀ δz, G = Sᵀ S
 ///
-/// The others are found one by one, each next the one that leaves least, and each is let go again
-/// where another beside the rest leaves less (sequential replacement: Miller, Subset Selection in
-/// Regression, 2002): of those that would do there may be fewer, or others.
+/// δz: change by the effect; S: changes by the parameters of the others. The others are selected one by
+/// one, each time the one with the smallest remainder, and each is replaced if another effect in its place
+/// has a smaller remainder (sequential replacement: Miller, Subset Selection in Regression, 2002). The
+/// result is not guaranteed to be the smallest set, nor the only one.
 namespace sim::diagnosis {
 
 struct ConfounderOptions {
-  double share = 0.1;                      ///< of what is hidden, at most left
-  std::size_t most = 3;                    ///< others beside each other
-  std::vector<std::string> withhold = {};  ///< types of effects that are not looked at
+  double share = 0.1;                      ///< largest remainder, as a share of |δz|
+  std::size_t most = 3;                    ///< largest number of other effects
+  std::vector<std::string> withhold = {};  ///< types of effects that are left out
   int threads = 2;
 };
 
-/// Of each effect for which others, none of its own type, leave so little: these. The exact ones
-/// first. Bus and coarse steps, which change no residual, are in none.
+/// Each effect that others, none of its own type, reproduce within `share`; exact matches first. Effects
+/// on the bus and quantization change no residual and are not listed.
 std::vector<Indistinguishable> confounders(const Evaluator& evaluator,
                                            const ConfounderOptions& options);
 

@@ -14,7 +14,7 @@
 namespace sim::diagnosis {
 namespace {
 
-/// Each once: a recording that is cut is two episodes.
+/// Names of recordings, each once: a split recording is two episodes.
 std::vector<std::string> names_of(const Problem& problem, const std::vector<std::size_t>& set) {
   std::vector<std::string> names;
   for (const std::size_t k : set)
@@ -23,23 +23,23 @@ std::vector<std::string> names_of(const Problem& problem, const std::vector<std:
   return names;
 }
 
-/// The best effect alone leaves nothing but noise, and the robot is one on which the joint estimate
-/// takes many minutes: its time grows with the square of the actuators.
+/// Whether the best single effect leaves only noise on a robot for which the joint estimate takes many
+/// minutes: its time grows with the square of the number of actuators.
 bool leaves_noise_on_large_robot(const Problem& problem, const Selection& selection) {
   constexpr std::size_t large = 12;  // actuators; chosen
-  constexpr double noise = 0.2;      // of its square; chosen
+  constexpr double noise = 0.2;      // excess; chosen
   return problem.robot.actuators.size() > large && selection.explained() &&
          std::ranges::none_of(selection.left, [](const StageGap& g) { return g.excess > noise; });
 }
 
-/// Both name the same one effect, and say that it explains.
+/// Whether both found the same single effect, and it explains the gap.
 bool agree(const JointEstimate& built, const Selection& selection) {
   return built.exact && built.answer.size() == 1 && selection.explained() &&
          selection.answer.size() == 1 && built.answer[0].is(selection.answer[0].placed);
 }
 
-/// Each cause of an answer at a place of its own: several at one place can bend to nearly any law.
-bool apart(const std::vector<IdentifiedEffect>& answer) {
+/// Whether each cause of an answer has its own place: several at one place can fit nearly any law.
+bool have_own_places(const std::vector<IdentifiedEffect>& answer) {
   for (std::size_t a = 0; a < answer.size(); ++a)
     for (std::size_t b = a + 1; b < answer.size(); ++b)
       if (answer[a].stage == answer[b].stage && answer[a].on == answer[b].on) return false;
@@ -50,7 +50,7 @@ std::ptrdiff_t open_in(const std::vector<StageGap>& gaps) {
   return std::ranges::count_if(gaps, &StageGap::open);
 }
 
-/// Effects that either way cannot distinguish from the answer.
+/// Adds the effects that the other method cannot distinguish from the answer.
 void add_indistinguishable(IdentifiedEffect& answer, const IdentifiedEffect& other) {
   for (const IdentifiedEffect& n : other.alternatives)
     if (std::ranges::none_of(answer.alternatives,
@@ -58,10 +58,10 @@ void add_indistinguishable(IdentifiedEffect& answer, const IdentifiedEffect& oth
       answer.alternatives.push_back(n);
 }
 
-/// Gives the one effect of an answer the values and intervals of the joint estimate: with the zeros free, and with the
-/// noise floor of the robot that has the effect. Least squares on the floor of the robot as described makes the size
-/// of an effect that multiplies a noisy signal too small, and its interval too narrow (errors in variables). Returns
-/// false, with `selection` as it was, where these values leave a stage open without the zeros that belong to them.
+/// Replaces values and intervals of the single effect by those of the joint estimate, which fits the zeros too and uses
+/// the noise floor of the robot with the effect. With the noise floor of the robot as described, least squares
+/// underestimates an effect that multiplies a noisy signal, and its interval (errors in variables). Returns false and
+/// keeps `selection` if these values leave a stage open without the fitted zeros.
 bool take_estimate(const Question& q, const IdentifiedEffect& estimated, Selection& selection) {
   const Problem& problem = q.problem;
   Evaluation evaluation = q.known.with(q.known.bare(), estimated.placed, problem.sets.all());
@@ -76,13 +76,13 @@ bool take_estimate(const Question& q, const IdentifiedEffect& estimated, Selecti
   return true;
 }
 
-/// Sorts the recordings anew by what this robot leaves of them; whether that changed anything.
-using SortAgain = std::function<bool(const erp::Robot&)>;
+/// Splits the recordings again by the residuals of this robot; returns whether the split changed.
+using SplitAgain = std::function<bool(const erp::Robot&)>;
 
-/// Whether an answer of sim/gap/estimation needs no comparison with one of effects on the constants as given: it
-/// explains, with one effect alone or with estimated constants; of a drive, whose friction is all at one
-/// place, it leaves only noise.
-bool stands(const Problem& problem, const JointEstimate& built) {
+/// Whether a joint estimate is accepted without a search for several effects with constants as given: it explains the
+/// gap with one effect, or with estimated constants. For a drive, whose friction is all at one place, it must leave only
+/// noise.
+bool is_sufficient(const Problem& problem, const JointEstimate& built) {
   if (problem.robot.drives.empty())
     return built.explained() && (!built.exact || built.answer.size() == 1);
   const double noise = problem.options.together.excess;
@@ -90,9 +90,9 @@ bool stands(const Problem& problem, const JointEstimate& built) {
          std::ranges::all_of(built.left, [&](const StageGap& g) { return g.excess < noise; });
 }
 
-/// The robot as built first, unless the effects alone explain as well or better. False: nothing explains so far,
-/// and the recordings were sorted anew.
-bool answer(const Question& q, const SortAgain& sort_again, Diagnosis& d) {
+/// Finds the answer: the joint estimate, unless effects alone explain the gap as well or better. Returns false if
+/// neither explains it and the recordings were split again.
+bool answer(const Question& q, const SplitAgain& split_again, Diagnosis& d) {
   const Problem& problem = q.problem;
   const bool coarse = !q.detected.sensors.empty();
   Selection selection =
@@ -107,21 +107,21 @@ bool answer(const Question& q, const SortAgain& sort_again, Diagnosis& d) {
     add_indistinguishable(selection.answer[0], built->answer[0]);
     if (take_estimate(q, built->answer[0], selection)) built.reset();
     else built->answer[0].alternatives = selection.answer[0].alternatives;
-  } else if (built && !built->explained() && !selection.explained() && sort_again(built->robot)) {
+  } else if (built && !built->explained() && !selection.explained() && split_again(built->robot)) {
     return false;
   } else if (built && built->unknown_law) {
     if (selection.explained()) built.reset();  // by one effect
-  } else if (built && !stands(problem, *built)) {
+  } else if (built && !is_sufficient(problem, *built)) {
     selection = select(problem, q.known, d.stages, Depth::full, std::move(selection));
     const bool leaves_less = open_in(built->left) < open_in(selection.left);
-    if (selection.explained() || !leaves_less || !apart(built->answer)) built.reset();
+    if (selection.explained() || !leaves_less || !have_own_places(built->answer)) built.reset();
   }
   if (built) conclude(q, *built, std::move(selection), d);
   else conclude(q, selection, d);
   return true;
 }
 
-/// The robot with what was seen without a fit.
+/// The robot with the directly detected effects on sensors.
 erp::Robot as_detected(const erp::Robot& robot, const Detected& detected) {
   erp::Robot known = robot;
   for (const IdentifiedEffect& n : detected.sensors)
@@ -129,10 +129,10 @@ erp::Robot as_detected(const erp::Robot& robot, const Detected& detected) {
   return known;
 }
 
-/// Of recordings that are sorted, and of what was cut in two for that. `plain`: of the robot as given. None where they
-/// were sorted anew.
+/// Diagnosis of recordings that are split into sets. `plain`: evaluator of the robot as given. Empty if the recordings
+/// were split again.
 std::optional<Diagnosis> diagnosed(Problem& problem, const Evaluator& plain,
-                                   const CutRecordings& cut, const SortAgain& sort_again) {
+                                   const CutRecordings& cut, const SplitAgain& split_again) {
   const erp::Robot& robot = problem.robot;
   Diagnosis d;
   d.recordings = names_of(problem, problem.sets.all());
@@ -141,10 +141,11 @@ std::optional<Diagnosis> diagnosed(Problem& problem, const Evaluator& plain,
     problem.sets.held_out = problem.sets.train;
     d.warnings.emplace_back(
         problem.sets.train.size() == 1
-            ? "one recording only, and it was not split: an effect cannot be judged on the data "
-              "that it was fitted to; record another"
-            : "no recording is held out: an effect cannot be judged on the data that it was fitted "
-              "to; name fewer in --train");
+            ? "there is only one recording, and it was not split: an effect cannot be evaluated on "
+              "the "
+              "data that it was fitted to; record another"
+            : "no recording is held out: an effect cannot be evaluated on the data that it was "
+              "fitted to; list fewer recordings in --train");
   }
   d.train = names_of(problem, problem.sets.train);
   d.held_out = names_of(problem, problem.sets.held_out);
@@ -156,7 +157,7 @@ std::optional<Diagnosis> diagnosed(Problem& problem, const Evaluator& plain,
   if (!detected.sensors.empty()) coarse.emplace(known, problem.episodes, problem.options.seed);
   const Question question{problem, known, plain, coarse ? *coarse : plain, detected};
   warn_not_evaluated(problem, detected, d);
-  if (!answer(question, sort_again, d)) return std::nullopt;
+  if (!answer(question, split_again, d)) return std::nullopt;
   drop_alternatives_at_bounds(d.answer);
   require_determined(d);
   require_sampling(plain, d);
@@ -175,7 +176,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
   if (episodes.empty()) throw std::invalid_argument("no recording");
   Problem problem{robot, std::move(episodes), options, {}};
   problem.sets = first_sets(problem);
-  problem.tell("residuals", 0.05);
+  problem.report_progress("residuals", 0.05);
   const auto evaluator = [&](const erp::Robot& of) {
     return Evaluator(of, problem.episodes, options.seed);
   };
@@ -189,7 +190,7 @@ Diagnosis diagnose(const erp::Robot& robot, std::vector<residuals::Episode> epis
     plain.emplace(evaluator(robot));
     d = diagnosed(problem, *plain, cut, [](const erp::Robot&) { return false; });
   }
-  problem.tell("done", 1);
+  problem.report_progress("done", 1);
   return std::move(*d);
 }
 

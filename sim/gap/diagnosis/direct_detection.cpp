@@ -8,8 +8,8 @@
 namespace sim::diagnosis {
 namespace {
 
-/// What the rows themselves show of the bus (sim/gap/estimation/row_timing, spoilt_rows): a value, and half of
-/// its interval. A delay of commands and one of sensors are indistinguishable.
+/// Bus effects detected from the timing of the rows (sim/gap/estimation/row_timing, defective_rows). `half`: half width of
+/// the interval. A delay of commands and one of sensors are indistinguishable.
 void add_rows(const Problem& problem, Detected& detected) {
   const residuals::Episode& any = problem.episodes[0];
   const auto add = [&](const char* type, double value, double half) {
@@ -29,7 +29,7 @@ void add_rows(const Problem& problem, Detected& detected) {
   add("bus_jitter", any.jitter_s, of_spread * any.jitter_s);
 }
 
-void look_at_bus(const Problem& problem, Detected& detected) {
+void detect_bus_effects(const Problem& problem, Detected& detected) {
   const auto ages = [&](const std::vector<std::size_t>& set) {
     std::vector<Ages> all;
     for (const std::size_t e : set) all.push_back(command_ages(problem.episodes[e], problem.robot));
@@ -37,13 +37,13 @@ void look_at_bus(const Problem& problem, Detected& detected) {
   };
   const auto held_out = ages(problem.sets.held_out);
   const auto train = ages(problem.sets.train);
-  detected.bus_evaluated = told(train) && told(held_out);
+  detected.bus_evaluated = has_enough_ages(train) && has_enough_ages(held_out);
   detected.late = late_share(held_out);
   for (const BusFit& fit : fit_bus(train, held_out, problem.robot, problem.options.withhold))
     detected.bus.push_back(identified(fit));
 }
 
-/// Σ z² of trials with their own, larger noise, where both can judge.
+/// Σ z² of `evaluator` with its own, larger noise floor, over windows that both can evaluate.
 double square_of(const Evaluator& evaluator, const Evaluator& plain,
                  const std::vector<std::size_t>& set) {
   double square = 0;
@@ -55,8 +55,8 @@ double square_of(const Evaluator& evaluator, const Evaluator& plain,
   return square;
 }
 
-void look_at_steps(const Problem& problem, const Evaluator& plain, Detected& detected) {
-  constexpr double of_step = 0.05;  // the interval's half width: converters round
+void detect_steps(const Problem& problem, const Evaluator& plain, Detected& detected) {
+  constexpr double of_step = 0.05;  // half width of the interval, because converters round; chosen
   const auto before = sum(plain.blocks(plain.bare(), problem.sets.held_out));
   const auto windows = static_cast<double>(before.windows);
   for (const effects::Placed& placed : coarse_sensors(problem.episodes, problem.robot)) {
@@ -79,8 +79,8 @@ void look_at_steps(const Problem& problem, const Evaluator& plain, Detected& det
 Detected detect_directly(const Problem& problem, const Evaluator& plain) {
   Detected detected;
   add_rows(problem, detected);
-  if (!detected.bus_differs()) look_at_bus(problem, detected);
-  look_at_steps(problem, plain, detected);
+  if (!detected.bus_differs()) detect_bus_effects(problem, detected);
+  detect_steps(problem, plain, detected);
   return detected;
 }
 

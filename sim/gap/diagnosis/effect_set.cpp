@@ -44,11 +44,11 @@ void EffectSet::refit() {
 }
 
 bool EffectSet::add_another() {
-  constexpr std::size_t tried_together = 6;  // chosen
+  constexpr std::size_t count = 6;  // chosen
   const Problem& problem = problem_;
   const double done = 0.5 + 0.15 * static_cast<double>(size() - 1);
   const auto which = problem.ranking_options(done, done + 0.1);
-  const auto more = best_screened(evaluator_, evaluation_, which, tried_together);
+  const auto more = best_screened(evaluator_, evaluation_, which, count);
   std::vector<std::optional<EffectSet>> joined(more.size());
   in_parallel(more.size(), which.threads, [&](std::size_t k) {
     if (has(more[k])) return;
@@ -79,14 +79,14 @@ bool EffectSet::has(const Placed& other) const {
   return std::ranges::any_of(chosen_, [&](const Placed& p) { return identified(p).is(other); });
 }
 
-/// It takes away half of what was left at a stage that was open.
+/// Whether it removes half of the remaining excess of an open stage.
 bool EffectSet::helps(const EffectSet& before) const {
   constexpr double worth = 0.5;  // chosen
   return relief(evaluator_, before.evaluation_, evaluation_, sets().held_out,
                 before.left(problem_.get().options.search)) > worth;
 }
 
-/// An earlier choice may have been a compromise between two.
+/// Replaces effect k if another is better now: an earlier choice may have been a compromise between two effects.
 void EffectSet::reconsider(std::size_t k, double from, double to) {
   auto others = all_but(chosen_, k);
   const auto again = rank(evaluator_, evaluator_.get().with(others, sets().all()),
@@ -101,8 +101,8 @@ void EffectSet::reconsider(std::size_t k, double from, double to) {
 
 namespace {
 
-/// Actuators of which a stage is open.
-std::vector<std::string> that_differ(const Problem& problem, const Evaluator& evaluator) {
+/// Actuators with an open stage.
+std::vector<std::string> open_actuators(const Problem& problem, const Evaluator& evaluator) {
   const auto gaps =
       localize(evaluator, evaluator.bare(), problem.sets.all(), problem.localization_options());
   std::vector<std::string> names;
@@ -113,38 +113,39 @@ std::vector<std::string> that_differ(const Problem& problem, const Evaluator& ev
   return names;
 }
 
-/// Of actuators, the kinds of effect that relieve one of them, the best first.
-std::vector<effects::AnyEffect> kinds_of(const std::vector<Ranked>& ranked,
+/// Types of effects that relieve one of these actuators, best first.
+std::vector<effects::AnyEffect> types_of(const std::vector<Ranked>& ranked,
                                          const std::vector<std::string>& actuators) {
   constexpr std::size_t most = 10;  // chosen
-  std::vector<effects::AnyEffect> kinds;
+  std::vector<effects::AnyEffect> types;
   for (const Ranked& r : ranked) {
     const effects::AnyEffect& effect = r.fit.placed.effect;
-    if (kinds.size() < most && r.relieves() && std::ranges::count(actuators, r.fit.placed.on) &&
-        !std::ranges::count(kinds, effect.index(), &effects::AnyEffect::index))
-      kinds.push_back(*effects::neutral(effects::about(effect).type));
+    if (types.size() < most && r.relieves() && std::ranges::count(actuators, r.fit.placed.on) &&
+        !std::ranges::count(types, effect.index(), &effects::AnyEffect::index))
+      types.push_back(*effects::neutral(effects::about(effect).type));
   }
-  return kinds;
+  return types;
 }
 
 }  // namespace
 
-std::optional<EffectSet> of_one_batch(const Problem& problem, const Evaluator& evaluator,
-                                      const std::vector<Ranked>& ranked) {
-  const auto actuators = that_differ(problem, evaluator);
+std::optional<EffectSet> same_type_on_open_actuators(const Problem& problem,
+                                                     const Evaluator& evaluator,
+                                                     const std::vector<Ranked>& ranked) {
+  const auto actuators = open_actuators(problem, evaluator);
   if (actuators.size() < 2) return std::nullopt;
-  const auto kinds = kinds_of(ranked, actuators);
-  std::vector<std::optional<EffectSet>> tried(kinds.size());
-  in_parallel(kinds.size(), problem.options.threads, [&](std::size_t k) {
+  const auto types = types_of(ranked, actuators);
+  std::vector<std::optional<EffectSet>> fitted(types.size());
+  in_parallel(types.size(), problem.options.threads, [&](std::size_t k) {
     std::vector<Placed> all;
     for (const std::string& on : actuators)
-      all.push_back(fit(evaluator, evaluator.bare(), {on, kinds[k]}, problem.sets.train).placed);
-    tried[k].emplace(problem, evaluator, std::move(all));
-    tried[k]->refit();
+      all.push_back(fit(evaluator, evaluator.bare(), {on, types[k]}, problem.sets.train).placed);
+    fitted[k].emplace(problem, evaluator, std::move(all));
+    fitted[k]->refit();
   });
   const auto best =
-      std::ranges::min_element(tried, {}, [](const auto& batch) { return batch->square(); });
-  if (best == tried.end() || (*best)->leaves_unexplained(problem.options.together))
+      std::ranges::min_element(fitted, {}, [](const auto& batch) { return batch->square(); });
+  if (best == fitted.end() || (*best)->leaves_unexplained(problem.options.together))
     return std::nullopt;
   return *best;
 }

@@ -6,29 +6,28 @@
 #include "sim/gap/diagnosis/fit.hpp"
 #include "sim/gap/diagnosis/problem.hpp"
 
-/// Effects that are tried together on their way to an answer, fitted to the training recordings and
-/// judged on those held out.
+/// Several effects fitted together to the training recordings and evaluated on the held-out ones.
 namespace sim::diagnosis {
 
 class EffectSet {
  public:
-  /// As they are: nothing is fitted yet.
+  /// With their present values; nothing is fitted yet.
   EffectSet(const Problem& problem, const Evaluator& evaluator, std::vector<effects::Placed> all);
 
   std::size_t size() const { return chosen_.size(); }
   const std::vector<effects::Placed>& chosen() const { return chosen_; }
   const std::vector<Fit>& fits() const { return fits_; }
   const Evaluation& evaluation() const { return evaluation_; }
-  /// The stages that they leave, on the held-out recordings.
+  /// Remaining residual by stage on the held-out recordings; open: unexplained.
   std::vector<StageGap> left(const Tolerance& tolerance) const;
   bool leaves_unexplained(const Tolerance& tolerance) const;
-  double square() const;  ///< Σ z² that they leave there
+  double square() const;  ///< remaining Σ z² on the held-out recordings
 
   void refit();
-  /// Of the effects that promise most beside the others, the one that leaves least when all are
-  /// fitted together, if it helps; then each of the others is reconsidered.
+  /// Fits each of the best screened effects together with the present ones and adds the one with the
+  /// smallest Σ z², if it helps. Then reconsiders each of the others.
   bool add_another();
-  /// One goes that the others have made superfluous: without it no stage opens.
+  /// Removes effects without which no stage is unexplained.
   void drop_superfluous();
 
  private:
@@ -47,11 +46,12 @@ class EffectSet {
 std::vector<effects::Placed> all_but(std::vector<effects::Placed> all, std::size_t k);
 bool any_open(const std::vector<StageGap>& gaps);
 
-/// The same mistake on every actuator, as of one drawing or one batch: of each kind of effect that
-/// relieves one of those that differ, one at each of them; the kind that leaves least. Never found by
-/// one effect after another where a single other one, say of a joint's sensor, takes part of it
-/// away at all of them at once. Nothing: none closes the gap.
-std::optional<EffectSet> of_one_batch(const Problem& problem, const Evaluator& evaluator,
-                                      const std::vector<Ranked>& ranked);
+/// The same type of effect on every actuator with an open stage, as after one error in a drawing or a
+/// batch: of the types that relieve one of these actuators, the one with the smallest Σ z². A stepwise
+/// search does not find it if one other effect, for example of a joint sensor, removes a part of the gap
+/// at all actuators at once. Empty if no type closes the gap.
+std::optional<EffectSet> same_type_on_open_actuators(const Problem& problem,
+                                                     const Evaluator& evaluator,
+                                                     const std::vector<Ranked>& ranked);
 
 }  // namespace sim::diagnosis

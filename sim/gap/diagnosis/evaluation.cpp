@@ -22,9 +22,11 @@ Evaluator::Evaluator(const erp::Robot& nominal, std::vector<residuals::Episode> 
   if (!any)
     throw std::invalid_argument(
         nominal.drives.empty()
-            ? "no stage can be judged: a motor needs voltage_V, shaft_rad and current_A; a tendon "
-              "shaft_rad, tension_N and the angles of the joints it crosses"
-            : "no stage can be judged: a drive needs control_V and its position, position_m of a "
+            ? "no stage can be evaluated: a motor needs voltage_V, shaft_rad and current_A; a "
+              "tendon "
+              "needs shaft_rad, tension_N and the angles of the joints that it crosses"
+            : "no stage can be evaluated: a drive needs control_V and its position: position_m of "
+              "a "
               "slide, position_rad of a shaft");
 }
 
@@ -44,7 +46,7 @@ Evaluation Evaluator::with(const Evaluation& base, const effects::Placed& more,
                            std::span<const std::size_t> episodes) const {
   std::vector<effects::Placed> all = base.effects;
   all.push_back(more);
-  return beside(base, std::move(all), more, episodes);
+  return with_one_changed(base, std::move(all), more, episodes);
 }
 
 Evaluation Evaluator::changed(const Evaluation& base, std::size_t k, const effects::Placed& other,
@@ -54,13 +56,13 @@ Evaluation Evaluator::changed(const Evaluation& base, std::size_t k, const effec
   const auto estimated = [&](std::size_t e) { return base.of_episode[e].joints->estimated; };
   if (std::ranges::any_of(episodes, estimated) &&
       residuals::Stages(robot_with(all)).reach(other).line)
-    return with(all, episodes);  // looked for from the same start, or steps would differ
-  return beside(base, std::move(all), other, episodes);
+    return with(all, episodes);  // the search for joint angles needs the same start
+  return with_one_changed(base, std::move(all), other, episodes);
 }
 
-Evaluation Evaluator::beside(const Evaluation& base, std::vector<effects::Placed> all,
-                             const effects::Placed& differs,
-                             std::span<const std::size_t> episodes) const {
+Evaluation Evaluator::with_one_changed(const Evaluation& base, std::vector<effects::Placed> all,
+                                       const effects::Placed& differs,
+                                       std::span<const std::size_t> episodes) const {
   Evaluation evaluation{std::move(all), std::vector<residuals::Explanation>(episodes_.size())};
   residuals::Stages stages(robot_with(evaluation.effects));
   const residuals::Reach reach = stages.reach(differs);
@@ -87,14 +89,14 @@ Evaluation Evaluator::with(std::span<const effects::Placed> all,
 
 std::vector<double> Evaluator::whitened(const Evaluation& evaluation, std::size_t episode) const {
   const auto& bare = bare_.of_episode[episode].residuals;
-  const auto& tried = evaluation.of_episode[episode].residuals;
+  const auto& changed = evaluation.of_episode[episode].residuals;
   std::vector<double> all;
   for (std::size_t r = 0; r < bare.size(); ++r) {
     const residuals::Floor& floor = floors_[episode][r];
     for (std::size_t k = 0; k < bare[r].value.size(); ++k) {
       const bool judged = floor.rms > 0 && !std::isnan(bare[r].value[k]);
-      const bool available = r < tried.size() && !std::isnan(tried[r].value[k]);
-      all.push_back(judged ? residuals::in_noise(available ? tried[r] : bare[r], k, floor.at[k])
+      const bool available = r < changed.size() && !std::isnan(changed[r].value[k]);
+      all.push_back(judged ? residuals::normalized(available ? changed[r] : bare[r], k, floor.at[k])
                            : std::numeric_limits<double>::quiet_NaN());
     }
   }

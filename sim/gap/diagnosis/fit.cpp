@@ -16,9 +16,9 @@
 namespace sim::diagnosis {
 namespace {
 
-/// A parameter as the optimiser sees it: u = 1 + value/scale, so that a step relative to u is one
+/// A parameter in the coordinate of the optimiser: u = 1 + value/scale, so that a step relative to u is
 /// relative to the scale.
-struct Knob {
+struct ScaledParameter {
   double* value;
   effects::Bounds bounds;
   double scale;
@@ -27,27 +27,27 @@ struct Knob {
   double to_value(double u) const { return std::clamp((u - 1) * scale, bounds.low, bounds.high); }
 };
 
-std::vector<Knob> knobs_of(effects::AnyEffect& effect) {
-  std::vector<Knob> knobs;
+std::vector<ScaledParameter> scaled_parameters(effects::AnyEffect& effect) {
+  std::vector<ScaledParameter> scaled;
   for (const effects::Parameter& p : effects::parameters(effect))
     if (p.fitted)
-      knobs.push_back({p.value, p.bounds, std::max(std::abs(p.bounds.low), p.bounds.high)});
-  return knobs;
+      scaled.push_back({p.value, p.bounds, std::max(std::abs(p.bounds.low), p.bounds.high)});
+  return scaled;
 }
 
 using Effects = std::vector<effects::Placed>;
 
-/// Answers given last. Ceres asks for each again: in its line search, for the cost of the step, and
-/// for derivatives there.
-class Lately {
+/// Cache of the last residual vectors. Ceres requests each repeatedly: in its line search, for the cost of
+/// the step, and for the derivatives.
+class Cache {
  public:
   using Vector = std::vector<double>;
 
-  const Vector* answer(const Vector& u) const {
+  const Vector* find(const Vector& u) const {
     const auto found = std::ranges::find(all_, u, &std::pair<Vector, Vector>::first);
     return found == all_.end() ? nullptr : &found->second;
   }
-  const Vector& keep(Vector u, Vector z) {
+  const Vector& store(Vector u, Vector z) {
     const std::size_t kept = 2 * (u.size() + 1);  // two steps with their derivatives
     if (all_.size() == kept) all_.pop_front();
     return all_.emplace_back(std::move(u), std::move(z)).second;
@@ -57,27 +57,27 @@ class Lately {
   std::deque<std::pair<Vector, Vector>> all_;
 };
 
-/// Σ z² of a trial as a cost for Ceres.
+/// Residual vector z of an evaluation as a cost for Ceres.
 struct Cost {
-  std::function<Evaluation(const Effects&)> tried;
+  std::function<Evaluation(const Effects&)> evaluate;
   const Evaluator& evaluator;
   std::span<const std::size_t> episodes;
   Effects& effects;
-  std::vector<Knob>& knobs;
+  std::vector<ScaledParameter>& scaled;
   std::size_t residuals;
-  mutable Lately lately = {};
+  mutable Cache cache = {};
 
   bool operator()(double const* const* at, double* z) const {
-    const std::vector<double> u(at[0], at[0] + knobs.size());
-    const std::vector<double>* known = lately.answer(u);
-    std::ranges::copy(known ? *known : lately.keep(u, of(u)), z);
+    const std::vector<double> u(at[0], at[0] + scaled.size());
+    const std::vector<double>* known = cache.find(u);
+    std::ranges::copy(known ? *known : cache.store(u, of(u)), z);
     return true;
   }
 
  private:
   std::vector<double> of(const std::vector<double>& u) const {
-    for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(u[k]);
-    const Evaluation evaluation = tried(effects);
+    for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(u[k]);
+    const Evaluation evaluation = evaluate(effects);
     std::vector<double> z;
     for (const std::size_t e : episodes)
       for (const double one : evaluator.whitened(evaluation, e))
@@ -97,7 +97,7 @@ Eigen::MatrixXd dense(const ceres::CRSMatrix& j) {
                                   j.rows.data(), j.cols.data(), j.values.data());
 }
 
-/// From u; sigma in the parameters' units.
+/// Starts at u; sigma is in the units of the parameters.
 Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   constexpr double step = 2e-4;  // chosen: of the scale
   ceres::NumericDiffOptions differences;
@@ -110,9 +110,9 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, u.data());
   for (int k = 0; k < count; ++k) {
-    const Knob& knob = given.knobs[static_cast<std::size_t>(k)];
-    problem.SetParameterLowerBound(u.data(), k, knob.to_u(knob.bounds.low));
-    problem.SetParameterUpperBound(u.data(), k, knob.to_u(knob.bounds.high) - 2 * step);
+    const ScaledParameter& one = given.scaled[static_cast<std::size_t>(k)];
+    problem.SetParameterLowerBound(u.data(), k, one.to_u(one.bounds.low));
+    problem.SetParameterUpperBound(u.data(), k, one.to_u(one.bounds.high) - 2 * step);
   }
   ceres::Solver::Options options;
   options.max_num_iterations = iterations;
@@ -129,25 +129,25 @@ Least minimise(const Cost& given, std::vector<double> u, int iterations) {
   Least least{
       2 * summary.final_cost, u,
       standard_errors(dense(sparse), Eigen::VectorXd::Map(z.data(), Eigen::Index(z.size())))};
-  for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= given.knobs[k].scale;
+  for (std::size_t k = 0; k < u.size(); ++k) least.sigma[k] *= given.scaled[k].scale;
   return least;
 }
 
-/// Where to begin: as given; and, for what shapes the law, at some shares of its bounds.
-std::vector<std::vector<double>> starts(const std::vector<Knob>& knobs, bool given,
+/// Start points: as given, and with the second parameter at shares of its bounds.
+std::vector<std::vector<double>> starts(const std::vector<ScaledParameter>& scaled, bool given,
                                         const FitOptions& options) {
-  constexpr double perturbation = 2e-3;  // of the bounds, off a law's kink at its neutral value
+  constexpr double perturbation = 2e-3;  // of the bounds, off the kink of a law at neutral
   std::vector<std::vector<double>> all;
   std::vector<double> first;
-  for (const Knob& knob : knobs) first.push_back(knob.to_u(*knob.value));
-  if (!given) first[0] += knobs[0].bounds.high > 0 ? perturbation : -perturbation;
+  for (const ScaledParameter& one : scaled) first.push_back(one.to_u(*one.value));
+  if (!given) first[0] += scaled[0].bounds.high > 0 ? perturbation : -perturbation;
   all.push_back(first);
   if (given) return all;
-  if (knobs.size() > 1 && knobs[1].bounds.low > 0)
+  if (scaled.size() > 1 && scaled[1].bounds.low > 0)
     for (const double share : options.shape_starts) {
-      const auto& [low, high] = knobs[1].bounds;
+      const auto& [low, high] = scaled[1].bounds;
       all.push_back(first);
-      all.back()[1] = knobs[1].to_u(low * std::pow(high / low, share));
+      all.back()[1] = scaled[1].to_u(low * std::pow(high / low, share));
     }
   return all;
 }
@@ -158,26 +158,26 @@ std::vector<double> values_of(effects::Placed placed) {
   return values;
 }
 
-/// Several effects at values of which mostly one effect's differ from those before: derivatives
-/// change one at a time.
-class OneByOne {
+/// Evaluates several effects. If only one effect differs from the last full evaluation, as for numerical
+/// derivatives, only what it reaches is computed again.
+class IncrementalEvaluation {
  public:
-  OneByOne(const Evaluator& evaluator, std::span<const std::size_t> episodes)
+  IncrementalEvaluation(const Evaluator& evaluator, std::span<const std::size_t> episodes)
       : evaluator_(evaluator), episodes_(episodes) {}
 
   Evaluation operator()(const Effects& now) {
     std::vector<std::size_t> other;
-    for (std::size_t k = 0; k < middle_.effects.size(); ++k)
-      if (values_of(now[k]) != values_of(middle_.effects[k])) other.push_back(k);
-    if (other.size() == 1) return evaluator_.changed(middle_, other[0], now[other[0]], episodes_);
-    if (middle_.effects.empty() || !other.empty()) middle_ = evaluator_.with(now, episodes_);
-    return middle_;
+    for (std::size_t k = 0; k < base_.effects.size(); ++k)
+      if (values_of(now[k]) != values_of(base_.effects[k])) other.push_back(k);
+    if (other.size() == 1) return evaluator_.changed(base_, other[0], now[other[0]], episodes_);
+    if (base_.effects.empty() || !other.empty()) base_ = evaluator_.with(now, episodes_);
+    return base_;
   }
 
  private:
   const Evaluator& evaluator_;
   std::span<const std::size_t> episodes_;
-  Evaluation middle_;
+  Evaluation base_;
 };
 
 std::size_t count_residuals(const Evaluator& evaluator, std::span<const std::size_t> episodes) {
@@ -188,7 +188,8 @@ std::size_t count_residuals(const Evaluator& evaluator, std::span<const std::siz
 
 Fit result_of(const effects::Placed& placed, double square, std::span<const double> sigmas) {
   Fit fit{placed, square, {}, {sigmas.begin(), sigmas.end()}};
-  for (const Knob& knob : knobs_of(fit.placed.effect)) fit.values.push_back(*knob.value);
+  for (const ScaledParameter& one : scaled_parameters(fit.placed.effect))
+    fit.values.push_back(*one.value);
   return fit;
 }
 
@@ -210,39 +211,43 @@ bool has_size_at_bound(const effects::Placed& placed) {
 Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& more,
         std::span<const std::size_t> episodes, const FitOptions& options) {
   Effects effects{best_initial_guess(evaluator, base, more, episodes)};
-  std::vector<Knob> knobs = knobs_of(effects[0].effect);
+  std::vector<ScaledParameter> scaled = scaled_parameters(effects[0].effect);
   const Cost cost{[&](const Effects& e) { return evaluator.with(base, e[0], episodes); },
                   evaluator,
                   episodes,
                   effects,
-                  knobs,
+                  scaled,
                   count_residuals(evaluator, episodes)};
   Least best{};
-  for (const auto& start : starts(knobs, !is_neutral(effects[0]), options))
+  for (const auto& start : starts(scaled, !is_neutral(effects[0]), options))
     if (Least least = minimise(cost, start, options.iterations);
         best.u.empty() || least.square < best.square)
       best = std::move(least);
-  for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(best.u[k]);
+  for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(best.u[k]);
   return result_of(effects[0], best.square, best.sigma);
 }
 
 std::vector<Fit> fit_together(const Evaluator& evaluator, std::span<const effects::Placed> all,
                               std::span<const std::size_t> episodes, const FitOptions& options) {
   Effects effects(all.begin(), all.end());
-  std::vector<Knob> knobs;
+  std::vector<ScaledParameter> scaled;
   std::vector<std::size_t> first;
   for (effects::Placed& placed : effects) {
-    first.push_back(knobs.size());
-    for (const Knob& knob : knobs_of(placed.effect)) knobs.push_back(knob);
+    first.push_back(scaled.size());
+    for (const ScaledParameter& one : scaled_parameters(placed.effect)) scaled.push_back(one);
   }
-  first.push_back(knobs.size());
-  OneByOne tried(evaluator, episodes);
-  const Cost cost{std::ref(tried), evaluator, episodes,
-                  effects,         knobs,     count_residuals(evaluator, episodes)};
+  first.push_back(scaled.size());
+  IncrementalEvaluation evaluate(evaluator, episodes);
+  const Cost cost{std::ref(evaluate),
+                  evaluator,
+                  episodes,
+                  effects,
+                  scaled,
+                  count_residuals(evaluator, episodes)};
   std::vector<double> u;
-  for (const Knob& knob : knobs) u.push_back(knob.to_u(*knob.value));
+  for (const ScaledParameter& one : scaled) u.push_back(one.to_u(*one.value));
   const Least least = minimise(cost, u, options.iterations);
-  for (std::size_t k = 0; k < knobs.size(); ++k) *knobs[k].value = knobs[k].to_value(least.u[k]);
+  for (std::size_t k = 0; k < scaled.size(); ++k) *scaled[k].value = scaled[k].to_value(least.u[k]);
   std::vector<Fit> fits;
   for (std::size_t n = 0; n < effects.size(); ++n)
     fits.push_back(result_of(effects[n], least.square,

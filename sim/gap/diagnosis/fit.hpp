@@ -4,8 +4,8 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// An effect's parameters from recordings: least squares of z (trial.hpp) within the effect's
-/// bounds, by Levenberg–Marquardt (Ceres), from several starts where a parameter shapes the law.
+/// Parameters of effects from recordings: least squares of z (evaluation.hpp) within the bounds, by
+/// Levenberg–Marquardt (Ceres), from several starts if a parameter changes the form of the law.
 namespace sim::diagnosis {
 
 struct FitOptions {
@@ -25,12 +25,12 @@ bool is_at_bound(const effects::Parameter& neutral, double value);
 /// Whether the first parameter of an effect, its size, is at a bound.
 bool has_size_at_bound(const effects::Placed& placed);
 
-/// Fits the effect `more` to the recordings `episodes`, on top of `base`; starts at its parameters
-/// when they are not neutral.
+/// Fits the effect `more` to `episodes`, in addition to `base`. Starts at its values unless these are
+/// neutral.
 Fit fit(const Evaluator& evaluator, const Evaluation& base, const effects::Placed& more,
         std::span<const std::size_t> episodes, const FitOptions& options = {});
 
-/// Fits several effects together, from where they are.
+/// Fits several effects together, starting at their values.
 std::vector<Fit> fit_together(const Evaluator& evaluator, std::span<const effects::Placed> all,
                               std::span<const std::size_t> episodes,
                               const FitOptions& options = {});

@@ -11,10 +11,10 @@ double closed_of(const Closed& c) {
   return c.before > c.floor ? (c.before - c.after) / (c.before - c.floor) : 0;
 }
 
-/// Σ of what is beyond the known noise, in units of the plain: 1 + (σ_known/σ)² (z_known² − 1).
-std::vector<ScoreBlock> beyond(const Evaluator& plain, const Evaluator& known,
-                               const Evaluation& evaluation,
-                               const std::vector<std::size_t>& episodes) {
+/// Σ of the residual above the known noise, in units of the plain noise floor: 1 + (σ_known/σ)² (z_known² − 1).
+std::vector<ScoreBlock> above_known_noise(const Evaluator& plain, const Evaluator& known,
+                                          const Evaluation& evaluation,
+                                          const std::vector<std::size_t>& episodes) {
   std::vector<ScoreBlock> all;
   for (const std::size_t e : episodes) {
     const std::size_t only[] = {e};
@@ -25,7 +25,7 @@ std::vector<ScoreBlock> beyond(const Evaluator& plain, const Evaluator& known,
         return same_stage(other, residuals[r].stage, residuals[r].on);
       };
       const auto same = find_stage(residuals, residuals[r].stage, residuals[r].on);
-      if (same - residuals.begin() != std::ptrdiff_t(r)) continue;  // a ball joint's others
+      if (same - residuals.begin() != std::ptrdiff_t(r)) continue;  // other axes of a ball joint
       const double coarser = known.floor(e, r) / plain.floor(e, r);
       const auto of_stage = known.blocks(evaluation, only, this_one);
       blocks.resize(of_stage.size());
@@ -40,7 +40,7 @@ std::vector<ScoreBlock> beyond(const Evaluator& plain, const Evaluator& known,
   return all;
 }
 
-/// Of a stage, from seconds of the recordings held out. `coarser`: its floor with what is known.
+/// Interval of a stage from seconds of the held-out recordings. `coarser`: ratio of the known noise floor to the plain.
 Interval closed_interval(const Problem& problem, const std::vector<ScoreBlock>& before,
                          const std::vector<ScoreBlock>& after, double coarser) {
   const auto closed = [&](const std::vector<std::size_t>& drawn) {
@@ -85,7 +85,7 @@ Closed closed_overall(const Problem& problem, const Evaluator& plain, const Eval
                       const Evaluation& evaluation) {
   const auto& held_out = problem.sets.held_out;
   const auto before = plain.blocks(plain.bare(), held_out);
-  const auto after = beyond(plain, known, evaluation, held_out);
+  const auto after = above_known_noise(plain, known, evaluation, held_out);
   const auto of = [&](const std::vector<std::size_t>& drawn) {
     Closed c{"all", "noise", 0, 1};
     double was = 0, is = 0, windows = 0;

@@ -18,7 +18,7 @@ void require_determined(Diagnosis& d) {
     if (why.empty()) continue;
     d.verdict = Verdict::not_identifiable;
     d.warnings.push_back(
-        fmt::format("{} on {}: {}; record motions that show more of it", n.type, n.on, why));
+        fmt::format("{} on {}: {}; record motions that excite it more", n.type, n.on, why));
   }
 }
 
@@ -32,12 +32,20 @@ void require_sampling(const Evaluator& plain, Diagnosis& d) {
 
 void warn_not_evaluated(const Problem& problem, const Detected& detected, Diagnosis& d) {
   d.not_evaluated = not_evaluated(problem.robot, d.stages);
-  const bool without_bus = problem.robot.drives.empty() && !detected.bus_evaluated;
-  if (without_bus) d.not_evaluated.emplace_back("the bus");
-  if (d.not_evaluated.empty()) return;
-  d.warnings.push_back(
-      fmt::format("not judged, for lack of data: {}{}", fmt::join(d.not_evaluated, ", "),
-                  without_bus ? fmt::format("; to judge the bus, record {}", bus_is_told_by) : ""));
+  std::vector<std::string> reasons;
+  if (!d.not_evaluated.empty())
+    reasons.push_back(fmt::format(
+        "{}: not evaluated, because the recordings contain too little of their signals; "
+        "record all signals during motion",
+        fmt::join(d.not_evaluated, ", ")));
+  if (problem.robot.drives.empty() && !detected.bus_evaluated) {
+    d.not_evaluated.emplace_back("bus");
+    reasons.push_back(
+        fmt::format("bus: not evaluated, because no recording shows which set-points the ECUs "
+                    "followed; record {}",
+                    bus_recording_needs));
+  }
+  if (!reasons.empty()) d.warnings.push_back(fmt::format("{}", fmt::join(reasons, ". ")));
 }
 
 }  // namespace sim::diagnosis

@@ -14,10 +14,10 @@ namespace {
 
 using effects::Placed;
 
-constexpr double least_gap = 0.02;  // of noise: below, a share of the gap means nothing; chosen
+constexpr double least_gap = 0.02;  // of the noise; a share of a smaller gap is meaningless; chosen
 
-/// Of a candidate, at the stages that are open and at those that it makes worse: to fit the noise
-/// of a stage that has no gap gains nothing.
+/// Scores of a candidate at the open stages and at those that it makes worse. Other stages do not count, because
+/// fitting the noise of a stage without a gap is no gain.
 struct Score {
   std::vector<ScoreBlock> before, after;  ///< at these stages
   std::vector<ScoreBlock> gap;            ///< before, at the open ones
@@ -41,8 +41,8 @@ Score score(const Evaluator& evaluator, const Evaluation& base, const Evaluation
           evaluator.blocks(base, options.held_out, open)};
 }
 
-void judge(Ranked& r, const Evaluator& evaluator, const Evaluation& base,
-           const RankingOptions& options) {
+void evaluate(Ranked& r, const Evaluator& evaluator, const Evaluation& base,
+              const RankingOptions& options) {
   r.on_held_out = evaluator.with(base, r.fit.placed, options.held_out);
   r.blocks = evaluator.blocks(r.on_held_out, options.held_out);
   const Score s = score(evaluator, base, r.on_held_out, options);
@@ -65,13 +65,13 @@ void judge(Ranked& r, const Evaluator& evaluator, const Evaluation& base,
               static_cast<double>(drawn.size() + 1);
 }
 
-/// A number of the model is off, nothing is new.
-bool corrects(const Placed& placed) {
+/// Whether the effect is a correction of a constant of the model.
+bool is_correction(const Placed& placed) {
   effects::AnyEffect effect = placed.effect;
   return std::string_view(effects::parameters(effect)[0].name) == "relative";
 }
 
-/// How much more the other leaves, Σ z² of the same blocks.
+/// Interval of the difference in Σ z² between the other and the best, over the same blocks.
 Interval worse_by(const Ranked& other, const Ranked& best, const RankingOptions& options) {
   return middle(bootstrap(best.blocks.size(), options.draws, options.seed, [&](const auto& drawn) {
     double more = 0;
@@ -82,9 +82,9 @@ Interval worse_by(const Ranked& other, const Ranked& best, const RankingOptions&
 
 bool is_within_bounds(const Ranked& r) { return !has_size_at_bound(r.fit.placed); }
 
-/// Of those as good as the first, the ones with fewer parameters come first, then those that
-/// correct a number of the model, then in the order of the chain.
-void prefer_plain(std::vector<Ranked>& ranked, const RankingOptions& options) {
+/// Orders the effects that are as good as the first: fewer parameters first, then corrections of a constant, then
+/// the order of the library.
+void prefer_simple(std::vector<Ranked>& ranked, const RankingOptions& options) {
   constexpr double as_good = 1e-3, same = 1e-4;  // of the gap; chosen
   if (ranked.empty()) return;
   const Ranked best = ranked[0];
@@ -93,10 +93,11 @@ void prefer_plain(std::vector<Ranked>& ranked, const RankingOptions& options) {
            (r.gain >= best.gain - same || worse_by(r, best, options).low <= 0);
   });
   std::stable_sort(ranked.begin(), end, [](const Ranked& a, const Ranked& b) {
-    const auto plainness = [](const Ranked& r) {
-      return std::tuple(r.fit.values.size(), !corrects(r.fit.placed), r.fit.placed.effect.index());
+    const auto complexity = [](const Ranked& r) {
+      return std::tuple(r.fit.values.size(), !is_correction(r.fit.placed),
+                        r.fit.placed.effect.index());
     };
-    return plainness(a) < plainness(b);
+    return complexity(a) < complexity(b);
   });
 }
 
@@ -107,18 +108,18 @@ std::vector<Ranked> rank(const Evaluator& evaluator, const Evaluation& base,
   const auto chosen = screen_effects(evaluator, base, options);
   std::vector<Ranked> ranked(chosen.size());
   std::size_t done = 0;
-  std::mutex telling;
+  std::mutex reporting;
   in_parallel(chosen.size(), options.threads, [&](std::size_t k) {
     ranked[k].fit = fit(evaluator, base, chosen[k], options.train);
-    judge(ranked[k], evaluator, base, options);
-    const std::lock_guard lock(telling);
+    evaluate(ranked[k], evaluator, base, options);
+    const std::lock_guard lock(reporting);
     if (options.progress) options.progress(++done, chosen.size());
   });
   std::ranges::stable_sort(ranked, std::greater(), &Ranked::gain);
-  // A size at its bound is no estimate: it fits by scaling the whole equation down.
+  // A size at its bound is no estimate: it reduces residuals by scaling the whole equation down.
   std::ranges::stable_partition(ranked, is_within_bounds);
   std::ranges::stable_partition(ranked, &Ranked::relieves);
-  prefer_plain(ranked, options);
+  prefer_simple(ranked, options);
   return ranked;
 }
 

@@ -8,29 +8,29 @@
 #include "sim/gap/diagnosis/fit.hpp"
 #include "sim/gap/diagnosis/localization.hpp"
 
-/// Which effects explain a gap: every effect of the library at every place, fitted to the training
-/// recordings one by one, judged on whole recordings held out.
+/// Identification: every effect of the library at every place is fitted to the training recordings, one
+/// by one, and evaluated on held-out recordings.
 ///
-///   gain = (S₀ − S₁)/(S₀ − N)        S before and after, N windows: what noise alone leaves
+///   gain = (S₀ − S₁)/(S₀ − N)     S₀, S₁: Σ z² before and after; N: number of windows, Σ z² of noise
 ///
-/// with intervals from a bootstrap over blocks of the held-out recordings.
+/// Intervals come from a bootstrap over blocks of the held-out recordings.
 namespace sim::diagnosis {
 
 struct RankingOptions {
   std::vector<std::size_t> train, held_out;  ///< recordings
-  std::vector<std::string> withhold;         ///< types of effects that are not tried
+  std::vector<std::string> withhold;         ///< types of effects that are left out
   int threads = 2;
-  const Pool* pool = nullptr;  ///< where they are screened; none: on `threads`
+  const Pool* pool = nullptr;  ///< processes for the screening; null: `threads`
   int draws = 400;             ///< of the bootstrap
   std::uint64_t seed = 1;
-  std::size_t fitted_at_least = 16;   ///< candidates that the linear look lets through
-  double screen_share = 0.3;          ///< and all that promise this share of what the best promises
-  std::vector<StageGap> stages = {};  ///< of which an effect ought to relieve an open one
-  /// Told how many of how many are done.
+  std::size_t fitted_at_least = 16;   ///< least number of candidates that pass the screening
+  double screen_share = 0.3;          ///< of the best screening score; candidates above it pass too
+  std::vector<StageGap> stages = {};  ///< an effect should relieve an open one of these
+  /// Called with the number of fitted effects and of all.
   std::function<void(std::size_t, std::size_t)> progress = {};
 };
 
-/// An effect as fitted, on top of what was chosen before it.
+/// A fitted effect, in addition to the effects of the base evaluation.
 struct Ranked {
   Fit fit;
   Evaluation on_held_out;
@@ -38,20 +38,20 @@ struct Ranked {
   double gain = 0;
   Interval gain_interval;  ///< 95 %
   double p_value = 1;      ///< share of draws without a gain
-  double relief = 1;       ///< where.hpp; 1 also where no stage is named
-  /// It takes away a good part of a stage's gap; a change at stages that have none explains
-  /// nothing.
+  double relief = 1;       ///< localization.hpp; 1 if `stages` has no open stage
+  /// Whether it removes a substantial part of the excess of an open stage. Changes at stages without a
+  /// gap explain nothing.
   bool relieves() const { return relief > 0.3; }  // chosen
 };
 
-/// Every effect that can change a residual, best first: what relieves before what does not, of these a
-/// size within its bounds before one at a bound, by gain, ties to the plainer one.
+/// Every screened effect, best first. Order: effects that relieve a stage, then sizes within their bounds,
+/// then gain; among equally good ones the simpler effect.
 std::vector<Ranked> rank(const Evaluator& evaluator, const Evaluation& base,
                          const RankingOptions& options);
 
-/// Of `ranked`, which cannot be told from the first: their paired difference to it includes zero,
-/// or is below `practical` of the gap, of which none takes more than all: beyond is noise. The first
-/// is not among them.
+/// Indices of the effects that are not distinguishable from the first: the interval of their paired
+/// difference to it includes zero, or the difference of the gains (limited to 1) is below `practical`. The
+/// first is not included.
 std::vector<std::size_t> confusable(const std::vector<Ranked>& ranked,
                                     const RankingOptions& options, double practical = 0.01);
 

@@ -10,19 +10,18 @@ std::vector<Indistinguishable> indistinguishable_effects(const Evaluator& evalua
                                                          const std::vector<std::string>& withhold,
                                                          int threads) {
   const auto all = sensitivities(evaluator, withhold, threads);
-  std::vector<Indistinguishable> indistinguishable_effects;
+  std::vector<Indistinguishable> found;
   for (const Sensitivity& hidden : all)
     for (const Sensitivity& other : all) {
       if (&hidden == &other || hidden.first.norm() < shown || other.span.cols() == 0) continue;
       const Eigen::VectorXd left =
           hidden.first - other.span * (other.span.transpose() * hidden.first);
       if (left.norm() <= share * hidden.first.norm())
-        indistinguishable_effects.push_back(
-            {hidden.perturbed, {other.perturbed}, hidden.first.norm(), left.norm()});
+        found.push_back({hidden.perturbed, {other.perturbed}, hidden.first.norm(), left.norm()});
     }
-  std::ranges::stable_sort(indistinguishable_effects, {},
-                           [](const Indistinguishable& t) { return t.left / t.shows; });
-  return indistinguishable_effects;
+  std::ranges::stable_sort(found, {},
+                           [](const Indistinguishable& t) { return t.remaining / t.magnitude; });
+  return found;
 }
 
 }  // namespace sim::diagnosis

@@ -3,26 +3,25 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// Which effects recordings cannot tell apart, whatever their sizes.
+/// Effects that recordings cannot distinguish, whatever their sizes.
 ///
-///   left = |δz − P δz|      δz: what a small effect changes, in units of noise
-///                           P: projects onto what the parameters of another change
+///   remaining = |δz − P δz|      δz: change of the residuals by a small effect, in units of noise
+///                                P: projection onto the changes by the parameters of another effect
 ///
-/// is how many standard deviations remain of the one where the other stands for it, as if laws were
-/// linear. What a change of the law's shape would tell, a fit tells. Ignores: further parameters of
-/// what is hidden, and laws with a threshold that 10 % of their range does not pass.
+/// is the number of standard deviations by which the two differ, with laws linearized. Differences in the
+/// form of the laws appear only in a fit. Ignores further parameters of the effect, and laws with a
+/// threshold above 10 % of their range.
 namespace sim::diagnosis {
 
 struct Indistinguishable {
-  effects::Placed hidden;  ///< 0.3 % of the range, or 10 % where that does not show
-  std::vector<effects::Placed>
-      others;        ///< one; of `confounders` several, who stand for it together
-  double shows = 0;  ///< |δz| of what is hidden
-  double left = 0;   ///< of it, once the others stand for it
+  effects::Placed hidden;               ///< 0.3 % of its range, or 10 % if that is not visible
+  std::vector<effects::Placed> others;  ///< one effect, or several (confounders.hpp)
+  double magnitude = 0;                 ///< |δz| of `hidden`
+  double remaining = 0;                 ///< |δz − P δz|
 };
 
-/// Those of which at most `share` is left, the exact ones first. Types withheld are not looked at.
-/// Bus and coarse steps, which change no residual, are in none.
+/// Pairs with remaining ≤ share · magnitude, exact matches first. Types in `withhold` are left out. Effects
+/// on the bus and quantization change no residual and are not listed.
 std::vector<Indistinguishable> indistinguishable_effects(
     const Evaluator& evaluator, double share, const std::vector<std::string>& withhold = {},
     int threads = 2);

@@ -8,14 +8,14 @@
 namespace sim::diagnosis {
 namespace {
 
-/// How many parameters are not neutral.
-std::size_t told(const effects::Placed& placed) {
+/// Number of parameters that are not neutral.
+std::size_t changed_parameters(const effects::Placed& placed) {
   return effects::written(placed).parameters.size();
 }
 
 }  // namespace
 
-bool is_neutral(const effects::Placed& placed) { return told(placed) == 0; }
+bool is_neutral(const effects::Placed& placed) { return changed_parameters(placed) == 0; }
 
 std::vector<effects::Placed> initial_guesses(const Evaluator& evaluator,
                                              const effects::Placed& neutral,
@@ -36,7 +36,7 @@ std::vector<effects::Placed> initial_guesses(const Evaluator& evaluator,
 effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation& base,
                                    const effects::Placed& more,
                                    std::span<const std::size_t> episodes) {
-  constexpr double worth = 0.01;  // of the gap, a parameter beyond the first; chosen
+  constexpr double worth = 0.01;  // of the gap, cost of each parameter beyond the first; chosen
   effects::Placed best = more;
   if (!is_neutral(more)) return best;
   const ScoreBlock whole = sum(evaluator.blocks(base, episodes));
@@ -44,16 +44,16 @@ effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation&
                gap = std::max(0.0, before - static_cast<double>(whole.windows));
   auto all = initial_guesses(evaluator, more, episodes);
   for (const double share :
-       {0.1, 0.02, -0.1}) {  // of the bounds: laws that are bent from the start
+       {0.1, 0.02, -0.1}) {  // of the bounds, for laws that are nonlinear at their neutral value
     all.push_back(more);
     const effects::Parameter first = effects::parameters(all.back().effect)[0];
     *first.value = share * (share > 0 ? first.bounds.high : -first.bounds.low);
     if (*first.value == 0) all.pop_back();
   }
   const auto cost = [&](const effects::Placed& one) {
-    const std::size_t further = std::max<std::size_t>(1, told(one)) - 1;
+    const std::size_t extra = std::max<std::size_t>(1, changed_parameters(one)) - 1;
     return sum(evaluator.blocks(evaluator.with(base, one, episodes), episodes)).square +
-           worth * gap * static_cast<double>(further);
+           worth * gap * static_cast<double>(extra);
   };
   double least = before;
   for (const effects::Placed& one : all)

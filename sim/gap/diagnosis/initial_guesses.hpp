@@ -4,20 +4,20 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// Where a fit begins, for laws that a small step from neutral does not lead to.
+/// Initial guesses of a fit, for laws whose gradient at the neutral value does not lead to the optimum.
 namespace sim::diagnosis {
 
-/// Its parameters change nothing.
+/// Whether all its parameters have their neutral values.
 bool is_neutral(const effects::Placed& placed);
 
-/// Parameters worth a try: stops where the joint turned back, bones of several stiffnesses. Empty
-/// for most.
+/// Initial guesses of an effect: stops at the angles where the joint reverses, bones of several
+/// stiffnesses. Empty for most effects.
 std::vector<effects::Placed> initial_guesses(const Evaluator& evaluator,
                                              const effects::Placed& neutral,
                                              std::span<const std::size_t> episodes);
 
-/// The one of the tries, and of some shares of the first parameter's bounds, that leaves least on
-/// top of `base`; the effect as given if it is not neutral, or none leaves less.
+/// The initial guess, or share of the first parameter's bounds, with the smallest Σ z² in addition to
+/// `base`. The effect as given if it is not neutral, or if no guess is better.
 effects::Placed best_initial_guess(const Evaluator& evaluator, const Evaluation& base,
                                    const effects::Placed& more,
                                    std::span<const std::size_t> episodes);

@@ -12,10 +12,10 @@ namespace {
 
 using effects::Placed;
 
-// Laws are not linear, so what a nudge does is grown with some tolerance; all chosen.
-constexpr double part_of_it = 0.05;  // of the widest stage's excess: less may be another cause's
-constexpr double short_of = 10;      // an open stage may get this much less than it has
-constexpr double keeps_closed = 10;  // excess that a closed stage may get
+// Laws are not linear, so scaled signatures are compared with tolerances; all chosen.
+constexpr double least_share = 0.05;  // of the largest excess; less may have another cause
+constexpr double short_of = 10;       // factor by which an open stage may be underestimated
+constexpr double keeps_closed = 10;   // excess that is allowed at a closed stage
 
 /// Mean Δz² by stage.
 std::vector<double> signature(const Evaluator& evaluator, const Placed& perturbed,
@@ -35,7 +35,7 @@ std::vector<double> signature(const Evaluator& evaluator, const Placed& perturbe
   return means;
 }
 
-/// The gap in the same order.
+/// The gaps in the order of the residuals.
 std::vector<StageGap> gap_of(const Evaluator& evaluator, std::size_t episode,
                              const Problem& problem) {
   const std::size_t only[] = {episode};
@@ -46,17 +46,18 @@ std::vector<StageGap> gap_of(const Evaluator& evaluator, std::size_t episode,
   return ordered;
 }
 
-bool could_leave(const std::vector<StageGap>& gap, const std::vector<double>& signature) {
-  const auto widest = std::ranges::max_element(gap, {}, &StageGap::share);
-  const double there = signature[std::size_t(widest - gap.begin())];
-  if (!(there > 0) || !widest->open) return false;
-  const double grown = widest->excess / there;
+/// Whether a scaled signature explains the gap.
+bool explains(const std::vector<StageGap>& gap, const std::vector<double>& signature) {
+  const auto largest = std::ranges::max_element(gap, {}, &StageGap::share);
+  const double there = signature[std::size_t(largest - gap.begin())];
+  if (!(there > 0) || !largest->open) return false;
+  const double factor = largest->excess / there;
   for (std::size_t r = 0; r < gap.size(); ++r) {
-    const double gets = grown * signature[r];
-    if (gap[r].open && gap[r].excess > part_of_it * widest->excess &&
-        gets * short_of < gap[r].excess)
+    const double expected = factor * signature[r];
+    if (gap[r].open && gap[r].excess > least_share * largest->excess &&
+        expected * short_of < gap[r].excess)
       return false;
-    if (gap[r].judged && !gap[r].open && gets > keeps_closed) return false;
+    if (gap[r].judged && !gap[r].open && expected > keeps_closed) return false;
   }
   return true;
 }
@@ -67,20 +68,20 @@ std::vector<Part> isolate(const Problem& problem, const Evaluator& evaluator) {
   const std::size_t episode = largest_residuals_in(evaluator, evaluator.bare(), problem.sets.train);
   const auto gap = gap_of(evaluator, episode, problem);
   const auto all = candidates(evaluator, problem.options.withhold);
-  std::vector<char> could(all.size());
+  std::vector<char> possible(all.size());
   in_parallel(all.size(), problem.options.threads, [&](std::size_t k) {
     const std::size_t only[] = {episode};
     auto ways = perturbations(all[k]);
     const auto more = initial_guesses(evaluator, all[k], only);
     ways.insert(ways.end(), more.begin(), more.end());
-    could[k] = std::ranges::any_of(ways, [&](const Placed& perturbed) {
-      return could_leave(gap, signature(evaluator, perturbed, episode));
+    possible[k] = std::ranges::any_of(ways, [&](const Placed& perturbed) {
+      return explains(gap, signature(evaluator, perturbed, episode));
     });
   });
   std::vector<Part> parts;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (const auto stage = effects::about(all[k].effect).stage;
-        could[k] && find_stage(parts, stage, all[k].on) == parts.end())
+        possible[k] && find_stage(parts, stage, all[k].on) == parts.end())
       parts.push_back({stage, all[k].on});
   return parts;
 }

@@ -1,25 +1,24 @@
 #pragma once
 #include "sim/gap/diagnosis/problem.hpp"
 
-/// Which parts of the chain could leave such a gap, whatever law it follows there: the
-/// fault-signature matrix, and what it can isolate with the sensors that there are.
+/// Isolation: the parts of the robot that can cause the gap, whatever its law, by the fault-signature
+/// matrix.
 ///
-///   s_r = mean Δz² at stage r         Δz what a nudge of an effect changes there
+///   s_r = mean Δz² at stage r         Δz: change there by a small effect
 ///
-/// A nudge grown until it fills the widest stage of the gap must open every stage that is open and
-/// none that is closed; a part of the chain is suspected if some effect that belongs to it does so.
-/// What is withheld is not known here either. Ignores: how a gap runs in time, and gaps of several
-/// causes.
+/// A signature, scaled to the excess of the stage with the largest share, must open every open stage and
+/// no closed one. A part is reported if one of its effects does so. Withheld types are left out. Ignores
+/// the course of the gap in time, and gaps with several causes.
 namespace sim::diagnosis {
 
-/// A part of the chain, bus to sensors.
+/// A part of the robot, from bus to sensors.
 struct Part {
   effects::Stage stage;
   std::string on;
 };
 
-/// Those that could leave the gap of the nominal robot, on the training recording where it is
-/// largest; in the order of the library. Empty: no single part could.
+/// Parts that can cause the gap of the nominal robot in the training recording with the largest
+/// residuals, in the order of the library. Empty if no single part can.
 std::vector<Part> isolate(const Problem& problem, const Evaluator& evaluator);
 
 }  // namespace sim::diagnosis

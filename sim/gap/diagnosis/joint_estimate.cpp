@@ -42,9 +42,9 @@ std::vector<ConstantEstimate> constants_of(const estimation::AsBuilt& built) {
   return all;
 }
 
-/// Parts of the robot whose constants are off, largest first: Σ z² that a part's deviations make alone, z linear in
-/// them, and its share of the sum over all parts.
-std::vector<Attribution> where_off(const estimation::AsBuilt& built) {
+/// Parts with deviating constants, largest first. Share: Σ z² of the change by a part's deviations alone (linearized),
+/// relative to the sum over all parts.
+std::vector<Attribution> parts_off(const estimation::AsBuilt& built) {
   constexpr double least = 0.02;  // of the sum, to be listed; chosen
   std::map<std::pair<effects::Stage, std::string>, Eigen::VectorXd> change;
   for (std::size_t k = 0; k < built.uncertain.constants.size(); ++k) {
@@ -66,7 +66,7 @@ std::vector<Attribution> where_off(const estimation::AsBuilt& built) {
 }
 
 IdentifiedEffect with_intervals(estimation::Sized sized) {
-  constexpr double of_method = 0.02;  // of the value: what windows approximate; chosen
+  constexpr double of_method = 0.02;  // of the value, error of the approximation by windows; chosen
   IdentifiedEffect n = identified(sized.effect);
   std::size_t p = 0, estimated = 0;
   for (const effects::Parameter& parameter : effects::parameters(sized.effect.effect)) {
@@ -81,7 +81,7 @@ IdentifiedEffect with_intervals(estimation::Sized sized) {
   return n;
 }
 
-/// The n-th constant beyond its tolerance, with what could be in its place.
+/// The n-th constant beyond its tolerance, with its alternatives.
 IdentifiedEffect beyond(const estimation::AsBuilt& built, std::size_t n) {
   const std::size_t k = built.beyond[n];
   IdentifiedEffect identified = with_intervals(estimation::as_effect(
@@ -92,7 +92,7 @@ IdentifiedEffect beyond(const estimation::AsBuilt& built, std::size_t n) {
   return identified;
 }
 
-/// The effects found, with their intervals and what could stand for each.
+/// The effects found, with intervals and alternatives.
 std::vector<IdentifiedEffect> effects_of(const estimation::AsBuilt& built) {
   std::vector<IdentifiedEffect> all;
   for (const estimation::Sized& sized : estimation::sized(built.estimate)) {
@@ -112,7 +112,7 @@ Evaluator evaluator_of(const Problem& problem, const erp::Robot& robot) {
   return {robot, problem.episodes, problem.options.seed};
 }
 
-/// A robot as built, but with some causes of its answer alone: its effects, then its constants that are far off.
+/// The robot as built with a subset of the causes of its answer: its effects, then its constants that are far off.
 erp::Robot robot_with(const estimation::AsBuilt& built, const std::vector<bool>& among) {
   estimation::Point some = built.estimate.point;
   const std::size_t effects = some.effects.size();
@@ -124,7 +124,7 @@ erp::Robot robot_with(const estimation::AsBuilt& built, const std::vector<bool>&
   return estimation::robot_at(built.uncertain, some);
 }
 
-/// What each cause has to do with the gap that they close together. Returns what they share.
+/// Sets the Shapley value of each cause as its gain. Returns the interaction.
 double set_gains(const Problem& problem, const Evaluator& plain, const estimation::AsBuilt& built,
                  std::vector<IdentifiedEffect>& answer) {
   const auto& held_out = problem.sets.held_out;
@@ -143,7 +143,7 @@ double set_gains(const Problem& problem, const Evaluator& plain, const estimatio
   return each.interaction;
 }
 
-/// Excess of a stage without the hundredth of its seconds that keeps most: one event is no law.
+/// Excess of a stage without the 1 % of its seconds with the largest residuals: a single event is no law.
 double without_events(const Evaluator& evaluator, const StageGap& gap,
                       const std::vector<std::size_t>& set) {
   auto blocks = evaluator.blocks(evaluator.bare(), set, [&](const residuals::Residual& r) {
@@ -166,15 +166,16 @@ std::vector<StageGap> remaining_residual(const Problem& problem, const Evaluator
   for (StageGap& gap : left) {
     const auto was = find_stage(before, gap.stage, gap.on);
     const double usual = without_events(built, gap, problem.sets.held_out);
-    gap.open = gap.open && usual > problem.localization_options().practical_excess &&
-               stays_open(gap.excess, was->excess, problem.options.together, [&] {
-                 return follows(built, built.bare(), gap.stage, gap.on, problem.sets);
-               });
+    gap.open =
+        gap.open && usual > problem.localization_options().practical_excess &&
+        stays_open(gap.excess, was->excess, problem.options.together, [&] {
+          return explained_by_one_variable(built, built.bare(), gap.stage, gap.on, problem.sets);
+        });
   }
   return left;
 }
 
-/// The stage that keeps most.
+/// The stage with the largest remaining excess.
 StageGap& largest(std::vector<StageGap>& left) {
   return *std::ranges::max_element(left, {}, &StageGap::excess);
 }
@@ -199,7 +200,7 @@ JointEstimate estimate_jointly(const Problem& problem, const erp::Robot& robot,
   options.search.withhold = problem.options.withhold;
   options.search.most_effects = problem.options.most_effects;
   options.search.progress = [&](const std::string& what, double share) {
-    problem.tell(what, 0.6 + 0.3 * share);
+    problem.report_progress(what, 0.6 + 0.3 * share);
   };
   const estimation::AsBuilt found = estimation::as_built(robot, train, held_out, options);
   std::vector<IdentifiedEffect> answer = effects_of(found);
@@ -214,7 +215,7 @@ JointEstimate estimate_jointly(const Problem& problem, const erp::Robot& robot,
                       .unknown_law = found.unknown_law,
                       .at_bound = ends_at_bound(found.estimate),
                       .interaction = interaction,
-                      .off = where_off(found)};
+                      .off = parts_off(found)};
   built.left = remaining_residual(problem, plain, built.evaluator);
   if (built.unknown_law) largest(built.left).open = true;
   return built;

@@ -8,11 +8,11 @@
 #include "sim/gap/diagnosis/problem.hpp"
 #include "sim/gap/estimation/as_built.hpp"
 
-/// What sim/gap/estimation finds, as an answer: effects that are missing, constants beyond their tolerances, and
+/// The result of sim/gap/estimation as an answer: missing effects, constants beyond their tolerances, and
 /// constants within them.
 namespace sim::diagnosis {
 
-/// A constant of robot.xml as the recordings have it.
+/// A constant of robot.xml as estimated.
 struct ConstantEstimate {
   std::string name, on;
   effects::Stage stage;
@@ -20,10 +20,9 @@ struct ConstantEstimate {
   double value = 0;
   Interval interval;      ///< 95 %
   double determined = 0;  ///< 1: by the recordings alone, 0: by its tolerance alone
-  bool beyond =
-      false;  ///< far off, or a zero that is off beside exact constants (sim/gap/estimation)
+  bool beyond = false;    ///< its tolerance, or a zero with an error while constants are exact
 
-  /// Whether it certainly differs from its nominal value: by more than three standard deviations.
+  /// Whether it differs from its nominal value by more than three standard deviations.
   bool differs() const;
 };
 
@@ -32,25 +31,25 @@ struct JointEstimate {
   std::vector<ConstantEstimate> constants;  ///< in the order of the chain
   std::vector<IdentifiedEffect> answer;     ///< effects, then constants beyond their tolerances
   Evaluator evaluator;                      ///< of `robot`
-  std::vector<StageGap> left;               ///< on the recordings held out; open: not explained
-  bool exact = false;        ///< constants are as described, but for zeros and the like
-  bool unknown_law = false;  ///< one law that the library lacks is likelier than any answer
-  bool at_bound = false;     ///< a parameter of an effect ends at a bound
-  double interaction = 0;    ///< of the causes of the answer (shares.hpp)
+  std::vector<StageGap> left;  ///< remaining residual, held-out recordings; open: unexplained
+  bool exact = false;          ///< constants are as described, except unmeasured zeros
+  bool unknown_law = false;    ///< one law outside the library is likelier than any answer
+  bool at_bound = false;       ///< a parameter of an effect is at a bound
+  double interaction = 0;      ///< of the causes of the answer (shapley.hpp)
   std::vector<Attribution>
-      off;  ///< where its constants are off, by what each part changes in the residuals
+      off;  ///< parts with deviating constants, by their change of the residuals
 
   bool explained() const;
 };
 
-/// `robot`: with what was seen without a fit. `suggested`: effects that a search with constants as they are
-/// described has found.
+/// `robot`: with directly detected effects. `suggested`: effects found by a search with constants as
+/// described.
 JointEstimate estimate_jointly(const Problem& problem, const erp::Robot& robot,
                                const Evaluator& plain,
                                const std::vector<IdentifiedEffect>& suggested);
 
-/// The one effect of an answer on `robot`, as described but for zeros and the like, by the estimate of sim/gap/estimation: without
-/// gain and alternatives.
+/// `effect` with values and intervals estimated together with the unmeasured zeros of `robot`, other
+/// constants as described. Gain and alternatives are not set.
 IdentifiedEffect estimated(const Problem& problem, const erp::Robot& robot,
                            const IdentifiedEffect& effect);
 

@@ -8,7 +8,7 @@
 namespace sim::diagnosis {
 namespace {
 
-/// One stage over all episodes.
+/// Windows of one stage over all recordings.
 struct Collected {
   const residuals::Residual* what;
   double floor_square = 0;  ///< Σ σ² over its windows
@@ -29,7 +29,7 @@ Interval interval_of(const std::vector<ScoreBlock>& blocks, const LocalizationOp
   }));
 }
 
-/// The z of one stage in one episode, added to what is collected.
+/// Adds z of one stage in one recording.
 void collect(std::span<const double> z, double floor, double block_s, Collected& into) {
   const auto windows_a_block =
       static_cast<std::size_t>(std::max(1.0, std::round(block_s / residuals::Windows{}.stride_s)));
@@ -128,17 +128,17 @@ std::vector<std::string> not_evaluated(const erp::Robot& robot,
                                        const std::vector<StageGap>& stages) {
   using effects::Stage;
   std::vector<std::string> names;
-  const auto look = [&](Stage stage, const std::string& on) {
+  const auto check = [&](Stage stage, const std::string& on) {
     const auto found = find_stage(stages, stage, on);
     if (found == stages.end() || !found->judged)
       names.push_back(std::string(effects::word(stage)) + " of " + on);
   };
   for (const erp::Actuator& a : robot.actuators) {
     if (a.tendon.path.empty()) continue;  // a drive
-    for (const Stage stage : {Stage::motor, Stage::gearbox, Stage::tendon}) look(stage, a.name);
+    for (const Stage stage : {Stage::motor, Stage::gearbox, Stage::tendon}) check(stage, a.name);
   }
   for (const erp::Joint& joint : robot.joints())
-    if (joint.type != erp::JointType::fixed) look(Stage::joint, joint.name);
+    if (joint.type != erp::JointType::fixed) check(Stage::joint, joint.name);
   return names;
 }
 

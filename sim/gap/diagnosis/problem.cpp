@@ -11,7 +11,8 @@ RankingOptions Problem::ranking_options(double from, double to) const {
                        .seed = options.seed};
   if (to > from)
     which.progress = [this, from, to](std::size_t done, std::size_t of) {
-      tell("effects", from + (to - from) * static_cast<double>(done) / static_cast<double>(of));
+      report_progress("effects",
+                      from + (to - from) * static_cast<double>(done) / static_cast<double>(of));
     };
   return which;
 }

@@ -7,26 +7,26 @@
 #include "sim/gap/diagnosis/identification.hpp"
 #include "sim/gap/diagnosis/split.hpp"
 
-/// What a diagnosis is asked, and what it has to go by.
+/// Inputs of a diagnosis: robot, recordings, options.
 namespace sim::diagnosis {
 
-/// An excess that is left counts as none below the largest of these.
+/// A remaining excess below the largest of these limits counts as explained.
 struct Tolerance {
-  double excess, share, of_most;  ///< share: of what it was; of_most: of the largest excess
+  double excess, share, of_most;  ///< share: of its nominal excess; of_most: of the largest excess
 };
 
 struct DiagnoseOptions {
   std::vector<std::size_t> train, held_out;  ///< recordings; both empty: split by the diagnosis
   std::vector<std::string> withhold;
   int threads = 2;
-  const Pool* pool = nullptr;  ///< the processes of `mpirun`; none: `threads` alone
+  const Pool* pool = nullptr;  ///< the processes of `mpirun`; null: `threads` alone
   std::uint64_t seed = 1;
   std::size_t most_effects = 3;
-  /// What a stage may keep and count as explained, all chosen on development cases: by one effect,
-  /// whose law may be of another shape; by several; before another effect is looked for.
+  /// Excess that a stage may keep, all chosen on development cases: with one effect, whose law may
+  /// differ in form; with several effects; before another effect is searched.
   Tolerance alone{5, 0.005, 0.001}, together{2, 0.005, 0}, search{1.5, 0.005, 0};
-  double least_gain = 0.02;  ///< of an effect, lower end of its interval, to be supported
-  /// What is being done, and how much of it in 0 … 1.
+  double least_gain = 0.02;  ///< lower end of the interval of the gain of a supported effect
+  /// Called with the present step and the completed share, 0 … 1.
   std::function<void(const std::string&, double)> progress = {};
 };
 
@@ -36,11 +36,11 @@ struct Problem {
   DiagnoseOptions options;
   Sets sets;
 
-  void tell(const std::string& what, double share) const {
+  void report_progress(const std::string& what, double share) const {
     if (options.progress) options.progress(what, share);
   }
   LocalizationOptions localization_options() const { return {.seed = options.seed}; }
-  /// Progress of a ranking is told as `from` … `to`.
+  /// The progress of the ranking is reported as `from` … `to`.
   RankingOptions ranking_options(double from = 0, double to = 0) const;
 };
 

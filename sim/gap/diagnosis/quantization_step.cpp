@@ -21,8 +21,8 @@ void add(std::vector<effects::Placed>& all, const char* type, const std::string&
   all.push_back(placed);
 }
 
-/// 1: all values are multiples of s but for a common offset.
-double in_step(const std::vector<double>& values, double s) {
+/// Coherence of the values with step s: 1 if all are multiples of s plus a common offset.
+double coherence(const std::vector<double>& values, double s) {
   double c = 0, i = 0;
   for (const double v : values) {
     const double phase = 2 * std::numbers::pi * v / s;
@@ -31,13 +31,12 @@ double in_step(const std::vector<double>& values, double s) {
   return std::hypot(c, i) / static_cast<double>(values.size());
 }
 
-/// How well n readings must be in step that chance would seldom do it: anywhere over a length L
-/// they are as much as r with a probability of exp(−n r²), and steps s₀ … s₁ hold (s₁ − s₀) L/s² that
-/// differ.
-double beyond_chance(std::size_t n, double length, double steps_wide, double s) {
-  constexpr double chance = 2e-3;  // chosen: eight readings that are wholly in step are believed
-  const double initial_guesses = std::max(1.0, steps_wide * length / (s * s));
-  return std::sqrt(std::log(initial_guesses / chance) / static_cast<double>(n));
+/// Coherence that n random readings over a length L seldom reach. They reach r with probability exp(−n r²) for one
+/// step; the range s₀ … s₁ contains (s₁ − s₀) L/s² independent steps.
+double significant_coherence(std::size_t n, double length, double steps_wide, double s) {
+  constexpr double chance = 2e-3;  // chosen: eight readings in perfect step are significant
+  const double independent_steps = std::max(1.0, steps_wide * length / (s * s));
+  return std::sqrt(std::log(independent_steps / chance) / static_cast<double>(n));
 }
 
 /// Different readings in ascending order, in units of the finest step.
@@ -52,31 +51,32 @@ std::vector<double> distinct(std::span<const residuals::Signal* const> readings,
   return values;
 }
 
-/// Readings near one another, and how well they must be in step.
+/// Readings in a short range, and the coherence that is significant for them.
 struct Stretch {
   std::vector<double> values;
-  double convincing;
+  double significant;
 };
 
-/// Which steps are looked for, in units of the finest.
+/// Range of the search for the step, in units of the finest.
 struct Steps {
   double guess;
   double narrowest() const { return guess - 1; }
   double widest() const { return guess + 1.5; }
 };
 
-/// Some from all over the range, `length` steps each: further off, a step that is a little wrong is whole steps wrong.
-/// Several, since while a motion is uniform its readings are evenly apart, each time by another step.
+/// Stretches of `length` steps from all over the range. They are short because the phase error of a slightly wrong step
+/// grows with the distance. Several are needed because readings of a uniform motion are equally spaced too, but with
+/// another spacing in each stretch.
 std::vector<Stretch> stretches(const std::vector<double>& values, Steps steps, double length) {
   constexpr std::size_t most = 5;  // chosen
-  constexpr double least = 0.7;    // of 1; strays and rounding leave more; chosen
+  constexpr double least = 0.7;  // of 1; true steps exceed it despite outliers and rounding; chosen
   std::vector<Stretch> all, some;
   for (auto from = values.begin(); from != values.end();) {
     const auto to = std::upper_bound(from, values.end(), *from + length * steps.guess);
     if (std::size_t(to - from) >= fewest)
-      all.push_back(
-          {{from, to},
-           std::max(least, beyond_chance(std::size_t(to - from), *(to - 1) - *from,
+      all.push_back({{from, to},
+                     std::max(least, significant_coherence(
+                                         std::size_t(to - from), *(to - 1) - *from,
                                          steps.widest() - steps.narrowest(), steps.guess))});
     from = to;
   }
@@ -85,12 +85,12 @@ std::vector<Stretch> stretches(const std::vector<double>& values, Steps steps, d
   return some;
 }
 
-/// Summed over stretches, each with an offset of its own; 0: one of them is not in step.
-double in_step(const std::vector<Stretch>& all, double s) {
+/// Sum over stretches, each with its own offset. 0 if one of them is not coherent.
+double coherence(const std::vector<Stretch>& all, double s) {
   double sum = 0;
   for (const Stretch& one : all) {
-    const double here = in_step(one.values, s);
-    if (here <= one.convincing) return 0;
+    const double here = coherence(one.values, s);
+    if (here <= one.significant) return 0;
     sum += here;
   }
   return sum;
@@ -104,14 +104,14 @@ double quantization_step(std::span<const residuals::Signal* const> readings, dou
   std::vector<double> gaps;
   for (std::size_t k = 1; k < values.size(); ++k) gaps.push_back(values[k] - values[k - 1]);
   std::ranges::sort(gaps);
-  // A few strays, of samples that were interpolated, are passed over.
+  // The smallest 5 % may be outliers from interpolated samples.
   const Steps steps{gaps[gaps.size() / 20]};
   if (steps.guess < 2) return steps.guess * finest;
   constexpr double length = 500, of_a_step = 0.1;
   const std::vector<Stretch> all = stretches(values, steps, length);
   double best = 0, step = finest;
   for (double s = steps.narrowest(); s < steps.widest(); s += of_a_step / length * steps.guess)
-    if (const double fits = in_step(all, s); fits > best) best = fits, step = s * finest;
+    if (const double fits = coherence(all, s); fits > best) best = fits, step = s * finest;
   return step;
 }
 
@@ -126,19 +126,19 @@ std::vector<effects::Placed> coarse_sensors(std::span<const residuals::Episode> 
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
     const erp::Actuator& actuator = robot.actuators[a];
     const SensorScale scale(robot.motor_of(actuator), robot.sensors_of(actuator));
-    const auto look = [&](const char* type, residuals::Signal residuals::ActuatorSignals::*signal,
-                          double finest) {
+    const auto check = [&](const char* type, residuals::Signal residuals::ActuatorSignals::*signal,
+                           double finest) {
       const auto of = [&](const residuals::Episode& e) -> const residuals::Signal& {
         return e.actuators[a].*signal;
       };
       add(all, type, actuator.name, step(of, finest), finest);
     };
-    look("sensor_shaft_quantisation", &residuals::ActuatorSignals::shaft_rad,
-         scale.shaft_rad_per_count);
-    look("sensor_current_quantisation", &residuals::ActuatorSignals::current_A,
-         scale.current_A_per_count);
-    look("sensor_tension_quantisation", &residuals::ActuatorSignals::tension_N,
-         scale.tension_N_per_count);
+    check("sensor_shaft_quantisation", &residuals::ActuatorSignals::shaft_rad,
+          scale.shaft_rad_per_count);
+    check("sensor_current_quantisation", &residuals::ActuatorSignals::current_A,
+          scale.current_A_per_count);
+    check("sensor_tension_quantisation", &residuals::ActuatorSignals::tension_N,
+          scale.tension_N_per_count);
   }
   const auto joints = robot.joints();
   for (const erp::JointSensor& sensor : robot.joint_sensors)

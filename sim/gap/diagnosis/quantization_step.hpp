@@ -6,15 +6,15 @@
 #include "sim/gap/residuals/episode.hpp"
 #include "sim/model/effects/library.hpp"
 
-/// Whether a sensor's readings sit on a coarser lattice than its data sheet says.
+/// Detects quantization steps of sensor readings that are larger than on the data sheet.
 namespace sim::diagnosis {
 
-/// The step between readings that are neighbours; 0: too few to tell. Robust to steps that the
-/// converter rounds; what chance may do as well is no step: `finest` then.
+/// Quantization step of the readings; 0 if there are too few. Robust to rounding by the converter. Returns
+/// `finest` if a larger step is not statistically significant.
 double quantization_step(std::span<const residuals::Signal* const> readings, double finest);
 
-/// A sensor_…_quantisation effect for each sensor whose step is at least 1.8 times its data
-/// sheet's, in any of the recordings taken together.
+/// A sensor_…_quantisation effect for each sensor whose step, over all recordings, is more than 1.8 times
+/// that of its data sheet.
 std::vector<effects::Placed> coarse_sensors(std::span<const residuals::Episode> episodes,
                                             const erp::Robot& robot);
 

@@ -8,10 +8,10 @@ namespace sim::diagnosis {
 namespace {
 
 constexpr std::size_t bins = 16;
-constexpr std::size_t fewest = 5;  // windows a bin
+constexpr std::size_t fewest = 5;  // windows per bin
 constexpr const char* time_name = "time";
 
-/// The residuals of one stage with their variables, some recordings in a row.
+/// Residuals of one stage with their variables, over several recordings.
 struct Sample {
   std::vector<Variable> variables;
   std::vector<double> residual;  ///< units of noise
@@ -27,15 +27,15 @@ Sample sample(const Evaluator& evaluator, const Evaluation& evaluation, effects:
       for (const Variable& v : own) all.variables.push_back({v.name, v.unit, {}});
     std::size_t first = 0;
     const auto& bare = evaluator.bare().of_episode[e].residuals;
-    const auto& tried = evaluation.of_episode[e].residuals;
+    const auto& changed = evaluation.of_episode[e].residuals;
     for (std::size_t n = 0; n < bare.size(); ++n) {
       const residuals::Residual& r = bare[n];
       if (r.stage == stage && r.on == on)
         for (std::size_t k = 0; k < r.value.size(); ++k) {
-          const bool tells = n < tried.size() && !std::isnan(tried[n].value[k]);
-          const residuals::Residual& told = tells ? tried[n] : r;
-          const bool says_nothing = residuals::banded(told, k) && told.value[k] == 0;
-          if (std::isnan(z[first + k]) || says_nothing) continue;
+          const bool available = n < changed.size() && !std::isnan(changed[n].value[k]);
+          const residuals::Residual& used = available ? changed[n] : r;
+          const bool within_band = residuals::banded(used, k) && used.value[k] == 0;
+          if (std::isnan(z[first + k]) || within_band) continue;
           all.residual.push_back(z[first + k]);
           for (std::size_t v = 0; v < own.size(); ++v)
             all.variables[v].value.push_back(own[v].value[k]);
@@ -46,6 +46,7 @@ Sample sample(const Evaluator& evaluator, const Evaluation& evaluation, effects:
   return all;
 }
 
+/// Mean residual by bin of a variable.
 struct Map {
   double low = 0, width = 1;
   std::array<double, bins> sum{}, square{};
@@ -84,7 +85,7 @@ double remaining_residual(const Map& map, const std::vector<double>& x,
   return left;
 }
 
-/// Σ (r − m)², m the same everywhere.
+/// Σ (r − m)² with a constant m.
 double remaining_residual(double mean, const std::vector<double>& r) {
   double left = 0;
   for (const double one : r) left += std::pow(one - mean, 2);
@@ -97,7 +98,7 @@ double mean_of(const std::vector<double>& r) {
   return r.empty() ? 0 : sum / static_cast<double>(r.size());
 }
 
-/// Of what is beyond the noise of r, which leaves `left` where something explains it.
+/// Explained part of the residual above noise; `left`: remaining Σ r².
 double explained(double left, const std::vector<double>& r) {
   const double before = remaining_residual(0, r);
   const auto n = static_cast<double>(r.size());
@@ -150,20 +151,22 @@ std::optional<ResidualProfile> residual_profile(const Evaluator& evaluator,
                                                 const std::string& on,
                                                 std::span<const std::size_t> train,
                                                 std::span<const std::size_t> held_out) {
-  const Sample known = sample(evaluator, evaluation, stage, on, train);
-  const Sample unseen = sample(evaluator, evaluation, stage, on, held_out);
+  const Sample training = sample(evaluator, evaluation, stage, on, train);
+  const Sample held_out_sample = sample(evaluator, evaluation, stage, on, held_out);
   const double constant = std::max(
-      0.0,
-      explained(remaining_residual(mean_of(known.residual), unseen.residual), unseen.residual));
+      0.0, explained(remaining_residual(mean_of(training.residual), held_out_sample.residual),
+                     held_out_sample.residual));
   std::optional<ResidualProfile> best;
-  for (std::size_t v = 0; v < known.variables.size() && v < unseen.variables.size(); ++v) {
-    const Map map = map_of(known.variables[v].value, known.residual);
+  for (std::size_t v = 0; v < training.variables.size() && v < held_out_sample.variables.size();
+       ++v) {
+    const Map map = map_of(training.variables[v].value, training.residual);
     const double share = explained(
-        remaining_residual(map, unseen.variables[v].value, unseen.residual), unseen.residual);
+        remaining_residual(map, held_out_sample.variables[v].value, held_out_sample.residual),
+        held_out_sample.residual);
     if (best && share <= best->explained) continue;
-    best =
-        ResidualProfile{known.variables[v].name,         known.variables[v].unit, {}, {}, {}, share,
-                        std::clamp(share, 0.0, constant)};
+    best = ResidualProfile{
+        training.variables[v].name,      training.variables[v].unit, {}, {}, {}, share,
+        std::clamp(share, 0.0, constant)};
     for (std::size_t b = 0; b < bins; ++b) {
       if (map.count[b] < fewest) continue;
       const double mean = map.mean(b), n = static_cast<double>(map.count[b]);
@@ -175,20 +178,21 @@ std::optional<ResidualProfile> residual_profile(const Evaluator& evaluator,
   return best;
 }
 
-double follows(const Evaluator& evaluator, const Evaluation& evaluation, effects::Stage stage,
-               const std::string& on, const Sets& sets) {
+double explained_by_one_variable(const Evaluator& evaluator, const Evaluation& evaluation,
+                                 effects::Stage stage, const std::string& on, const Sets& sets) {
   if (sets.held_out == sets.train) return 0;
-  const Sample known = sample(evaluator, evaluation, stage, on, sets.train);
-  const Sample unseen = sample(evaluator, evaluation, stage, on, sets.held_out);
-  if (known.residual.empty() || unseen.residual.empty()) return 0;
-  const double plain = remaining_residual(mean_of(known.residual), unseen.residual);
-  const double beyond_noise =
-      remaining_residual(0, unseen.residual) - static_cast<double>(unseen.residual.size());
+  const Sample training = sample(evaluator, evaluation, stage, on, sets.train);
+  const Sample held_out_sample = sample(evaluator, evaluation, stage, on, sets.held_out);
+  if (training.residual.empty() || held_out_sample.residual.empty()) return 0;
+  const double plain = remaining_residual(mean_of(training.residual), held_out_sample.residual);
+  const double beyond_noise = remaining_residual(0, held_out_sample.residual) -
+                              static_cast<double>(held_out_sample.residual.size());
   double most = 0;
-  for (std::size_t v = 0; v < known.variables.size(); ++v) {
-    if (known.variables[v].name == time_name) continue;
-    const Map map = map_of(known.variables[v].value, known.residual);
-    const double left = remaining_residual(map, unseen.variables[v].value, unseen.residual);
+  for (std::size_t v = 0; v < training.variables.size(); ++v) {
+    if (training.variables[v].name == time_name) continue;
+    const Map map = map_of(training.variables[v].value, training.residual);
+    const double left =
+        remaining_residual(map, held_out_sample.variables[v].value, held_out_sample.residual);
     most = std::max(most, beyond_noise > 0 ? (plain - left) / beyond_noise : 0);
   }
   return most;
@@ -198,12 +202,12 @@ std::vector<Region> regions(const Evaluator& evaluator, const Evaluation& evalua
                             effects::Stage stage, const std::string& on,
                             std::span<const std::size_t> episodes) {
   constexpr const char* fifths[] = {"lowest", "low", "middle", "high", "highest"};
-  constexpr double crowded = 0.35;  // of Σ r² in a fifth of the windows; chosen
+  constexpr double crowded = 0.35;  // share of Σ r² in a fifth of the windows; chosen
   const Sample all = sample(evaluator, evaluation, stage, on, episodes);
   double whole = 0;
   for (const double r : all.residual) whole += r * r;
   std::vector<Region> found;
-  const auto look = [&](const std::string& name, const std::vector<double>& x) {
+  const auto add = [&](const std::string& name, const std::vector<double>& x) {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < x.size(); ++k)
       if (!std::isnan(x[k])) order.push_back(k);
@@ -215,11 +219,11 @@ std::vector<Region> regions(const Evaluator& evaluator, const Evaluation& evalua
       if (share[f] > crowded) found.push_back({name, fifths[f], share[f]});
   };
   for (const Variable& v : all.variables) {
-    look(v.name, v.value);
+    add(v.name, v.value);
     if (!v.name.ends_with("speed")) continue;
     std::vector<double> size = v.value;
     for (double& x : size) x = std::abs(x);
-    look("size of " + v.name, size);  // its lowest fifth: reversals
+    add("size of " + v.name, size);  // its lowest fifth: reversals
   }
   std::ranges::stable_sort(found, std::greater(), &Region::share);
   return found;

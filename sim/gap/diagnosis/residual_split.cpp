@@ -25,8 +25,8 @@ bool split_by_residual(Problem& problem, const Evaluator& by, CutRecordings& cut
     const residuals::Episode& episode = problem.episodes[one.episode];
     cut.shared.push_back({episode.name, double(one.row) * episode.period_s});
     cut.warnings.push_back(fmt::format(
-        "too few recordings show the gap in the {} of {}: effects are chosen on the first {:.1f} s "
-        "of {} and judged on the rest; record another that shows it",
+        "too few recordings show the gap in the {} of {}: effects are fitted to the first {:.1f} s "
+        "of {} and evaluated on the rest; record another that shows it",
         effects::word(one.stage), one.on, cut.shared.back().judged_from_s, episode.name));
     cut_in_two(one, problem.episodes, problem.sets);
   }

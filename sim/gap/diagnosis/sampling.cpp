@@ -6,7 +6,7 @@
 
 namespace sim::diagnosis {
 
-double turned_back(const Evaluator& evaluator) {
+double reversal_share(const Evaluator& evaluator) {
   constexpr double resting_rad_per_s = 0.02;  // chosen: as in chain_trace.cpp
   double back = 0, all = 0;
   for (const residuals::Episode& e : evaluator.episodes())
@@ -22,13 +22,13 @@ double turned_back(const Evaluator& evaluator) {
 }
 
 std::optional<std::string> rows_too_far_apart(const Evaluator& evaluator) {
-  constexpr double most = 0.05;  // a window has six rows at least, so a third of all; chosen
+  constexpr double most = 0.05;  // a third of the windows, of at least six rows each; chosen
   if (evaluator.nominal().drives.empty()) return std::nullopt;
-  const double share = turned_back(evaluator);
+  const double share = reversal_share(evaluator);
   if (share <= most) return std::nullopt;
   return fmt::format(
-      "the shaft turned back at {:.0f} % of the rows, {:.3g} ms apart, at which it moved; friction "
-      "acts both ways there: record more rows a second, or slower motions",
+      "the shaft turned back at {:.0f} % of the rows with motion ({:.3g} ms apart), where friction "
+      "acts in both directions: record more rows per second, or slower motions",
       100 * share, 1e3 * evaluator.episodes()[0].period_s);
 }
 

@@ -4,16 +4,17 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// Whether the rows of a drive's recordings are near enough to each other to determine its friction.
+/// Whether the rows of a drive's recordings are close enough in time to determine its friction.
 ///
-///   share = rows at which the shaft turns the other way than before / rows about which it turns
+///   share = rows at which the shaft reverses / rows at which it moves
 ///
-/// In a period about such a row friction acts both ways, and where it changes is not known.
+/// Around such a row friction acts in both directions, and the instant of the change is unknown.
 namespace sim::diagnosis {
 
-double turned_back(const Evaluator& evaluator);
+/// The share above.
+double reversal_share(const Evaluator& evaluator);
 
-/// Why friction is not determined; nothing: it is, or the robot has no drive.
+/// Reason why friction is not determined. Empty if it is, or if the robot has no drive.
 std::optional<std::string> rows_too_far_apart(const Evaluator& evaluator);
 
 }  // namespace sim::diagnosis

@@ -14,15 +14,15 @@ namespace {
 using effects::Placed;
 using Eigen::VectorXd;
 
-/// z of one recording, 0 where nothing is judged.
-class Look {
+/// Screens candidates on some recordings; z is 0 in windows that are not evaluated.
+class Screen {
  public:
-  Look(const Evaluator& evaluator, const Evaluation& base, std::vector<std::size_t> episodes)
+  Screen(const Evaluator& evaluator, const Evaluation& base, std::vector<std::size_t> episodes)
       : evaluator_(evaluator), base_(base), only_(std::move(episodes)), left_(z_of(base)) {
     for (std::size_t e = 0; e < base.effects.size(); ++e) add_sensitivities(e);
   }
 
-  /// The best promise of the candidate's parameters and tries; 0: it changes nothing.
+  /// Best score over the candidate's parameters and initial guesses; 0 if it changes nothing.
   double screening_score(const Placed& neutral) const {
     double best = 0;
     for (const Placed& perturbed : perturbations(neutral))
@@ -46,12 +46,12 @@ class Look {
     const double whole = change.squaredNorm();
     for (const VectorXd& d : sensitivities_) change -= d.dot(change) * d;
     const double square = change.squaredNorm();
-    constexpr double own = 1e-4;  // of its square: less is a copy of what is there
+    constexpr double own = 1e-4;  // of its square; less is reproduced by the present effects
     if (square < 1e-12 || square < own * whole) return 0;
     return std::pow(left_.dot(change), 2) / square;
   }
 
-  /// What the parameters of an effect of the base change, made orthonormal to the others.
+  /// Adds the changes by the parameters of an effect of the base, orthonormal to the others.
   void add_sensitivities(std::size_t e) {
     effects::AnyEffect counted = base_.effects[e].effect;
     const std::size_t count = effects::parameters(counted).size();
@@ -77,17 +77,17 @@ class Look {
 std::vector<double> screening_scores(const Evaluator& evaluator, const Evaluation& base,
                                      const RankingOptions& options,
                                      const std::vector<Placed>& all) {
-  std::vector<double> promised(all.size());
+  std::vector<double> scores(all.size());
   const bool drive =
-      !evaluator.nominal().drives.empty();  // each of its recordings may be of one speed
-  const Look look(
+      !evaluator.nominal().drives.empty();  // each recording of a drive may have a single speed
+  const Screen screen(
       evaluator, base,
       drive ? options.train : std::vector{largest_residuals_in(evaluator, base, options.train)});
   const auto found = map(options.pool, options.threads, all.size(), [&](std::size_t k) {
-    return Pool::Numbers{look.screening_score(all[k])};
+    return Pool::Numbers{screen.screening_score(all[k])};
   });
-  for (std::size_t k = 0; k < all.size(); ++k) promised[k] = found[k][0];
-  return promised;
+  for (std::size_t k = 0; k < all.size(); ++k) scores[k] = found[k][0];
+  return scores;
 }
 
 }  // namespace
@@ -112,17 +112,17 @@ std::vector<Placed> candidates(const Evaluator& evaluator,
 }
 
 std::vector<Placed> perturbations(const Placed& neutral) {
-  constexpr double little = 3e-3;
+  constexpr double small = 3e-3;
   std::vector<Placed> all;
   effects::AnyEffect counted = neutral.effect;
   const std::size_t count = effects::parameters(counted).size();
   for (std::size_t k = 0; k < count; ++k)
-    for (const double share : {little, 0.1}) {
+    for (const double share : {small, 0.1}) {
       Placed perturbed = neutral;
       const auto parameters = effects::parameters(perturbed.effect);
       if (!parameters[k].fitted) continue;
       for (std::size_t other = 0; other < k; ++other)
-        *parameters[other].value += little * parameters[other].bounds.high;
+        *parameters[other].value += small * parameters[other].bounds.high;
       const auto& [low, high] = parameters[k].bounds;
       *parameters[k].value += share * (high > 0 ? high : low);
       all.push_back(std::move(perturbed));
@@ -141,25 +141,25 @@ std::size_t largest_residuals_in(const Evaluator& evaluator, const Evaluation& b
 std::vector<Placed> screen_effects(const Evaluator& evaluator, const Evaluation& base,
                                    const RankingOptions& options) {
   const auto all = candidates(evaluator, options.withhold);
-  const auto promised = screening_scores(evaluator, base, options, all);
-  auto sorted = promised;
+  const auto scores = screening_scores(evaluator, base, options, all);
+  auto sorted = scores;
   std::ranges::sort(sorted, std::greater());
   const double enough = std::min(options.screen_share * sorted[0],
                                  sorted[std::min(options.fitted_at_least, sorted.size()) - 1]);
   std::vector<Placed> chosen;
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (promised[k] > 0 && promised[k] >= enough) chosen.push_back(all[k]);
+    if (scores[k] > 0 && scores[k] >= enough) chosen.push_back(all[k]);
   return chosen;
 }
 
 std::vector<Placed> best_screened(const Evaluator& evaluator, const Evaluation& base,
                                   const RankingOptions& options, std::size_t count) {
   const auto all = candidates(evaluator, options.withhold);
-  const auto promised = screening_scores(evaluator, base, options, all);
+  const auto scores = screening_scores(evaluator, base, options, all);
   auto order = each(all.size());
-  std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return promised[k]; });
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return scores[k]; });
   std::vector<Placed> chosen;
-  for (std::size_t k = 0; k < std::min(count, all.size()) && promised[order[k]] > 0; ++k)
+  for (std::size_t k = 0; k < std::min(count, all.size()) && scores[order[k]] > 0; ++k)
     chosen.push_back(all[order[k]]);
   return chosen;
 }

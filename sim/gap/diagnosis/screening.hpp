@@ -1,33 +1,33 @@
 #pragma once
 #include "sim/gap/diagnosis/identification.hpp"
 
-/// What an effect promises before it is fitted, as if its law were linear.
+/// Screening: reduction of Σ z² that an effect can reach, estimated before the fit with a linearized law.
 ///
-///   promise = (zᵀ d⊥)²/(d⊥ᵀ d⊥)       z what is left, d what a nudge of a parameter changes
+///   score = (zᵀ d⊥)²/(d⊥ᵀ d⊥)       z: remaining residuals, d: their change by a parameter step
 ///
-/// d⊥: less what the parameters of the effects that are there already could change as well, for
-/// these will be fitted again beside it (orthogonal least squares: Chen, Billings, Luo 1989).
+/// d⊥: component of d orthogonal to the changes by the parameters of the effects already chosen, because
+/// these are fitted again with it (orthogonal least squares: Chen, Billings, Luo 1989).
 namespace sim::diagnosis {
 
-/// Every effect of the library at every place, neutral. Where joints were found by the tendons, not
-/// those that change what measured joints say; nor those of a sensor that a drive has not.
+/// Every effect of the library at every place, with neutral values. Left out: effects on measured joint
+/// angles if these were estimated from tendons, and effects on sensors that a drive lacks.
 std::vector<effects::Placed> candidates(const Evaluator& evaluator,
                                         const std::vector<std::string>& withhold);
 
-/// An effect with each of its fitted parameters in turn higher by 0.3 % and by 10 % of its bound;
-/// those before it a little, for a shape shows only once there is something.
+/// An effect with each of its fitted parameters in turn increased by 0.3 % and by 10 % of its bound. The
+/// parameters before it are increased by 0.3 %, because a form parameter changes nothing at size 0.
 std::vector<effects::Placed> perturbations(const effects::Placed& neutral);
 
 /// The recording with the largest residuals.
 std::size_t largest_residuals_in(const Evaluator& evaluator, const Evaluation& base,
                                  std::span<const std::size_t> episodes);
 
-/// The effects that promise most on the loudest training recording, in the order of the library:
-/// `screen_share` of the best and at least `fitted_at_least`.
+/// The effects with the best scores on the training recording with the largest residuals, in the order of
+/// the library: all above `screen_share` of the best score, and at least `fitted_at_least`.
 std::vector<effects::Placed> screen_effects(const Evaluator& evaluator, const Evaluation& base,
                                             const RankingOptions& options);
 
-/// The `count` effects that promise most, the best first.
+/// The `count` effects with the best scores, best first.
 std::vector<effects::Placed> best_screened(const Evaluator& evaluator, const Evaluation& base,
                                            const RankingOptions& options, std::size_t count);
 

@@ -11,11 +11,11 @@ namespace {
 
 using effects::Placed;
 
-/// What could stand for one of several effects as well.
+/// Effects indistinguishable from the k-th of several.
 std::vector<IdentifiedEffect> alternatives(const Problem& problem, const Evaluator& evaluator,
-                                           const EffectSet& together, std::size_t k) {
-  const Placed& chosen = together.chosen()[k];
-  const Evaluation without = evaluator.with(all_but(together.chosen(), k), problem.sets.all());
+                                           const EffectSet& chosen_set, std::size_t k) {
+  const Placed& chosen = chosen_set.chosen()[k];
+  const Evaluation without = evaluator.with(all_but(chosen_set.chosen(), k), problem.sets.all());
   const auto ranked = rank(evaluator, without, problem.ranking_options(0.85, 0.95));
   if (ranked.empty() || ranked[0].fit.placed.on != chosen.on) return {};
   auto same = confusable(ranked, problem.ranking_options());
@@ -28,34 +28,34 @@ std::vector<IdentifiedEffect> alternatives(const Problem& problem, const Evaluat
   return all;
 }
 
-/// Several effects: each with its share of what they close together; where they explain, with what could stand for it.
-void settle(const Problem& problem, const Evaluator& evaluator, const EffectSet& together,
-            Selection& selection) {
-  const ShapleyValues part = shapley_values(problem, evaluator, together.chosen());
+/// Sets the answer to several effects with their Shapley values and, if they explain the gap, their alternatives.
+void set_answer(const Problem& problem, const Evaluator& evaluator, const EffectSet& chosen_set,
+                Selection& selection) {
+  const ShapleyValues part = shapley_values(problem, evaluator, chosen_set.chosen());
   selection.interaction = part.interaction;
   selection.answer.clear();
-  for (std::size_t k = 0; k < together.size(); ++k) {
-    Ranked r{together.fits()[k], {}, {}, part.share[k], part.interval[k], 0};
+  for (std::size_t k = 0; k < chosen_set.size(); ++k) {
+    Ranked r{chosen_set.fits()[k], {}, {}, part.share[k], part.interval[k], 0};
     selection.answer.push_back(identified(r, 0));
     selection.answer.back().supported = part.lost[k].low > 0;
     if (selection.explained())
-      selection.answer.back().alternatives = alternatives(problem, evaluator, together, k);
+      selection.answer.back().alternatives = alternatives(problem, evaluator, chosen_set, k);
   }
   std::ranges::stable_sort(selection.answer, std::greater(), &IdentifiedEffect::gain);
 }
 
-/// The best alone, others on top of it while a stage stays open.
-EffectSet one_after_another(const Problem& problem, const Evaluator& evaluator,
+/// The best single effect, and further ones while a stage stays open.
+EffectSet forward_selection(const Problem& problem, const Evaluator& evaluator,
                             const Placed& first) {
-  EffectSet together(problem, evaluator, {first});
-  while (together.leaves_unexplained(problem.options.search) &&
-         together.size() < problem.options.most_effects)
-    if (!together.add_another()) break;
-  together.drop_superfluous();
-  return together;
+  EffectSet chosen_set(problem, evaluator, {first});
+  while (chosen_set.leaves_unexplained(problem.options.search) &&
+         chosen_set.size() < problem.options.most_effects)
+    if (!chosen_set.add_another()) break;
+  chosen_set.drop_superfluous();
+  return chosen_set;
 }
 
-/// Every effect alone, the best first.
+/// Ranks every effect alone, best first.
 void rank_alone(const Problem& problem, const Evaluator& evaluator,
                 const std::vector<StageGap>& stages, Selection& s) {
   auto which = problem.ranking_options(0.1, 0.5);
@@ -98,21 +98,22 @@ Selection select(const Problem& problem, const Evaluator& evaluator,
     return s;
   }
   const DiagnoseOptions& options = problem.options;
-  EffectSet together = one_after_another(problem, evaluator, first[0].fit.placed);
+  EffectSet chosen_set = forward_selection(problem, evaluator, first[0].fit.placed);
   const bool unexplained_stages =
-      together.leaves_unexplained(together.size() == 1 ? options.alone : options.together);
-  if (unexplained_stages || together.size() > 1)
-    if (auto batch = of_one_batch(problem, evaluator, first))
+      chosen_set.leaves_unexplained(chosen_set.size() == 1 ? options.alone : options.together);
+  if (unexplained_stages || chosen_set.size() > 1)
+    if (auto batch = same_type_on_open_actuators(problem, evaluator, first))
       if (unexplained_stages ||
-          (batch->size() <= together.size() && batch->square() < together.square()))
-        together = std::move(*batch);
-  const bool one = together.size() == 1;
-  s.left = together.left(one ? options.alone : options.together);
-  if (!one || !s.answer[0].is(together.chosen()[0])) settle(problem, evaluator, together, s);
+          (batch->size() <= chosen_set.size() && batch->square() < chosen_set.square()))
+        chosen_set = std::move(*batch);
+  const bool one = chosen_set.size() == 1;
+  s.left = chosen_set.left(one ? options.alone : options.together);
+  if (!one || !s.answer[0].is(chosen_set.chosen()[0]))
+    set_answer(problem, evaluator, chosen_set, s);
   else
     for (const std::size_t k : confusable(first, problem.ranking_options()))
       s.answer[0].alternatives.push_back(s.ranked[k]);
-  s.evaluation = together.evaluation();
+  s.evaluation = chosen_set.evaluation();
   return s;
 }
 

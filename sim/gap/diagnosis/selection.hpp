@@ -5,26 +5,25 @@
 #include "sim/gap/diagnosis/answer.hpp"
 #include "sim/gap/diagnosis/problem.hpp"
 
-/// Which effects together explain the residuals: the best alone, others on top of it while a stage
-/// stays open, each reconsidered when another joins; where that leaves one open, or takes as many and
-/// leaves more, the same effect on every actuator that differs.
+/// Forward selection of effects: the best single effect, then further ones while a stage stays open; each
+/// is reconsidered when another is added. If a stage stays open, the same effect on every actuator with an
+/// open stage is tried; it is also taken if it needs no more effects and leaves a smaller Σ z².
 namespace sim::diagnosis {
 
 struct Selection {
-  bool gap = false;   ///< some stage leaves its floor
-  bool shown = true;  ///< false: the recordings held out show too little of it to judge an effect
-  std::vector<IdentifiedEffect> ranked = {};  ///< one by one, best first
+  bool gap = false;   ///< some stage is open
+  bool shown = true;  ///< whether the held-out recordings show the gap well enough
+  std::vector<IdentifiedEffect> ranked = {};  ///< effects fitted one by one, best first
   std::vector<Ranked> alone = {};             ///< the same with their fits
-  std::vector<IdentifiedEffect> answer =
-      {};                           ///< effects that together close the gap, the most telling first
-  std::vector<StageGap> left = {};  ///< after the answer, held-out recordings
+  std::vector<IdentifiedEffect> answer = {};  ///< effects that close the gap together, by gain
+  std::vector<StageGap> left = {};  ///< remaining residual with the answer, held-out recordings
   Evaluation evaluation = {};       ///< with the answer
-  double interaction = 0;  ///< of the gap: what the answer closes less what each does alone
+  double interaction = 0;  ///< share of the gap: closed by the answer minus the sum of each alone
 
-  bool explained() const;  ///< there is an answer, and no stage stays open
+  bool explained() const;  ///< there is an answer, and no stage is open
 };
 
-/// How far to look: for the best alone, or for others on top of it too.
+/// Extent of the selection: the best single effect, or further effects too.
 enum class Depth { best_alone, full };
 
 /// `stages`: the columns of the signatures. `earlier`: a selection on the same robot, whose ranking is reused; without
@@ -33,12 +32,12 @@ Selection select(const Problem& problem, const Evaluator& evaluator,
                  const std::vector<StageGap>& stages, Depth depth = Depth::full,
                  Selection earlier = {});
 
-/// Whether a stage that keeps `excess` of what `was` there is not explained. `follows`: how much of the
-/// rest follows one variable, asked only where that decides.
+/// Whether a stage is unexplained that keeps `excess` of its nominal excess `was`. The function
+/// returns the part of the remaining residual that depends on one variable; it is called only if it decides.
 bool stays_open(double excess, double was, const Tolerance& tolerance,
-                const std::function<double()>& follows);
+                const std::function<double()>& explained_by_one_variable);
 
-/// The stages that `trial` leaves open on the held-out recordings.
+/// All stages on the held-out recordings; open: unexplained by `evaluation`.
 std::vector<StageGap> unexplained_stages(const Problem& problem, const Evaluator& evaluator,
                                          const Evaluation& evaluation, const Tolerance& tolerance);
 

@@ -15,7 +15,7 @@ using effects::Placed;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// z of all recordings, 0 where nothing is judged.
+/// z of all recordings, 0 in windows that are not evaluated.
 VectorXd z_of(const Evaluator& evaluator, const Evaluation& evaluation) {
   std::vector<double> all;
   for (std::size_t e = 0; e < evaluator.episodes().size(); ++e)
@@ -26,19 +26,19 @@ VectorXd z_of(const Evaluator& evaluator, const Evaluation& evaluation) {
 Sensitivity sensitivity_of(const Evaluator& evaluator, const VectorXd& bare,
                            const Placed& neutral) {
   const auto all = each(evaluator.episodes().size());
-  const auto ways = perturbations(neutral);  // a little and more, of each parameter
-  MatrixXd changes(bare.size(), static_cast<Eigen::Index>(ways.size()) / 2);
-  Sensitivity direction;
+  const auto variants = perturbations(neutral);  // a small and a larger one of each parameter
+  MatrixXd changes(bare.size(), static_cast<Eigen::Index>(variants.size()) / 2);
+  Sensitivity sensitivity;
   for (Eigen::Index k = 0; k < changes.cols(); ++k)
-    for (const Placed& way : std::span(ways).subspan(std::size_t(2 * k), 2)) {
-      changes.col(k) = z_of(evaluator, evaluator.with(evaluator.bare(), way, all)) - bare;
-      if (k == 0) direction.perturbed = way;
+    for (const Placed& perturbed : std::span(variants).subspan(std::size_t(2 * k), 2)) {
+      changes.col(k) = z_of(evaluator, evaluator.with(evaluator.bare(), perturbed, all)) - bare;
+      if (k == 0) sensitivity.perturbed = perturbed;
       if (changes.col(k).norm() > shown) break;
     }
   const Eigen::ColPivHouseholderQR<MatrixXd> parts(changes);
-  direction.first = changes.col(0);
-  direction.span = parts.householderQ() * MatrixXd::Identity(bare.size(), parts.rank());
-  return direction;
+  sensitivity.first = changes.col(0);
+  sensitivity.span = parts.householderQ() * MatrixXd::Identity(bare.size(), parts.rank());
+  return sensitivity;
 }
 
 }  // namespace

@@ -5,19 +5,19 @@
 
 #include "sim/gap/diagnosis/evaluation.hpp"
 
-/// What a small effect changes in the residuals of recordings, in units of noise: δz, 0 where nothing
-/// is judged. As if laws were linear.
+/// Sensitivity: change δz of the residuals by a small effect, in units of noise; 0 in windows that are not
+/// evaluated. Laws are linearized.
 namespace sim::diagnosis {
 
-constexpr double shown = 1;  ///< |δz|, standard deviations: less is not seen at all
+constexpr double shown = 1;  ///< |δz| in standard deviations below which a change is not visible
 
 struct Sensitivity {
-  effects::Placed perturbed;  ///< 0.3 % of the range, or 10 % where that does not show
+  effects::Placed perturbed;  ///< by 0.3 % of the range, or 10 % if that is not visible
   Eigen::VectorXd first;      ///< δz by its first parameter
-  Eigen::MatrixXd span;  ///< δz by each of its parameters, orthonormal; no column: nothing changes
+  Eigen::MatrixXd span;  ///< orthonormal basis of δz by all its parameters; no column: no change
 };
 
-/// Of every effect of the library at every place, but those of types withheld.
+/// Sensitivities of every effect of the library at every place, except types in `withhold`.
 std::vector<Sensitivity> sensitivities(const Evaluator& evaluator,
                                        const std::vector<std::string>& withhold, int threads);
 

@@ -11,11 +11,11 @@
 namespace sim::diagnosis {
 namespace {
 
-constexpr std::size_t all_subsets_of = 6;  // effects; chosen: of more there are too many
+constexpr std::size_t all_subsets_of = 6;  // largest number of effects with all subsets; chosen
 
 double factorial(std::size_t n) { return n < 2 ? 1 : static_cast<double>(n) * factorial(n - 1); }
 
-/// Which effects are there, one bit each.
+/// A subset of the effects, one bit each.
 using Set = std::uint64_t;
 constexpr Set only(std::size_t k) { return Set{1} << k; }
 
@@ -27,7 +27,7 @@ struct Subsets {
   Set whole() const { return only(count) - 1; }
 };
 
-/// Those that the shares need: all, or of many effects none, each alone, all but each and all.
+/// Subsets that are needed: all of them, or for many effects none, each alone, all but each, and all.
 std::vector<Set> needed(std::size_t count) {
   const Set whole = only(count) - 1;
   std::vector<Set> sets;
@@ -53,7 +53,7 @@ Subsets score(const Problem& problem, std::size_t count, const BlocksOf& blocks_
   return subsets;
 }
 
-/// v of the subsets, over some blocks.
+/// v of each subset, over some blocks.
 using Closes = std::map<Set, double>;
 
 Closes closed(const Subsets& subsets, std::span<const std::size_t> drawn) {
@@ -107,12 +107,12 @@ ShapleyValues shapley_values(const Problem& problem, std::size_t count, const Bl
 }
 
 ShapleyValues shapley_values(const Problem& problem, const Evaluator& evaluator,
-                             const std::vector<effects::Placed>& together) {
+                             const std::vector<effects::Placed>& effect_set) {
   const auto& held_out = problem.sets.held_out;
-  return shapley_values(problem, together.size(), [&](const std::vector<bool>& among) {
+  return shapley_values(problem, effect_set.size(), [&](const std::vector<bool>& among) {
     std::vector<effects::Placed> some;
-    for (std::size_t k = 0; k < together.size(); ++k)
-      if (among[k]) some.push_back(together[k]);
+    for (std::size_t k = 0; k < effect_set.size(); ++k)
+      if (among[k]) some.push_back(effect_set[k]);
     return evaluator.blocks(some.empty() ? evaluator.bare() : evaluator.with(some, held_out),
                             held_out);
   });

@@ -5,26 +5,26 @@
 #include "sim/gap/diagnosis/answer.hpp"
 #include "sim/gap/diagnosis/problem.hpp"
 
-/// What each of several causes has to do with the gap that they close together.
+/// Shapley values: the share of each of several causes in the gap that they close together.
 ///
-///   v(S) = (S₀ − S_S)/(S₀ − N)                       closed by the subset S of the effects
-///   φ_k  = mean over all orders of joining of v(S + k) − v(S)                (Shapley 1953)
+///   v(S) = (S₀ − S_S)/(S₀ − N)                    gap closed by the subset S of the effects
+///   φ_k  = mean of v(S + k) − v(S) over all orders of adding the effects      (Shapley 1953)
 ///
-/// Of more than six, whose subsets are too many, (v({k}) + v(all) − v(all but k))/2, which is the same
-/// where no three interact. Their sum is what all close; lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
+/// For more than six effects: φ_k = (v({k}) + v(all) − v(all but k))/2, which is the same if no three effects
+/// interact. The sum of φ is what all close; lost: v(all) − v(all but k); interaction: v(all) − Σ v({k}).
 namespace sim::diagnosis {
 
 struct ShapleyValues {
-  std::vector<double> share;  ///< φ, one an effect
+  std::vector<double> share;  ///< φ by effect
   std::vector<Interval> interval, lost;
   double interaction = 0;
 };
 
-/// What the recordings held out score with some causes, a flag each.
+/// Scores of the held-out recordings with the causes whose flag is set.
 using BlocksOf = std::function<std::vector<ScoreBlock>(const std::vector<bool>& among)>;
 ShapleyValues shapley_values(const Problem& problem, std::size_t count, const BlocksOf& blocks_of);
-/// Of effects on the robot of `trials`.
+/// For effects on the robot of `evaluator`.
 ShapleyValues shapley_values(const Problem& problem, const Evaluator& evaluator,
-                             const std::vector<effects::Placed>& together);
+                             const std::vector<effects::Placed>& effect_set);
 
 }  // namespace sim::diagnosis

@@ -6,8 +6,8 @@
 
 namespace sim::diagnosis {
 
-/// What each candidate changes on the held-out recordings: its share at each of `stages`, and how
-/// like the change of the first candidate it is. Takes the candidates' trials, which are large.
+/// Sets `signature` and `likeness` of each candidate from its change on the held-out recordings. Clears the
+/// evaluations of `ranked`, which are large.
 void compute_signatures(const Problem& problem, const Evaluator& evaluator,
                         const std::vector<StageGap>& stages, std::vector<Ranked>& ranked,
                         std::vector<IdentifiedEffect>& names);

@@ -7,7 +7,7 @@
 namespace sim::diagnosis {
 namespace {
 
-/// How far the signals of a recording reach: of each kind the 5 % and 95 % marks of its size.
+/// Range of the signals of a recording: 5 % and 95 % quantiles of each signal.
 std::vector<std::pair<double, double>> reach(const residuals::Episode& episode) {
   std::vector<std::pair<double, double>> all;
   const auto add = [&](const residuals::Signal& signal, bool rate) {
@@ -67,17 +67,17 @@ Sets split(std::span<const residuals::Episode> episodes) {
 
 namespace {
 
-/// Which recordings show that a stage is open.
-class Showing {
+/// Which recordings show which open stages.
+class Visibility {
  public:
-  Showing(const Sets& sets, const Evaluator& plain, const LocalizationOptions& options) {
+  Visibility(const Sets& sets, const Evaluator& plain, const LocalizationOptions& options) {
     for (const std::size_t e : sets.all()) {
       const std::size_t only[] = {e};
       gaps_[e] = localize(plain, plain.bare(), only, options);
     }
   }
 
-  /// The best last.
+  /// Recordings in which the stage is open, largest excess last.
   std::vector<std::size_t> of(const StageGap& stage) const {
     std::vector<std::pair<double, std::size_t>> shows;
     for (const auto& [e, gaps] : gaps_)
@@ -101,7 +101,7 @@ class Showing {
   std::map<std::size_t, std::vector<StageGap>> gaps_;
 };
 
-/// The open stages, the loudest first.
+/// The open stages, largest share first.
 std::vector<StageGap> open_stages(const Sets& sets, const Evaluator& plain,
                                   const LocalizationOptions& options) {
   auto gaps = localize(plain, plain.bare(), sets.all(), options);
@@ -109,22 +109,22 @@ std::vector<StageGap> open_stages(const Sets& sets, const Evaluator& plain,
   return gaps;
 }
 
-/// The row by which half of a stage's excess, Σ (z² − 1), has passed.
+/// The row at which the sum Σ (z² − 1) of a stage reaches half of its total.
 std::size_t middle_row(const Evaluator& plain, std::size_t episode, const StageGap& stage) {
   const residuals::Explanation& e = plain.bare().of_episode[episode];
   const auto z = plain.whitened(plain.bare(), episode);
   const std::size_t windows = e.rows.size();
-  std::vector<double> passed{0};
+  std::vector<double> sum{0};
   for (std::size_t k = 0; k < windows; ++k) {
     double here = 0;
     for (std::size_t r = 0; r < e.residuals.size(); ++r)
       if (same_stage(e.residuals[r], stage.stage, stage.on) && !std::isnan(z[r * windows + k]))
         here += z[r * windows + k] * z[r * windows + k] - 1;
-    passed.push_back(passed.back() + here);
+    sum.push_back(sum.back() + here);
   }
-  const double half = passed.back() / 2;
+  const double half = sum.back() / 2;
   std::size_t k = 1;
-  while (k + 1 < windows && passed[k] < half) ++k;
+  while (k + 1 < windows && sum[k] < half) ++k;
   return e.rows[k];
 }
 
@@ -135,7 +135,7 @@ std::pair<residuals::Episode, residuals::Episode> parts_of(const residuals::Epis
   return parts;
 }
 
-/// Each part alone shows that the stage is open.
+/// Whether the stage is open in each part alone.
 bool both_show(const Cut& cut, const Evaluator& plain, const LocalizationOptions& options) {
   const auto [first, second] = parts_of(plain.episodes()[cut.episode], cut.row);
   for (const residuals::Episode& part : {first, second}) {
@@ -150,12 +150,13 @@ bool both_show(const Cut& cut, const Evaluator& plain, const LocalizationOptions
 
 Sets hold_out_visible(Sets sets, const Evaluator& plain, const LocalizationOptions& options) {
   const auto open = open_stages(sets, plain, options);
-  const Showing showing(sets, plain, options);
-  if (open.empty() || showing.on_both_sides(open[0], sets)) return sets;
-  const auto shows = showing.of(open[0]);
+  const Visibility visibility(sets, plain, options);
+  if (open.empty() || visibility.on_both_sides(open[0], sets)) return sets;
+  const auto shows = visibility.of(open[0]);
   if (shows.size() < 2) return sets;
   const auto all = sets.all();
-  sets.held_out = {shows[shows.size() - 2]};  // the very best is to learn from
+  sets.held_out = {
+      shows[shows.size() - 2]};  // the recording with the largest excess is for training
   sets.train = all;
   std::erase(sets.train, sets.held_out[0]);
   return sets;
@@ -163,12 +164,12 @@ Sets hold_out_visible(Sets sets, const Evaluator& plain, const LocalizationOptio
 
 std::vector<Cut> cuts(const Sets& sets, const Evaluator& plain,
                       const LocalizationOptions& options) {
-  constexpr double worth = 0.05;  // of the gap: for less no recording is cut; chosen
-  const Showing showing(sets, plain, options);
+  constexpr double worth = 0.05;  // least share of the gap for which a recording is cut; chosen
+  const Visibility visibility(sets, plain, options);
   std::vector<Cut> cuts;
   for (const StageGap& stage : open_stages(sets, plain, options)) {
-    const auto shows = showing.of(stage);
-    if (stage.share < worth || shows.empty() || showing.on_both_sides(stage, sets)) continue;
+    const auto shows = visibility.of(stage);
+    if (stage.share < worth || shows.empty() || visibility.on_both_sides(stage, sets)) continue;
     const Cut cut{shows.back(), middle_row(plain, shows.back(), stage), stage.stage, stage.on};
     if (std::ranges::count(cuts, cut.episode, &Cut::episode) == 0 && both_show(cut, plain, options))
       cuts.push_back(cut);

@@ -4,7 +4,7 @@
 
 #include "sim/gap/diagnosis/localization.hpp"
 
-/// Which recordings teach and which judge, by whole recordings.
+/// Split into training and held-out recordings.
 namespace sim::diagnosis {
 
 struct Sets {
@@ -12,25 +12,25 @@ struct Sets {
   std::vector<std::size_t> all() const;      ///< sorted, each once
 };
 
-/// Held out are those whose conditions lie farthest beyond the others', about a third.
+/// Holds out about a third: the recordings whose signals exceed the range of the others most.
 Sets split(std::span<const residuals::Episode> episodes);
 
-/// Each side must show the gap, to learn from and to judge by: if one does not, the recording that
-/// shows the loudest stage second best is held out, if there are two.
+/// Both sets must show the gap. If one does not, and at least two recordings show the stage with the largest
+/// excess, the one with the second largest excess is held out.
 Sets hold_out_visible(Sets sets, const Evaluator& plain, const LocalizationOptions& options);
 
-/// A recording in two parts, of which the second is held out.
+/// A recording split in two parts, of which the second is held out.
 struct Cut {
-  std::size_t episode, row;  ///< the second part's first
-  effects::Stage stage;      ///< why: only one side would show that it is open
+  std::size_t episode, row;  ///< recording, and first row of its second part
+  effects::Stage stage;      ///< the stage that only one set would show otherwise
   std::string on;
 };
 
-/// Of the open stages that only one side shows, the recordings that show them best, each cut where
-/// half of what shows has passed; none whose parts would not both show it.
+/// For each open stage that only one set shows: the recording that shows it best, cut at half of its excess.
+/// Left out if one of the parts would not show the stage.
 std::vector<Cut> cuts(const Sets& sets, const Evaluator& plain, const LocalizationOptions& options);
 
-/// The second part is a recording more, behind the others.
+/// The second part is appended to `episodes`.
 void cut_in_two(const Cut& cut, std::vector<residuals::Episode>& episodes, Sets& sets);
 
 }  // namespace sim::diagnosis

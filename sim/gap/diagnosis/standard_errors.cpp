@@ -48,8 +48,8 @@ std::vector<double> standard_errors(const Eigen::MatrixXd& j, const Eigen::Vecto
     ++blocks;
   }
   sandwich *= blocks / std::max(1.0, blocks - double(j.cols()));
-  const auto judged = double((z.array() != 0).count());
-  const double mean_square = std::max(1.0, z.squaredNorm() / std::max(1.0, judged));
+  const auto evaluated = double((z.array() != 0).count());
+  const double mean_square = std::max(1.0, z.squaredNorm() / std::max(1.0, evaluated));
   std::vector<double> sigma;
   for (Eigen::Index k = 0; k < c.rows(); ++k)
     sigma.push_back(std::sqrt(std::max(mean_square * c(k, k), sandwich[k])));

@@ -9,7 +9,7 @@ namespace sim::diagnosis {
 ///   C = (JᵀJ)⁻¹,   s² = max(1, mean z²),   V = B/(B − p) C Σ_b g_b g_bᵀ C,   g_b = Σ_{i in b} z_i J_i
 ///
 /// B: blocks of one second of windows, p: parameters. V accounts for residuals that are correlated within a second, or
-/// larger where the noise floor is low. Zeros in z are windows that are not judged. Infinite for a parameter that z
+/// larger where the noise floor is low. Zeros in z are windows that are not evaluated. Infinite for a parameter that z
 /// does not depend on, or that cannot be separated from others.
 /// Source: sandwich estimator, White 1980; with clusters, Liang and Zeger 1986.
 std::vector<double> standard_errors(const Eigen::MatrixXd& j, const Eigen::VectorXd& z);

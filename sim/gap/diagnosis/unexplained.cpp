@@ -8,9 +8,9 @@
 namespace sim::diagnosis {
 namespace {
 
-/// What an effect adds to the noise of a stage, in units of the nominal: Σ over windows of
+/// Increase of the noise of a stage by effects, in units of the nominal noise: Σ over windows of
 /// (σ_now/σ)² − 1.
-struct Louder {
+struct NoiseIncrease {
   effects::Stage stage;
   std::string on;
   double more = 0, windows = 0;
@@ -18,9 +18,9 @@ struct Louder {
   double excess() const { return windows > 0 ? more / windows : 0; }
 };
 
-std::vector<Louder> louder(const Problem& problem, const Evaluator& evaluator,
-                           const Evaluation& evaluation) {
-  std::vector<Louder> all;
+std::vector<NoiseIncrease> noise_increases(const Problem& problem, const Evaluator& evaluator,
+                                           const Evaluation& evaluation) {
+  std::vector<NoiseIncrease> all;
   for (const std::size_t e : problem.sets.held_out) {
     const auto now = evaluator.floor_under(evaluation, e);
     const auto z = evaluator.whitened(evaluator.bare(), e);
@@ -40,11 +40,10 @@ std::vector<Louder> louder(const Problem& problem, const Evaluator& evaluator,
   return all;
 }
 
-/// Of these a stage is open all the same, chosen on development cases: a small one that keeps a
-/// quarter of what it was; and one whose rest is a function of a variable, half of it at least, and
-/// so a law of a shape that no effect of the answer has.
+/// Further criteria of an open stage, chosen on development cases: it keeps a quarter of its nominal excess; or at
+/// least half of the remaining residual is a function of one variable, so its law differs from that of the answer.
 constexpr double quarter_excess = 1.5, quarter = 0.25;
-constexpr double bent_excess = 1, bent = 0.5;
+constexpr double profile_excess = 1, profile_share = 0.5;
 
 std::vector<StageGap> held_out(const Problem& problem, const Evaluator& evaluator,
                                const Evaluation& evaluation) {
@@ -54,10 +53,10 @@ std::vector<StageGap> held_out(const Problem& problem, const Evaluator& evaluato
 }  // namespace
 
 bool stays_open(double excess, double was, const Tolerance& tolerance,
-                const std::function<double()>& follows) {
+                const std::function<double()>& explained_by_one_variable) {
   return excess > std::max(tolerance.excess, tolerance.share * was) ||
          excess > std::max(quarter_excess, quarter * was) ||
-         (excess > bent_excess && follows() > bent);
+         (excess > profile_excess && explained_by_one_variable() > profile_share);
 }
 
 std::vector<StageGap> unexplained_stages(const Problem& problem, const Evaluator& evaluator,
@@ -65,7 +64,7 @@ std::vector<StageGap> unexplained_stages(const Problem& problem, const Evaluator
   const auto before = held_out(problem, evaluator, evaluator.bare());
   double most = 0;
   for (const StageGap& b : before) most = std::max(most, b.excess);
-  const auto noise = louder(problem, evaluator, evaluation);
+  const auto noise = noise_increases(problem, evaluator, evaluation);
   auto gaps = held_out(problem, evaluator, evaluation);
   for (StageGap& gap : gaps) {
     const double was = find_stage(before, gap.stage, gap.on)->excess;
@@ -75,7 +74,7 @@ std::vector<StageGap> unexplained_stages(const Problem& problem, const Evaluator
       continue;
     }
     gap.open = stays_open(gap.excess, was, tolerance, [&] {
-      return follows(evaluator, evaluation, gap.stage, gap.on, problem.sets);
+      return explained_by_one_variable(evaluator, evaluation, gap.stage, gap.on, problem.sets);
     });
   }
   return gaps;

@@ -5,7 +5,7 @@
 namespace sim::diagnosis {
 namespace {
 
-/// The window with the largest residual; nothing if none is known.
+/// The window with the largest residual. Empty if all are NaN.
 std::optional<std::size_t> peak_of(const std::vector<double>& residual) {
   std::optional<std::size_t> peak;
   for (std::size_t k = 0; k < residual.size(); ++k)
@@ -14,9 +14,9 @@ std::optional<std::size_t> peak_of(const std::vector<double>& residual) {
   return peak;
 }
 
-/// Two and a half seconds to both sides of the peak of residual `r` of recording `e`.
-void take(const Problem& problem, const Evaluator& plain, const Evaluation& evaluation,
-          std::size_t e, std::size_t r, std::size_t peak, WorstWindow& into) {
+/// Copies 2.5 s on both sides of the peak of residual `r` of recording `e`.
+void copy_around(const Problem& problem, const Evaluator& plain, const Evaluation& evaluation,
+                 std::size_t e, std::size_t r, std::size_t peak, WorstWindow& into) {
   constexpr std::size_t around = 125;  // windows
   const residuals::Explanation& bare = plain.bare().of_episode[e];
   const auto& before = bare.residuals[r].value;
@@ -48,7 +48,7 @@ std::vector<WorstWindow> worst_windows(const Problem& problem, const Evaluator& 
       const auto peak = peak_of(at->value);
       if (!peak || std::abs(at->value[*peak]) <= largest) continue;
       largest = std::abs(at->value[*peak]);
-      take(problem, plain, evaluation, e, std::size_t(at - residuals.begin()), *peak, worst);
+      copy_around(problem, plain, evaluation, e, std::size_t(at - residuals.begin()), *peak, worst);
     }
     all.push_back(std::move(worst));
   }

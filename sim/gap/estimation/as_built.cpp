@@ -14,34 +14,35 @@ namespace {
 
 using effects::Placed;
 
-/// More than three stages and a fifth of them keep more than noise: no few effects do that; chosen.
+/// Whether more than three stages, and more than a fifth of all, keep more than noise. A few effects do not cause that;
+/// chosen.
 bool is_widespread(const Found& found) {
   const std::size_t open = stages_kept(found);
   return open > 3 && 5 * open > found.tolerated.size();
 }
 
-/// −2 log of its evidence, by Laplace's approximation: constants that recordings determine had room before.
+/// −2 log evidence by Laplace's approximation. It penalizes constants that the recordings determine.
 double model_cost(const AsBuilt& built) {
   const Eigen::Index n = Eigen::Index(built.uncertain.constants.size());
   const Eigen::MatrixXd of_constants = built.estimate.covariance.topLeftCorner(n, n);
   return built.cost - of_constants.ldlt().vectorD().array().log().sum();
 }
 
-/// The one stage that keeps more than noise; of a drive, whose laws all act at one, none.
+/// The only stage that keeps more than noise, if it is the only one. Empty for drives, whose laws all act at one stage.
 std::optional<std::size_t> only_open_stage(const Problem& problem, const Found& found) {
   const auto open = open_stages(found);
   if (!problem.nominal.drives.empty() || stages_kept(found) != 1) return std::nullopt;
   return std::size_t(std::ranges::find(open, true) - open.begin());
 }
 
-/// The effect that was added last, and those that came near it.
+/// The effect that was added last, and its rivals.
 std::vector<Placed> hints_of(const Found& found) {
   std::vector<Placed> hints{found.train.point.effects.back()};
   for (const Sized& rival : found.rivals.back().all) hints.push_back(rival.effect);
   return hints;
 }
 
-/// A robot all as described but for effects, and for what is never certain.
+/// The hypothesis that the robot is as described, except for effects and for what is never certain.
 class AsDescribed {
  public:
   explicit AsDescribed(const Problem& problem)
@@ -54,10 +55,10 @@ class AsDescribed {
   }
   AsDescribed(const AsDescribed&) = delete;
 
-  /// With one effect if any relieves it, and those that would explain most as `hints`.
+  /// Adds one effect, if one relieves a stage, and sets `hints` to the effects that would explain most.
   void find_first() {
     if (!explains())
-      if (auto first = search_.best_beside(found_)) {
+      if (auto first = search_.with_best_candidate(found_)) {
         hints = hints_of(*first);
         if (relieves(*first, found_)) found_ = std::move(*first);
       }
@@ -77,12 +78,12 @@ class AsDescribed {
     return built;
   }
 
-  /// One law that the library lacks, at the only stage that shows a gap; none where several do.
+  /// The hypothesis of a law that the library lacks, at the only stage with a gap; empty if several stages have one.
   std::optional<AsBuilt> unknown_law;
   std::vector<Placed> hints;
 
  private:
-  /// That stage counts as explained.
+  /// The misfit of the stage is replaced by a price.
   void describe_unknown_law(std::size_t stage) {
     constexpr double price = 30;  // −2 log of the odds of such a law; chosen
     unknown_law = answer();
@@ -103,7 +104,7 @@ class AsDescribed {
   Found found_;
 };
 
-/// All constants uncertain.
+/// The hypothesis that all constants are uncertain.
 class WithTolerances {
  public:
   explicit WithTolerances(const Problem& problem)
@@ -113,9 +114,8 @@ class WithTolerances {
         found_(complete(search_, search_.with({}), problem_, built_)) {}
   WithTolerances(const WithTolerances&) = delete;
 
-  /// The constants alone explain, and so many parts of the robot are clearly off that no few effects
-  /// could be instead.
-  bool explain_plainly() const {
+  /// Whether the constants alone explain, and more parts of the robot are clearly off than effects may be added.
+  bool is_sufficient() const {
     constexpr double clear = 3;  // standard deviations; chosen
     std::set<std::pair<std::string, effects::Stage>> places;
     for (std::size_t k = 0; k < built_.uncertain.constants.size(); ++k) {
@@ -126,8 +126,8 @@ class WithTolerances {
     }
     return !built_.keeps && places.size() > problem_.options.search.most_effects;
   }
-  /// With effects where constants alone leave more than noise, or where one could stand for constants
-  /// that are far off.
+  /// Adds effects if the constants alone leave more than noise, or if an effect could replace constants that are far
+  /// off.
   AsBuilt answer(const std::vector<Placed>& hints) {
     if (built_.keeps)
       complete(search_, search_.run(std::move(found_), problem_.options.search.most_effects),
@@ -142,13 +142,13 @@ class WithTolerances {
   Found found_;
 };
 
-/// Of the two hypotheses the one with more evidence. All constants are tried only where one effect on the robot as described leaves more
-/// than noise; more effects on that only where the constants do not plainly explain.
-AsBuilt likelier(const Problem& problem, AsDescribed& described) {
+/// The one of the two hypotheses with more evidence. All constants are tried only if one effect on the robot as
+/// described leaves more than noise, and more effects on the latter only if the constants are not sufficient.
+AsBuilt best_of_two(const Problem& problem, AsDescribed& described) {
   described.find_first();
   if (described.explains()) return described.answer();
   WithTolerances with(problem);
-  if (with.explain_plainly()) return with.answer(described.hints);
+  if (with.is_sufficient()) return with.answer(described.hints);
   described.find_others();
   AsBuilt one = described.answer();
   if (!one.keeps) return one;
@@ -156,11 +156,11 @@ AsBuilt likelier(const Problem& problem, AsDescribed& described) {
   return model_cost(other) < model_cost(one) ? other : one;
 }
 
-/// That, or a law that the library lacks, if the answer has several causes beside estimated constants and less evidence.
-AsBuilt likeliest(const Problem& problem) {
+/// The same, or the unknown law, if the answer has several causes with estimated constants and less evidence.
+AsBuilt best_of_three(const Problem& problem) {
   constexpr std::size_t few = 2;  // causes; chosen
   AsDescribed described(problem);
-  AsBuilt best = likelier(problem, described);
+  AsBuilt best = best_of_two(problem, described);
   const auto& unknown = described.unknown_law;
   const std::size_t causes = best.beyond.size() + best.estimate.point.effects.size();
   const bool is_unknown = unknown && !best.exact && !best.keeps && causes > few &&
@@ -194,7 +194,7 @@ AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> 
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options) {
   const Estimator estimator(nominal, train, options.estimate);
   const ResidualVector judged(nominal, held_out, options.estimate.seed, options.estimate.threads);
-  AsBuilt built = likeliest({nominal, estimator, judged, options});
+  AsBuilt built = best_of_three({nominal, estimator, judged, options});
   built.robot = robot_at(built.uncertain, built.estimate.point);
   return built;
 }

@@ -2,48 +2,48 @@
 #include "sim/gap/estimation/far_off.hpp"
 #include "sim/gap/estimation/search.hpp"
 
-/// A robot as it was built: every constant a little off its description, some beyond what building
-/// allows, and effects that the description lacks.
+/// A robot as it was built: every constant deviates a little from its description, some by more than their tolerances,
+/// and the description lacks effects.
 namespace sim::estimation {
 
 struct AsBuilt {
   Uncertain uncertain;
   Estimate estimate;
-  /// Constants off by more than their tolerances, the farthest first.
+  /// Constants beyond their tolerances, the largest deviation first.
   std::vector<std::size_t> beyond;
-  std::vector<std::vector<Sized>> instead;            ///< of each: alternatives
-  erp::Robot robot;                                   ///< nominal with all that was found
-  std::vector<std::vector<Sized>> indistinguishable;  ///< of each effect: what could stand for it
+  std::vector<std::vector<Sized>> instead;  ///< alternatives of each
+  erp::Robot robot;                         ///< nominal, with the estimated constants and effects
+  std::vector<std::vector<Sized>> indistinguishable;  ///< for each effect, what could replace it
   double cost = 0;                                    ///< search.hpp
-  bool keeps = false;                                 ///< a stage keeps more than noise
-  /// One law that the library lacks, at the only stage with a gap, has more evidence than several constants and
-  /// effects: none is claimed, and `robot` is as described but for what is never certain.
+  bool keeps = false;                                 ///< whether a stage keeps more than noise
+  /// True if a law that the library lacks, at the only stage with a gap, has more evidence than several constants and
+  /// effects. Then no cause is named, and `robot` is as described except for what is never certain.
   bool unknown_law = false;
-  bool exact = false;  ///< no constant differs from robot.xml but those that are never certain
+  bool exact = false;  ///< only constants that are never certain differ from robot.xml
 };
 
 struct AsBuiltOptions {
   EstimateOptions estimate;
   SearchOptions search;
-  std::vector<effects::Placed> suggested = {};  ///< an answer found otherwise
+  std::vector<effects::Placed> suggested = {};  ///< an answer of another method
 };
 
 /// Constants estimated on `train`, effects judged on `held_out`. Throws as residuals::Stages.
 AsBuilt as_built(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                  std::span<const residuals::Episode> held_out, const AsBuiltOptions& options = {});
 
-/// The constants alone: no effect is looked for.
+/// Estimates the constants alone, without effects.
 AsBuilt calibrated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                    const EstimateOptions& options = {});
 
-/// One effect on a robot that is as described but for what is never certain: no other is looked for.
+/// Estimates one effect on a robot that is as described except for what is never certain. No other effect is searched.
 Sized estimated(const erp::Robot& nominal, std::span<const residuals::Episode> train,
                 const effects::Placed& effect, const EstimateOptions& options = {});
 
-/// A constant is determined if less than 0.63 of its tolerance is left; chosen.
+/// Threshold of `determined`: the standard error is below 0.63 of the tolerance; chosen.
 inline constexpr double well_determined = 0.6;
 
-/// How well a constant is determined: 1 − (its deviation after/before)², 0: not at all.
+/// How well the recordings determine a constant: 1 − (standard error/tolerance)²; 0: not at all.
 double determined(const AsBuilt& built, std::size_t constant);
 
 }  // namespace sim::estimation

@@ -6,7 +6,7 @@
 namespace sim::estimation {
 
 void list_uncertain(AsBuilt& built) {
-  // Least deviations, in tolerances: of a zero, of any other; of a zero also in its standard deviations; chosen.
+  // Smallest deviations, in tolerances: of a zero, of any other constant; of a zero also in standard errors; chosen.
   constexpr double least_zero = 1, least = 2.5, clear = 5;
   const auto far = [&](std::size_t k) { return std::abs(built.estimate.point.x[k]); };
   const auto from = [&](std::size_t k) {
@@ -21,8 +21,8 @@ void list_uncertain(AsBuilt& built) {
 
 namespace {
 
-/// Drops the constants that ended near nominal although they had room to be far off. True: some were dropped, and the
-/// rest is to be estimated again.
+/// Removes constants that ended near nominal from those far off. True: some were removed, and the rest must be
+/// estimated again.
 bool drop_near(AsBuilt& built) {
   bool dropped = false;
   for (std::size_t n = built.beyond.size(); n-- > 0;) {
@@ -38,7 +38,7 @@ bool drop_near(AsBuilt& built) {
 }  // namespace
 
 void complete_far_off(const Estimator& estimator, AsBuilt& built) {
-  constexpr int rounds = 4;  // the set follows the estimate, and the estimate the set; chosen
+  constexpr int rounds = 4;  // of set and estimate in turn; chosen
   for (int round = 0; round < rounds; ++round) {
     FarOff found = far_off(built.uncertain, built.estimate);
     std::vector<bool> far(built.uncertain.constants.size());

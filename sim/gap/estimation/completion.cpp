@@ -53,7 +53,7 @@ Found complete(const Search& search, Found found, const Problem& problem, AsBuil
 
 namespace {
 
-/// Adds the other answer as an alternative, where one constant far off costs nearly the same as one effect.
+/// Adds the other answer as an alternative if one constant far off costs nearly the same as one effect.
 void add_alternatives(AsBuilt& is, const AsBuilt& other, double gain) {
   if (!are_indistinguishable(is.cost, other.cost, gain)) return;
   const auto far_of = [](const AsBuilt& b) {
@@ -74,14 +74,14 @@ bool is_among(const Placed& effect, std::span<const Placed> effects) {
   });
 }
 
-/// Whether a constant of the robot stands for that effect.
+/// Whether a constant of the robot represents the effect.
 bool is_constant(const Placed& effect, const Uncertain& uncertain) {
   return std::ranges::any_of(uncertain.constants, [&](const Constant& c) {
     return c.effect == effects::about(effect.effect).type;
   });
 }
 
-/// Adds to the first of answers, the cheapest, the others if each is one effect.
+/// Adds the other answers to the first, cheapest one as rivals, as far as each has one effect.
 void add_rivals(std::vector<Found>& all, double cost_without) {
   const auto is_one = [](const Found& f) { return f.train.point.effects.size() == 1; };
   if (!is_one(all[0])) return;
@@ -92,19 +92,20 @@ void add_rivals(std::vector<Found>& all, double cost_without) {
       rivals.all.push_back(sized(other.train).back()), rivals.cost.push_back(other.cost);
 }
 
-/// It explains, and no parameter of its effects ends at a bound.
-bool stands(const AsBuilt& built) {
+/// Whether the answer leaves no more than noise, and no parameter of its effects is at a bound.
+bool is_valid(const AsBuilt& built) {
   return !built.keeps && std::ranges::count(built.estimate.bound, true) == 0;
 }
 
-/// The cheapest with one more effect than `base`, if `screened`, or with a hint, alone or as one
-/// more; then with others while a stage keeps more than noise. Hints are as well those nearest to cost less than
-/// `base`: with constants that have gone along to imitate one, few steps do not lead back.
+/// The cheapest answer with one more screened effect than `base` (if `screened`), or with a hint, alone or in addition.
+/// Then more effects are added while a stage keeps more than noise. The two cheapest screened candidates are hints too:
+/// after constants have moved to imitate an effect, a few steps do not lead back.
 std::optional<Found> with_effect(const Search& search, const Found& base, std::vector<Placed> hints,
                                  std::size_t most, bool screened) {
-  constexpr std::size_t near = 2;  // of those that were screened; chosen
+  constexpr std::size_t near = 2;  // screened candidates used as hints; chosen
   const std::vector<Placed>& others = base.train.point.effects;
-  const std::vector<Found> joined = screened ? search.each_beside(base) : std::vector<Found>{};
+  const std::vector<Found> joined =
+      screened ? search.with_each_candidate(base) : std::vector<Found>{};
   std::vector<Found> all;
   if (others.size() < most)
     if (auto found = search.best_of(joined, base);
@@ -141,7 +142,7 @@ AsBuilt or_effect(const Problem& problem, AsBuilt built, const std::vector<Place
   const auto found = explains
                          ? std::optional(base)
                          : with_effect(search, base, hints, problem.options.search.most_effects,
-                                       keeps(base) || !stands(built));
+                                       keeps(base) || !is_valid(built));
   if (!found) return built;
   complete(search, *found, problem, other);
   const double gain = base.cost - std::min(built.cost, other.cost);

@@ -5,26 +5,26 @@
 #include <limits>
 
 #include "interfaces/robot/mass.hpp"
+#include "sim/gap/estimation/tolerances.hpp"
 #include "sim/model/effects/library.hpp"
 #include "sim/model/effects/own.hpp"
-#include "sim/gap/estimation/tolerances.hpp"
 
 namespace sim::estimation {
 namespace {
 
 using effects::Stage;
 
-/// A number of a motor or gearbox. Tolerances are chosen: of catalogue motors, torque constant and
-/// resistance are given to 5 … 10 %; friction is seldom given at all.
+/// A number of a motor or gearbox. Tolerances are chosen: catalogues state torque constant and resistance to 5 … 10 %,
+/// and seldom state friction.
 struct MotorNumber {
   const char* name;
   Stage stage;
   double erp::MotorType::*number;
-  double relative;  ///< tolerance, as a share of the number
+  double relative;  ///< tolerance / number
   const char* effect;
-  double far = usual_far;
+  double far = default_far;
 };
-/// Of a friction or damping that is far off: a nominal one of nearly nothing says nothing of it; chosen.
+/// `far` of frictions and dampings: a nominal value near 0 carries no information; chosen.
 constexpr double of_far_friction = 500;
 constexpr MotorNumber motor_numbers[] = {
     {"resistance_ohm", Stage::motor, &erp::MotorType::resistance_ohm, 0.05, "motor_resistance"},
@@ -67,7 +67,7 @@ erp::Joint& joint_of(erp::Robot& robot, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-/// Set by an effect whose first parameter is the number less its nominal value.
+/// Sets a number by an effect whose first parameter is value − nominal.
 auto by_effect(const char* type, const std::string& on, double nominal) {
   return [type, on, nominal](erp::Robot& robot, double value) {
     effects::Placed placed{on, *effects::neutral(type)};
@@ -81,7 +81,7 @@ effects::Bounds bounds_of(const char* type) {
   return effects::parameters(effect)[0].bounds;
 }
 
-/// Of an effect's first parameter to the number: relative, or in units at the gearbox shaft.
+/// Ratio of an effect's first parameter to the number: relative, or in units at the gearbox shaft.
 double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) {
   if (number == &erp::MotorType::gear_coulomb_Nm ||
       number == &erp::MotorType::gear_viscous_Nm_s_per_rad)
@@ -92,7 +92,7 @@ double motor_scale(const erp::MotorType& motor, double erp::MotorType::*number) 
   return 1 / (motor.*number);
 }
 
-/// Torque and back-EMF constant are one number of a motor, K_T i ω = K_E ω i: they move together.
+/// Torque and back-EMF constant are one number of a motor, K_T i ω = K_E ω i: both are set.
 void set_number(erp::MotorType& motor, double erp::MotorType::*number, double value) {
   if (number == &erp::MotorType::torque_Nm_per_A)
     motor.back_emf_V_s_per_rad *= value / motor.torque_Nm_per_A;
@@ -131,7 +131,7 @@ void add_line(std::vector<Constant>& all, const erp::Robot& robot, std::size_t a
     all.push_back(
         {name, stage, actuator.name, nominal, relative * nominal, 0.05 * nominal, line,
          [on = actuator.name, set](erp::Robot& r, double value) { set(actuator_of(r, on), value); },
-         effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : usual_far});
+         effect, damps ? 1 : 1 / nominal, false, damps ? of_far_friction : default_far});
     all.back().in_series = std::string_view(name) == "stiffness_N_per_m";
   };
   number("radius_m", Stage::spindle, actuator.spindle.radius_m, of_radius, "spindle_radius",
@@ -194,8 +194,8 @@ void add_joint(std::vector<Constant>& all, const erp::Joint& joint) {
   }
 }
 
-/// Factors of what robot.xml gives, however it gives it: of the mass, spread as before; of how far its centre is; of the
-/// moments of inertia about the centre.
+/// Factors of the values of robot.xml, in whatever form it states them: of the mass with unchanged distribution, of the
+/// distance of its centre, of the moments of inertia about the centre.
 void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::string& body) {
   erp::Robot copy = robot;
   const erp::Vec3 com = erp::mass_of(body_of(copy, body)).com_m;
@@ -228,7 +228,7 @@ void add_body(std::vector<Constant>& all, const erp::Robot& robot, const std::st
 
 }  // namespace
 
-/// Of v by dv in series v/(1 − dv/v), that is, 1/v by −dv/v²; evenly on from twice v.
+/// A step dv of v in series leads to v/(1 − dv/v), that is, 1/v changes by −dv/v²; linear beyond twice v.
 double Constant::moved(double x, double by) const {
   const double from = value(x), relative = tolerance * by / from;
   if (!in_series || !(from > 0)) return x + by;

@@ -23,7 +23,7 @@ std::vector<Signal*> sensors_of(Episode& e) {
   return all;
 }
 
-/// What changes little from row to row.
+/// The signals that change little from row to row: angles and tensions.
 std::vector<Signal*> positions_of(Episode& e) {
   std::vector<Signal*> all = sensors_of(e);
   for (auto& s : e.actuators) std::erase(all, &s.current_A);
@@ -43,7 +43,7 @@ std::vector<bool> repeats(Episode& e) {
   return same;
 }
 
-/// The finest step of a signal.
+/// The smallest step of a signal.
 double step_of(const Signal& signal) {
   double least = 0;
   for (std::size_t k = 1; k < signal.size(); ++k)
@@ -53,7 +53,7 @@ double step_of(const Signal& signal) {
   return least;
 }
 
-/// Whether a shaft turns by more than two of its steps a row, in the mean over ten rows to both sides.
+/// Whether a shaft turns by more than two of its steps per row, averaged over ten rows on both sides.
 class Turning {
  public:
   explicit Turning(const Episode& e) {
@@ -62,7 +62,7 @@ class Turning {
   }
   bool at(std::size_t k) const {
     constexpr std::size_t reach = 10;
-    constexpr double steps = 2;  // a row
+    constexpr double steps = 2;  // per row
     return std::ranges::any_of(shafts_, [&](const auto& shaft) {
       const Signal& x = *shaft.first;
       return k >= reach && k + reach < x.size() &&
@@ -75,7 +75,8 @@ class Turning {
   std::vector<std::pair<const Signal*, double>> shafts_;
 };
 
-void fill(Signal& signal, std::size_t from, std::size_t to) {  // rows between that are known
+/// Interpolates between two valid rows.
+void fill(Signal& signal, std::size_t from, std::size_t to) {
   for (std::size_t k = from + 1; k < to; ++k)
     signal[k] = signal[from] + (signal[to] - signal[from]) * double(k - from) / double(to - from);
 }
@@ -87,35 +88,35 @@ void repair_repeated_rows(Episode& e) {
     if (!same[k]) continue;
     const std::size_t before = k - 1;
     while (k < e.rows && same[k]) ++k;
-    const auto forget = [&](Signal& s) {
+    const auto remove = [&](Signal& s) {
       if (!s.empty())
         std::fill(s.begin() + long(before) + 1, s.begin() + long(k), recording::not_taken);
     };
     for (Signal* s : positions_of(e))
       if (k < e.rows && k - before <= longest + 1) fill(*s, before, k);
-      else forget(*s);
-    for (auto& s : e.actuators) forget(s.voltage_V), forget(s.current_A);
+      else remove(*s);
+    for (auto& s : e.actuators) remove(s.voltage_V), remove(s.current_A);
   }
 }
 
-/// What a shaft or joint does apart from its smooth way, and its speed.
-struct Uneven {
-  Signal apart, speed;
+/// The high-pass part e of an angle, and its speed.
+struct Filtered {
+  Signal high_pass, speed;
 };
 
-std::vector<Uneven> uneven(const Episode& e) {
+std::vector<Filtered> filtered(const Episode& e) {
   std::vector<const Signal*> angles;
   for (const auto& s : e.actuators)
     if (!s.shaft_rad.empty()) angles.push_back(&s.shaft_rad);
   for (const auto& j : e.joints)
     if (!j.angle_rad.empty()) angles.push_back(&j.angle_rad);
-  std::vector<Uneven> all;
+  std::vector<Filtered> all;
   for (const Signal* angle : angles) {
     const Signal& x = *angle;
-    Uneven& u = all.emplace_back();
-    u.apart.resize(x.size()), u.speed.resize(x.size());
+    Filtered& u = all.emplace_back();
+    u.high_pass.resize(x.size()), u.speed.resize(x.size());
     for (std::size_t k = 2; k + 2 < x.size(); ++k) {
-      u.apart[k] = x[k] - (4 * (x[k - 1] + x[k + 1]) - (x[k - 2] + x[k + 2])) / 6;
+      u.high_pass[k] = x[k] - (4 * (x[k - 1] + x[k + 1]) - (x[k - 2] + x[k + 2])) / 6;
       u.speed[k] = (x[k + 2] - x[k - 2]) / (4 * e.period_s);
     }
   }
@@ -149,12 +150,12 @@ double row_jitter_s(std::span<const Episode> episodes) {
   constexpr double of_filter = 35.0 / 18, clear = 6, least_s = 1e-4;  // the last two chosen
   double numerator = 0, error = 0, denominator = 0;
   for (const Episode& e : episodes) {
-    const auto all = uneven(e);
+    const auto all = filtered(e);
     for (std::size_t a = 0; a < all.size(); ++a)
       for (std::size_t b = a + 1; b < all.size(); ++b)
         for (std::size_t k = 2; k + 2 < e.rows; ++k) {
           const double weight = all[a].speed[k] * all[b].speed[k];
-          const double product = all[a].apart[k] * all[b].apart[k] * weight;
+          const double product = all[a].high_pass[k] * all[b].high_pass[k] * weight;
           if (std::isnan(product)) continue;
           numerator += product, error += product * product, denominator += weight * weight;
         }
@@ -169,17 +170,17 @@ void repair_defective_rows(std::vector<Episode>& episodes, std::vector<std::stri
   if (repeated.share > 0) {
     for (Episode& e : episodes) repair_repeated_rows(e), e.repeated_share = repeated.share;
     remarks.push_back(
-        fmt::format("{:.3g} % of the rows repeat the row before while shafts turn, up to {} in a "
-                    "row: reports were "
-                    "lost; filled in from their neighbours",
+        fmt::format("{:.3g} % of the rows repeat the row before while a shaft turns, up to {} in "
+                    "succession: reports were lost; angles and tensions are interpolated, voltages "
+                    "and currents of these rows ignored",
                     100 * repeated.share, repeated.longest));
   }
   const double spread_s = row_jitter_s(episodes);
   if (spread_s == 0) return;
   for (Episode& e : episodes) e.jitter_s = spread_s;
   remarks.push_back(fmt::format(
-      "rows are taken up to {:.3g} ms later than they are stamped, by all shafts and joints alike: "
-      "counted as noise",
+      "rows are sampled up to {:.3g} ms later than their time stamps, equally in all shafts and "
+      "joints; this jitter is counted as noise",
       1e3 * spread_s));
 }
 

@@ -13,15 +13,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// How derivatives are taken.
+/// Options of the numerical derivatives.
 struct Differences {
   int threads;
   const Pool* pool = nullptr;
-  const Sparse* known = nullptr;  ///< derivatives by the constants that are not taken anew
-  double stretch = 1;             ///< of the steps
+  const Sparse* known = nullptr;  ///< derivatives with respect to the constants that are reused
+  double stretch = 1;             ///< factor of the steps
 };
 
-/// Columns `from` … of ∂z/∂unknown, by forward differences: row and slope of each entry in turn.
+/// Columns `from` … of ∂z/∂unknown by forward differences, as a list of row and slope of each entry.
 std::vector<Pool::Numbers> columns(const ResidualVector& residuals, const Unknowns& at,
                                    const Estimate& here, std::size_t from, const Differences& d) {
   const residuals::Stages stages(at.robot());
@@ -54,10 +54,10 @@ Sparse jacobian(const ResidualVector& residuals, const Unknowns& at, const Estim
   return j;
 }
 
-/// Sets weights and mean squares by what is left. `trust`: exponent of c_s; below 1 a stage that is far
-/// off draws harder.
-void weigh(const ResidualVector& residuals, Estimate& e, double trust = 1) {
-  constexpr double of_laws = 0.25;  // windows count so much: laws are approximations too; chosen
+/// Sets weights and mean squares from the remaining residuals. `trust`: exponent of c_s; below 1, a stage far from
+/// noise has more weight.
+void set_weights(const ResidualVector& residuals, Estimate& e, double trust = 1) {
+  constexpr double of_laws = 0.25;  // weight of a window, for the laws are approximations; chosen
   std::vector<double> square(residuals.stages()), count(square), correlation(square);
   for (const Block& b : residuals.blocks()) {
     const std::span<const double> here(e.z.data() + b.first, std::size_t(b.count));
@@ -93,7 +93,7 @@ Normal normal_equations(const Estimate& e, const Unknowns& at) {
     n.gradient[Index(k)] += precision * at.value(k);
   }
   for (std::size_t k = at.constants(); k < at.count();
-       ++k) {  // nothing may depend on it; a step is short then
+       ++k) {  // regularization, for z may not depend on it
     double& own = n.hessian(Index(k), Index(k));
     own += at.is_logarithm(k) ? 1 : 1e-9 * own + 1e-12;
   }
@@ -116,10 +116,10 @@ double cost_of(const Unknowns& at, const VectorXd& z, const VectorXd& weight) {
   return weight.dot(z.cwiseAbs2()) + prior_cost(at.uncertain(), at.point());
 }
 
-/// One Levenberg-Marquardt step, with less length until it helps.
+/// One Levenberg-Marquardt step, shortened until the cost falls.
 struct Step {
   bool better = false;
-  double gained = 0, promised = 0;  ///< of the cost, by the step and by its linear model
+  double gained = 0, predicted = 0;  ///< decrease of the cost, and that of the linear model
 };
 
 Step step(const ResidualVector& residuals, Unknowns& at, Estimate& e, double& damping,
@@ -144,16 +144,16 @@ Step step(const ResidualVector& residuals, Unknowns& at, Estimate& e, double& da
   return taken;
 }
 
-/// How an estimate descends.
+/// Options and state of the minimization.
 struct Descent {
   int iterations, threads;
   const Pool* pool = nullptr;
-  int far = 0;  ///< so many steps at first with weights of trust 0.5
+  int far = 0;  ///< number of first steps with weights of trust 0.5
   const Estimate* base =
-      nullptr;  ///< whose weights and derivatives by the constants hold throughout
+      nullptr;  ///< its weights and derivatives with respect to the constants are used throughout
   bool fresh =
-      false;  ///< whether the derivatives are those of where the estimate is, or of a last small step before
-  bool stale = true;  ///< whether they are to be taken anew
+      false;  ///< whether the derivatives were computed at the estimate, or one small step before
+  bool stale = true;  ///< whether they must be recomputed
 };
 
 /// Whether a stage keeps much more than noise.
@@ -162,19 +162,19 @@ bool is_far_from_noise(const Estimate& e) {
   return std::ranges::any_of(e.mean_square, [](double square) { return square > far; });
 }
 
-/// Steps until one no longer helps. Where that leaves much more than noise, derivatives are taken over wide steps,
-/// which look past the kinks of play and friction. Derivatives are taken anew where a step gained much less than they
-/// promised (chord method: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, ch. 5).
+/// Makes steps until one no longer lowers the cost. If much more than noise remains then, derivatives are computed over
+/// wide steps, which average over the kinks of play and friction. Derivatives are recomputed if a step gained much less
+/// than predicted (chord method: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, ch. 5).
 void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent& d) {
-  constexpr double enough = 1e-4;  // of the cost, that a step is worth; chosen
-  constexpr double kept = 0.6;     // of what was promised: derivatives still hold; chosen
-  constexpr double wide = 1000;    // times the usual steps of derivatives; chosen
-  int wides = 4;                   // times that those are taken; chosen
+  constexpr double enough = 1e-4;  // smallest gain of a step / cost; chosen
+  constexpr double kept = 0.6;     // gain / predicted gain of valid derivatives; chosen
+  constexpr double wide = 1000;    // factor of wide steps; chosen
+  int wides = 4;                   // largest number of wide steps; chosen
   double damping = 0, stretch = 1;
   for (int iteration = 0; iteration < d.iterations; ++iteration) {
     const bool far = iteration < d.far;
     const bool was_wide = stretch != 1;
-    if (!d.base) weigh(residuals, e, far ? 0.5 : 1);
+    if (!d.base) set_weights(residuals, e, far ? 0.5 : 1);
     if (d.stale) {
       const Sparse* known = d.base ? &d.base->jacobian : nullptr;
       e.jacobian = jacobian(residuals, at, e, {d.threads, d.pool, known, stretch});
@@ -184,7 +184,7 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
     const bool done = !taken.better || taken.gained < enough * e.cost;
     const bool was_fresh = d.fresh;
     if ((taken.better && !done) || was_wide) d.fresh = false;
-    d.stale = done || was_wide || taken.gained < kept * taken.promised;
+    d.stale = done || was_wide || taken.gained < kept * taken.predicted;
     stretch = 1;
     if (!was_fresh) continue;
     if (done && far) {
@@ -201,10 +201,10 @@ void descend(const ResidualVector& residuals, Unknowns& at, Estimate& e, Descent
   for (std::size_t k = 0; k < at.count(); ++k) e.bound.push_back(at.at_bound(k));
 }
 
-/// Descends, then sets weights, derivatives and covariance where the estimate ended.
+/// Minimizes the cost, then sets weights, derivatives and covariance at the minimum.
 Estimate settled(const ResidualVector& residuals, Unknowns at, Estimate e, Descent d) {
   descend(residuals, at, e, d);
-  weigh(residuals, e);
+  set_weights(residuals, e);
   if (!d.fresh) e.jacobian = jacobian(residuals, at, e, {d.threads, d.pool});
   const Normal normal = normal_equations(e, at);
   e.gradient = normal.gradient, e.covariance = inverse(normal.hessian);
@@ -232,8 +232,8 @@ Estimate Estimator::continued(const Uncertain& uncertain, Estimate from) const {
   return settled(residuals_, at, std::move(from), descent);
 }
 
-Estimate Estimator::beside(const Uncertain& uncertain, const Estimate& base, Point start,
-                           int iterations) const {
+Estimate Estimator::candidate(const Uncertain& uncertain, const Estimate& base, Point start,
+                              int iterations) const {
   Unknowns at(uncertain, std::move(start));
   Estimate e;
   e.explained = residuals_.explain(at.robot(), 1);
@@ -241,7 +241,7 @@ Estimate Estimator::beside(const Uncertain& uncertain, const Estimate& base, Poi
   Descent descent{iterations, 1, nullptr, 0, &base};
   descend(residuals_, at, e, descent);
   const VectorXd weight = e.weight;
-  weigh(residuals_, e);
+  set_weights(residuals_, e);
   e.weight = weight;
   return e;
 }

@@ -50,18 +50,18 @@ class LinearModel {
     return m;
   }
 
-  /// Cost with a constant in the set as well. Of a quadratic form less δ x_k² the minimum is lower by
-  /// δ x_k²/(1 − δ C_kk), the determinant (1 − δ C_kk) times as large: Sherman and Morrison.
+  /// Cost with one more constant in the set. Subtraction of δ x_k² from a quadratic form lowers its minimum by
+  /// δ x_k²/(1 − δ C_kk) and multiplies its determinant by 1 − δ C_kk (Sherman and Morrison).
   double with(const Minimum& m, std::size_t k) const {
     const double less = 1 - far_precision(of(k)), x = m.x[Index(k)];
-    const double left = 1 - less * m.covariance(Index(k), Index(k));
-    return m.cost + far_price(of(k)) + std::log(left) - less * x * x / left;
+    const double remaining = 1 - less * m.covariance(Index(k), Index(k));
+    return m.cost + far_price(of(k)) + std::log(remaining) - less * x * x / remaining;
   }
 
-  /// Not beyond what makes sense of it.
+  /// Whether its value would be above the lower bound.
   bool may_be_far(const Minimum& m, std::size_t k) const {
-    const double left = 1 - (1 - far_precision(of(k))) * m.covariance(Index(k), Index(k));
-    return of(k).nominal + of(k).tolerance * m.x[Index(k)] / left > of(k).lowest;
+    const double remaining = 1 - (1 - far_precision(of(k))) * m.covariance(Index(k), Index(k));
+    return of(k).nominal + of(k).tolerance * m.x[Index(k)] / remaining > of(k).lowest;
   }
 
  private:
@@ -72,7 +72,7 @@ class LinearModel {
   MatrixXd hessian_;
 };
 
-/// The constant that makes the set cheapest, and that cost; none: infinite.
+/// The constant whose addition gives the least cost, and that cost; infinite if there is none.
 std::pair<std::size_t, double> cheapest(const LinearModel& model, const Minimum& m,
                                         const Set& far) {
   std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};
@@ -87,7 +87,7 @@ Set without(Set far, std::size_t k) {
   return far;
 }
 
-/// One that costs more than it saves, beside those that came after it, goes.
+/// Removes a constant that costs more than it saves, given those that were added later.
 bool drop(const LinearModel& model, Set& far, Minimum& m) {
   for (const std::size_t k : far) {
     const Set others = without(far, k);
@@ -99,7 +99,7 @@ bool drop(const LinearModel& model, Set& far, Minimum& m) {
   return false;
 }
 
-/// Each gives way to another that costs less in its place.
+/// Replaces a constant by another that costs less in its place.
 bool exchange(const LinearModel& model, Set& far, Minimum& m) {
   for (std::size_t& k : far) {
     const Set others = without(far, k);

@@ -1,36 +1,35 @@
 #pragma once
 #include "sim/gap/estimation/search.hpp"
 
-/// Which few constants are far off, where all others are as building leaves them.
+/// Which few constants are far off, while all others are within their tolerances.
 ///
 ///   min over F   min over x [data(x) + Σ_{k not in F} x_k² + Σ_{k in F} (x_k²/20² + price_k)] + log det A
 ///
-/// A: half the Hessian of the bracket. log det A: a constant that the data hardly determine gains nothing by
-/// more room (Laplace's approximation of the evidence).
+/// A: half the Hessian of the bracket. log det A (Laplace's approximation of the evidence): a constant that the data
+/// hardly determine gains nothing from a wider prior.
 ///
-/// What two constants make together is often all that recordings determine, and a prior alone then shares
-/// the deviation between them: neither is right. data: the linear model of an estimate. Constants join F
-/// one at a time while the cost falls; then each gives way to a better one, or goes where it has come to cost more
-/// than it saves.
+/// Recordings often determine only a product of two constants, and a prior alone then divides the deviation between
+/// them: neither is right. data: the linear model of an estimate. Constants are added to F one at a time while the cost
+/// falls; then each is replaced if another costs less, and removed if it costs more than it saves.
 /// Source: spike and slab, George and McCulloch 1993; here the most probable set by greedy search.
 namespace sim::estimation {
 
-/// One constant as it would be: in tolerances.
+/// The deviation of a constant and its standard error, in tolerances.
 struct Deviation {
   std::size_t constant;
   double x, sigma;
 };
 
 struct FarOff {
-  std::vector<Deviation> all;                   ///< the farthest first
-  std::vector<std::vector<Deviation>> instead;  ///< of each: alternatives that cost little more
+  std::vector<Deviation> all;                   ///< the largest first
+  std::vector<std::vector<Deviation>> instead;  ///< for each, alternatives that cost little more
 };
 
-/// As the effect of the library that is such a change.
+/// The deviation as the effect of the library that represents it.
 Sized as_effect(const Constant& constant, const Deviation& deviation);
 
-/// Whether a constant can be worth its place in F where it was estimated with that room: F costs less without one
-/// at x if x² (1 − 1/far²) < price − log far², for log det A falls by at most log far².
+/// Whether a constant that was estimated with the wide prior may stay in F. Without it F costs less if
+/// x² (1 − 1/far²) < price − log far², for log det A falls by at most log far².
 bool is_worth_far(const Constant& constant, double x);
 
 FarOff far_off(const Uncertain& uncertain, const Estimate& estimate);

@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Index;
 
-/// Of what two constants change in the residuals: the cosine between them, and how many tolerances of `other` change as
-/// much as one of `k`.
+/// The similarity of two constants' effects on the residuals: the cosine between them, and the number of tolerances of
+/// `other` that change as much as one of `k`.
 struct Similarity {
   double cosine = 0, ratio = 0;
 };
@@ -40,9 +40,9 @@ std::vector<std::size_t> most_similar(const AsBuilt& built, std::size_t k) {
   return constants;
 }
 
-/// The estimate with a constant far off at its nominal value, and another as far off as makes the same change.
+/// The estimate with a constant far off reset to its nominal value, and another one moved to make the same change.
 Point exchanged(const AsBuilt& built, std::size_t k, std::size_t other) {
-  constexpr double part = 0.5;  // of the way to a bound, at most; chosen
+  constexpr double part = 0.5;  // largest share of the distance to a bound; chosen
   const Constant& c = built.uncertain.constants[other];
   Point point = built.estimate.point;
   const double x = point.x[k] * similarity(built.estimate, k, other).ratio;
@@ -64,8 +64,8 @@ void add_instead(std::vector<Sized>& instead, Sized one) {
   instead.push_back(std::move(one));
 }
 
-/// Estimates `other` as far off instead of the n-th constant far off. The cheaper of the two stays; the other one becomes
-/// an alternative if its cost is near.
+/// Estimates `other` as far off instead of the n-th constant far off. Keeps the cheaper of the two; the other one
+/// becomes an alternative if it costs little more.
 void compare(const Search& search, const Problem& problem, std::size_t n, std::size_t other,
              double gain, Found& found, AsBuilt& built) {
   const std::size_t k = built.beyond[n];
@@ -92,7 +92,7 @@ void compare(const Search& search, const Problem& problem, std::size_t n, std::s
 
 Found with_rivals_far(const Search& search, Found found, const Problem& problem, double gain,
                       AsBuilt& built) {
-  constexpr std::size_t few = 2;  // of more, each would take estimates of its own; chosen
+  constexpr std::size_t few = 2;  // constants far off; more would need too many estimates; chosen
   if (built.beyond.size() > few) return found;
   for (std::size_t n = 0; n < built.beyond.size(); ++n)
     for (const std::size_t other : most_similar(built, built.beyond[n]))

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "sim/model/effects/library.hpp"
 #include "sim/gap/residuals/episode.hpp"
+#include "sim/model/effects/library.hpp"
 
 namespace sim::estimation {
 

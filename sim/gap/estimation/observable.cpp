@@ -11,15 +11,15 @@ using effects::Placed;
 
 namespace {
 
-/// Of all turns of a shaft, the share that goes the rarer way.
+/// The share of the less frequent direction in the motion of a shaft.
 double rarer_way(std::span<const residuals::Episode> recordings, std::size_t actuator) {
   double forwards = 0, backwards = 0;
   for (const residuals::Episode& e : recordings) {
     const residuals::Signal& theta = e.actuators[actuator].shaft_rad;
-    const auto taken = [&](std::size_t row) { return e.judged(row) && !std::isnan(theta[row]); };
-    constexpr std::size_t rows = 10;  // apart: noise turns to and fro
+    const auto valid = [&](std::size_t row) { return e.judged(row) && !std::isnan(theta[row]); };
+    constexpr std::size_t rows = 10;  // between compared rows, for noise reverses the sign
     for (std::size_t k = rows; k < theta.size(); k += rows)
-      if (taken(k) && taken(k - rows)) {
+      if (valid(k) && valid(k - rows)) {
         const double turned = theta[k] - theta[k - rows];
         (turned > 0 ? forwards : backwards) += std::abs(turned);
       }
@@ -27,8 +27,8 @@ double rarer_way(std::span<const residuals::Episode> recordings, std::size_t act
   return std::min(forwards, backwards) / std::max(forwards + backwards, 1e-12);
 }
 
-/// An effect of a sensor that a drive has not: of a current that its control sets, of a pull without
-/// a torque sensor.
+/// Whether an effect belongs to a sensor that a drive lacks: a current that its control sets, a tension without a
+/// torque sensor.
 bool is_of_no_sensor(const Placed& placed, const erp::Robot& robot, std::size_t actuator,
                      std::span<const residuals::Episode> recordings) {
   const auto sense = effects::sense_of(placed.effect);
@@ -45,7 +45,7 @@ bool is_of_no_sensor(const Placed& placed, const erp::Robot& robot, std::size_t 
 
 bool is_observable(const Placed& placed, const erp::Robot& robot,
                    std::span<const residuals::Episode> recordings) {
-  constexpr double enough = 0.02;  // of all turns; chosen
+  constexpr double enough = 0.02;  // share of the less frequent direction; chosen
   const std::size_t a =
       std::size_t(std::ranges::find(robot.actuators, placed.on, &erp::Actuator::name) -
                   robot.actuators.begin());

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Windows of one actuator's gearbox that are judged: rows of z, and of each episode.
+/// Judged windows of one actuator's gearbox: their rows in z and in each episode.
 struct Windows {
   std::vector<Index> of_z = {};
   std::vector<std::size_t> episode = {}, row = {};
@@ -38,33 +38,33 @@ Windows windows_of(const ResidualVector& residuals, const Estimate& base, const 
   return all;
 }
 
-/// What turns, and how its effect acts at each row: e^(i n φ) by powers of e^(iφ).
-struct Turning {
+/// The periodic functions of a shaft angle φ at each row: e^(i n φ) as powers of e^(iφ).
+struct Harmonics {
   std::vector<std::complex<double>> once, power;       ///< e^(iφ) and e^(inφ)
-  std::vector<std::complex<double>> half, half_power;  ///< the same of half the way of a period
-  std::vector<double> half_way;
-  std::vector<double> way;  ///< of a friction
+  std::vector<std::complex<double>> half, half_power;  ///< the same for half the travel of a period
+  std::vector<double> half_travel;
+  std::vector<double> sign;  ///< of the speed, for a friction; else 1
 
   void next() {
     for (std::size_t k = 0; k < power.size(); ++k) power[k] *= once[k], half_power[k] *= half[k];
   }
-  /// In which share a period at row k averages n periods out.
+  /// Factor by which the mean over a sampling period at row k attenuates n periods per turn.
   double mean(std::size_t k, int n) const {
-    const double swept = n * half_way[k];
+    const double swept = n * half_travel[k];
     return std::abs(swept) > 1e-6 ? half_power[k].imag() / swept : 1;
   }
 };
 
-Turning turning_of(const residuals::ChainTrace& chain, double turns, bool is_friction,
-                   double period_s) {
-  Turning t;
+Harmonics harmonics_of(const residuals::ChainTrace& chain, double turns, bool is_friction,
+                       double period_s) {
+  Harmonics t;
   for (std::size_t k = 0; k < chain.shaft_rad.size(); ++k) {
     const double omega = chain.speed_rad_per_s[k];
-    const double half_way = turns * omega * period_s / 2;
+    const double half_travel = turns * omega * period_s / 2;
     t.once.push_back(std::polar(1.0, turns * chain.shaft_rad[k]));
-    t.half.push_back(std::polar(1.0, half_way));
-    t.half_way.push_back(half_way);
-    t.way.push_back(is_friction ? (omega > 0 ? 1 : -1) : 1);
+    t.half.push_back(std::polar(1.0, half_travel));
+    t.half_travel.push_back(half_travel);
+    t.sign.push_back(is_friction ? (omega > 0 ? 1 : -1) : 1);
   }
   t.power.assign(t.once.size(), 1), t.half_power.assign(t.once.size(), 1);
   return t;
@@ -82,13 +82,13 @@ MatrixXd patterns(const Windows& windows, std::size_t actuator, double turns, bo
     while (until < windows.row.size() && windows.episode[until] == episode) ++until;
     const double period_s = residuals.episodes()[episode].period_s;
     const residuals::Bump bump(half_width_s, period_s);
-    Turning t =
-        turning_of(*base.explained.real[episode].chains[actuator], turns, is_friction, period_s);
+    Harmonics t =
+        harmonics_of(*base.explained.real[episode].chains[actuator], turns, is_friction, period_s);
     std::vector<double> cosine(t.once.size()), sine(cosine);
     for (int n = 1; n <= most; ++n) {
       t.next();
       for (std::size_t k = 0; k < sine.size(); ++k) {
-        const double size = t.way[k] * t.mean(k, n);
+        const double size = t.sign[k] * t.mean(k, n);
         cosine[k] = size * t.power[k].real(), sine[k] = size * t.power[k].imag();
       }
       for (std::size_t w = from; w < until; ++w) {

@@ -7,8 +7,8 @@
 namespace sim::estimation {
 namespace {
 
-/// How far an unknown may move towards `bound` before the cost, −2 log likelihood, rises by the 95 % quantile of χ² with
-/// one degree of freedom. All other unknowns keep their values.
+/// The distance that an unknown may move towards `bound` before the cost, −2 log likelihood, rises by the 95 % quantile
+/// of χ² with one degree of freedom. All other unknowns keep their values.
 double half_interval(const ResidualVector& residuals, const Unknowns& at, const Estimate& e,
                      std::size_t k, double bound) {
   constexpr double rise = 3.84;

@@ -7,7 +7,8 @@ namespace sim::estimation {
 namespace {
 
 std::vector<double> excess(const ResidualVector& residuals, const Eigen::VectorXd& z) {
-  constexpr double median_of_chi_square = 0.455, event = 36;  // six deviations; chosen
+  constexpr double median_of_chi_square = 0.455,
+                   largest_square = 36;  // six standard deviations; chosen
   std::vector<std::vector<double>> square(residuals.stages());
   for (const Block& b : residuals.blocks())
     for (Eigen::Index k = b.first; k < b.first + b.count; ++k)
@@ -20,7 +21,7 @@ std::vector<double> excess(const ResidualVector& residuals, const Eigen::VectorX
     }
     const auto middle = of_stage.begin() + std::ptrdiff_t(of_stage.size() / 2);
     std::ranges::nth_element(of_stage, middle);
-    const double most = event * std::max(1.0, *middle / median_of_chi_square);
+    const double most = largest_square * std::max(1.0, *middle / median_of_chi_square);
     double sum = 0;
     for (const double x : of_stage) sum += std::min(x, most);
     all.push_back(sum / double(of_stage.size()) - 1);
@@ -40,16 +41,17 @@ RemainingResidual remaining_residual(const ResidualVector& residuals, const Rema
   return {excess(residuals, z), base.raised};
 }
 
-double misfit(const RemainingResidual& left, const ResidualVector& residuals, std::size_t stage) {
+double misfit(const RemainingResidual& remaining, const ResidualVector& residuals,
+              std::size_t stage) {
   constexpr double of_laws = 0.25, free_rise = 1.5;
   return of_laws * residuals.independent()[stage] *
-         (std::log1p(std::max(0.0, left.excess[stage])) +
-          2 * std::log(std::max(1.0, left.raised[stage] / free_rise)));
+         (std::log1p(std::max(0.0, remaining.excess[stage])) +
+          2 * std::log(std::max(1.0, remaining.raised[stage] / free_rise)));
 }
 
-double misfit(const RemainingResidual& left, const ResidualVector& residuals) {
+double misfit(const RemainingResidual& remaining, const ResidualVector& residuals) {
   double sum = 0;
-  for (std::size_t s = 0; s < left.excess.size(); ++s) sum += misfit(left, residuals, s);
+  for (std::size_t s = 0; s < remaining.excess.size(); ++s) sum += misfit(remaining, residuals, s);
   return sum;
 }
 

@@ -16,13 +16,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What other noise changes in a stage, over as many windows as both have.
+/// Changes of a stage by added noise, in the windows that both explanations have.
 struct Changes {
   std::vector<double> squares = {};
 
   double rms() const { return root_of_mean(squares.end()); }
-  /// Without the hundredth that changes most: one window that comes to be judged is no noise.
-  double usual() {
+  /// Without the hundredth that changes most: a window that becomes judged is no noise.
+  double trimmed_rms() {
     constexpr double part = 0.99;  // chosen
     const auto end = squares.begin() + std::ptrdiff_t(part * double(squares.size()));
     if (end != squares.end()) std::ranges::nth_element(squares, end);
@@ -73,8 +73,8 @@ ResidualVector::ResidualVector(const erp::Robot& nominal,
   for (const residuals::Episode& episode : episodes)
     disturbed_.push_back(residuals::resampled_noise(episode, nominal, seed));
   Explained bare = explain(nominal, threads);
-  bare_ = bare.real;
-  for (const residuals::Explanation& e : bare_) {
+  nominal_ = bare.real;
+  for (const residuals::Explanation& e : nominal_) {
     stages_ = e.residuals.size();
     for (std::size_t r = 0; r < stages_; ++r) {
       blocks_.push_back({r, size_, Index(e.residuals[r].value.size())});
@@ -100,7 +100,7 @@ void ResidualVector::count_independent(const Explained& nominal) {
   }
 }
 
-/// Of a whole episode, what other noise changes in each stage.
+/// Noise floors of whole episodes, one per block.
 std::vector<double> ResidualVector::floors(const Explained& explained) const {
   std::vector<double> all;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -112,7 +112,7 @@ std::vector<double> ResidualVector::floors(const Explained& explained) const {
   return all;
 }
 
-/// Where every stage has enough windows in them, first parts stand for whole episodes.
+/// Replaces whole episodes by their first parts, if every stage has enough windows in them.
 void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nominal) {
   constexpr double part = 1 / 3.0, enough = part / 2;  // of rows, and of windows; chosen
   const std::vector<Changes> whole = changes_by_stage(nominal);
@@ -131,14 +131,14 @@ void ResidualVector::cut_disturbed(const erp::Robot& robot, const Explained& nom
   if (std::ranges::all_of(std::views::iota(std::size_t(0), stages_), is_seen))
     disturbed_ = std::move(first);
   else of_first = whole;
-  for (Changes& c : of_first) first_floors_.push_back(c.usual());
+  for (Changes& c : of_first) first_floors_.push_back(c.trimmed_rms());
 }
 
 std::vector<double> ResidualVector::raised(const Explained& explained) const {
   std::vector<double> all(stages_, 1.0);
   std::vector<Changes> changes = changes_by_stage(explained);
   for (std::size_t s = 0; s < stages_; ++s)
-    if (first_floors_[s] > 0) all[s] = changes[s].usual() / first_floors_[s];
+    if (first_floors_[s] > 0) all[s] = changes[s].trimmed_rms() / first_floors_[s];
   return all;
 }
 
@@ -167,11 +167,11 @@ Explained ResidualVector::explain(const erp::Robot& robot, const Explained& base
 
 namespace {
 
-/// A residual in units of its noise. Where friction has a band the sign is that of the nominal robot's residual: within
-/// a band a residual has none, and a sign that changed between robots would be a jump.
+/// A residual in units of its noise. In a friction band the sign is that of the nominal robot's residual: within a band
+/// a residual has no sign, and a sign that differs between robots would be a jump.
 double with_fixed_sign(const residuals::Residual& nominal, const residuals::Residual& r,
                        std::size_t window, double floor) {
-  const double z = residuals::in_noise(r, window, floor), was = nominal.value[window];
+  const double z = residuals::normalized(r, window, floor), was = nominal.value[window];
   if (!residuals::banded(nominal, window) && !residuals::banded(r, window)) return z;
   return std::copysign(z, was != 0 ? was : window % 2 ? -1 : 1);
 }
@@ -183,24 +183,24 @@ VectorXd ResidualVector::z(const Explained& explained) const {
   const auto raised = this->raised(explained);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const std::size_t e = b / stages_, r = b % stages_;
-    const auto &was = bare_[e].residuals[r], &is = explained.real[e].residuals[r];
+    const auto &was = nominal_[e].residuals[r], &is = explained.real[e].residuals[r];
     const double floor = floors_[b] * raised[r];
     for (std::size_t k = 0; k < was.value.size() && floor > 0; ++k) {
       if (std::isnan(was.value[k])) continue;
-      const auto& taken = std::isnan(is.value[k]) ? was : is;
-      z[blocks_[b].first + Index(k)] = with_fixed_sign(was, taken, k, floor);
+      const auto& used = std::isnan(is.value[k]) ? was : is;
+      z[blocks_[b].first + Index(k)] = with_fixed_sign(was, used, k, floor);
     }
   }
   return z;
 }
 
 double correlated(std::span<const double> series) {
-  constexpr std::size_t furthest = 50;  // windows: a second
-  constexpr double small = 0.05;        // a correlation; chosen
+  constexpr std::size_t longest_lag = 50;  // windows, one second
+  constexpr double small = 0.05;           // correlation; chosen
   double square = 0;
   for (const double x : series) square += x * x;
   double sum = 1;
-  for (std::size_t lag = 1; lag < std::min(furthest, series.size()) && square > 0; ++lag) {
+  for (std::size_t lag = 1; lag < std::min(longest_lag, series.size()) && square > 0; ++lag) {
     double product = 0;
     for (std::size_t k = lag; k < series.size(); ++k) product += series[k] * series[k - lag];
     if (product < small * square) break;
@@ -210,15 +210,15 @@ double correlated(std::span<const double> series) {
 }
 
 VectorXd tiny_change(const VectorXd& after, const VectorXd& before) {
-  constexpr double most = 20, usual = 0.99;  // times the size that so many stay below; chosen
+  constexpr double factor = 20, quantile = 0.99;  // a jump is above factor × quantile; chosen
   VectorXd change = after - before;
   std::vector<double> sizes;
   for (const double c : change)
     if (c != 0) sizes.push_back(std::abs(c));
   if (sizes.empty()) return change;
-  const auto at = sizes.begin() + std::ptrdiff_t(usual * double(sizes.size() - 1));
+  const auto at = sizes.begin() + std::ptrdiff_t(quantile * double(sizes.size() - 1));
   std::ranges::nth_element(sizes, at);
-  const double jump = most * *at;
+  const double jump = factor * *at;
   return change.unaryExpr([&](double c) { return std::abs(c) > jump ? 0.0 : c; });
 }
 

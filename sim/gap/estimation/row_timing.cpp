@@ -17,7 +17,7 @@ using residuals::Signal;
 
 constexpr std::size_t most_rows = 20;        // chosen
 constexpr std::size_t fewest_samples = 500;  // chosen
-constexpr double clear = 1.0 / 3;            // of the variance without a lag; chosen
+constexpr double clear = 1.0 / 3;            // largest variance / that without a lag; chosen
 
 /// The normal equations of V on i, ω, di/dt and 1 for one lag.
 struct Regression {
@@ -33,7 +33,7 @@ struct Regression {
   }
 };
 
-bool says(const ActuatorSignals& s) {
+bool has_motor_signals(const ActuatorSignals& s) {
   return !s.voltage_V.empty() && !s.current_A.empty() && !s.shaft_rad.empty() && !s.current_around;
 }
 
@@ -42,19 +42,19 @@ void add(const ActuatorSignals& s, double period_s, std::vector<Regression>& lag
   for (std::size_t k = most_rows; k + 1 < rows; ++k) {
     const double rate = (s.current_A[k] - s.current_A[k - 1]) / period_s;
     const Eigen::Vector4d x(s.current_A[k], residuals::rate_of(s.shaft_rad, k, period_s), rate, 1);
-    bool taken = x.allFinite();
-    for (std::size_t lag = 0; lag <= most_rows && taken; ++lag)
-      taken = std::isfinite(s.voltage_V[k - lag]);
-    for (std::size_t lag = 0; lag <= most_rows && taken; ++lag)
+    bool valid = x.allFinite();
+    for (std::size_t lag = 0; lag <= most_rows && valid; ++lag)
+      valid = std::isfinite(s.voltage_V[k - lag]);
+    for (std::size_t lag = 0; lag <= most_rows && valid; ++lag)
       lags[lag].add(x, s.voltage_V[k - lag]);
   }
 }
 
-/// The lag of one actuator in all recordings; nothing: too little to see.
+/// The lag of one actuator in all recordings; empty: not enough samples.
 std::optional<std::size_t> lag_of(std::span<const residuals::Episode> episodes, std::size_t a) {
   std::vector<Regression> lags(most_rows + 1);
   for (const residuals::Episode& e : episodes)
-    if (says(e.actuators[a])) add(e.actuators[a], e.period_s, lags);
+    if (has_motor_signals(e.actuators[a])) add(e.actuators[a], e.period_s, lags);
   if (lags[0].count < fewest_samples) return std::nullopt;
   std::size_t best = 0;
   for (std::size_t lag = 1; lag <= most_rows; ++lag)
@@ -62,7 +62,7 @@ std::optional<std::size_t> lag_of(std::span<const residuals::Episode> episodes, 
   return lags[best].variance() < clear * lags[0].variance() ? best : 0;
 }
 
-Signal moved(const Signal& signal, std::size_t rows) {
+Signal shifted(const Signal& signal, std::size_t rows) {
   Signal later(signal.size(), recording::not_taken);
   for (std::size_t k = rows; k < signal.size(); ++k) later[k] = signal[k - rows];
   return later;
@@ -89,18 +89,18 @@ void undo(const RowTiming& timing, std::vector<residuals::Episode>& episodes,
   if (timing.rows == 0) return;
   for (residuals::Episode& e : episodes) {
     for (ActuatorSignals& s : e.actuators) {
-      s.voltage_V = moved(s.voltage_V, timing.rows);
-      if (timing.from_row()) s.mode = moved(s.mode, 1), s.reference = moved(s.reference, 1);
+      s.voltage_V = shifted(s.voltage_V, timing.rows);
+      if (timing.from_row()) s.mode = shifted(s.mode, 1), s.reference = shifted(s.reference, 1);
     }
     if (timing.late()) e.voltage_late_s = timing.delay_s();
   }
   remarks.push_back(
       timing.from_row()
-          ? "voltage, mode and reference hold from their row to the next, by the motors' law: "
-            "shifted by one row"
+          ? "voltage, mode and reference hold from their row to the next, as the motors' law "
+            "shows; they are shifted by one row"
           : fmt::format(
-                "voltages act {:.3g} ms after the row that gives them, or all sensors lag by "
-                "that time, by the motors' law: undone",
+                "voltages act {:.3g} ms after their row, or all sensors lag by this time, as the "
+                "motors' law shows; the delay is compensated",
                 1e3 * timing.delay_s()));
 }
 

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// How far each size may be moved.
+/// Bounds of the step of each size.
 struct StepBounds {
   std::vector<double> low = {}, high = {};
 
@@ -33,21 +33,21 @@ struct StepBounds {
   }
 };
 
-/// What an effect is added to.
-struct Beginning {
+/// The estimate to which an effect is added.
+struct Basis {
   const Estimate& estimate;
   const std::vector<bool>& open;
-  RemainingResidual left;
-  VectorXd moved;   ///< of the unknowns, by a last step without it
+  RemainingResidual remaining;
+  VectorXd moved;   ///< last step of the unknowns without the effect
   double cost = 0;  ///< after that step
 };
 
 namespace {
 
-/// Whether it changes a stage that is open, or none is.
+/// Whether a change affects an open stage. True if no stage is open.
 bool changes(const ResidualVector& residuals, const MatrixXd& change,
              const std::vector<bool>& open) {
-  constexpr double share = 1e-3;  // of the whole change; chosen
+  constexpr double share = 1e-3;  // smallest share of the change; chosen
   if (std::ranges::count(open, true) == 0) return true;
   double of_open = 0;
   for (const Block& b : residuals.blocks())
@@ -57,12 +57,12 @@ bool changes(const ResidualVector& residuals, const MatrixXd& change,
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The step of sizes to the minimum of stepᵀ own step/2 − slopeᵀ step. One that is but a copy of what is
-/// estimated already, or that would leave its bounds, stays where it is. `whole`: as `own`, without what is
-/// estimated already.
+/// The step of the sizes to the minimum of stepᵀ own step/2 − slopeᵀ step. A size stays unchanged if the unknowns that
+/// are already estimated have the same effect, or if it would leave its bounds. `whole`: as `own`, without the response
+/// of the estimated unknowns.
 VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd& slope,
                      const StepBounds& bounds) {
-  constexpr double copy = 1e-8, ridge = 1e-6;  // of its square; chosen
+  constexpr double copy = 1e-8, ridge = 1e-6;  // relative; chosen
   std::vector<Index> free;
   for (Index n = 0; n < own.rows(); ++n)
     if (own(n, n) > copy * whole(n, n)) free.push_back(n);
@@ -79,18 +79,20 @@ VectorXd step_within(const MatrixXd& own, const MatrixXd& whole, const VectorXd&
 
 }  // namespace
 
-/// By the linear model of `base`, where its unknowns moved, with what an effect changes in z.
-double Screen::cost_at(const Estimate& base, const RemainingResidual& left, const VectorXd& changed,
-                       const VectorXd& moved) const {
+/// Cost by the linear model of `base` after a step of its unknowns and a change of z by an effect.
+double Screen::cost_at(const Estimate& base, const RemainingResidual& remaining,
+                       const VectorXd& changed, const VectorXd& moved) const {
   Point after = base.point;
   for (std::size_t k = 0; k < after.x.size(); ++k) after.x[k] += moved[Index(k)];
   const ResidualVector& residuals = train_.residuals();
   const VectorXd z = base.z + changed + base.jacobian * moved;
-  return misfit(remaining_residual(residuals, left, z), residuals) + prior_cost(uncertain_, after);
+  return misfit(remaining_residual(residuals, remaining, z), residuals) +
+         prior_cost(uncertain_, after);
 }
 
-/// The best of 1, 2, 4 and 8 times a step, and what it gains: the quadratic model weighs windows that the cost cuts off.
-std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const Sensitivities& all,
+/// The best of 1, 2, 4 and 8 times a step, and its gain. The quadratic model overweights windows that the cost cuts
+/// off.
+std::pair<double, VectorXd> Screen::best_multiple(const Basis& basis, const Sensitivities& all,
                                                   const MatrixXd& shared, const VectorXd& step,
                                                   const StepBounds& bounds) const {
   constexpr int doublings = 3;  // chosen
@@ -98,17 +100,17 @@ std::pair<double, VectorXd> Screen::best_multiple(const Beginning& begin, const 
   for (int n = 0; n <= doublings; ++n) {
     const VectorXd by = std::exp2(n) * step;
     if (n > 0 && bounds.leaves(by)) break;
-    const double gain =
-        begin.cost - cost_at(begin.estimate, begin.left, all.d * by, begin.moved - shared * by);
+    const double gain = basis.cost - cost_at(basis.estimate, basis.remaining, all.d * by,
+                                             basis.moved - shared * by);
     if (n > 0 && !(gain > best.first)) break;
     best = {gain, by};
   }
   return best;
 }
 
-/// Of one shape: the values that would explain most, and what they would explain.
-Candidate Screen::score(const Beginning& begin, const Sensitivities& all) const {
-  const Estimate& base = begin.estimate;
+/// For one shape, the values of highest score, and the score.
+Candidate Screen::score(const Basis& basis, const Sensitivities& all) const {
+  const Estimate& base = basis.estimate;
   const MatrixXd wd = base.weight.asDiagonal() * all.d;
   const MatrixXd shared = base.covariance * (base.jacobian.transpose() * wd);
   MatrixXd own = all.d.transpose() * wd;
@@ -128,8 +130,8 @@ Candidate Screen::score(const Beginning& begin, const Sensitivities& all) const 
   VectorXd step = step_within(
       own, whole, -(wd.transpose() * base.z - shared.transpose() * base.gradient), bounds);
   if (step.isZero(0) || (places && step[0] == 0)) return candidate;
-  std::tie(candidate.score, step) = best_multiple(begin, all, shared, step, bounds);
-  candidate.others = begin.moved - shared * step;
+  std::tie(candidate.score, step) = best_multiple(basis, all, shared, step, bounds);
+  candidate.others = basis.moved - shared * step;
   for (std::size_t n = 0; n < all.sizes.size(); ++n) {
     const effects::Parameter& p = values[all.sizes[n]];
     const bool place = !is_like(p, values[all.sizes[0]]);
@@ -140,16 +142,16 @@ Candidate Screen::score(const Beginning& begin, const Sensitivities& all) const 
 }
 
 /// Score of an initial guess at its values, without a step; the unknowns respond linearly.
-Candidate Screen::score_guess(const Beginning& begin, const Placed& guess,
+Candidate Screen::score_guess(const Basis& basis, const Placed& guess,
                               const VectorXd& changed) const {
-  const Estimate& base = begin.estimate;
-  const VectorXd others = begin.moved - base.covariance * (base.jacobian.transpose() *
+  const Estimate& base = basis.estimate;
+  const VectorXd others = basis.moved - base.covariance * (base.jacobian.transpose() *
                                                            base.weight.cwiseProduct(changed));
-  return {guess, begin.cost - cost_at(base, begin.left, changed, others), others};
+  return {guess, basis.cost - cost_at(base, basis.remaining, changed, others), others};
 }
 
-Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) const {
-  const Estimate& base = begin.estimate;
+Candidate Screen::best_shape(const Basis& basis, const Placed& neutral) const {
+  const Estimate& base = basis.estimate;
   const erp::Robot robot = robot_at(uncertain_, base.point);
   const residuals::Reach reach = residuals::Stages(robot).reach(neutral);
   const ChangedBy z_with = [&](const Placed& placed) -> VectorXd {
@@ -165,8 +167,8 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
   for (const residuals::Episode& e : train_.residuals().episodes()) recordings.push_back(&e);
   for (const Placed& guess : initial_guesses(neutral, uncertain_.nominal, recordings)) {
     const VectorXd change = z_with(guess) - base.z;
-    if (!changes(train_.residuals(), change, begin.open)) continue;
-    if (Candidate one = score_guess(begin, guess, change); one.score > best.score)
+    if (!changes(train_.residuals(), change, basis.open)) continue;
+    if (Candidate one = score_guess(basis, guess, change); one.score > best.score)
       best = std::move(one);
   }
   const auto sizes = sizes_of(neutral);
@@ -176,11 +178,11 @@ Candidate Screen::best_shape(const Beginning& begin, const Placed& neutral) cons
     std::vector<Sensitivities> tried = secants(shape, sizes, changed_by);
     tried.push_back(sensitivities(shape, sizes, by, changed_by));
     std::erase_if(tried, [&](const Sensitivities& all) {
-      return !changes(train_.residuals(), all.d, begin.open);
+      return !changes(train_.residuals(), all.d, basis.open);
     });
     if (tried.empty()) break;
     for (const Sensitivities& all : tried)
-      if (Candidate one = score(begin, all); one.score > best.score) best = std::move(one);
+      if (Candidate one = score(basis, all); one.score > best.score) best = std::move(one);
   }
   return best;
 }
@@ -194,7 +196,7 @@ bool Screen::is_searched(const effects::About& about) const {
 
 namespace {
 
-/// Its score, the value of each parameter, then the others.
+/// The score, the value of each parameter, then `others`.
 Pool::Numbers numbers_of(Candidate candidate) {
   Pool::Numbers numbers{candidate.score};
   for (const effects::Parameter& p : effects::parameters(candidate.start.effect))
@@ -215,9 +217,9 @@ Candidate candidate_of(Placed effect, const Pool::Numbers& numbers) {
 
 std::vector<Candidate> Screen::candidates(const Estimate& base,
                                           const std::vector<bool>& open) const {
-  Beginning begin{base, open, remaining_residual(train_.residuals(), base.explained, base.z),
-                  -(base.covariance * base.gradient)};
-  begin.cost = cost_at(base, begin.left, VectorXd::Zero(base.z.size()), begin.moved);
+  Basis basis{base, open, remaining_residual(train_.residuals(), base.explained, base.z),
+              -(base.covariance * base.gradient)};
+  basis.cost = cost_at(base, basis.remaining, VectorXd::Zero(base.z.size()), basis.moved);
   std::vector<Placed> all;
   for (const effects::AnyEffect& effect : effects::library()) {
     const effects::About& about = effects::about(effect);
@@ -231,7 +233,7 @@ std::vector<Candidate> Screen::candidates(const Estimate& base,
   }
   const EstimateOptions& options = train_.options();
   const auto found = map(options.pool, options.threads, all.size(),
-                         [&](std::size_t k) { return numbers_of(best_shape(begin, all[k])); });
+                         [&](std::size_t k) { return numbers_of(best_shape(basis, all[k])); });
   std::vector<Candidate> screened;
   for (std::size_t k = 0; k < all.size(); ++k) screened.push_back(candidate_of(all[k], found[k]));
   std::erase_if(screened, [](const Candidate& c) { return !(c.score > 0); });

@@ -5,50 +5,50 @@
 
 #include "sim/gap/estimation/remaining_residual.hpp"
 
-/// Which effects of the library could explain what an estimate leaves:
+/// Which effects of the library could explain the remaining residual of an estimate:
 ///
-///   score = what the cost loses along the effect's directions, the constants going along
+///   score = decrease of the cost by the step of the effect's parameters, with the response of the constants
 ///   step  = −G⁻¹ g     g = Dᵀ W z − (Jᵀ W D)ᵀ H⁻¹ ∇,   G = Dᵀ W D − (Jᵀ W D)ᵀ H⁻¹ (Jᵀ W D)
 ///
-/// D: what the effect's parameters change in z; J, H and ∇: derivatives, Hessian and gradient of what is
-/// estimated already (orthogonal least squares: Chen, Billings, Luo 1989). All stages and recordings
-/// take part. Parameters that shape a law (speeds, time constants) are scanned; periods: periods.hpp.
+/// D: ∂z/∂(parameters of the effect); J, H and ∇: derivatives, Hessian and gradient of the unknowns that are already
+/// estimated (orthogonal least squares: Chen, Billings, Luo 1989). All stages and recordings take part. Parameters that
+/// shape a law (speeds, time constants) are scanned; periods: periods.hpp.
 namespace sim::estimation {
 
 struct Candidate {
-  effects::Placed start;  ///< with the values that would explain most
+  effects::Placed start;  ///< with the values of highest score
   double score = 0;
-  Eigen::VectorXd others = {};  ///< how far the unknowns of the estimate go along then
+  Eigen::VectorXd others = {};  ///< step of the unknowns of the estimate in response
 };
 
 struct Sensitivities;
-struct Beginning;
+struct Basis;
 struct StepBounds;
 
 class Screen {
  public:
-  /// All stay with the caller.
+  /// All arguments must outlive the screen.
   Screen(const Estimator& train, const Uncertain& uncertain,
          const std::vector<std::string>& withhold)
       : train_(train), uncertain_(uncertain), withhold_(withhold) {}
 
-  /// Best first; at most one a type and place, none that `base` has, none that changes no stage of `open`
-  /// (one flag a stage; where none is set, all are).
+  /// The best first; at most one for each type and place; none that `base` has; none that changes no stage of `open`
+  /// (one flag per stage; if none is set, all stages count).
   std::vector<Candidate> candidates(const Estimate& base, const std::vector<bool>& open) const;
 
  private:
-  /// Not what a constant stands for already, and not what no residual shows.
+  /// False if a constant represents the effect already, or if no residual shows it.
   bool is_searched(const effects::About& about) const;
-  Candidate best_shape(const Beginning& base, const effects::Placed& neutral) const;
-  double cost_at(const Estimate& base, const RemainingResidual& left,
+  Candidate best_shape(const Basis& base, const effects::Placed& neutral) const;
+  double cost_at(const Estimate& base, const RemainingResidual& remaining,
                  const Eigen::VectorXd& changed, const Eigen::VectorXd& moved) const;
-  std::pair<double, Eigen::VectorXd> best_multiple(const Beginning& begin,
+  std::pair<double, Eigen::VectorXd> best_multiple(const Basis& basis,
                                                    const Sensitivities& sensitivities,
                                                    const Eigen::MatrixXd& shared,
                                                    const Eigen::VectorXd& step,
                                                    const StepBounds& bounds) const;
-  Candidate score(const Beginning& base, const Sensitivities& sensitivities) const;
-  Candidate score_guess(const Beginning& base, const effects::Placed& guess,
+  Candidate score(const Basis& base, const Sensitivities& sensitivities) const;
+  Candidate score_guess(const Basis& base, const effects::Placed& guess,
                         const Eigen::VectorXd& changed) const;
 
   const Estimator& train_;

@@ -8,23 +8,23 @@
 namespace sim::estimation {
 namespace {
 
-constexpr double worth = 0.3;  // of a stage's excess that an effect must take away; chosen
+constexpr double worth = 0.3;  // share of a stage's excess that an effect must remove; chosen
 /// −2 log of the odds that a robot has one effect; chosen, as that of a constant far off (unknowns.hpp).
 constexpr double effect_price = 9;
 
-/// Of a stage's excess: of little, and of much a small part, for laws are approximations; chosen.
+/// The excess of a stage that needs no effect. It grows with the nominal excess, for laws are approximations; chosen.
 double tolerated(double nominal_excess) { return std::clamp(0.002 * nominal_excess, 0.6, 2.0); }
 
 bool is_same(const effects::Placed& a, const effects::Placed& b) {
   return a.on == b.on && a.effect.index() == b.effect.index();
 }
 
-/// Several causes at one place can bend to nearly any law.
+/// Several causes at one place can approximate nearly any law.
 bool are_at_one_place(const effects::Placed& a, const effects::Placed& b) {
   return a.on == b.on && effects::about(a.effect).stage == effects::about(b.effect).stage;
 }
 
-/// What came near an effect when it was looked for again, and led to `other`.
+/// Rivals of an effect after a second search for it, which resulted in `other`.
 Rivals rivals_of(const Found& found, std::size_t effect, const Found& other, double cost_without) {
   Rivals rivals{.gain = cost_without - found.cost};
   const auto add = [&](const Sized& one, double cost) {
@@ -39,10 +39,11 @@ Rivals rivals_of(const Found& found, std::size_t effect, const Found& other, dou
 
 }  // namespace
 
-bool relieves(const Found& is, const Found& was) {
-  for (std::size_t s = 0; s < was.held_out.excess.size(); ++s) {
-    const double before = was.held_out.excess[s];
-    if (before > was.tolerated[s] && before - is.held_out.excess[s] > worth * before) return true;
+bool relieves(const Found& after, const Found& before) {
+  for (std::size_t s = 0; s < before.held_out.excess.size(); ++s) {
+    const double excess = before.held_out.excess[s];
+    if (excess > before.tolerated[s] && excess - after.held_out.excess[s] > worth * excess)
+      return true;
   }
   return false;
 }
@@ -86,7 +87,7 @@ Found Search::from(Point start) const {
   return found;
 }
 
-std::vector<Found> Search::each_beside(const Found& base) const {
+std::vector<Found> Search::with_each_candidate(const Found& base) const {
   constexpr int iterations = 4;
   auto candidates = screen_.candidates(base.train, open_stages(base));
   const bool drive = !uncertain_.nominal.drives.empty();  // all its friction is at one place
@@ -101,16 +102,16 @@ std::vector<Found> Search::each_beside(const Found& base) const {
   in_parallel(candidates.size(), train_.options().threads, [&](std::size_t k) {
     Point start = at.moved(candidates[k].others).point();
     start.effects.push_back(candidates[k].start);
-    joined[k] = judge(train_.beside(uncertain_, base.train, std::move(start), iterations));
+    joined[k] = judge(train_.candidate(uncertain_, base.train, std::move(start), iterations));
   });
   std::ranges::stable_sort(joined, {}, &Found::cost);
   return joined;
 }
 
-/// The cheapest of `joined` estimated to its end, with those that come near it then.
+/// The cheapest of `joined` after estimation until convergence, with its rivals.
 Found Search::with_best_of(const std::vector<Found>& joined, const Found& base) const {
   constexpr double unsettled =
-      0.3;                         // of the gain: that far is one in few steps from its end; chosen
+      0.3;  // share of the gain by which few steps may miss the minimum; chosen
   constexpr std::size_t most = 4;  // chosen
   std::vector<Found> ended;
   const double near = joined[0].cost + unsettled * (base.cost - joined[0].cost);
@@ -136,10 +137,10 @@ std::optional<Found> Search::best_of(const std::vector<Found>& joined, const Fou
 Found Search::without(const Found& found, std::size_t effect) const {
   Point others = found.train.point;
   others.effects.erase(others.effects.begin() + std::ptrdiff_t(effect));
-  Found left = judge(train_.run(uncertain_, others));
-  left.rivals = found.rivals;
-  left.rivals.erase(left.rivals.begin() + std::ptrdiff_t(effect));
-  return left;
+  Found remaining = judge(train_.run(uncertain_, others));
+  remaining.rivals = found.rivals;
+  remaining.rivals.erase(remaining.rivals.begin() + std::ptrdiff_t(effect));
+  return remaining;
 }
 
 Found Search::pruned(Found found) const {
@@ -150,8 +151,8 @@ Found Search::pruned(Found found) const {
 
 namespace {
 
-/// Whether an effect's estimate allows a robot without it: the intervals of all its fitted parameters hold their neutral
-/// values.
+/// Whether the estimate of an effect is compatible with a robot without it: the intervals of all its fitted parameters
+/// contain their neutral values.
 bool may_be_neutral(const Sized& sized) {
   constexpr double half = 1.96;  // standard deviations
   effects::AnyEffect effect = sized.effect.effect;
@@ -166,7 +167,7 @@ bool may_be_neutral(const Sized& sized) {
   return true;
 }
 
-/// Of each effect whether a parameter of it ends at a bound, or it may be neutral.
+/// For each effect, whether one of its parameters is at a bound, or it may be neutral.
 std::vector<bool> doubtful(const Estimate& estimate) {
   std::vector<bool> all;
   std::size_t k = estimate.point.x.size();
@@ -188,16 +189,16 @@ Found Search::without_doubtful(Found found) const {
   return found;
 }
 
-/// An earlier choice may have been a compromise between two, or worth nothing beside a later one.
+/// An earlier choice may have been a compromise between two effects, or superfluous after a later one.
 Found Search::exchanged(Found found) const {
-  constexpr double better = 0.98;  // chosen
+  constexpr double improvement = 0.98;  // largest cost / previous cost; chosen
   for (std::size_t k = 0; k + 1 < found.train.point.effects.size(); ++k) {
     const Found base = without(found, k);
     if (base.cost < found.cost) return exchanged(base);
-    const auto joined = each_beside(base);
+    const auto joined = with_each_candidate(base);
     if (joined.empty()) continue;
     Found other = with_best_of(joined, base);
-    if (other.cost < better * found.cost)  // another, or the same that ended elsewhere
+    if (other.cost < improvement * found.cost)  // another effect, or another minimum of the same
       found = pruned(std::move(other));
     else found.rivals[k] = rivals_of(found, k, other, base.cost);
   }
@@ -205,12 +206,12 @@ Found Search::exchanged(Found found) const {
 }
 
 Found Search::run(Found found, std::size_t most) const {
-  const std::size_t rounds = 2 * most;  // one that is dropped may be found again
+  const std::size_t rounds = 2 * most;  // a dropped effect may be found again
   for (std::size_t round = 0;
        round < rounds && keeps(found) && found.train.point.effects.size() < most; ++round) {
     if (options_.progress)
       options_.progress("effects", double(found.train.point.effects.size()) / double(most));
-    auto more = best_beside(found);
+    auto more = with_best_candidate(found);
     if (!more || !relieves(*more, found)) break;
     found = exchanged(std::move(*more));
   }

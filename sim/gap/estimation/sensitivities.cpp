@@ -13,10 +13,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A parameter that shapes a law: without it the law's size means nothing.
+/// Whether a parameter shapes a law. Without it the law's size has no meaning.
 bool shapes(const effects::Parameter& p) { return p.bounds.low > 0; }
 
-/// Values to scan of a parameter that shapes a law.
+/// Values at which a parameter that shapes a law is scanned.
 std::vector<double> grid(const effects::Parameter& p) {
   std::vector<double> values;
   constexpr int points = 7;
@@ -36,14 +36,14 @@ Perturbed perturbed(const Placed& shape, std::size_t size, double by, const Chan
   return {by, changed_by(placed)};
 }
 
-/// A nudge of a size that changes z by a small part of its noise, whatever the parameter's bounds; `by`: a first try,
-/// which stays where it changes nothing.
+/// A perturbation of a size that changes z by a small part of its noise, independent of the parameter's bounds. `by`:
+/// the initial perturbation, which is kept if it changes nothing.
 Perturbed fitting_perturbation(const Placed& shape, std::size_t size, double by,
                                const ChangedBy& changed_by) {
-  constexpr double wanted = 0.003, least = 1e-6, most = 100, near = 4;  // chosen
+  constexpr double desired = 0.003, least = 1e-6, most = 100, near = 4;  // chosen
   Perturbed first = perturbed(shape, size, by, changed_by);
   const double rms = first.change.norm() / std::sqrt(double(first.change.size()));
-  const double scale = std::clamp(wanted / std::max(rms, 1e-12), least, most);
+  const double scale = std::clamp(desired / std::max(rms, 1e-12), least, most);
   if (rms == 0 || (scale > 1 / near && scale < near)) return first;
   Placed placed = shape;
   const effects::Parameter p = effects::parameters(placed.effect)[size];

@@ -8,25 +8,26 @@
 namespace sim::estimation {
 namespace {
 
-bool is_about(const erp::Tolerance& given, const Constant& c) {
+bool applies_to(const erp::Tolerance& given, const Constant& c) {
   return c.name == given.of && (given.on.empty() || c.on == given.on);
 }
 
-/// What of a <tolerance> cannot be: the message and the remedy; empty if nothing.
-std::pair<std::string, std::string> refused(const erp::Tolerance& given,
-                                            const std::vector<Constant>& all) {
+/// Message and remedy for an invalid <tolerance>; empty if it is valid.
+std::pair<std::string, std::string> error_of(const erp::Tolerance& given,
+                                             const std::vector<Constant>& all) {
   std::set<std::string> names;
   bool named = false, zero = false;
   for (const Constant& c : all) {
     names.insert(c.name);
-    if (is_about(given, c)) named = true, zero |= c.nominal == 0;
+    if (applies_to(given, c)) named = true, zero |= c.nominal == 0;
   }
   const std::string of = "of=" + xml::quote(given.of);
   if (!named)
     return {of + " names no number" + (given.on.empty() ? "" : " of " + given.on) +
                 " that is estimated",
             xml::did_you_mean(given.of, {names.begin(), names.end()})};
-  if (zero && given.relative) return {of + " is 0 in robot.xml", "give absolute, in its unit"};
+  if (zero && given.relative)
+    return {of + " is 0 in robot.xml", "set absolute instead, in its unit"};
   return {};
 }
 
@@ -35,10 +36,10 @@ std::pair<std::string, std::string> refused(const erp::Tolerance& given,
 void apply_tolerances(std::vector<Constant>& all, const erp::Robot& robot) {
   std::vector<xml::Error> errors;
   for (const erp::Tolerance& given : robot.tolerances) {
-    if (const auto [what, remedy] = refused(given, all); !what.empty())
+    if (const auto [what, remedy] = error_of(given, all); !what.empty())
       errors.push_back(xml::error_in(given.element, given.place, what, remedy));
     for (Constant& c : all)
-      if (is_about(given, c))
+      if (applies_to(given, c))
         c.tolerance = given.absolute ? *given.absolute : *given.relative * c.nominal;
   }
   xml::throw_if_any(std::move(errors));

@@ -5,8 +5,8 @@
 
 namespace sim::estimation {
 
-/// Sets tolerances as robot.xml gives them; a number that is known exactly is no constant. Throws xml::Errors where
-/// a <tolerance> names no such number.
+/// Sets the tolerances of robot.xml; removes numbers with tolerance 0, which are known exactly. Throws xml::Errors if a
+/// <tolerance> names no such number.
 void apply_tolerances(std::vector<Constant>& all, const erp::Robot& robot);
 
 }  // namespace sim::estimation

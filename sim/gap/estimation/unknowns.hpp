@@ -5,47 +5,46 @@
 
 #include "sim/gap/estimation/constants.hpp"
 
-/// What is estimated of a robot: its constants, then the parameters of effects beside them.
+/// The unknowns of a robot: its constants, then the parameters of its effects.
 namespace sim::estimation {
 
-/// A robot and what is uncertain about it.
+/// A robot and its uncertain constants.
 struct Uncertain {
   erp::Robot nominal;
   std::vector<Constant> constants;
-  /// Of each constant whether it is far off (far_off.hpp); empty: not known yet.
+  /// For each constant, whether it is far off (far_off.hpp); empty: not known yet.
   std::vector<bool> far = {};
 };
 
-/// A point among what is possible.
+/// Values of the unknowns.
 struct Point {
-  std::vector<double> x;                 ///< one a constant, in tolerances
+  std::vector<double> x;                 ///< one per constant, in tolerances
   std::vector<effects::Placed> effects;  ///< with their parameters
 };
 
 erp::Robot robot_at(const Uncertain& uncertain, const Point& point);
 
-/// −2 log of the prior of x. Where it is not known which constants are far off, ν log(1 + x²/ν), ν = 6: a
-/// normal one of standard deviation 1 near 0, with the heavier tails of Student's t, so that a constant
-/// far off costs little more than one that is three tolerances off. Where it is known, x², and
-/// x²/far² + price of one that is far off.
+/// −2 log of the prior of x. If it is unknown which constants are far off, ν log(1 + x²/ν), ν = 6: near 0 a normal
+/// distribution of standard deviation 1, with the heavier tails of Student's t, so that a constant far off costs little
+/// more than one that is three tolerances off. If it is known, x², and x²/far² + price for constants that are far off.
 double prior_cost(const Uncertain& uncertain, const Point& point);
-/// Of the normal one that has the same slope there.
+/// Precision of the normal distribution with the same slope at the point.
 double prior_precision(const Uncertain& uncertain, const Point& point, std::size_t k);
 
 inline double far_precision(const Constant& c) { return 1 / (c.far * c.far); }
-/// −2 log of the odds that a constant is far off, 15 %, and of the normalisation of the wider prior; of a
-/// zero five tolerances; chosen.
+/// −2 log of the odds that a constant is far off, 15 %, and of the normalization of the wider prior; for a zero, the
+/// cost of five tolerances; chosen.
 inline double far_price(const Constant& c) { return c.zero ? 25 : 3.5 + 2 * std::log(c.far); }
 
-/// Parameters that are fitted, and times and speeds that are given elsewhere; not counts (a cogging's
-/// periods).
+/// Whether a parameter is estimated: those that are fitted elsewhere too, and times and speeds, which are scanned
+/// elsewhere; not counts (a cogging's periods).
 bool is_estimated(const effects::Parameter& parameter);
 
-/// A point's coordinates one after the other: x, then each estimated parameter, the logarithm of one that is
-/// not fitted elsewhere.
+/// The coordinates of a point in sequence: x, then each estimated parameter, as its logarithm if it is not fitted
+/// elsewhere.
 class Unknowns {
  public:
-  /// `uncertain` stays with the caller.
+  /// `uncertain` must outlive this object.
   Unknowns(const Uncertain& uncertain, Point at);
 
   std::size_t count() const { return at_.x.size() + places_.size(); }
@@ -55,10 +54,10 @@ class Unknowns {
   erp::Robot robot() const { return robot_at(*uncertain_, at_); }
 
   double value(std::size_t k) const;
-  /// For a forward difference, within the bounds: so small that all unknowns have the same windows beyond a band
-  /// of friction, and the same with a line taut.
+  /// Step of a forward difference, within the bounds. It is so small that no window enters or leaves a friction band,
+  /// and no tendon becomes taut or slack.
   double step(std::size_t k, double stretch = 1) const;
-  /// Another value of one, or all moved; parameters stay within their bounds.
+  /// Returns a copy with another value of one unknown, or with all moved; parameters stay within their bounds.
   Unknowns with(std::size_t k, double value) const;
   Unknowns moved(const Eigen::VectorXd& by) const;
   residuals::Reach reach(std::size_t k, const residuals::Stages& stages) const;

@@ -5,9 +5,9 @@
 
 namespace sim::residuals {
 
-double left_of_noise(double band) {
-  constexpr double little = 1e-3, wide = 1e3;
-  if (band < little) return 1;
+double noise_beyond(double band) {
+  constexpr double narrow = 1e-3, wide = 1e3;
+  if (band < narrow) return 1;
   if (band > wide) return 0;
   const auto third = [](double x) {
     const double phi = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi);
@@ -16,10 +16,10 @@ double left_of_noise(double band) {
   return (third(0) - third(-2 * band)) / band;
 }
 
-double in_noise(const Residual& residual, std::size_t window, double floor) {
+double normalized(const Residual& residual, std::size_t window, double floor) {
   const double z = residual.value[window] / floor;
   if (!banded(residual, window)) return z;
-  const double hidden = 1 - left_of_noise(residual.band[window] / floor);
+  const double hidden = 1 - noise_beyond(residual.band[window] / floor);
   return std::copysign(std::sqrt(hidden + z * z), z);
 }
 

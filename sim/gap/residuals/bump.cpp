@@ -18,7 +18,7 @@ Bump::Bump(double half_width_s, double period_s) {
     const double before = phi(j - 1) / whole, here = phi(j) / whole, after = phi(j + 1) / whole;
     mean_.push_back(here);
     rate_.push_back((before - after) / (2 * period_s));
-    bend_.push_back((before - 2 * here + after) / (period_s * period_s));
+    curvature_.push_back((before - 2 * here + after) / (period_s * period_s));
   }
 }
 

@@ -18,19 +18,19 @@ struct Chain {
   const Bump& bump;
 };
 
-/// V − R i − L di/dt over the two periods around each row: what K_E N (θ_k+1 − θ_k−1)/2T answers to.
-Signal around_V(const Chain& c) {
+/// V − R i − L di/dt over the two periods around each row; by the motor law it equals K_E N (θ_k+1 − θ_k−1)/2T.
+Signal induced_V(const Chain& c) {
   const ChainTrace& t = c.trace;
   const double a = t.current_averaged;
-  TwoPeriodsAt around(c.motor, c.period_s, t.driver_late_s);
+  TwoPeriodsAt two(c.motor, c.period_s, t.driver_late_s);
   const double late = t.driver_late_s / c.period_s;
-  Signal left(t.terminal_V.size(), nan);
-  for (std::size_t k = 1; k + 1 < left.size(); ++k) {
+  Signal induced(t.terminal_V.size(), nan);
+  for (std::size_t k = 1; k + 1 < induced.size(); ++k) {
     const double first_V = t.terminal_V[k - 1], middle_V = t.terminal_V[k],
                  last_V = t.terminal_V[k + 1];
     const double ohm = t.resistance_ohm[k], before = t.current_A[k - 1], now = t.current_A[k],
                  next = t.current_A[k + 1];
-    const auto& [volts, amperes, drives, per_V, per_speed, inertia] = around.ohm(ohm);
+    const auto& [volts, amperes, drives, per_V, per_speed, inertia] = two.at(ohm);
     const double held = (late > 0 ? volts[0] * first_V : 0) + volts[1] * middle_V +
                         volts[2] * last_V -
                         ohm * (amperes[0] * before + amperes[1] * now + amperes[2] * next);
@@ -38,37 +38,39 @@ Signal around_V(const Chain& c) {
         (late > 0 ? late * first_V : 0) / 2 + (middle_V + (1 - late) * last_V) / 2;
     const double averaged =
         mean_V - ohm * now - c.motor.inductance_H * (next - before) / (2 * c.period_s);
-    left[k] = (1 - a) * held + a * averaged;
+    induced[k] = (1 - a) * held + a * averaged;
   }
-  return left;
+  return induced;
 }
 
 std::vector<double> motor_V(const Chain& c, std::span<const std::size_t> rows) {
-  const Signal left = around_V(c);
+  const Signal induced = induced_V(c);
   const double back_emf = c.motor.back_emf_V_s_per_rad * c.motor.gear_ratio;
   std::vector<double> value;
   for (const std::size_t k : rows)
-    value.push_back(c.bump.mean(left, k) - back_emf * c.bump.rate(c.trace.shaft_rad, k));
+    value.push_back(c.bump.mean(induced, k) - back_emf * c.bump.rate(c.trace.shaft_rad, k));
   return value;
 }
 
-/// Adds the gearbox's residual: what is beyond the doubt of windows in which the shaft turns back.
+/// Fills in the gearbox's residual: the part beyond the uncertainty in windows in which the shaft reverses.
 void add_gearbox(const Chain& c, std::span<const std::size_t> rows, Residual& residual) {
   const double viscous =
       c.motor.rotor_viscous_Nm_s_per_rad * c.motor.gear_ratio * c.motor.gear_ratio;
-  const double a = c.trace.current_averaged, turned = turned_inertia_kg_m2(c.motor);
-  TwoPeriodsAt around(c.motor, c.period_s, c.trace.driver_late_s);
+  const double a = c.trace.current_averaged, moment = shaft_inertia_kg_m2(c.motor);
+  TwoPeriodsAt two(c.motor, c.period_s, c.trace.driver_late_s);
   for (const std::size_t k : rows) {
     const double ohm = c.trace.resistance_ohm.empty() ? c.motor.resistance_ohm
                                                       : c.bump.mean(c.trace.resistance_ohm, k);
-    const double inertia = (1 - a) * around.ohm(ohm).inertia_kg_m2 + a * turned;
-    const double left = inertia * c.bump.acceleration(c.trace.shaft_rad, k) +
-                        viscous * c.bump.rate(c.trace.shaft_rad, k) -
-                        c.bump.mean(c.trace.drive_Nm, k);
-    const double unsure = c.bump.mean(c.trace.unsure_Nm, k);
+    const double inertia = (1 - a) * two.at(ohm).inertia_kg_m2 + a * moment;
+    const double residual_Nm = inertia * c.bump.acceleration(c.trace.shaft_rad, k) +
+                               viscous * c.bump.rate(c.trace.shaft_rad, k) -
+                               c.bump.mean(c.trace.drive_Nm, k);
+    const double uncertainty = c.bump.mean(c.trace.uncertainty_Nm, k);
     residual.value.push_back(
-        std::isnan(left) ? nan : std::copysign(std::max(0.0, std::abs(left) - unsure), left));
-    residual.band.push_back(unsure);
+        std::isnan(residual_Nm)
+            ? nan
+            : std::copysign(std::max(0.0, std::abs(residual_Nm) - uncertainty), residual_Nm));
+    residual.band.push_back(uncertainty);
   }
 }
 

@@ -15,15 +15,15 @@ constexpr double resting_rad_per_s = 0.02;  // chosen: an encoder step in a few 
 
 using effects::Sloped;
 
-/// The rows of one chain, one after the other.
+/// Computes the rows of one chain, one after the other.
 class Tracer {
  public:
   Tracer(ChainModel model, const ActuatorSignals& measured, const PathTrace& path, double period_s,
-         double speed_half_width_s, const ChainTrace* near)
+         double speed_half_width_s, const ChainTrace* other)
       : m_(std::move(model)),
         in_(measured),
         path_(path),
-        near_(near),
+        other_(other),
         period_s_(period_s),
         bump_(speed_half_width_s, period_s),
         law_{Spring::of(m_.actuator.tendon), m_.actuator.tendon.damping_N_s_per_m,
@@ -44,7 +44,7 @@ class Tracer {
       out_.terminal_V.assign(rows_, nan), out_.resistance_ohm.assign(rows_, nan);
     find_driver_delay();
     samples_.reserve(rows_), wound_slope_.reserve(rows_), aged_Nm_.reserve(rows_);
-    for (std::size_t k = 0; k < rows_; ++k) take(k);
+    for (std::size_t k = 0; k < rows_; ++k) add_row(k);
     if (!out_.tension_measured) out_.tension_N = out_.spring_N;
     find_drive();
     return std::move(out_);
@@ -52,13 +52,13 @@ class Tracer {
 
  private:
   void undo_sensors() {
-    const auto undone = [&](effects::Sense sense, const Signal& said) {
-      Signal value = said;
-      if (m_.effects.reaches(sense))
-        for (std::size_t k = 0; k < said.size(); ++k)
-          value[k] = m_.effects.undo(
-              sense, said[k],
-              {period_s_ * double(k), period_s_, m_.motor.gear_ratio, rate_of(said, k, period_s_)});
+    const auto undone = [&](effects::Sense sense, const Signal& reading) {
+      Signal value = reading;
+      if (m_.effects.acts_on(sense))
+        for (std::size_t k = 0; k < reading.size(); ++k)
+          value[k] = m_.effects.undo(sense, reading[k],
+                                     {period_s_ * double(k), period_s_, m_.motor.gear_ratio,
+                                      rate_of(reading, k, period_s_)});
       return value;
     };
     out_.current_averaged =
@@ -70,7 +70,7 @@ class Tracer {
     out_.tension_N = undone(effects::Sense::tension, in_.tension_N);
   }
 
-  /// Whole periods of a late driver, and the rest.
+  /// Splits the driver's delay into whole periods and the rest.
   void find_driver_delay() {
     const double late_s = m_.effects.driver_delay_s();
     late_rows_ = static_cast<std::size_t>(late_s / period_s_);
@@ -79,8 +79,8 @@ class Tracer {
   }
 
   Signal speeds() const {
-    const bool same = near_ && std::ranges::equal(near_->shaft_rad, out_.shaft_rad);
-    return same ? near_->speed_rad_per_s : bump_.rates(out_.shaft_rad);
+    const bool same = other_ && std::ranges::equal(other_->shaft_rad, out_.shaft_rad);
+    return same ? other_->speed_rad_per_s : bump_.rates(out_.shaft_rad);
   }
 
   effects::ChainSample first() const {
@@ -88,7 +88,7 @@ class Tracer {
     s.path_m = m_.start_m;
     return s;
   }
-  /// What was not taken is as it was before: effects that remember know of no gap.
+  /// A missing sample keeps its last value, for effects with state need one at every row.
   effects::ChainSample& sample(std::size_t k) {
     samples_.push_back(samples_.empty() ? first() : samples_.back());
     effects::ChainSample& s = samples_.back();
@@ -110,8 +110,8 @@ class Tracer {
     s.pushes = pushes_;
     return s;
   }
-  /// ⟨i²⟩ over the period that ends at a row: within it the current falls evenly as the motor
-  /// speeds up, i = i_k + (K_E N/R)(ω_k − ω).
+  /// ⟨i²⟩ over the period that ends at a row: within it the current falls linearly as the motor accelerates,
+  /// i = i_k + (K_E N/R)(ω_k − ω).
   double square_A2(std::size_t k) const {
     if (k == 0 || out_.current_A.empty() || out_.speed_rad_per_s.empty()) return 0;
     const double fall_A = m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio /
@@ -121,18 +121,18 @@ class Tracer {
     return mean_A * mean_A + fall_A * fall_A / 12;
   }
 
-  void take(std::size_t k) {
+  void add_row(std::size_t k) {
     effects::ChainSample& s = sample(k);
     Sloped wound{s.radius_m * s.shaft_rad, s.radius_m}, path{s.path_m, 1}, pull;
     if (!m_.effects.empty()) {
       path = m_.effects.path(s, path);
-      const bool calmed = k < path_.calm_m.size() && !std::isnan(path_.calm_m[k]);
-      const double calm_m = calmed ? path.slope * (path_.calm_m[k] - s.path_m) : 0.0;
-      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
+      const bool has_mean = k < path_.mean_m.size() && !std::isnan(path_.mean_m[k]);
+      const double smoothing_m = has_mean ? path.slope * (path_.mean_m[k] - s.path_m) : 0.0;
+      s.stretch_m = path.value - law_.rest_m + wound.value + smoothing_m;
       s.stiffness_N_per_m =
           law_.spring.slope_N_per_m(pushes_ ? std::abs(s.stretch_m) : s.stretch_m);
       wound = m_.effects.wound(s, wound);
-      s.stretch_m = path.value - law_.rest_m + wound.value + calm_m;
+      s.stretch_m = path.value - law_.rest_m + wound.value + smoothing_m;
       pull = m_.effects.pull(s);
     }
     s.stretch_m = path.value - law_.rest_m + wound.value;
@@ -149,98 +149,98 @@ class Tracer {
 
   void stretch(std::size_t k, const effects::ChainSample& s, Sloped path, Sloped wound,
                Sloped pull) {
-    const bool in_play = pushes_ && wound.slope == 0;  // neither end draws the other
+    const bool in_play = pushes_ && wound.slope == 0;  // neither end drives the other
     const double rate =
         in_play ? 0 : path.slope * path_.rate_m_per_s[k] + wound.slope * out_.speed_rad_per_s[k];
-    const double drawn_m = pushes_ ? std::abs(s.stretch_m) : std::max(0.0, s.stretch_m);
-    const double force = std::copysign(law_.spring.force_N(drawn_m), s.stretch_m) +
+    const double taut_stretch_m = pushes_ ? std::abs(s.stretch_m) : std::max(0.0, s.stretch_m);
+    const double force = std::copysign(law_.spring.force_N(taut_stretch_m), s.stretch_m) +
                          law_.damping_N_s_per_m * rate + pull.value;
     out_.spring_N[k] = pushes_ ? force : taut(s.stretch_m, rate) * std::max(0.0, force);
     out_.path_slope[k] = path.slope;
   }
-  /// The share of the period around a sample over which a line is taut. Without it the damping force of a line that
-  /// comes taut would jump from one sample to the next, and with it the derivative by a constant.
+  /// The share of the period around a sample during which a tendon is taut. Without it the damping force of a tendon
+  /// that becomes taut would jump between two samples, and so would the derivative with respect to a constant.
   double taut(double stretch_m, double rate_m_per_s) const {
     const double changes_m = std::abs(rate_m_per_s) * period_s_;
     if (std::isnan(rate_m_per_s)) return nan;
     return changes_m > 0 ? std::clamp(0.5 + stretch_m / changes_m, 0.0, 1.0) : stretch_m > 0;
   }
 
-  /// i as measured; or, as the motor's law has it, its mean around the row, late by L/R.
+  /// i as measured; without a current sensor its mean around the row by the motor's law, delayed by L/R.
   double current_A(std::size_t k) const {
     if (out_.current_measured) return out_.current_A[k];
     if (k + 1 >= rows_) return nan;
     const double late_s = m_.motor.inductance_H / out_.resistance_ohm[k] + out_.driver_late_s;
     const double next_V = out_.terminal_V[k + 1], now_V = out_.terminal_V[k];
     const double mean_V = (now_V + next_V) / 2 - late_s * (next_V - now_V) / period_s_;
-    const double answered =
+    const double delayed_speed =
         out_.speed_rad_per_s[k] - late_s * rate_of(out_.speed_rad_per_s, k, period_s_);
-    return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * answered) /
+    return (mean_V - m_.motor.back_emf_V_s_per_rad * m_.motor.gear_ratio * delayed_speed) /
            out_.resistance_ohm[k];
   }
-  /// ī over the two periods around row k, so weighed that it drives the change of their mean speeds;
-  /// a current that is a mean itself stays as it is.
-  double around_A(std::size_t k) const {
+  /// ī over the two periods around row k, weighted as the mean current that causes the change of their mean speeds; a
+  /// current that is a mean around the row itself is not changed.
+  double mean_current_A(std::size_t k) const {
     const double a = out_.current_averaged;
     const auto& share = around_.drives;
-    double weighed = 0;
-    for (std::size_t j = 0; j < share.size(); ++j) weighed += share[j] * current_A(k - 1 + j);
-    const double late = around_.drives_per_V;  // 0: no driver is late
+    double weighted = 0;
+    for (std::size_t j = 0; j < share.size(); ++j) weighted += share[j] * current_A(k - 1 + j);
+    const double late = around_.drives_per_V;  // 0 without a driver delay
     if (late != 0 && !out_.terminal_V.empty())
-      weighed += late * out_.terminal_V[k - 1] +
-                 around_.drives_per_speed * rate_of(out_.shaft_rad, k, period_s_);
-    return (1 - a) * weighed + a * current_A(k);
+      weighted += late * out_.terminal_V[k - 1] +
+                  around_.drives_per_speed * rate_of(out_.shaft_rad, k, period_s_);
+    return (1 - a) * weighted + a * current_A(k);
   }
 
   void find_drive() {
     const bool driven = out_.current_measured || !out_.terminal_V.empty();
     if (!driven || out_.tension_N.empty() || out_.shaft_rad.empty()) return;
     out_.drive_Nm.assign(rows_, nan), out_.motor_Nm.assign(rows_, nan);
-    out_.unsure_Nm.assign(rows_, 0);
-    direction_ = sensitivities();
+    out_.uncertainty_Nm.assign(rows_, 0);
+    direction_ = directions();
     for (std::size_t k = 1; k + 1 < rows_; ++k) {
-      out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * around_A(k);
+      out_.motor_Nm[k] = m_.motor.gear_ratio * m_.motor.torque_Nm_per_A * mean_current_A(k);
       const double omega = out_.speed_rad_per_s[k];
       if (!(std::abs(omega) > resting_rad_per_s)) continue;
       const double before = direction_[k], after = direction_[k + 1];
-      const double way = (before + after) / 2;
-      if (std::abs(way) == 1) {
-        out_.drive_Nm[k] = drive_Nm(k, way > 0 ? 1 : -1);
+      const double direction = (before + after) / 2;
+      if (std::abs(direction) == 1) {
+        out_.drive_Nm[k] = drive_Nm(k, direction > 0 ? 1 : -1);
         continue;
       }
       const double forwards = drive_Nm(k, 1), backwards = drive_Nm(k, -1);
-      out_.drive_Nm[k] = ((1 + way) * forwards + (1 - way) * backwards) / 2;
-      out_.unsure_Nm[k] =
+      out_.drive_Nm[k] = ((1 + direction) * forwards + (1 - direction) * backwards) / 2;
+      out_.uncertainty_Nm[k] =
           (2 - std::abs(before) - std::abs(after)) / 4 * std::abs(forwards - backwards);
     }
   }
 
-  /// In which direction the shaft turned over the period that ends at each row, −1 … 1 in the mean. Its
-  /// speed changes evenly within a period, from what the periods beside have:
+  /// The mean sign of the shaft's speed over the period that ends at each row, −1 … 1. The speed changes linearly
+  /// within a period; its change is taken from the neighbouring periods:
   ///
   ///   v = Δθ/T,  Δv = √(((v₊ − v₋)/2)² + (step/T)²),  s = 2 v/Δv within ±1
   ///
-  /// step: what the encoder leaves unsure; where that is too much, v is the smoothed speed.
-  std::vector<double> sensitivities() const {
+  /// step: uncertainty of the encoder; if it is too large, v is the smoothed speed.
+  std::vector<double> directions() const {
     const Signal& theta = out_.shaft_rad;
-    constexpr double little = 0.02;  // of the usual speed; chosen
-    const double unsure = unsure_rad() / period_s_;
-    const bool fine = unsure < std::max(resting_rad_per_s, little * rms(out_.speed_rad_per_s));
+    constexpr double small = 0.02;  // of the rms speed; chosen
+    const double uncertainty = angle_uncertainty_rad() / period_s_;
+    const bool fine = uncertainty < std::max(resting_rad_per_s, small * rms(out_.speed_rad_per_s));
     const auto speed = [&](std::size_t k) {
       return fine ? (theta[k] - theta[k - 1]) / period_s_
                   : (out_.speed_rad_per_s[k - 1] + out_.speed_rad_per_s[k]) / 2;
     };
-    const double square_unsure = fine ? unsure * unsure : 0;
+    const double square_uncertainty = fine ? uncertainty * uncertainty : 0;
     std::vector<double> all(rows_, nan);
     for (std::size_t k = 2; k + 1 < rows_; ++k) {
       const double v = speed(k), turned = (speed(k + 1) - speed(k - 1)) / 2,
-                   change = std::sqrt(turned * turned + square_unsure);
+                   change = std::sqrt(turned * turned + square_uncertainty);
       all[k] = change > 0 ? std::clamp(2 * v / change, -1.0, 1.0) : v > 0 ? 1 : -1;
     }
     return all;
   }
-  /// The encoder's specified step, or the smallest in the recording if that is larger; not specified: noise.
-  double unsure_rad() const {
+  /// The encoder's specified step, or the smallest in the recording if that is larger; the noise if none is specified.
+  double angle_uncertainty_rad() const {
     if (!(m_.shaft_step_rad > 0)) return noise_of(out_.shaft_rad);
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < rows_; ++k)
@@ -250,7 +250,7 @@ class Tracer {
     return std::isfinite(least) ? std::max(m_.shaft_step_rad, least) : m_.shaft_step_rad;
   }
 
-  double drive_Nm(std::size_t k, int way) {
+  double drive_Nm(std::size_t k, int direction) {
     const erp::MotorType& m = m_.motor;
     const double omega = out_.speed_rad_per_s[k], n = m.gear_ratio;
     effects::ChainSample& s = samples_[k];
@@ -259,21 +259,22 @@ class Tracer {
         m_.effects.empty() ? s.tension_N : m_.effects.motor_side_N(s.tension_N, s);
     s.load_Nm = wound_slope_[k] * near_N;
     const double dry =
-        std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(way, s) + aged_Nm_[k]);
-    const double load = m.gear_viscous_Nm_s_per_rad * omega + way * dry + s.load_Nm;
-    const double e = load * way >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
-    return out_.motor_Nm[k] - n * (way * m.rotor_coulomb_Nm + m_.effects.rotor_Nm(s)) - load / e;
+        std::max(0.0, m.gear_coulomb_Nm + m_.effects.friction_Nm(direction, s) + aged_Nm_[k]);
+    const double load = m.gear_viscous_Nm_s_per_rad * omega + direction * dry + s.load_Nm;
+    const double e = load * direction >= 0 ? m.gear_efficiency : 1 / m.gear_efficiency;
+    return out_.motor_Nm[k] - n * (direction * m.rotor_coulomb_Nm + m_.effects.rotor_Nm(s)) -
+           load / e;
   }
 
   ChainModel m_;
   const ActuatorSignals& in_;
   const PathTrace& path_;
-  const ChainTrace* near_;
+  const ChainTrace* other_;
   double period_s_;
   TwoPeriods around_{};
   Bump bump_;
   TendonLaw law_;
-  bool pushes_ = m_.actuator.tendon.path.empty();  ///< a drive's transmission
+  bool pushes_ = m_.actuator.tendon.path.empty();  ///< true for a drive's transmission
   std::size_t rows_ = 0, late_rows_ = 0;
   Signal wound_slope_, aged_Nm_;
   std::vector<effects::ChainSample> samples_;
@@ -284,8 +285,8 @@ class Tracer {
 }  // namespace
 
 ChainTrace trace(ChainModel model, const ActuatorSignals& measured, const PathTrace& path,
-                 double period_s, double speed_half_width_s, const ChainTrace* near) {
-  return Tracer(std::move(model), measured, path, period_s, speed_half_width_s, near).run();
+                 double period_s, double speed_half_width_s, const ChainTrace* other) {
+  return Tracer(std::move(model), measured, path, period_s, speed_half_width_s, other).run();
 }
 
 }  // namespace sim::residuals

@@ -10,7 +10,7 @@
 namespace sim::residuals {
 namespace {
 
-bool says_nothing(const Signal& signal) {
+bool has_no_sample(const Signal& signal) {
   return std::ranges::all_of(signal, [](double x) { return std::isnan(x); });
 }
 
@@ -21,13 +21,13 @@ void keep_common(std::vector<Episode>& episodes, const erp::Robot& robot,
   std::vector<std::vector<Measured<Episode>>> of;
   for (Episode& episode : episodes) of.push_back(measured(episode, robot));
   for (std::size_t n = 0; !of.empty() && n < of[0].size(); ++n) {
-    const auto silent = [&](const auto& signals) { return says_nothing(*signals[n].signal); };
-    const auto lacks = std::ranges::find_if(of, silent);
+    const auto is_missing = [&](const auto& signals) { return has_no_sample(*signals[n].signal); };
+    const auto lacks = std::ranges::find_if(of, is_missing);
     if (lacks == of.end()) continue;
-    if (!std::ranges::all_of(of, silent))
-      remarks.push_back(fmt::format("{}: lacks {}, which is left out of the other recordings too",
-                                    episodes[std::size_t(lacks - of.begin())].name,
-                                    of[0][n].column));
+    if (!std::ranges::all_of(of, is_missing))
+      remarks.push_back(
+          fmt::format("{}: lacks {}; this signal is ignored in the other recordings too",
+                      episodes[std::size_t(lacks - of.begin())].name, of[0][n].column));
     for (const auto& signals : of) signals[n].signal->clear();
   }
 }

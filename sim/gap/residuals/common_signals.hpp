@@ -1,11 +1,11 @@
 #pragma once
 #include "sim/gap/residuals/episode.hpp"
 
-/// Recordings are held against each other stage by stage, so that all must tell the same.
+/// Recordings are compared stage by stage, so all must have the same signals.
 namespace sim::residuals {
 
-/// Leaves out of every recording what some recording lacks or has no sample of; of a robot's
-/// commands, which make no stage, nothing. What is left out is told in `remarks`.
+/// Removes from every recording the measured signals that another one lacks or has no sample of. Commands stay, for no
+/// stage depends on them. Adds a line to `remarks` for each removed signal.
 void keep_common(std::vector<Episode>& episodes, const erp::Robot& robot,
                  std::vector<std::string>& remarks);
 

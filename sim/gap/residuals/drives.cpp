@@ -8,7 +8,9 @@ namespace sim::residuals {
 namespace {
 
 struct Load {
-  double inertia_kg_m2, way, step_rad;  ///< on the gearbox shaft; way: of the position, a radian
+  double inertia_kg_m2;  ///< at the gearbox shaft
+  double travel;         ///< of the position per radian
+  double step_rad;       ///< of the encoder
 };
 
 Load load_of(const erp::Drive& drive) {
@@ -24,17 +26,17 @@ erp::MotorType motor_of(const erp::Robot& robot, const erp::Drive& drive) {
   erp::MotorType motor;
   if (drive.control == erp::DriveControl::force) {
     motor.resistance_ohm = 1, motor.inductance_H = 1e-6;
-    motor.torque_Nm_per_A = drive.gain * load.way;
+    motor.torque_Nm_per_A = drive.gain * load.travel;
     motor.rotor_inertia_kg_m2 = load.inertia_kg_m2;
   } else {
     motor = *std::ranges::find(robot.motor_types, drive.motor, &erp::MotorType::name);
-    if (!has_two_ends(drive)) motor.gear_inertia_kg_m2 += load.inertia_kg_m2;
+    if (!has_load_sensor(drive)) motor.gear_inertia_kg_m2 += load.inertia_kg_m2;
   }
   motor.name = drive.motor + " of " + drive.name;
   return motor;
 }
 
-/// Without noise: a drive's sensors are known by their steps, or not at all.
+/// Without noise: only the steps of a drive's sensors are specified, if anything.
 erp::SensorType sensors_of(const erp::Drive& drive, const erp::MotorType& motor) {
   constexpr double exact = 1e-12;
   erp::SensorType sensors;
@@ -53,19 +55,18 @@ Signal scaled(Signal signal, double by) {
   return signal;
 }
 
-/// Held until the next row: of row k what was set at k − 1, or the mean of both.
-Signal held(const Signal& set, double of_now) {
+/// A command that is held until the next row: share · set_k + (1 − share) · set_k−1.
+Signal held(const Signal& set, double share) {
   Signal held = set;
-  for (std::size_t k = 1; k < set.size(); ++k)
-    held[k] = of_now * set[k] + (1 - of_now) * set[k - 1];
+  for (std::size_t k = 1; k < set.size(); ++k) held[k] = share * set[k] + (1 - share) * set[k - 1];
   return held;
 }
 
-/// A load that is held by nothing but its transmission.
+/// The load as a hinge without forces other than that of its transmission.
 erp::Skeleton hinge_of(const erp::Drive& drive) {
-  constexpr double far_rad = 1e9, some_kg = 1;  // its centre of mass lies on the axis
+  constexpr double far_rad = 1e9, any_kg = 1;  // no stops; the centre of mass lies on the axis
   erp::Body base, load;
-  base.name = drive.name + ".base", load.name = drive.name + ".load", load.mass_kg = some_kg;
+  base.name = drive.name + ".base", load.name = drive.name + ".load", load.mass_kg = any_kg;
   load.inertia_kg_m2.fill(load_of(drive).inertia_kg_m2);
   erp::Joint hinge;
   hinge.name = drive.name, hinge.parent = base.name, hinge.child = load.name;
@@ -76,9 +77,9 @@ erp::Skeleton hinge_of(const erp::Drive& drive) {
 }
 
 erp::Tendon transmission_of(const erp::Drive& drive) {
-  constexpr double unknown = 1;  // of a drive whose ends were not both measured
+  constexpr double unused = 1;  // for a drive without a stiffness
   erp::Tendon tendon;
-  tendon.stiffness_N_per_m = drive.stiffness_Nm_per_rad.value_or(unknown);
+  tendon.stiffness_N_per_m = drive.stiffness_Nm_per_rad.value_or(unused);
   tendon.damping_N_s_per_m = drive.damping_Nm_s_per_rad;
   return tendon;
 }
@@ -95,7 +96,7 @@ erp::Robot as_chains(const erp::Robot& robot) {
     actuator.motor = chains.motor_types.back().name;
     actuator.sensors = chains.sensor_types.back().name;
     actuator.spindle.radius_m = 1, actuator.tendon = transmission_of(drive);
-    if (has_two_ends(drive)) chains.skeletons.push_back(hinge_of(drive));
+    if (has_load_sensor(drive)) chains.skeletons.push_back(hinge_of(drive));
     chains.actuators.push_back(actuator);
   }
   return chains;
@@ -115,9 +116,9 @@ DriveRecord<std::string> drive_columns(const erp::Drive& drive) {
 
 ActuatorSignals drive_signals(const erp::Drive& drive, const DriveRecord<Signal>& r) {
   ActuatorSignals s;
-  s.shaft_rad = scaled(r.position, 1 / load_of(drive).way);
-  if (!has_two_ends(drive)) s.tension_N.assign(r.position.size(), 0.0);
-  else if (drive.find<erp::TorqueSensor>()) s.tension_N = scaled(r.torque, load_of(drive).way);
+  s.shaft_rad = scaled(r.position, 1 / load_of(drive).travel);
+  if (!has_load_sensor(drive)) s.tension_N.assign(r.position.size(), 0.0);
+  else if (drive.find<erp::TorqueSensor>()) s.tension_N = scaled(r.torque, load_of(drive).travel);
   if (drive.control == erp::DriveControl::voltage)
     s.voltage_V = held(scaled(r.control_V, drive.gain), 0);
   if (drive.control == erp::DriveControl::current)
@@ -130,7 +131,7 @@ ActuatorSignals drive_signals(const erp::Drive& drive, const DriveRecord<Signal>
 }
 
 Signal load_rad(const erp::Drive& drive, const DriveRecord<Signal>& r) {
-  return scaled(drive.find<erp::LoadEncoder>() ? r.load : r.position, 1 / load_of(drive).way);
+  return scaled(drive.find<erp::LoadEncoder>() ? r.load : r.position, 1 / load_of(drive).travel);
 }
 
 }  // namespace sim::residuals

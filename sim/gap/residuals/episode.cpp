@@ -13,7 +13,7 @@ namespace sim::residuals {
 namespace {
 
 constexpr double longest_gap_s = 60;
-constexpr double slowest_s = 0.5;  // from row to row; chosen: nobody records so slowly
+constexpr double longest_period_s = 0.5;  // chosen: no recording is that slow
 constexpr std::size_t longest_filled = 3;
 
 double median(std::vector<double> x) {
@@ -30,7 +30,7 @@ struct Grid {
   std::size_t repeated = 0, missing = 0;
 };
 
-/// What time is told in that is no second, and how many of it are one: by how far rows lie apart.
+/// The probable unit of times that are not in seconds, and how many of it are a second, from the period.
 std::pair<const char*, double> unit_of_time(double period) {
   if (period < 500) return {"milliseconds", 1e3};
   if (period < 5e5) return {"microseconds", 1e6};
@@ -40,12 +40,12 @@ std::pair<const char*, double> unit_of_time(double period) {
 void check_seconds(double period_s, const std::string& name) {
   if (!(period_s > 0))
     throw std::invalid_argument(name +
-                                ": time_s: most rows have the time of the row before: rounded, "
-                                "or each row twice; give all digits, and each row once");
-  if (!(period_s > slowest_s)) return;
+                                ": time_s: most rows have the time of the row before: times are "
+                                "rounded or rows repeated; write all digits, and each row once");
+  if (!(period_s > longest_period_s)) return;
   const auto [unit, in_a_second] = unit_of_time(period_s);
-  throw std::invalid_argument(name + ": time_s: rows " + xml::write_number(period_s) +
-                              " s apart; they look like " + unit + ": divide by " +
+  throw std::invalid_argument(name + ": time_s: rows are " + xml::write_number(period_s) +
+                              " s apart; if the times are " + unit + ", divide them by " +
                               xml::write_number(in_a_second));
 }
 
@@ -57,19 +57,19 @@ Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
   Grid grid{median(steps), 0, {}, 0, 0};
   check_seconds(grid.period_s, name);
   std::ptrdiff_t row = -1;
-  double due_s = time_s[0];       // follows a clock that is a little off,
-  constexpr double follow = 0.1;  // but not each row's own delay; chosen
+  double due_s = time_s[0];       // filtered: follows the drift of a clock,
+  constexpr double follow = 0.1;  // not the delay of a single row; chosen
   for (std::size_t k = 0; k < time_s.size(); ++k) {
-    const double late = k == 0 ? 1 : (time_s[k] - due_s) / grid.period_s;
-    if (late * grid.period_s > longest_gap_s)
+    const double periods = k == 0 ? 1 : (time_s[k] - due_s) / grid.period_s;
+    if (periods * grid.period_s > longest_gap_s)
       throw std::invalid_argument(name + ": no rows for " +
-                                  xml::write_number(late * grid.period_s) + " s before " +
+                                  xml::write_number(periods * grid.period_s) + " s before " +
                                   xml::write_number(time_s[k]) + " s; cut the recording there");
-    if (late < 0.5) {
+    if (periods < 0.5) {
       grid.row_of.push_back(-1), ++grid.repeated;
       continue;
     }
-    const auto steps_on = static_cast<std::ptrdiff_t>(std::lround(late));
+    const auto steps_on = static_cast<std::ptrdiff_t>(std::lround(periods));
     grid.missing += static_cast<std::size_t>(steps_on - 1);
     row += steps_on;
     grid.row_of.push_back(row);
@@ -80,7 +80,7 @@ Grid even_grid(const std::vector<double>& time_s, const std::string& name) {
   return grid;
 }
 
-/// The frames are numbered by the firmware's ticks, without a restart.
+/// Whether the frames are numbered by the firmware's ticks, without a restart.
 bool counts_ticks(const recording::Column& tick, const recording::Column& time) {
   std::vector<double> period;
   for (std::size_t k = 1; k < tick.values.size(); ++k) {
@@ -106,7 +106,7 @@ Signal on_grid(const Grid& grid, const recording::Column* column) {
   return signal;
 }
 
-/// A sample far off both its neighbours, which agree: thirty times their usual distance, chosen.
+/// Removes samples far from both neighbours, which agree. Far: thirty times the median step; chosen.
 std::size_t drop_outliers(Signal& signal) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < signal.size(); ++k)
@@ -136,7 +136,7 @@ std::size_t fill_short_gaps(Signal& signal) {
   return filled;
 }
 
-/// q and −q are one turning: each sample takes the one nearer to the sample before.
+/// q and −q are the same rotation: each sample takes the sign nearer to the sample before.
 void make_continuous(std::array<Signal, 4>& q) {
   std::size_t last = 0;
   for (std::size_t k = 1; k < q[0].size(); ++k) {
@@ -150,7 +150,7 @@ void make_continuous(std::array<Signal, 4>& q) {
   for (Signal& part : q) fill_short_gaps(part);
 }
 
-/// Lays out one table, and counts what it repairs.
+/// Arranges one table, and reports its corrections.
 class Layout {
  public:
   Layout(const recording::Table& table, std::string name, std::vector<std::string>& remarks)
@@ -163,15 +163,15 @@ class Layout {
       throw std::invalid_argument(
           name_ + ": " + std::to_string(grid_.repeated) + " of " +
           std::to_string(grid_.row_of.size()) +
-          " rows come less than half a period after another: their times are those of arrival, "
-          "not of measurement; give a recording that numbers its frames, or one of even times");
+          " rows follow another by less than half a period: their times are times of arrival, not "
+          "of measurement; use a recording with frame numbers (column sequence) or even times");
     if (grid_.repeated)
-      remark(rows(grid_.repeated, "repeats a time", "repeat a time") + ": dropped");
+      remark(rows(grid_.repeated, "repeats a time", "repeat a time") + "; dropped");
     if (grid_.missing) remark(rows(grid_.missing, "is missing", "are missing"));
   }
   const Grid& grid() const { return grid_; }
 
-  /// One that changes smoothly; outliers and short gaps are mended.
+  /// A signal without jumps; its outliers and short gaps are corrected.
   Signal smooth(const std::string& column) {
     Signal signal = held(column);
     if (const auto n = drop_outliers(signal))
@@ -180,7 +180,7 @@ class Layout {
     fill_short_gaps(signal);
     return signal;
   }
-  /// One that may leap.
+  /// A signal that may jump.
   Signal held(const std::string& column) { return on_grid(grid_, table_.find(column)); }
 
  private:
@@ -200,7 +200,7 @@ DriveRecord<Signal> drive_record(Layout& layout, const erp::Drive& drive) {
           layout.smooth(name.load), layout.smooth(name.torque)};
 }
 
-/// What an actuator's ECU was sent and what it followed.
+/// Adds the set-points that were sent to an actuator's ECU and those that it followed.
 void add_set_points(Layout& layout, const erp::Actuator& actuator, ActuatorSignals& signals) {
   const std::string channel = recording::channel_name(actuator.ecu, actuator.channel);
   signals.sent = layout.held(channel + ".sent");
@@ -212,7 +212,7 @@ void add_set_points(Layout& layout, const erp::Actuator& actuator, ActuatorSigna
     if (sent_as[k] != followed_as[k]) signals.sent[k] = recording::not_taken;
 }
 
-/// What a robot's columns are called, in words.
+/// Names of a robot's columns, as examples for a message.
 std::string columns_of(const erp::Robot& robot) {
   std::string names;
   for (const erp::Drive& drive : robot.drives) {
@@ -273,7 +273,7 @@ Episode lay_out(const recording::Table& table, const erp::Robot& robot, const st
   }
   if (!any)
     throw std::invalid_argument(name + ": no column of robot \"" + robot.name +
-                                "\" that says how it moves; they are called " + columns_of(robot));
+                                "\" with a motion; expected columns: " + columns_of(robot));
   return episode;
 }
 

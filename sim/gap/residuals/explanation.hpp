@@ -4,24 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "sim/model/effects/effect.hpp"
 #include "sim/gap/residuals/chain_trace.hpp"
 #include "sim/gap/residuals/skeletal.hpp"
+#include "sim/model/effects/effect.hpp"
 
-/// An episode as a robot with effects explains it. Its pieces are shared with explanations that
-/// differ elsewhere, so that to try one effect costs what that effect reaches.
+/// An episode evaluated with a robot and its effects. Explanations share the parts in which they do not differ, so a
+/// change of one effect costs only the parts that it affects.
 namespace sim::residuals {
 
-/// One stage's residual at the windows of an episode; NaN: not to be had there.
+/// One stage's residual at the windows of an episode; NaN: not available there.
 struct Residual {
   effects::Stage stage;
   std::string on;  ///< actuator or joint
   const char* unit;
   std::vector<double> value;
-  /// rms of what drives the stage: V, motor torque, tension, pull of tendons
+  /// rms of the input of the stage: voltage, motor torque, tension, torque of the tendons
   double driven_by = 0;
-  /// By window, how much something may take, friction at rest or a stop (infinity): the value is what
-  /// lies beyond that, and noise less than that cannot be seen. Empty: 0 everywhere.
+  /// By window, the torque that friction at rest or a stop (infinity) may balance. `value` is the part beyond this
+  /// band; smaller noise is hidden. Empty: 0 everywhere.
   std::vector<double> band = {};
 };
 
@@ -29,45 +29,46 @@ inline bool banded(const Residual& residual, std::size_t window) {
   return !residual.band.empty() && residual.band[window] > 0;
 }
 
-/// Paths of tendons near a pose, as if their lengths were linear in it.
+/// Paths of tendons near a pose, linearized in the angles of the estimated hinges.
 struct PathsNearby {
   std::vector<JointSignals> pose;
-  std::vector<PathTrace> paths;              ///< there, one an actuator
-  std::vector<std::vector<Signal>> slope_m;  ///< of each, per rad of each hinge that was found
+  std::vector<PathTrace> paths;              ///< at the pose, one for each actuator
+  std::vector<std::vector<Signal>> slope_m;  ///< for each actuator, per rad of each estimated hinge
   std::vector<std::size_t> hinges;
 };
 
-/// The joints over an episode, their sensors' effects undone.
+/// The joints over an episode, with the effects of their sensors inverted.
 struct JointTrace {
   std::vector<JointSignals> signals;
   std::vector<Signal> speed_rad_per_s;  ///< of revolute joints
-  bool complete = false;                ///< every joint was measured, or found by the tendons
-  std::vector<Motion> motions;          ///< one a window, if complete
-  bool estimated = false;               ///< some were told by the tendons (pose_from_tendons.hpp)
-  bool by_lines = false;  ///< estimated, or loose: they move with what is known of a line
-  bool by_bones = false;  ///< some bend under the bones: they move with what those weigh
-  std::shared_ptr<const PathsNearby> nearby;  ///< of those; none where a ball joint is among them
+  bool complete = false;                ///< every joint was measured, or estimated from the tendons
+  std::vector<Motion> motions;          ///< one for each window, if complete
+  bool estimated = false;           ///< some angles come from the tendons (pose_from_tendons.hpp)
+  bool depends_on_tendons = false;  ///< estimated or loose: a change of a tendon changes the angles
+  bool depends_on_bodies = false;   ///< flexible links: a change of a mass changes the angles
+  std::shared_ptr<const PathsNearby>
+      nearby;  ///< at the estimated angles; null if a ball joint is among them
 };
 
 struct Explanation {
-  std::vector<std::size_t> rows;  ///< in the middle of the windows
+  std::vector<std::size_t> rows;  ///< at the middle of each window
   std::shared_ptr<const JointTrace> joints;
-  std::vector<std::shared_ptr<const PathTrace>> paths;            ///< one an actuator
+  std::vector<std::shared_ptr<const PathTrace>> paths;            ///< one for each actuator
   std::vector<std::shared_ptr<const Eigen::MatrixXd>> gradients;  ///< ∂L/∂q, coordinates × windows
   std::vector<std::shared_ptr<const ChainTrace>> chains;
-  std::vector<std::shared_ptr<const std::vector<Residual>>> of_chain;
+  std::vector<std::shared_ptr<const std::vector<Residual>>> chain_residuals;
   /// H q̈ + C + τ_G + friction, coordinates × windows.
   std::shared_ptr<const Eigen::MatrixXd> bones;
   std::vector<Residual> residuals;
 };
 
-/// What an effect changes, itself and what follows from it.
+/// The parts of an explanation that an effect changes, directly or indirectly.
 struct Reach {
-  bool joints = false;                    ///< angles: and so everything
-  bool bones = false;                     ///< bodies and joint friction
-  bool line = false;                      ///< what a line's length and pull say of the pose
-  std::optional<std::size_t> chain = {};  ///< this actuator's
-  std::optional<std::size_t> path = {};   ///< and its way over the bones
+  bool joints = false;  ///< joint angles, and so everything
+  bool bones = false;   ///< bodies and joint friction
+  bool line = false;    ///< the relation of a tendon's length and tension to the pose
+  std::optional<std::size_t> chain = {};  ///< index of the actuator
+  std::optional<std::size_t> path = {};   ///< index of the actuator whose path changes
 };
 
 }  // namespace sim::residuals

@@ -3,34 +3,33 @@
 
 #include "interfaces/robot/robot.hpp"
 
-/// What current and speed do within periods over which the voltage is held, seen from the rows at
-/// their ends, where currents and angles are sampled.
+/// Motion of current and speed within periods of constant voltage. Currents and angles are sampled at the end of each
+/// period, at the rows.
 namespace sim::residuals {
 
-/// A motor over two periods, exactly, if its load τ stays:
+/// The exact motion of a motor over two periods, for a constant load τ:
 ///
 ///   L di/dt = V − R i − K_E N ω      J dω/dt = K_T N i − τ      J = J_M N² + J_G/η
 ///
-/// From the currents at rows 0, 1 and 2 and the voltages between them follow the speed and the load,
-/// and so how far the shaft turns; from the currents and the turns follows the load, whatever the
-/// voltages were:
+/// The currents at rows 0, 1 and 2 and the voltages between them determine speed and load, and so the travel of the
+/// shaft. The currents and the travel determine the load, independently of the voltages:
 ///
 ///   K_E N (θ_2 − θ_0)/2T = Σ volts_j V_j − R Σ amperes_j i_j
 ///   τ = K_T N (Σ drives_j i_j + drives_per_V V_0 + drives_per_speed (θ_2 − θ_0)/2T)
 ///       − inertia (θ_2 − 2 θ_1 + θ_0)/T²
 ///
-/// V_0 acts where a driver is late, in the first part of the period in which V_1 is given; where none is, its
-/// weights are 0. Indices count periods and rows; J_G turns behind a gearbox of efficiency η. Ignores: viscous
-/// friction within a period. Source: paper, eq. 3, as linear equations with V and τ held.
+/// If the driver has a delay, V_0 still acts in the first part of the period of V_1; without a delay its weights are 0.
+/// Indices count periods and rows; J_G is behind a gearbox of efficiency η. Ignores: viscous friction within a period.
+/// Source: paper, eq. 3, as linear equations with constant V and τ.
 struct TwoPeriods {
-  std::array<double, 3> volts, amperes, drives;  ///< sum to 1; drives only where no driver is late
+  std::array<double, 3> volts, amperes, drives;  ///< each sums to 1; drives only without a delay
   double drives_per_V = 0, drives_per_speed = 0;
-  double inertia_kg_m2;  ///< less than J: the current falls as the motor speeds up
+  double inertia_kg_m2;  ///< less than J: the current falls as the motor accelerates
 };
-/// `late_s`: 0 … less than a period.
+/// `late_s`: delay of the driver, 0 … less than a period.
 TwoPeriods two_periods(const erp::MotorType& motor, double period_s, double late_s = 0);
 
-/// The same where the winding warms: anew when its resistance has moved by a thousandth.
+/// The same for a winding that warms up: recomputed if its resistance has changed by a thousandth.
 class TwoPeriodsAt {
  public:
   TwoPeriodsAt(const erp::MotorType& motor, double period_s, double late_s = 0)
@@ -38,7 +37,7 @@ class TwoPeriodsAt {
         period_s_(period_s),
         late_s_(late_s),
         two_(two_periods(motor, period_s, late_s)) {}
-  const TwoPeriods& ohm(double resistance_ohm);
+  const TwoPeriods& at(double resistance_ohm);
 
  private:
   erp::MotorType motor_;
@@ -47,6 +46,6 @@ class TwoPeriodsAt {
 };
 
 /// J, as above.
-double turned_inertia_kg_m2(const erp::MotorType& motor);
+double shaft_inertia_kg_m2(const erp::MotorType& motor);
 
 }  // namespace sim::residuals

@@ -1,4 +1,4 @@
-// The stage of the joints: what the bones' motion, the tendons and the joints' friction leave over.
+// The stage of the joints: the balance of inverse dynamics, tendons and joint friction.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,10 +17,10 @@ double rms(const Eigen::RowVectorXd& values) {
 }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double resting_rad_per_s = 0.02;  // chosen: a joint slower than this may stick
-constexpr double near_stop_rad = 0.02;      // chosen: its stop may push
-constexpr double stop_gives_rad = 0.06;     // chosen: how far a stop may give way
-constexpr double stop_Nm_per_rad = 20;      // chosen: how hard it is to pass beyond that
+constexpr double resting_rad_per_s = 0.02;  // a slower joint may stick; chosen
+constexpr double near_stop_rad = 0.02;      // within this distance a stop may push; chosen
+constexpr double stop_gives_rad = 0.06;     // largest deflection of a stop; chosen
+constexpr double stop_Nm_per_rad = 20;      // residual stiffness beyond that; chosen
 
 std::pair<double, double> range(const Signal& signal, const Bump& bump, std::size_t row) {
   const auto first = signal.begin() + static_cast<std::ptrdiff_t>(row - bump.reach());
@@ -29,7 +29,7 @@ std::pair<double, double> range(const Signal& signal, const Bump& bump, std::siz
   return {*low, *high};
 }
 
-/// Whether a ball joint's stop may push: it pushes along the axis of the rotation.
+/// Whether a ball joint's stop may push. It pushes along the axis of the rotation.
 bool near_stop(const JointReading& reading, const erp::Joint& joint, double speed_rad_per_s,
                double half_width_s) {
   const double angle_rad = 2 * std::acos(std::min(1.0, std::abs(reading.position[0])));
@@ -38,14 +38,13 @@ bool near_stop(const JointReading& reading, const erp::Joint& joint, double spee
 
 }  // namespace
 
-/// Bones that bend have joints that nobody measured. Each moves as its spring and damper have it,
-/// its bone carried by the measured joints:
+/// Flexible links have unmeasured joints. Each moves with its spring and damper; the measured joints move its body:
 ///
 ///   I δ̈ = −(τ(q, q̇, q̈, δ, δ̇, 0) + k δ + D δ̇)          τ: inverse dynamics, by the trapezoidal rule
 ///
-/// Carried by means over the windows, it moves as its own means do: they are not taken again.
-std::vector<Stages::Bend> Stages::bend(const Episode& episode, JointTrace& trace) {
-  std::vector<Bend> bends;
+/// The measured motion is a mean over the windows, so the result is a mean too and is not averaged again.
+std::vector<Stages::Flexion> Stages::flexions(const Episode& episode, JointTrace& trace) {
+  std::vector<Flexion> all;
   const Bump bump(windows_.half_width_s, episode.period_s);
   const std::size_t reach = 2 * bump.reach() + 1;
   for (std::size_t j = 0; j < trace.signals.size(); ++j) {
@@ -54,16 +53,16 @@ std::vector<Stages::Bend> Stages::bend(const Episode& episode, JointTrace& trace
     if (coordinate < 0 || std::ranges::count(recorded_joints_, joint.name)) continue;
     effects::Acting acting(equipped_.acting, joint.name, effects::Seat::joint);
     const double stiffness = -acting.joint_torque(0).slope;
-    Signal& bent = trace.signals[j].angle_rad;
-    bent.assign(episode.rows, 0.0);
-    trace.by_bones = true;
+    Signal& angles = trace.signals[j].angle_rad;
+    angles.assign(episode.rows, 0.0);
+    trace.depends_on_bodies = true;
     if (!(stiffness > 0) || !bones_.measured(trace.signals)) continue;
-    auto& states = bends.emplace_back(j, std::vector<std::array<double, 3>>(episode.rows)).states;
+    auto& states = all.emplace_back(j, std::vector<std::array<double, 3>>(episode.rows)).states;
     double angle = 0, speed = 0;
     bool started = false;
     for (std::size_t k = reach; k + reach < episode.rows; ++k) {
       Motion motion = bones_.motion(trace.signals, bump, k);
-      if (!motion.taken) continue;
+      if (!motion.valid) continue;
       motion.joints[j].position[0] = angle, motion.joints[j].velocity_rad_per_s[0] = speed;
       motion.acceleration[coordinate] = 0;
       const double needed = bones_.inverse(motion)[coordinate];
@@ -79,10 +78,10 @@ std::vector<Stages::Bend> Stages::bend(const Episode& episode, JointTrace& trace
                               (inertia + half_s * damping + half_s * half_s * stiffness);
         angle += half_s * (2 * speed + faster), speed += faster;
       }
-      bent[k] = std::clamp(angle, -3.0, 3.0);
+      angles[k] = std::clamp(angle, -3.0, 3.0);
     }
   }
-  return bends;
+  return all;
 }
 
 JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size_t> rows,
@@ -100,14 +99,14 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
     Signal& angle = trace.signals[j].angle_rad;
     effects::Acting acting(equipped_.acting, joints[j].name, effects::Seat::joint);
     if (!acting.empty()) {
-      const Signal said = angle;
+      const Signal reading = angle;
       for (std::size_t k = 0; k < angle.size(); ++k)
-        angle[k] = acting.undo(effects::Sense::joint, said[k],
+        angle[k] = acting.undo(effects::Sense::joint, reading[k],
                                {episode.period_s * double(k), episode.period_s, 1,
-                                rate_of(said, k, episode.period_s)});
-      if (const double width = acting.looseness_rad(); width > 0 && !angle.empty()) {
+                                rate_of(reading, k, episode.period_s)});
+      if (const double width = acting.play_rad(); width > 0 && !angle.empty()) {
         loose.push_back({j, width, angle});
-        angle = taken_up(angle, width, episode.period_s);
+        angle = without_play(angle, width, episode.period_s);
       }
     }
   }
@@ -115,12 +114,12 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   find_crossings(episode, trace, loose);
   for (const JointSignals& joint : trace.signals)
     trace.speed_rad_per_s.push_back(bump.rates(joint.angle_rad));
-  const auto bends = bend(episode, trace);
+  const auto flexions = this->flexions(episode, trace);
   trace.complete = bones_.measured(trace.signals);
   if (trace.complete)
     for (const std::size_t row : rows) {
       Motion& motion = trace.motions.emplace_back(bones_.motion(trace.signals, bump, row));
-      for (const Bend& b : bends) {
+      for (const Flexion& b : flexions) {
         const auto [angle, speed, acceleration] = b.states[row];
         motion.joints[b.joint].position[0] = angle;
         motion.joints[b.joint].velocity_rad_per_s[0] = speed;
@@ -130,10 +129,10 @@ JointTrace Stages::joint_trace(const Episode& episode, std::span<const std::size
   return trace;
 }
 
-/// Adds what a joint's friction and springs take along its coordinates. False: a ball joint rests, or
-/// is at its stop.
-bool Stages::pass_joint(std::size_t j, const JointReading& reading,
-                        Eigen::Ref<Eigen::VectorXd> torque) const {
+/// Adds the torques of a joint's friction and springs along its coordinates. False: a ball joint rests or is at its
+/// stop.
+bool Stages::add_joint_torque(std::size_t j, const JointReading& reading,
+                              Eigen::Ref<Eigen::VectorXd> torque) const {
   const erp::Joint& joint = bones_.joint_list()[j];
   const Eigen::Map<const Eigen::VectorXd> velocity(reading.velocity_rad_per_s.data(),
                                                    torque.size());
@@ -153,40 +152,42 @@ Eigen::MatrixXd Stages::bones(const Episode&, const JointTrace& joints,
   Eigen::MatrixXd torques = Eigen::MatrixXd::Constant(bones_.coordinates(), columns, nan);
   for (Eigen::Index k = 0; k < columns; ++k) {
     const Motion& motion = joints.motions[static_cast<std::size_t>(k)];
-    if (!motion.taken) continue;
+    if (!motion.valid) continue;
     Eigen::VectorXd torque = bones_.inverse(motion);
     for (std::size_t j = 0; j < motion.joints.size(); ++j) {
       const int first = bones_.first_of(static_cast<int>(j));
       if (first < 0) continue;
       auto part = torque.segment(first, coordinates_of(motion.joints[j].type));
-      if (!pass_joint(j, motion.joints[j], part)) part.setConstant(nan);
+      if (!add_joint_torque(j, motion.joints[j], part)) part.setConstant(nan);
     }
     torques.col(k) = torque;
   }
   return torques;
 }
 
-Stages::Gait Stages::gait(const JointTrace& joints, std::size_t j, const Bump& bump,
-                          std::size_t row) const {
+Stages::Mobility Stages::mobility(const JointTrace& joints, std::size_t j, const Bump& bump,
+                                  std::size_t row) const {
   const auto [slowest, fastest] = range(joints.speed_rad_per_s[j], bump, row);
-  if (slowest > resting_rad_per_s || fastest < -resting_rad_per_s) return Gait::glides;
+  if (slowest > resting_rad_per_s || fastest < -resting_rad_per_s) return Mobility::moves;
   const double mean = bump.rate(joints.signals[j].angle_rad, row);
   const bool still = std::max(-slowest, fastest) < resting_rad_per_s;
-  return still && std::abs(mean) < resting_rad_per_s ? Gait::rests : Gait::mixed;
+  return still && std::abs(mean) < resting_rad_per_s ? Mobility::rests : Mobility::mixed;
 }
 
-/// What is left of a revolute joint's balance once a resting joint's friction and the push of a
-/// stop have taken their share, and how much they may take.
-std::pair<double, double> Stages::leave(const JointTrace& joints, std::size_t j, const Bump& bump,
-                                        std::size_t row, double torque_Nm) const {
+/// The remaining torque of a revolute joint's balance, beyond the friction of a resting joint and the push of a stop,
+/// and the band of torque that these may balance.
+std::pair<double, double> Stages::remaining_torque(const JointTrace& joints, std::size_t j,
+                                                   const Bump& bump, std::size_t row,
+                                                   double torque_Nm) const {
   const erp::Joint& joint = bones_.joint_list()[j];
   if (joints.signals[j].angle_rad.empty()) return {torque_Nm, 0};
-  const Gait gait = this->gait(joints, j, bump, row);
+  const Mobility mobility = this->mobility(joints, j, bump, row);
   double band = 0;
-  if (gait != Gait::glides) {
+  if (mobility != Mobility::moves) {
     effects::Acting acting(equipped_.acting, joint.name, effects::Seat::joint);
     const double friction = joint.coulomb_Nm + acting.joint_friction_Nm(0);
-    band = gait == Gait::rests ? friction : 2 * friction;  // one was taken, may be wrong
+    band = mobility == Mobility::rests ? friction
+                                       : 2 * friction;  // one sign was applied, and may be wrong
     torque_Nm = std::copysign(std::max(0.0, std::abs(torque_Nm) - band), torque_Nm);
   }
   const auto [lowest, highest] = range(joints.signals[j].angle_rad, bump, row);
@@ -207,27 +208,28 @@ void Stages::add_joints(const Episode& episode, Explanation& e) const {
   for (const auto& chain : e.chains)
     if (chain->tension_N.empty()) return;
   const Bump bump(windows_.half_width_s, episode.period_s);
-  Eigen::MatrixXd pulls = Eigen::MatrixXd::Zero(e.bones->rows(), e.bones->cols());
+  Eigen::MatrixXd tendon_torques = Eigen::MatrixXd::Zero(e.bones->rows(), e.bones->cols());
   for (std::size_t a = 0; a < e.chains.size(); ++a) {
     const ChainTrace& c = *e.chains[a];
-    for (Eigen::Index k = 0; k < pulls.cols(); ++k) {
+    for (Eigen::Index k = 0; k < tendon_torques.cols(); ++k) {
       const std::size_t row = e.rows[static_cast<std::size_t>(k)];
       const double slope = c.path_slope.empty() ? 1 : c.path_slope[row];
-      pulls.col(k) += bump.mean(c.tension_N, row) * slope * e.gradients[a]->col(k);
+      tendon_torques.col(k) += bump.mean(c.tension_N, row) * slope * e.gradients[a]->col(k);
     }
   }
-  const Eigen::MatrixXd torques = *e.bones + pulls;
+  const Eigen::MatrixXd torques = *e.bones + tendon_torques;
   const auto& joints = bones_.joint_list();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const int first = bones_.first_of(static_cast<int>(j)), count = coordinates_of(joints[j].type);
     if (first < 0 || !std::ranges::count(recorded_joints_, joints[j].name)) continue;
     for (int d = first; d < first + count; ++d) {
-      Residual residual{effects::Stage::joint, joints[j].name, "Nm", {}, rms(pulls.row(d))};
+      Residual residual{
+          effects::Stage::joint, joints[j].name, "Nm", {}, rms(tendon_torques.row(d))};
       for (Eigen::Index k = 0; k < torques.cols(); ++k) {
-        const auto [left, band] =
-            count == 1 ? leave(*e.joints, j, bump, e.rows[std::size_t(k)], torques(d, k))
+        const auto [remaining, band] =
+            count == 1 ? remaining_torque(*e.joints, j, bump, e.rows[std::size_t(k)], torques(d, k))
                        : std::pair(torques(d, k), 0.0);
-        residual.value.push_back(left), residual.band.push_back(band);
+        residual.value.push_back(remaining), residual.band.push_back(band);
       }
       e.residuals.push_back(std::move(residual));
     }

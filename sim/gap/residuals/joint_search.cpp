@@ -1,4 +1,4 @@
-// Where joints were that a recording leaves out, or that a loose sensor tells too late.
+// Estimates the angles of unmeasured joints and of joints with a loose sensor from the tendons.
 #include <algorithm>
 #include <cmath>
 
@@ -9,15 +9,15 @@
 namespace sim::residuals {
 namespace {
 
-/// Without what the motors do: it is of no matter here.
-Episode lines_alone(const Episode& episode) {
+/// The episode without motor signals, which the tendons do not need.
+Episode tendon_signals(const Episode& episode) {
   Episode lines{episode.name, episode.period_s, episode.rows, {}, {}};
   for (const ActuatorSignals& s : episode.actuators)
     lines.actuators.push_back({.shaft_rad = s.shaft_rad, .tension_N = s.tension_N});
   return lines;
 }
 
-/// The most D/κ of some lines.
+/// The largest D/κ of some tendons.
 double slowest_damper_s(const erp::Robot& robot, std::span<const std::size_t> lines) {
   double slowest_s = 0;
   for (const std::size_t a : lines) {
@@ -69,21 +69,22 @@ std::vector<ChainTrace> Stages::chains_of(const Episode& episode,
 void Stages::find_pose(const Episode& episode, JointTrace& trace, const JointTrace* guess) {
   const auto missing = missing_joints(trace), lines = informative_tendons(episode, trace, missing);
   if (missing.empty() || lines.empty()) return;
-  const bool near = guess && guess->estimated;
-  if (near) trace.nearby = guess->nearby;
-  const Episode pulled = lines_alone(episode);
+  const bool has_guess = guess && guess->estimated;
+  if (has_guess) trace.nearby = guess->nearby;
+  const Episode pulled = tendon_signals(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
     return chains_of(pulled, lines, {.signals = signals, .nearby = trace.nearby});
   };
   const PoseSearch search(bones_.joint_list(), missing, chains, episode.period_s,
                           slowest_damper_s(equipped_.robot, lines));
   if (lines.size() < search.unknowns()) return;
-  constexpr int from_afar = 6, from_near = 2;  // steps, chosen
-  if (near)
+  constexpr int steps_from_start = 6, steps_from_guess = 2;  // chosen
+  if (has_guess)
     for (const std::size_t j : missing) trace.signals[j] = guess->signals[j];
   else search.start(trace.signals, episode.rows);
-  search.better(trace.signals, near ? from_near : from_afar, near ? from_near : 1);
-  trace.estimated = trace.by_lines = true;
+  search.refine(trace.signals, has_guess ? steps_from_guess : steps_from_start,
+                has_guess ? steps_from_guess : 1);
+  trace.estimated = trace.depends_on_tendons = true;
   if (!trace.nearby) trace.nearby = nearby(episode, trace, missing);
 }
 
@@ -93,30 +94,30 @@ void Stages::find_crossings(const Episode& episode, JointTrace& trace,
   if (loose.empty() || lines.empty() || trace.estimated) return;
   std::vector<std::size_t> joints;
   for (const LooseJoint& l : loose) joints.push_back(l.joint);
-  const Episode pulled = lines_alone(episode);
+  const Episode pulled = tendon_signals(episode);
   const auto chains = [&](const std::vector<JointSignals>& signals) {
     return chains_of(pulled, lines, {.signals = signals});
   };
   const PoseSearch search(bones_.joint_list(), joints, chains, episode.period_s,
                           slowest_damper_s(equipped_.robot, lines));
   if (lines.size() < search.unknowns()) return;
-  trace.by_lines = true;
-  auto told = trace.signals;
+  trace.depends_on_tendons = true;
+  auto estimated = trace.signals;
   constexpr int steps = 2;  // chosen
-  search.better(told, steps, steps);
+  search.refine(estimated, steps, steps);
   for (const LooseJoint& l : loose) {
-    const Signal& at = told[l.joint].angle_rad;
-    const auto may = may_cross(l.said_rad, episode.period_s);
+    const Signal& at = estimated[l.joint].angle_rad;
+    const auto may = may_cross(l.reading_rad, episode.period_s);
     for (std::size_t k = 0; k < may.size(); ++k)
       if (may[k] && !std::isnan(at[k]))
-        trace.signals[l.joint].angle_rad[k] =
-            std::clamp(at[k], l.said_rad[k] - l.width_rad / 2, l.said_rad[k] + l.width_rad / 2);
+        trace.signals[l.joint].angle_rad[k] = std::clamp(at[k], l.reading_rad[k] - l.width_rad / 2,
+                                                         l.reading_rad[k] + l.width_rad / 2);
   }
 }
 
 std::shared_ptr<const PathsNearby> Stages::nearby(const Episode& episode, const JointTrace& trace,
                                                   std::span<const std::size_t> missing) {
-  constexpr double nudge_rad = 1e-3;
+  constexpr double perturbation_rad = 1e-3;
   const auto all = each(episode.actuators.size());
   PathsNearby near{trace.signals, bones_.paths(trace.signals, episode.rows, all), {}, {}};
   near.slope_m.resize(all.size());
@@ -124,12 +125,12 @@ std::shared_ptr<const PathsNearby> Stages::nearby(const Episode& episode, const 
     if (bones_.joint_list()[j].type == erp::JointType::fixed) continue;
     if (bones_.joint_list()[j].type != erp::JointType::revolute) return nullptr;
     auto perturbed = trace.signals;
-    for (double& angle : perturbed[j].angle_rad) angle += nudge_rad;
+    for (double& angle : perturbed[j].angle_rad) angle += perturbation_rad;
     auto moved = bones_.paths(perturbed, episode.rows, all);
     for (const std::size_t a : all) {
       Signal& slope = near.slope_m[a].emplace_back(std::move(moved[a].length_m));
       for (std::size_t k = 0; k < slope.size(); ++k)
-        slope[k] = (slope[k] - near.paths[a].length_m[k]) / nudge_rad;
+        slope[k] = (slope[k] - near.paths[a].length_m[k]) / perturbation_rad;
     }
     near.hinges.push_back(j);
   }

@@ -3,25 +3,25 @@
 
 #include "sim/gap/residuals/episode.hpp"
 
-/// A joint's sensor whose shaft is loose: the bone is within half the looseness w of where it says.
+/// A joint's sensor with play of width w: the body's angle q is within w/2 of the sensor's reading s.
 ///
-///   the sensor turns one way   q = said ± w/2: the bone takes it along
-///   it rests, or turns back    |q − said| ≤ w/2: the bone crosses unseen
+///   the sensor turns in one direction   q = s ± w/2: the body drives the sensor
+///   it rests or reverses                |q − s| ≤ w/2: the body crosses the play, not measured
 ///
-/// Source: the effect's, sim/model/effects/joint/play.hpp. Ignores: bones that swing within w while the sensor rests, unless tendons tell of it
-/// (joint_search.cpp).
+/// Source: that of the effect, sim/model/effects/joint/play.hpp. Ignores: bodies that swing within w while the sensor
+/// rests, unless the tendons show it (joint_search.cpp).
 namespace sim::residuals {
 
 struct LooseJoint {
   std::size_t joint;
   double width_rad;  ///< w
-  Signal said_rad;
+  Signal reading_rad;
 };
 
-/// q, evenly across where it crosses.
-Signal taken_up(const Signal& said_rad, double loose_rad, double period_s);
+/// q, with a linear transition where it crosses the play.
+Signal without_play(const Signal& reading_rad, double width_rad, double period_s);
 
-/// Rows at which the sensor may be at rest, or turn back.
-std::vector<char> may_cross(const Signal& said_rad, double period_s);
+/// Rows at which the sensor may rest or reverse, so that the body may cross the play.
+std::vector<char> may_cross(const Signal& reading_rad, double period_s);
 
 }  // namespace sim::residuals

@@ -6,7 +6,7 @@
 #include "interfaces/recording/columns.hpp"
 #include "sim/gap/residuals/column.hpp"
 
-/// The signals of a recording that sensors took, by the names of their columns.
+/// The measured signals of a recording, with the names of their columns.
 namespace sim::residuals {
 
 template <class E>
@@ -15,7 +15,7 @@ struct Measured {
   std::conditional_t<std::is_const_v<E>, const Signal, Signal>* signal;
 };
 
-/// Also those that are empty: in the same order for every recording of a robot. E: Episode or const
+/// All measured signals, including empty ones, in the same order for every recording of a robot. E: Episode or const
 /// Episode.
 template <class E>
 std::vector<Measured<E>> measured(E& e, const erp::Robot& robot) {

@@ -11,8 +11,9 @@
 namespace sim::residuals {
 namespace {
 
-constexpr double calibration = 0.003;  // of a current sensor at its best; chosen
-constexpr double of_voltage = 3e-4;    // of an amplifier's where it stands for a current; chosen
+constexpr double current_gain_error = 0.003;  // of a good current sensor; chosen
+constexpr double voltage_gain_error =
+    3e-4;  // of an amplifier, if the voltage replaces a current; chosen
 
 void disturb(Signal& signal, double noise_rms, Noise& noise) {
   for (double& x : signal) x += noise_rms * noise.normal();
@@ -27,42 +28,43 @@ double coarse_step(const std::vector<effects::Placed>& all, const char* type,
   return 0;
 }
 
-/// The error of a sensor with noise and steps, once more with its lattice elsewhere:
+/// Adds another realization of a sensor's noise and quantization error, with a random shift u of its steps:
 ///
 ///   e = step (⌊(x + n)/step + u⌉ − u) − x,   x: the signal smoothed, n ~ N(0, rms²), u ~ U(0, 1)
 ///
-/// Where noise is less than a step that is no white noise: it stays for as long as the signal does.
-void requantise(Signal& signal, double noise_rms, double step, Noise& noise) {
+/// If the noise is smaller than a step, the error is no white noise: it is constant while the signal is.
+void requantize(Signal& signal, double noise_rms, double step, Noise& noise) {
   if (!(step > 0)) return disturb(signal, noise_rms, noise);
-  constexpr std::size_t reach = 12;  // rows to each side: a step smoothed over
-  const Signal said = signal;
+  constexpr std::size_t reach = 12;  // rows to each side of the smoothing window
+  const Signal original = signal;
   const double shift = noise.uniform();
-  for (std::size_t k = 0; k < said.size(); ++k) {
+  for (std::size_t k = 0; k < original.size(); ++k) {
     double sum = 0, count = 0;
-    for (std::size_t n = k < reach ? 0 : k - reach; n < std::min(said.size(), k + reach + 1); ++n)
-      if (!std::isnan(said[n])) sum += said[n], ++count;
-    if (count == 0 || std::isnan(said[k])) continue;
+    for (std::size_t n = k < reach ? 0 : k - reach; n < std::min(original.size(), k + reach + 1);
+         ++n)
+      if (!std::isnan(original[n])) sum += original[n], ++count;
+    if (count == 0 || std::isnan(original[k])) continue;
     const double smooth = sum / count, noisy = smooth + noise_rms * noise.normal();
-    signal[k] = said[k] + step * (std::round(noisy / step + shift) - shift) - smooth;
+    signal[k] = original[k] + step * (std::round(noisy / step + shift) - shift) - smooth;
   }
 }
 
-/// Sampled half a period late, as by an amplifier that smooths.
+/// Delays the samples by half a period, as a low-pass amplifier does.
 void delay(Signal& signal) {
   constexpr double late = 0.5;
-  const Signal said = signal;
-  for (std::size_t k = 1; k + 1 < said.size(); ++k)
-    signal[k] = said[k] - late * (said[k + 1] - said[k - 1]) / 2;
+  const Signal original = signal;
+  for (std::size_t k = 1; k + 1 < original.size(); ++k)
+    signal[k] = original[k] - late * (original[k + 1] - original[k - 1]) / 2;
 }
 
-/// Rows taken later than stamped, all signals alike.
+/// Shifts each row by a random delay, common to all signals.
 void disturb_times(Episode& e, Noise& noise) {
   Signal late_s(e.rows);
   for (double& t : late_s) t = e.jitter_s * noise.uniform();
   const auto disturb = [&](Signal& signal) {
-    const Signal said = signal;
+    const Signal original = signal;
     for (std::size_t k = 0; k < signal.size(); ++k)
-      signal[k] += rate_of(said, k, e.period_s) * late_s[k];
+      signal[k] += rate_of(original, k, e.period_s) * late_s[k];
   };
   for (ActuatorSignals& s : e.actuators)
     disturb(s.voltage_V), disturb(s.current_A), disturb(s.shaft_rad), disturb(s.tension_N);
@@ -72,17 +74,17 @@ void disturb_times(Episode& e, Noise& noise) {
   }
 }
 
-/// What no data sheet excludes: tensions half a period later, currents 0.3 % larger.
-void doubt(Episode& e) {
+/// Applies the deviations that no data sheet excludes: tensions half a period later, currents 0.3 % larger.
+void apply_unspecified_errors(Episode& e) {
   for (ActuatorSignals& s : e.actuators) {
     delay(s.tension_N);
-    for (double& i : s.current_A) i *= 1 + calibration;
+    for (double& i : s.current_A) i *= 1 + current_gain_error;
     if (s.current_A.empty())
-      for (double& v : s.voltage_V) v *= 1 + of_voltage;
+      for (double& v : s.voltage_V) v *= 1 + voltage_gain_error;
   }
 }
 
-/// What the sensors' noise and steps would have made of it.
+/// Adds the sensors' noise and quantization.
 void disturb(Episode& again, const erp::Robot& robot, std::uint64_t seed) {
   Noise noise(seed);
   if (again.jitter_s > 0) disturb_times(again, noise);
@@ -91,17 +93,17 @@ void disturb(Episode& again, const erp::Robot& robot, std::uint64_t seed) {
     const erp::SensorType& sensors = robot.sensors_of(robot.actuators[a]);
     const SensorScale scale(robot.motor_of(robot.actuators[a]), sensors);
     ActuatorSignals& s = again.actuators[a];
-    const bool told = sensors.encoder_counts_per_rev > 0;  // some drives' are not
-    if (told) requantise(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
+    const bool specified = sensors.encoder_counts_per_rev > 0;  // not for some drives
+    if (specified) requantize(s.shaft_rad, 0, scale.shaft_rad_per_count, noise);
     else disturb(s.shaft_rad, noise_of(s.shaft_rad), noise);
-    requantise(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
+    requantize(s.current_A, sensors.current_noise_A, scale.current_A_per_count, noise);
     const bool drive = robot.actuators[a].tendon.path.empty();
     const double of_tension =
         drive && sensors.tension_noise_N == 0 ? noise_of(s.tension_N) : sensors.tension_noise_N;
-    requantise(s.tension_N, of_tension, scale.tension_N_per_count, noise);
+    requantize(s.tension_N, of_tension, scale.tension_N_per_count, noise);
     const auto coarsen = [&](const char* type, Signal& signal) {
       if (const double step = coarse_step(coarse, type, robot.actuators[a].name); step > 0)
-        requantise(signal, 0, step, noise);
+        requantize(signal, 0, step, noise);
     };
     coarsen("sensor_shaft_quantisation", s.shaft_rad);
     coarsen("sensor_current_quantisation", s.current_A);
@@ -114,10 +116,10 @@ void disturb(Episode& again, const erp::Robot& robot, std::uint64_t seed) {
         std::ranges::find(robot.joint_sensors, joints[j].name, &erp::JointSensor::joint);
     if (sensor != robot.joint_sensors.end() && joints[j].type == erp::JointType::revolute) {
       const double finest = 2 * std::numbers::pi / std::exp2(sensor->bits_per_rev);
-      requantise(signals.angle_rad, sensor->noise_rad, finest, noise);
+      requantize(signals.angle_rad, sensor->noise_rad, finest, noise);
       if (const double step = coarse_step(coarse, "sensor_joint_quantisation", sensor->joint);
           step > 0)
-        requantise(signals.angle_rad, 0, step, noise);
+        requantize(signals.angle_rad, 0, step, noise);
       continue;
     }
     disturb(signals.angle_rad, noise_of(signals.angle_rad), noise);
@@ -125,12 +127,12 @@ void disturb(Episode& again, const erp::Robot& robot, std::uint64_t seed) {
   }
 }
 
-/// What a change of the recording changes in one residual, at each window; NaN: not to be seen.
-Signal changed(const Residual& said, const Residual& again) {
+/// The change of one residual by a change of the recording, at each window; NaN: hidden by a band.
+Signal change_of(const Residual& before, const Residual& after) {
   Signal change;
-  for (std::size_t k = 0; k < said.value.size(); ++k)
-    change.push_back(banded(said, k) || banded(again, k) ? recording::not_taken
-                                                         : again.value[k] - said.value[k]);
+  for (std::size_t k = 0; k < before.value.size(); ++k)
+    change.push_back(banded(before, k) || banded(after, k) ? recording::not_taken
+                                                           : after.value[k] - before.value[k]);
   return change;
 }
 
@@ -138,24 +140,24 @@ Signal changed(const Residual& said, const Residual& again) {
 
 Episode resampled_noise(const Episode& episode, const erp::Robot& robot, std::uint64_t seed) {
   Episode again = episode;
-  doubt(again);
+  apply_unspecified_errors(again);
   disturb(again, robot, seed);
   return again;
 }
 
 std::vector<Floor> floors(Stages& stages, const Episode& episode, const erp::Robot& robot,
                           std::uint64_t seed) {
-  Episode noisy = episode, doubted = episode;
-  disturb(noisy, robot, seed), doubt(doubted);
-  const auto said = stages.residuals(episode), noise = stages.residuals(noisy),
-             doubts = stages.residuals(doubted);
+  Episode noisy = episode, deviating = episode;
+  disturb(noisy, robot, seed), apply_unspecified_errors(deviating);
+  const auto plain = stages.residuals(episode), noise = stages.residuals(noisy),
+             deviations = stages.residuals(deviating);
   std::vector<Floor> floors;
-  for (std::size_t r = 0; r < said.size(); ++r) {
-    const double of_noise = rms(changed(said[r], noise[r]));
-    const Signal of_doubt = changed(said[r], doubts[r]);
-    Floor floor{std::hypot(of_noise, rms(of_doubt)), {}};
-    for (const double d : of_doubt)
-      floor.at.push_back(std::isnan(d) ? floor.rms : std::max(floor.rms, std::hypot(of_noise, d)));
+  for (std::size_t r = 0; r < plain.size(); ++r) {
+    const double by_noise = rms(change_of(plain[r], noise[r]));
+    const Signal by_deviation = change_of(plain[r], deviations[r]);
+    Floor floor{std::hypot(by_noise, rms(by_deviation)), {}};
+    for (const double d : by_deviation)
+      floor.at.push_back(std::isnan(d) ? floor.rms : std::max(floor.rms, std::hypot(by_noise, d)));
     floors.push_back(std::move(floor));
   }
   return floors;

@@ -10,11 +10,12 @@ namespace sim::residuals {
 namespace {
 
 constexpr double smooth_s = 0.006;  // half width of the pose's window; chosen
-constexpr double edge_s = 0.03;     // around rows that are not told, the pose is not either; chosen
-constexpr double slack_N = 0.3;     // measured as less, a tendon may be slack; chosen
-constexpr double nudge_rad = 1e-4;  // of the slopes
-constexpr double farthest_rad = 1;  // that a step goes
-constexpr double least_N_per_rad = 5;  // held less firmly, a pose is not told; chosen
+constexpr double edge_s =
+    0.03;  // around rows without an estimate the pose is removed as well; chosen
+constexpr double slack_N = 0.3;            // below this tension a tendon may be slack; chosen
+constexpr double perturbation_rad = 1e-4;  // of the slopes
+constexpr double largest_step_rad = 1;
+constexpr double least_N_per_rad = 5;  // smallest slope that determines a pose; chosen
 
 void smooth(Signal& signal, double period_s) {
   const Bump bump(smooth_s, period_s);
@@ -30,18 +31,18 @@ void fill_forward(Signal& signal) {
     if (std::isnan(signal[k - 1])) signal[k - 1] = signal[k];
 }
 
-/// The step of the unknowns at one row, from how the pulls answer to them, N/rad: lines × unknowns;
-/// empty: the tendons do not hold the pose there.
+/// The Gauss-Newton step of the unknowns at one row. `slope`: ∂F̂/∂q, N/rad, tendons × unknowns. Empty: the tendons do
+/// not determine the pose there.
 Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& here,
                         const Eigen::Ref<const Eigen::MatrixXd>& slope) {
-  Eigen::VectorXd left(slope.rows());
-  for (Eigen::Index a = 0; a < left.size(); ++a) {
+  Eigen::VectorXd difference_N(slope.rows());
+  for (Eigen::Index a = 0; a < difference_N.size(); ++a) {
     const ChainTrace& line = here[std::size_t(a)];
-    left[a] = line.tension_N[row] - line.spring_N[row];
-    if (!std::isfinite(left[a])) left[a] = 0;
+    difference_N[a] = line.tension_N[row] - line.spring_N[row];
+    if (!std::isfinite(difference_N[a])) difference_N[a] = 0;
   }
   const Eigen::MatrixXd held = slope.transpose() * slope;
-  const Eigen::VectorXd pushed = slope.transpose() * left;
+  const Eigen::VectorXd pushed = slope.transpose() * difference_N;
   Eigen::VectorXd step(pushed.size());
   if (step.size() == 1) {
     if (held(0, 0) < least_N_per_rad * least_N_per_rad) return {};
@@ -52,7 +53,7 @@ Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& here,
     step = modes.eigenvectors() *
            (modes.eigenvectors().transpose() * pushed).cwiseQuotient(modes.eigenvalues());
   }
-  return step.cwiseMax(-farthest_rad).cwiseMin(farthest_rad);
+  return step.cwiseMax(-largest_step_rad).cwiseMin(largest_step_rad);
 }
 
 }  // namespace
@@ -108,11 +109,11 @@ Eigen::MatrixXd PoseSearch::slopes(const std::vector<JointSignals>& signals,
       Eigen::MatrixXd::Zero(Eigen::Index(lines * unknown_.size()), Eigen::Index(rows));
   for (std::size_t c = 0; c < unknown_.size(); ++c) {
     auto perturbed = signals;
-    for (std::size_t k = 0; k < rows; ++k) turn(perturbed, unknown_[c], k, nudge_rad);
+    for (std::size_t k = 0; k < rows; ++k) turn(perturbed, unknown_[c], k, perturbation_rad);
     const auto moved = chains_(perturbed);
     for (std::size_t k = 0; k < rows; ++k)
       for (std::size_t a = 0; a < lines; ++a) {
-        const double slope = (moved[a].spring_N[k] - here[a].spring_N[k]) / nudge_rad;
+        const double slope = (moved[a].spring_N[k] - here[a].spring_N[k]) / perturbation_rad;
         if (std::isfinite(slope) && here[a].tension_N[k] > slack_N)
           slopes(Eigen::Index(c * lines + a), Eigen::Index(k)) = slope;
       }
@@ -120,23 +121,23 @@ Eigen::MatrixXd PoseSearch::slopes(const std::vector<JointSignals>& signals,
   return slopes;
 }
 
-void PoseSearch::better(std::vector<JointSignals>& signals, int steps, int slopes_every) const {
+void PoseSearch::refine(std::vector<JointSignals>& signals, int steps, int slopes_every) const {
   change(signals, fill_forward);
-  std::vector<char> told;
+  std::vector<char> determined;
   Eigen::MatrixXd slope;
   for (int n = 0; n < steps; ++n) {
     const auto here = chains_(signals);
     if (n % slopes_every == 0) slope = slopes(signals, here);
-    told.assign(std::size_t(slope.cols()), 0);
+    determined.assign(std::size_t(slope.cols()), 0);
     Eigen::VectorXd step = Eigen::VectorXd::Zero(Eigen::Index(unknown_.size()));
     const double kept = damper_s_ / (damper_s_ + period_s_);
-    for (std::size_t k = 0; k < told.size(); ++k) {
+    for (std::size_t k = 0; k < determined.size(); ++k) {
       const Eigen::Map<const Eigen::MatrixXd> at(slope.col(Eigen::Index(k)).data(),
                                                  Eigen::Index(here.size()),
                                                  Eigen::Index(unknown_.size()));
       const Eigen::VectorXd of_springs = step_at(k, here, at);
-      told[k] = of_springs.size() > 0;
-      if (told[k]) step = kept * step + (1 - kept) * of_springs;
+      determined[k] = of_springs.size() > 0;
+      if (determined[k]) step = kept * step + (1 - kept) * of_springs;
       else step.setZero();
       for (Eigen::Index c = 0; c < step.size(); ++c)
         turn(signals, unknown_[std::size_t(c)], k, step[c]);
@@ -146,7 +147,7 @@ void PoseSearch::better(std::vector<JointSignals>& signals, int steps, int slope
   const auto around = static_cast<std::size_t>(edge_s / period_s_);
   change(signals, [&](Signal& signal) {
     for (std::size_t k = 0; k < signal.size(); ++k)
-      if (!told[k])
+      if (!determined[k])
         for (std::size_t n = k < around ? 0 : k - around;
              n < std::min(signal.size(), k + around + 1); ++n)
           signal[n] = recording::not_taken;

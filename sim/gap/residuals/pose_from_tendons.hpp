@@ -5,33 +5,32 @@
 
 #include "sim/gap/residuals/chain_trace.hpp"
 
-/// Joints that nobody measured, from the tendons: the pose in which every line pulls as it was
-/// measured to pull.
+/// Estimates the angles of unmeasured joints: the pose in which the tendons' law gives the measured tensions.
 ///
 ///   min_q Σ_a (F_a − F̂_a(L_a(q), θ_a))²      F̂ the tendon's law with the robot's effects
 ///
-/// by Gauss and Newton, all rows at once. The damper couples rows: a step is that of a spring and a
-/// damper, κ δ + D δ̇, or rows would swing ever more. The pose is smoothed, for the law's damper would
-/// answer to its noise. Slack tendons say nothing. What is left of the tendons' stages are their
-/// contradictions, fewer than there are tendons.
+/// by Gauss-Newton, all rows at once. The damper couples rows: a step is computed with spring and damper, κ δ + D δ̇,
+/// otherwise the rows would oscillate. The pose is smoothed, for the damper of the law amplifies its noise. Slack
+/// tendons do not take part. The tendon stages then contain only the contradictions between tendons, which are fewer
+/// than the tendons.
 namespace sim::residuals {
 
-/// The chains of all tendons that say shaft and tension, under some joint signals.
+/// Computes the chains of all tendons with measured shaft and tension, for given joint signals.
 using Chains = std::function<std::vector<ChainTrace>(const std::vector<JointSignals>&)>;
 
 class PoseSearch {
  public:
-  /// `missing`: joints to be found; `damper_s`: D/κ of the lines.
+  /// `missing`: joints to estimate; `damper_s`: D/κ of the tendons.
   PoseSearch(const std::vector<erp::Joint>& joints, std::vector<std::size_t> missing, Chains chains,
              double period_s, double damper_s);
 
-  /// Degrees of freedom to be found.
+  /// Number of unknown coordinates.
   std::size_t unknowns() const { return unknown_.size(); }
-  /// Where the robot starts, throughout.
+  /// Sets the missing joints to the initial pose in all rows.
   void start(std::vector<JointSignals>& signals, std::size_t rows) const;
-  /// Betters the missing joints' signals by some steps, with slopes taken anew every so many; NaN
-  /// where the tendons do not hold them.
-  void better(std::vector<JointSignals>& signals, int steps, int slopes_every) const;
+  /// Improves the missing joints' signals by some Gauss-Newton steps; the slopes are recomputed every `slopes_every`
+  /// steps. NaN where the tendons do not determine the pose.
+  void refine(std::vector<JointSignals>& signals, int steps, int slopes_every) const;
 
  private:
   struct Unknown {
@@ -40,8 +39,7 @@ class PoseSearch {
   };
   void turn(std::vector<JointSignals>& signals, const Unknown& unknown, std::size_t row,
             double rad) const;
-  /// How the pulls answer to each unknown, N/rad: a column a row of the recording, in it lines ×
-  /// unknowns; 0: slack, or not known.
+  /// ∂F̂/∂q, N/rad: one column for each row of the recording, in it tendons × unknowns; 0: slack, or not available.
   Eigen::MatrixXd slopes(const std::vector<JointSignals>& signals,
                          const std::vector<ChainTrace>& here) const;
   template <class Change>

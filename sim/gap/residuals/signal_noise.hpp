@@ -1,14 +1,14 @@
 #pragma once
 #include "sim/gap/residuals/episode.hpp"
 
-/// How large a signal is, and how much of that is noise. Samples that were not taken do not count.
+/// Rms and noise of a signal. Missing samples do not count.
 namespace sim::residuals {
 
-/// 0: no sample was taken.
+/// 0 without samples.
 double rms(const Signal& signal);
 
-/// The noise of a signal that no data sheet tells of, from its third differences: they leave
-/// little of a motion, and 20 times the noise's variance.
+/// Noise of a signal without a data sheet, in its unit (standard deviation), from its third differences: they remove
+/// nearly all motion and have 20 times the noise's variance.
 double noise_of(const Signal& signal);
 
 }  // namespace sim::residuals

@@ -8,7 +8,7 @@
 namespace sim::residuals {
 namespace {
 
-constexpr double apart_rad = 1e-3;  // points of a table
+constexpr double spacing_rad = 1e-3;  // of the points of a table
 
 std::pair<double, double> range_of(const Signal& signal) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -25,12 +25,12 @@ Vec3 gravity_of(const erp::Robot& robot) {
 }  // namespace
 
 void PathTrace::smooth(double period_s, double speed_half_width_s) {
-  constexpr double calm_half_width_s = 0.03;
+  constexpr double mean_half_width_s = 0.03;
   rate_m_per_s = Bump(speed_half_width_s, period_s).rates(length_m);
-  const Bump calm(calm_half_width_s, period_s);
-  calm_m = length_m;
-  for (std::size_t k = calm.reach(); k + calm.reach() < length_m.size(); ++k)
-    calm_m[k] = calm.mean(length_m, k);
+  const Bump wide(mean_half_width_s, period_s);
+  mean_m = length_m;
+  for (std::size_t k = wide.reach(); k + wide.reach() < length_m.size(); ++k)
+    mean_m[k] = wide.mean(length_m, k);
 }
 
 bool was_measured(const JointSignals& joint, erp::JointType type) {
@@ -93,10 +93,10 @@ const Signal* Skeletal::only_angle(std::size_t actuator,
   if (tree_.joints[j].type != erp::JointType::revolute) return nullptr;
   const Signal& angle = joints[j].angle_rad;
   const auto [low, high] = range_of(angle);
-  return high - low < apart_rad * double(angle.size()) ? &angle : nullptr;
+  return high - low < spacing_rad * double(angle.size()) ? &angle : nullptr;
 }
 
-/// Linear between points: a lever that changes by 0.1 m a radian errs by 10 nm.
+/// Linear interpolation: with a moment arm that changes by 0.1 m/rad the error is 10 nm.
 PathTrace Skeletal::path_by_table(std::size_t actuator, const Signal& angle_rad) {
   Tendon& tendon = *tendons_[actuator];
   const auto [low, high] = range_of(angle_rad);
@@ -105,17 +105,17 @@ PathTrace Skeletal::path_by_table(std::size_t actuator, const Signal& angle_rad)
   if (low > high) return trace;
   std::vector<JointReading> posture;
   for (const erp::Joint& joint : tree_.joints) posture.push_back(start_of(joint));
-  const auto points = static_cast<std::size_t>((high - low) / apart_rad) + 2;
+  const auto points = static_cast<std::size_t>((high - low) / spacing_rad) + 2;
   std::vector<double> length(points), wrap(points);
   for (std::size_t n = 0; n < points; ++n) {
-    posture[std::size_t(tendon.crossed[0])].position[0] = low + apart_rad * double(n);
+    posture[std::size_t(tendon.crossed[0])].position[0] = low + spacing_rad * double(n);
     model_.place(posture);
     tendon.routing.solve(model_.poses(), tendon.shape);
     length[n] = tendon.shape.length_m, wrap[n] = bend_rad(tendon.shape);
   }
   for (std::size_t k = 0; k < angle_rad.size(); ++k) {
     if (std::isnan(angle_rad[k])) continue;
-    const double at = (angle_rad[k] - low) / apart_rad;
+    const double at = (angle_rad[k] - low) / spacing_rad;
     const auto n = std::min(static_cast<std::size_t>(at), points - 2);
     trace.length_m[k] = std::lerp(length[n], length[n + 1], at - double(n));
     trace.wrap_rad[k] = std::lerp(wrap[n], wrap[n + 1], at - double(n));
@@ -126,7 +126,7 @@ PathTrace Skeletal::path_by_table(std::size_t actuator, const Signal& angle_rad)
 std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std::size_t rows,
                                        std::span<const std::size_t> actuators) {
   std::vector<PathTrace> traces(actuators.size());
-  std::vector<std::size_t> walked;  // of those whose posture has to be walked through
+  std::vector<std::size_t> solved;  // those to be solved row by row
   for (std::size_t n = 0; n < actuators.size(); ++n) {
     const std::size_t a = actuators[n];
     if (const int load = loads_[a]; load >= 0) {
@@ -142,18 +142,18 @@ std::vector<PathTrace> Skeletal::paths(std::span<const JointSignals> joints, std
       continue;
     }
     traces[n] = {Signal(rows, recording::not_taken), Signal(rows, recording::not_taken)};
-    walked.push_back(n);
+    solved.push_back(n);
   }
   std::vector<JointReading> posture(tree_.joints.size());
-  for (std::size_t k = 0; k < rows && !walked.empty(); ++k) {
-    bool taken = true;
+  for (std::size_t k = 0; k < rows && !solved.empty(); ++k) {
+    bool valid = true;
     for (std::size_t j = 0; j < posture.size(); ++j) {
       posture[j] = reading(joints[j], j, k);
-      for (const double p : posture[j].position) taken &= !std::isnan(p);
+      for (const double p : posture[j].position) valid &= !std::isnan(p);
     }
-    if (!taken) continue;
+    if (!valid) continue;
     model_.place(posture);
-    for (const std::size_t n : walked) {
+    for (const std::size_t n : solved) {
       Tendon& tendon = *tendons_[actuators[n]];
       tendon.routing.solve(model_.poses(), tendon.shape);
       traces[n].length_m[k] = tendon.shape.length_m, traces[n].wrap_rad[k] = bend_rad(tendon.shape);
@@ -190,7 +190,7 @@ Motion Skeletal::motion(std::span<const JointSignals> joints, const Bump& bump,
       r.velocity_rad_per_s = {omega.x(), omega.y(), omega.z()};
       if (first >= 0) motion.acceleration.segment<3>(first) = alpha;
     }
-    for (const double p : r.position) motion.taken &= !std::isnan(p);
+    for (const double p : r.position) motion.valid &= !std::isnan(p);
     motion.joints.push_back(r);
   }
   return motion;
@@ -210,7 +210,7 @@ std::vector<Eigen::MatrixXd> Skeletal::gradients(std::span<const Motion> motions
       Eigen::MatrixXd::Constant(model_.coordinates(), columns, recording::not_taken));
   for (Eigen::Index k = 0; k < columns; ++k) {
     const Motion& motion = motions[std::size_t(k)];
-    if (!motion.taken) continue;
+    if (!motion.valid) continue;
     model_.place(motion.joints);
     for (std::size_t n = 0; n < actuators.size(); ++n) {
       if (!tendons_[actuators[n]]) {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/model/actuator/sensors.hpp"
 #include "sim/gap/residuals/chain_residuals.hpp"
 #include "sim/gap/residuals/indices.hpp"
+#include "sim/model/actuator/sensors.hpp"
 
 namespace sim::residuals {
 namespace {
@@ -18,14 +18,14 @@ std::shared_ptr<const T> keep(T value) {
   return std::make_shared<const T>(std::move(value));
 }
 
-/// Of its encoder; 0: not specified.
+/// Step of the encoder; 0: not specified.
 double shaft_step_rad(const erp::Robot& robot, const erp::Actuator& actuator) {
   const erp::SensorType& sensors = robot.sensors_of(actuator);
   if (!(sensors.encoder_counts_per_rev > 0)) return 0;
   return SensorScale(robot.motor_of(actuator), sensors).shaft_rad_per_count;
 }
 
-/// For a robot whose tendons run otherwise.
+/// For a robot whose tendon paths have changed.
 std::shared_ptr<const JointTrace> without_nearby(const JointTrace& joints) {
   JointTrace copy = joints;
   copy.nearby = nullptr;
@@ -72,7 +72,7 @@ Explanation Stages::explain(const Episode& episode, std::shared_ptr<const JointT
   fresh.joints = std::move(guess);
   fresh.rows = windows_of(episode, windows_);
   fresh.paths.resize(count), fresh.gradients.resize(count);
-  fresh.chains.resize(count), fresh.of_chain.resize(count);
+  fresh.chains.resize(count), fresh.chain_residuals.resize(count);
   return renew(episode, std::move(fresh), {true, true, each(count), each(count)});
 }
 
@@ -80,7 +80,8 @@ Explanation Stages::explain(const Episode& episode, const Explanation& base, con
   const JointTrace& joints = *base.joints;
   if (reach.line && joints.estimated)
     return explain(episode, reach.path ? without_nearby(joints) : base.joints);
-  if (reach.joints || (reach.line && joints.by_lines) || (reach.bones && joints.by_bones))
+  if (reach.joints || (reach.line && joints.depends_on_tendons) ||
+      (reach.bones && joints.depends_on_bodies))
     return explain(episode);
   Touched touched{false, reach.bones, {}, {}};
   if (reach.path) touched.paths = {*reach.path};
@@ -89,12 +90,12 @@ Explanation Stages::explain(const Episode& episode, const Explanation& base, con
 }
 
 ChainTrace Stages::chain(const Episode& episode, std::size_t a, const PathTrace& path,
-                         const ChainTrace* near) const {
+                         const ChainTrace* other) const {
   const erp::Actuator& actuator = equipped_.robot.actuators[a];
   return trace({equipped_.robot.motor_of(actuator), actuator,
                 effects::Acting(equipped_.acting, actuator.name, effects::Seat::actuator),
                 bones_.start_m(a), shaft_step_rad(equipped_.robot, actuator)},
-               episode.actuators[a], path, episode.period_s, windows_.speed_half_width_s, near);
+               episode.actuators[a], path, episode.period_s, windows_.speed_half_width_s, other);
 }
 
 std::vector<PathTrace> Stages::paths(const Episode& episode, const JointTrace& joints,
@@ -135,12 +136,12 @@ Explanation Stages::renew(const Episode& episode, Explanation e, const Touched& 
     const erp::Actuator& actuator = robot.actuators[a];
     e.chains[a] = keep(chain(episode, a, *e.paths[a], e.chains[a].get()));
     const Bump bump(windows_.half_width_s, episode.period_s);
-    e.of_chain[a] = keep(
+    e.chain_residuals[a] = keep(
         chain_residuals(*e.chains[a], actuator, robot.motor_of(actuator), episode, bump, e.rows));
   }
   if (touched.bones) e.bones = keep(bones(episode, *e.joints, e.rows));
   e.residuals.clear();
-  for (const auto& residuals : e.of_chain)
+  for (const auto& residuals : e.chain_residuals)
     e.residuals.insert(e.residuals.end(), residuals->begin(), residuals->end());
   add_joints(episode, e);
   return e;

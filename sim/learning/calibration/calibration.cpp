@@ -16,7 +16,7 @@ double error_rad(const Task& task, const Eigen::VectorXd& x) {
 
 namespace {
 
-/// Mean errors of joints in degrees, over poses to learn from and to check with.
+/// Mean joint errors in degrees, over training poses and over check poses.
 std::vector<training_loop::Metric> errors_of(const Candidate& candidate, const PoseSet& poses) {
   constexpr double degree = std::numbers::pi / 180;
   std::vector<training_loop::Metric> all;
@@ -40,7 +40,7 @@ Calibration::Calibration(Task task)
       best_error_rad_(pose_errors(task_.parameters.at(best_), task_.poses.learn).mean_of_all_rad),
       errors_(errors_of(task_.parameters.at(best_), task_.poses)) {}
 
-void Calibration::found(const Eigen::VectorXd& x, double error_rad) {
+void Calibration::update_best(const Eigen::VectorXd& x, double error_rad) {
   if (!(error_rad < best_error_rad_)) return;
   best_ = x, best_error_rad_ = error_rad;
   errors_ = errors_of(task_.parameters.at(best_), task_.poses);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/learning/training_loop/dice.hpp"
+#include "sim/learning/training_loop/random_stream.hpp"
 
 namespace sim::calibration {
 namespace {
 
-/// Folded back into ± bound as by mirrors.
+/// x reflected at ± bound until it lies inside.
 double reflected(double x, double bound) {
   const double turn = 4 * bound, t = std::fmod(std::fmod(x + bound, turn) + turn, turn);
   return (t <= 2 * bound ? t : turn - t) - bound;
@@ -34,25 +34,26 @@ std::vector<Individual> Evolution::offspring() const {
 }
 
 Individual Evolution::mutated(std::uint64_t number) const {
-  auto dice = training_loop::dice(options_.seed, static_cast<std::uint64_t>(generation_), number);
+  auto random =
+      training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(generation_), number);
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<std::size_t> any(0, parents_.size() - 1);
-  const Individual &parent = parents_[any(dice)], &other = parents_[any(dice)];
+  const Individual &parent = parents_[any(random)], &other = parents_[any(random)];
   Individual child{(parent.x + other.x) / 2, parent.sigma};
   const double n = static_cast<double>(child.x.size());
-  const double own = 1 / std::sqrt(2 * std::sqrt(n)), common = normal(dice) / std::sqrt(2 * n);
+  const double own = 1 / std::sqrt(2 * std::sqrt(n)), common = normal(random) / std::sqrt(2 * n);
   for (Eigen::Index i = 0; i < child.x.size(); ++i) {
     child.sigma[i] = std::sqrt(parent.sigma[i] * other.sigma[i]);
-    child.sigma[i] *= std::exp(common + own * normal(dice));
-    child.x[i] = reflected(child.x[i] + child.sigma[i] * normal(dice), options_.bound);
+    child.sigma[i] *= std::exp(common + own * normal(random));
+    child.x[i] = reflected(child.x[i] + child.sigma[i] * normal(random), options_.bound);
   }
   return child;
 }
 
-void Evolution::select(std::vector<Individual> judged) {
-  std::ranges::stable_sort(judged, {}, &Individual::error);
-  judged.resize(parents_.size());
-  parents_ = std::move(judged);
+void Evolution::select(std::vector<Individual> evaluated) {
+  std::ranges::stable_sort(evaluated, {}, &Individual::error);
+  evaluated.resize(parents_.size());
+  parents_ = std::move(evaluated);
   ++generation_;
 }
 

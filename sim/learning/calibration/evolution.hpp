@@ -3,45 +3,46 @@
 #include <cstdint>
 #include <vector>
 
-/// (µ, λ) evolution strategy, every coordinate with a step size of its own that evolves with it
-/// (Schwefel; Beyer and Schwefel 2002, the paper's 4.4):
+/// (µ, λ) evolution strategy with one self-adapting step size per coordinate (Schwefel; Beyer and
+/// Schwefel 2002, the paper's 4.4):
 ///
 ///   σ'_i = σ_i exp(τ' N(0,1) + τ N_i(0,1)),   x'_i = x_i + σ'_i N_i(0,1)
 ///   τ' = 1/√(2n),  τ = 1/√(2√n)
 ///
-/// The parents of each generation are the µ best of the λ offspring of the one before; none outlives
-/// its generation. An offspring's x is the mean of two parents', its σ their geometric mean, or step
-/// sizes would only fall (intermediate recombination, Schwefel). What falls outside the bounds is
-/// reflected.
+/// The parents of a generation are the µ best of the λ offspring of the generation before; parents
+/// do not survive. An offspring's x is the mean of two parents', its σ their geometric mean
+/// (intermediate recombination, Schwefel); without it step sizes would only decrease. Values
+/// outside the bounds are reflected.
 ///
-/// Each offspring's dice are its own, of seed, generation and number: the same on any threads.
+/// Each offspring has its own random stream, from seed, generation and number. So results do not
+/// depend on threads.
 namespace sim::calibration {
 
 struct Individual {
   Eigen::VectorXd x, sigma;
-  double error = 0;  ///< what is to be small
+  double error = 0;  ///< objective, to be minimised
 };
 
 struct EvolutionOptions {
   int parents = 6, offspring = 36;
-  double first_sigma = 0.3;  ///< of normalised coordinates; chosen
-  double bound = 3;          ///< |x_i| at most; chosen
+  double first_sigma = 0.3;  ///< initial σ_i, in normalised coordinates; chosen
+  double bound = 3;          ///< limit of |x_i|; chosen
   std::uint64_t seed = 1;
 };
 
 class Evolution {
  public:
-  /// Begins where all parents are at `first`.
+  /// All parents start at `first`.
   Evolution(const Eigen::VectorXd& first, const EvolutionOptions& options = {});
-  /// Goes on from the parents that have been chosen after so many generations.
+  /// Continues from the parents selected after `generation` generations.
   Evolution(std::vector<Individual> parents, int generation, const EvolutionOptions& options = {});
 
   int generation() const { return generation_; }
   const std::vector<Individual>& parents() const { return parents_; }
-  /// λ of them, not judged yet.
+  /// λ new individuals, not evaluated yet.
   std::vector<Individual> offspring() const;
-  /// Their errors are known: the best become parents. Ties: the first.
-  void select(std::vector<Individual> judged);
+  /// Takes the evaluated offspring; the µ best become parents. Ties keep the order.
+  void select(std::vector<Individual> evaluated);
 
  private:
   Individual mutated(std::uint64_t number) const;

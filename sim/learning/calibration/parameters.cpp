@@ -15,21 +15,21 @@ erp::Attach* end_of(erp::Tendon& tendon, bool last) {
   return std::get_if<erp::Attach>(last ? &tendon.path.back() : &tendon.path.front());
 }
 
-/// By actuator; the effects are taken out of the robot.
-std::vector<double> taken_lengths_m(erp::Robot& robot) {
-  std::vector<double> longer_m(robot.actuators.size());
+/// Length offsets by actuator; their effects are removed from the robot.
+std::vector<double> take_length_offsets_m(erp::Robot& robot) {
+  std::vector<double> length_offset_m(robot.actuators.size());
   const auto all = effects::read_effects(robot);
   robot.effects.clear();
   for (const effects::Placed& placed : all)
     if (const auto* offset = std::get_if<effects::TendonLengthOffset>(&placed.effect))
-      for (std::size_t a = 0; a < longer_m.size(); ++a)
-        longer_m[a] += robot.actuators[a].name == placed.on ? offset->length_m : 0;
+      for (std::size_t a = 0; a < length_offset_m.size(); ++a)
+        length_offset_m[a] += robot.actuators[a].name == placed.on ? offset->length_m : 0;
     else robot.effects.push_back(effects::written(placed));
-  return longer_m;
+  return length_offset_m;
 }
 
-/// What robot.xml can say at most.
-double most_longer_m() {
+/// Upper bound of `tendon_length_offset`.
+double largest_offset_m() {
   auto effect = *effects::neutral(effects::TendonLengthOffset::about.type);
   return effects::parameters(effect).front().bounds.high;
 }
@@ -44,7 +44,7 @@ bool clash(const std::vector<Parameter>& list, std::size_t actuator, Quantity wh
 }  // namespace
 
 Parameters::Parameters(erp::Robot robot, const Choice& choice)
-    : robot_(std::move(robot)), longer_m_(taken_lengths_m(robot_)) {
+    : robot_(std::move(robot)), length_offset_m_(take_length_offsets_m(robot_)) {
   for (const Vary& vary : choice.list) choose(vary);
 }
 
@@ -55,8 +55,9 @@ void Parameters::choose(const Vary& vary) {
     found = true;
     if (clash(list_, a, vary.what))
       throw xml::Errors(
-          {{vary.place, "this is chosen twice for actuator \"" + robot_.actuators[a].name + "\"",
-            "leave one <vary> of it"}});
+          {{vary.place,
+            "this quantity is chosen twice for actuator \"" + robot_.actuators[a].name + "\"",
+            "keep one <vary> for it"}});
     for (int axis = 0; axis < count(vary.what); ++axis)
       list_.push_back({a, vary.what, axis, vary.spread});
   }
@@ -82,31 +83,33 @@ std::string Parameters::name_of(const Parameter& p) const {
 }
 
 Candidate Parameters::at(const Eigen::VectorXd& x) const {
-  Candidate candidate{robot_, longer_m_};
+  Candidate candidate{robot_, length_offset_m_};
   for (std::size_t k = 0; k < list_.size(); ++k) {
     const Parameter& p = list_[k];
     const double off = p.spread * x[static_cast<Eigen::Index>(k)];
     erp::Actuator& actuator = candidate.robot.actuators[p.actuator];
-    if (p.what == Quantity::length) candidate.longer_m[p.actuator] += off;
+    if (p.what == Quantity::length) candidate.length_offset_m[p.actuator] += off;
     if (p.what == Quantity::stiffness) actuator.tendon.stiffness_N_per_m *= std::exp(off);
     if (p.what == Quantity::radius) actuator.spindle.radius_m *= std::exp(off);
     if (p.what == Quantity::attachments)
       end_of(actuator.tendon, p.axis >= 3)->at_m[static_cast<std::size_t>(p.axis % 3)] += off;
   }
-  static const double most_m = most_longer_m();
-  for (std::size_t a = 0; a < candidate.longer_m.size(); ++a)
-    if (std::abs(candidate.longer_m[a]) > most_m)
-      throw std::invalid_argument("actuator \"" + robot_.actuators[a].name +
-                                  "\": its line would be off by more than robot.xml can say");
+  static const double most_m = largest_offset_m();
+  for (std::size_t a = 0; a < candidate.length_offset_m.size(); ++a)
+    if (std::abs(candidate.length_offset_m[a]) > most_m)
+      throw std::invalid_argument(
+          "actuator \"" + robot_.actuators[a].name +
+          "\": the length offset exceeds the limit of the effect tendon_length_offset");
   return candidate;
 }
 
 erp::Robot Parameters::robot_at(const Eigen::VectorXd& x) const {
   Candidate candidate = at(x);
-  for (std::size_t a = 0; a < candidate.longer_m.size(); ++a)
-    if (candidate.longer_m[a] != 0)
-      candidate.robot.effects.push_back(effects::written(
-          {candidate.robot.actuators[a].name, effects::TendonLengthOffset{candidate.longer_m[a]}}));
+  for (std::size_t a = 0; a < candidate.length_offset_m.size(); ++a)
+    if (candidate.length_offset_m[a] != 0)
+      candidate.robot.effects.push_back(
+          effects::written({candidate.robot.actuators[a].name,
+                            effects::TendonLengthOffset{candidate.length_offset_m[a]}}));
   return candidate.robot;
 }
 

@@ -5,12 +5,12 @@
 
 #include "interfaces/robot/robot.hpp"
 
-/// What of a robot is not well known, as normalised numbers (paper, 4.4): 0 is what robot.xml says,
-/// 1 is off by the spread that is expected.
+/// The uncertain parameters of a robot as normalised numbers x_i (paper, 4.4): 0 is the value of
+/// robot.xml, 1 is off by the expected spread.
 ///
 ///   attachments   A, B: first and last point of a tendon    x_i m, each of three axes
-///   length        L_K0                                      m, beside what robot.xml makes of it:
-///                                                           its effect `tendon_length_offset`
+///   length        L_K0                                      m, added to the length from robot.xml:
+///                                                           the effect `tendon_length_offset`
 ///   stiffness     κ                                         κ exp(spread x)
 ///   radius        r of the spindle                          r exp(spread x)
 namespace sim::calibration {
@@ -22,8 +22,8 @@ struct Vary {
   static constexpr auto element = "vary";
   xml::Place place;
   Quantity what = Quantity::attachments;
-  std::string on = "*";  ///< an actuator; all of them
-  double spread = 0;     ///< m; of stiffness and radius relative
+  std::string on = "*";  ///< an actuator; "*": all
+  double spread = 0;     ///< in m; relative for stiffness and radius
   void visit(auto& v) {
     v.required("what", what);
     v("on", on);
@@ -39,42 +39,43 @@ struct Choice {
   void visit(auto& v) { v.list(list); }
 };
 
-/// One number that is looked for.
+/// One number to identify.
 struct Parameter {
   std::size_t actuator = 0;
   Quantity what = Quantity::attachments;
-  int axis = 0;  ///< of attachments: 0 … 2 of A, 3 … 5 of B
+  int axis = 0;  ///< of attachments: 0 … 2: A, 3 … 5: B
   double spread = 0;
 };
 
-/// A robot with other parameters; lengths beside those that follow from its pretensions.
+/// A robot with other parameters; its line lengths are offsets to those that follow from its
+/// pretensions.
 struct Candidate {
-  erp::Robot robot;              ///< without effects of that
-  std::vector<double> longer_m;  ///< by actuator
+  erp::Robot robot;                     ///< without its effects `tendon_length_offset`
+  std::vector<double> length_offset_m;  ///< by actuator
 };
 
 class Parameters {
  public:
-  /// Begins at the robot's lengths; its other effects stay as they are. Throws xml::Errors for an
-  /// actuator that there is not, or that is chosen twice.
+  /// Begins at the robot's line lengths; its other effects are kept. Throws xml::Errors for an
+  /// actuator that does not exist or is chosen twice.
   Parameters(erp::Robot robot, const Choice& choice);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(list_.size()); }
   const std::vector<Parameter>& list() const { return list_; }
   /// "biceps: A x, mm".
   std::string name_of(const Parameter& parameter) const;
-  /// Throws std::invalid_argument where a length is off by more than its effect may be.
+  /// Throws std::invalid_argument if a length offset exceeds the bound of its effect.
   Candidate at(const Eigen::VectorXd& x) const;
-  /// As robot.xml has it: at(0).
-  Candidate start() const { return {robot_, longer_m_}; }
-  /// The same as one robot.xml: lengths as effects `tendon_length_offset`.
+  /// The robot of robot.xml: at(0).
+  Candidate start() const { return {robot_, length_offset_m_}; }
+  /// The same as one robot.xml, with length offsets as effects `tendon_length_offset`.
   erp::Robot robot_at(const Eigen::VectorXd& x) const;
 
  private:
   void choose(const Vary& vary);
 
-  erp::Robot robot_;              ///< without its effects of length
-  std::vector<double> longer_m_;  ///< that those had
+  erp::Robot robot_;                     ///< without its effects `tendon_length_offset`
+  std::vector<double> length_offset_m_;  ///< the values of those effects
   std::vector<Parameter> list_;
 };
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/learning/training_loop/random_stream.hpp"
 #include "sim/model/actuator/musculoskeletal.hpp"
-#include "sim/learning/training_loop/dice.hpp"
 
 namespace sim::calibration {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The joints that move, among those that each actuator's muscle crosses; their places in off_rad.
+/// The movable joints that each actuator's muscle crosses, as indices into off_rad.
 std::vector<std::vector<std::size_t>> crossed_by(const erp::Robot& robot) {
   Musculoskeletal model(robot);
   const auto joints = model.tree().joints;
@@ -43,8 +43,8 @@ VectorXd scaled(const Parameters& parameters, const VectorXd& drawn, const Vecto
   return x;
 }
 
-/// One draw, scaled until it is off as asked; none: it would have to be scaled too much.
-std::optional<VectorXd> scaled_until_off(const Parameters& parameters,
+/// One draw, scaled until its errors are as requested; nullopt if the scale would exceed its limit.
+std::optional<VectorXd> scaled_to_errors(const Parameters& parameters,
                                          std::span<const StillPose> poses,
                                          std::span<const double> off_rad, const VectorXd& drawn,
                                          const std::vector<std::vector<std::size_t>>& crossed) {
@@ -73,15 +73,16 @@ VectorXd perturbed(const Parameters& parameters, std::span<const StillPose> pose
   constexpr std::uint64_t most_draws = 100;
   const auto crossed = crossed_by(parameters.start().robot);
   for (std::uint64_t draw = 0; draw < most_draws; ++draw) try {
-      auto dice = training_loop::dice(seed, draw);
+      auto random = training_loop::random_stream(seed, draw);
       std::normal_distribution<double> normal;
       VectorXd drawn(parameters.size());
-      for (double& x : drawn) x = normal(dice);
-      if (const auto x = scaled_until_off(parameters, poses, off_rad, drawn, crossed)) return *x;
-    } catch (const std::invalid_argument&) {  // it cannot stand: a point inside its pulley
+      for (double& x : drawn) x = normal(random);
+      if (const auto x = scaled_to_errors(parameters, poses, off_rad, drawn, crossed)) return *x;
+    } catch (const std::invalid_argument&) {  // no equilibrium: a point lies inside its pulley
     }
-  throw std::runtime_error("a hundred draws of seed " + std::to_string(seed) +
-                           " are not off like that; ask for less, or give <vary> more spread");
+  throw std::runtime_error(
+      "a hundred draws of seed " + std::to_string(seed) +
+      " do not reach these errors; request smaller ones, or increase the spreads of <vary>");
 }
 
 }  // namespace sim::calibration

@@ -25,10 +25,10 @@ double most_apart_rad(const Joints& a, const Pose& b) {
   return most;
 }
 
-/// The rows of one stay, and the sum of how they lie beside its first.
-class Stay {
+/// The rows of one interval at rest, summed relative to its first row.
+class StillInterval {
  public:
-  Stay(double time_s, const Joints& joints, std::size_t actuators)
+  StillInterval(double time_s, const Joints& joints, std::size_t actuators)
       : begin_s_(time_s), first_(joints), off_(joints.size()), shaft_(actuators) {}
 
   bool holds(const Joints& joints, double turns_rad) const {
@@ -75,12 +75,12 @@ std::vector<StillPose> still_poses(const recording::Table& table, const erp::Rob
   const auto& time_s = column_of(table, "time_s").values;
 
   std::vector<StillPose> poses;
-  std::optional<Stay> stay;
+  std::optional<StillInterval> interval;
   Joints joints;
   std::vector<double> shaft_rad(shafts.size());
   const auto end = [&] {
-    if (!stay || stay->lasted_s() < options.still_s) return;
-    const StillPose still = stay->mean();
+    if (!interval || interval->lasted_s() < options.still_s) return;
+    const StillPose still = interval->mean();
     Joints there = joints;
     for (std::size_t j = 0; j < there.size(); ++j) there[j].position = still.pose[j];
     if (poses.empty() || most_apart_rad(there, poses.back().pose) > options.apart_rad)
@@ -90,16 +90,16 @@ std::vector<StillPose> still_poses(const recording::Table& table, const erp::Rob
     for (std::size_t a = 0; a < shafts.size(); ++a) shaft_rad[a] = shafts[a]->values[row];
     const bool known = !std::isnan(std::accumulate(shaft_rad.begin(), shaft_rad.end(), 0.0));
     if (!recorded.read(row, joints) || !known) continue;
-    if (!stay || !stay->holds(joints, options.turns_rad)) {
+    if (!interval || !interval->holds(joints, options.turns_rad)) {
       end();
-      stay.emplace(time_s[row], joints, shafts.size());
+      interval.emplace(time_s[row], joints, shafts.size());
     }
-    stay->add(time_s[row], joints, shaft_rad);
+    interval->add(time_s[row], joints, shaft_rad);
   }
   end();
   if (poses.empty())
-    throw std::invalid_argument("the robot of this recording never stands still for " +
-                                std::to_string(options.still_s) + " s");
+    throw std::invalid_argument("the robot of this recording is never at rest for " +
+                                std::to_string(options.still_s) + " s; hold each pose longer");
   return poses;
 }
 
@@ -127,7 +127,7 @@ PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> po
 }
 
 PoseErrors pose_errors(const Candidate& candidate, std::span<const StillPose> poses) {
-  Equilibrium equilibrium(candidate.robot, candidate.longer_m);
+  Equilibrium equilibrium(candidate.robot, candidate.length_offset_m);
   std::vector<Pose> rests;
   for (const StillPose& still : poses)
     rests.push_back(equilibrium.find(still.shaft_rad, still.pose).pose);

@@ -6,10 +6,10 @@
 #include "sim/control/equilibrium.hpp"
 #include "sim/learning/calibration/parameters.hpp"
 
-/// Poses in which a robot stood still, and how far a candidate's are from them (paper, 4.4).
+/// Poses of a robot at rest, and the errors of a candidate's poses (paper, 4.4).
 namespace sim::calibration {
 
-/// One: what its actuators had wound, and where its joints were.
+/// A pose at rest: shaft angles and joint positions.
 struct StillPose {
   double time_s = 0;
   std::vector<double> shaft_rad;  ///< by actuator
@@ -17,31 +17,31 @@ struct StillPose {
 };
 
 struct StillOptions {
-  double still_s = 0.5;      ///< so long at least, its mean is the pose; chosen
-  double turns_rad = 0.005;  ///< joints that move less than that over it stand still; chosen
-  double apart_rad = 0.02;   ///< a pose that is nearer to the one before is the same; chosen
+  double still_s = 0.5;      ///< minimum duration at rest; the pose is the mean over it; chosen
+  double turns_rad = 0.005;  ///< largest joint motion that counts as rest; chosen
+  double apart_rad = 0.02;   ///< a pose nearer than that to the one before is a repetition; chosen
 };
-/// Of a recording, in the order of time. Throws std::invalid_argument naming a joint or actuator
-/// that the table has no columns of, or where nothing ever stood still.
+/// The poses at rest of a recording, in the order of time. Throws std::invalid_argument if the
+/// table lacks the columns of a joint or actuator, or if the robot is never at rest.
 std::vector<StillPose> still_poses(const recording::Table& table, const erp::Robot& robot,
                                    const StillOptions& options = {});
 
-/// Every second to check with, the others to learn from: what was led through between two poses of
-/// a plan (`erp calibrate plan`) comes after the first of them.
+/// Training poses and check poses. `split` assigns every second pose to the check: in a recording
+/// of `erp calibrate tour` these are the midway poses.
 struct PoseSet {
   std::vector<StillPose> learn, check;
 };
 PoseSet split(std::vector<StillPose> poses);
 
-/// Where the candidate would be, beside where the robot was.
+/// Errors of a candidate's poses relative to the robot's.
 struct PoseErrors {
-  std::vector<double> mean_rad;  ///< by joint that moves: of the angle between
+  std::vector<double> mean_rad;  ///< mean angle between the two, by movable joint
   double mean_of_all_rad = 0;
 };
-/// `there`: by pose, where it stood instead.
+/// `there`: the candidate's pose for each of `poses`.
 PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> poses,
                           std::span<const Pose> there);
-/// The shafts of each pose are given to the candidate; it rests where statics lets it.
+/// Errors of the candidate's static equilibria at the shaft angles of each pose.
 PoseErrors pose_errors(const Candidate& candidate, std::span<const StillPose> poses);
 
 }  // namespace sim::calibration

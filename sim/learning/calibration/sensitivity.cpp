@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Each pose's numbers one after the other.
+/// The vectors of all poses, one after the other.
 VectorXd stacked(const std::vector<VectorXd>& parts) {
   const Index each = parts.front().size();
   VectorXd all(each * std::ssize(parts));
@@ -37,7 +37,7 @@ struct Rests {
 };
 
 Rests rests_of(const Candidate& candidate, std::span<const StillPose> poses, bool compliance) {
-  Equilibrium equilibrium(candidate.robot, candidate.longer_m);
+  Equilibrium equilibrium(candidate.robot, candidate.length_offset_m);
   Rests rests;
   std::vector<VectorXd> turn;
   for (const StillPose& still : poses) {
@@ -51,26 +51,26 @@ Rests rests_of(const Candidate& candidate, std::span<const StillPose> poses, boo
   return rests;
 }
 
-/// How all poses give way to what a candidate's torques are there.
-VectorXd gives_way(const Candidate& candidate, std::span<const StillPose> poses,
-                   const Rests& rests) {
-  Equilibrium equilibrium(candidate.robot, candidate.longer_m);
+/// First-order change of all equilibria caused by a candidate's torques there.
+VectorXd pose_change(const Candidate& candidate, std::span<const StillPose> poses,
+                     const Rests& rests) {
+  Equilibrium equilibrium(candidate.robot, candidate.length_offset_m);
   std::vector<VectorXd> turn;
   for (std::size_t k = 0; k < poses.size(); ++k)
     turn.push_back(rests.compliance[k] * -equilibrium.torque_Nm(poses[k].shaft_rad, rests.pose[k]));
   return stacked(turn);
 }
 
-/// ∂f/∂x of some f(candidate), a column a parameter; backwards where forwards there is no
-/// candidate. Throws std::invalid_argument: neither way.
+/// ∂f/∂x of a function f(candidate), one column per parameter. Uses the backward difference if the
+/// forward candidate is invalid. Throws std::invalid_argument if both are.
 template <class Of>
 MatrixXd slope_of(const Parameters& parameters, const VectorXd& x, const Pool& pool, Of of) {
   constexpr double step = 1e-4;  // of a parameter's spread
   const VectorXd here = of(parameters.at(x));
   const auto quotient = [&](std::size_t k, double along) {
-    VectorXd beside = x;
-    beside[static_cast<Index>(k)] += along;
-    const VectorXd slope = (of(parameters.at(beside)) - here) / along;
+    VectorXd varied = x;
+    varied[static_cast<Index>(k)] += along;
+    const VectorXd slope = (of(parameters.at(varied)) - here) / along;
     return Pool::Numbers(slope.begin(), slope.end());
   };
   const auto columns = pool.map(static_cast<std::size_t>(x.size()), [&](std::size_t k) {
@@ -97,12 +97,12 @@ Residuals turns(const Parameters& parameters, const VectorXd& x, std::span<const
                 const Pool& pool) {
   const Rests rests = rests_of(parameters.at(x), poses, true);
   return {rests.turn_rad, slope_of(parameters, x, pool, [&](const Candidate& candidate) {
-            return gives_way(candidate, poses, rests);
+            return pose_change(candidate, poses, rests);
           })};
 }
 
 VectorXd torques_Nm(const Candidate& candidate, std::span<const StillPose> poses) {
-  Equilibrium equilibrium(candidate.robot, candidate.longer_m);
+  Equilibrium equilibrium(candidate.robot, candidate.length_offset_m);
   std::vector<VectorXd> torque;
   for (const StillPose& still : poses)
     torque.push_back(equilibrium.torque_Nm(still.shaft_rad, still.pose));
@@ -119,10 +119,10 @@ Identified identified(const MatrixXd& slope, double sigma_rad) {
   const MatrixXd scaled = slope / sigma_rad;
   MatrixXd information = scaled.transpose() * scaled;
   information.diagonal().array() += 1;
-  const MatrixXd left =
+  const MatrixXd remaining =
       information.llt().solve(MatrixXd::Identity(information.rows(), information.cols()));
   const Eigen::JacobiSVD<MatrixXd> singular(scaled);
-  return {left.diagonal().cwiseSqrt(),
+  return {remaining.diagonal().cwiseSqrt(),
           static_cast<int>((singular.singularValues().array() > 1).count())};
 }
 

@@ -3,42 +3,45 @@
 
 #include "sim/learning/calibration/calibration.hpp"
 
-/// How a candidate's poses turn with its parameters, and what it would take to hold it where the
-/// robot stood.
+/// Derivatives of a candidate's poses, and of the torques that hold it in the robot's poses, by its
+/// parameters.
 ///
-/// A candidate rests where τ(q, x) = 0. So, by the implicit function theorem,
+/// A candidate is in equilibrium where τ(q, x) = 0. By the implicit function theorem,
 ///
 ///   dq/dx = −(∂τ/∂q)⁻¹ ∂τ/∂x
 ///
-/// with both slopes by difference quotients at rest: no pose need be searched anew.
+/// with both derivatives by difference quotients at the equilibrium, so no equilibrium is searched
+/// again.
 namespace sim::calibration {
 
-/// Over all poses, one after the other, by coordinates: four a pose on the arm.
+/// Residuals of all poses, one after the other, by coordinate: four per pose on the arm.
 struct Residuals {
   Eigen::VectorXd value;
-  Eigen::MatrixXd slope;  ///< by x: a column a parameter
+  Eigen::MatrixXd slope;  ///< derivative by x: one column per parameter
 };
 
-/// From where the robot was to where the candidate rests, rad. Throws as Equilibrium.
+/// Rotations from the robot's poses to the candidate's equilibria, in rad. Throws as Equilibrium.
 Eigen::VectorXd turns_rad(const Candidate& candidate, std::span<const StillPose> poses);
-/// With slopes; the pool shares out the parameters.
+/// The same with derivatives. The pool distributes the parameters.
 Residuals turns(const Parameters& parameters, const Eigen::VectorXd& x,
                 std::span<const StillPose> poses, const Pool& pool);
 
-/// τ(q, x) where the robot was, Nm: zero for the robot itself. No pose is searched, so these are
-/// smooth where rests jump from one hollow to another.
+/// τ(q, x) in the robot's poses, in Nm; zero for the robot itself. No equilibrium is searched, so
+/// torques are smooth where the equilibrium jumps from one minimum of the potential to another.
 Eigen::VectorXd torques_Nm(const Candidate& candidate, std::span<const StillPose> poses);
 Residuals torques(const Parameters& parameters, const Eigen::VectorXd& x,
                   std::span<const StillPose> poses, const Pool& pool);
 
-/// What the poses leave open of each parameter.
+/// Posterior uncertainty of each parameter given the poses.
 ///
-///   left² = diag (JᵀJ/σ² + 1)⁻¹      prior: standard normal, as x is
+///   remaining² = diag (JᵀJ/σ² + 1)⁻¹      prior of x: standard normal
 struct Identified {
-  Eigen::VectorXd left;  ///< of each parameter's spread: 1 – the poses say nothing, 0 – all
-  int combinations = 0;  ///< of parameters that they say more of than the prior
+  /// Relative to each parameter's spread: 1: undetermined, 0: determined.
+  Eigen::VectorXd remaining;
+  /// Number of parameter combinations that the poses determine better than the prior.
+  int combinations = 0;
 };
-/// `sigma_rad`: how well angles are known and followed.
+/// `sigma_rad`: standard deviation of the measured angles.
 Identified identified(const Eigen::MatrixXd& slope, double sigma_rad);
 
 }  // namespace sim::calibration

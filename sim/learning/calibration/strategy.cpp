@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "sim/learning/calibration/evolution_learner.hpp"
-#include "sim/learning/calibration/newton_learner.hpp"
+#include "sim/learning/calibration/evolution_calibration.hpp"
+#include "sim/learning/calibration/newton_calibration.hpp"
 #ifdef ERP_WITH_PAGMO
-#include "sim/learning/calibration/cma_learner.hpp"
+#include "sim/learning/calibration/cma_calibration.hpp"
 #endif
 
 namespace sim::calibration {
@@ -15,17 +15,18 @@ std::unique_ptr<Calibration> make_calibration(Task task, const StrategyOptions& 
       .parents = o.parents, .offspring = o.offspring, .bound = o.bound, .seed = o.seed};
   switch (o.strategy) {
     case Strategy::evolution:
-      return std::make_unique<EvolutionLearner>(std::move(task), evolution);
+      return std::make_unique<EvolutionCalibration>(std::move(task), evolution);
     case Strategy::newton:
-      return std::make_unique<NewtonLearner>(std::move(task), NewtonOptions{.seed = o.seed});
+      return std::make_unique<NewtonCalibration>(std::move(task), NewtonOptions{.seed = o.seed});
     case Strategy::cma:
       break;
   }
 #ifdef ERP_WITH_PAGMO
-  return std::make_unique<CmaLearner>(std::move(task), evolution);
+  return std::make_unique<CmaCalibration>(std::move(task), evolution);
 #else
   throw std::invalid_argument(
-      "this erp was built without pagmo; install libpagmo-dev and build it again, or take another "
+      "this erp was built without pagmo; install libpagmo-dev and build it again, or choose "
+      "another "
       "strategy");
 #endif
 }

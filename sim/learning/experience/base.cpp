@@ -12,8 +12,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double per_drive = 4;    ///< neighbours for each drive; chosen
-constexpr double believed = 0.02;  ///< λ, as a share of the neighbours' own scatter; chosen
+constexpr double per_drive = 4;        ///< neighbours for each drive; chosen
+constexpr double prior_weight = 0.02;  ///< λ, as a share of the neighbours' own scatter; chosen
 
 struct Weighed {
   const Experience* one = nullptr;
@@ -45,10 +45,10 @@ Moments moments_of(const std::vector<Weighed>& list, Index drives) {
   return m;
 }
 
-/// argmin of the scatter about a line, and of how far that is from what is believed.
+/// Ridge regression towards a prior: argmin Σ w |ΔX − H Δs|² + λ |H − prior|².
 MatrixXd slope(const Moments& m, const MatrixXd& prior) {
   const Index n = m.squares.rows();
-  const double lambda = std::max(1e-12, believed * m.squares.trace() / static_cast<double>(n));
+  const double lambda = std::max(1e-12, prior_weight * m.squares.trace() / static_cast<double>(n));
   const MatrixXd left = m.squares + lambda * MatrixXd::Identity(n, n);
   return left.ldlt().solve((m.mixed + lambda * prior).transpose()).transpose();
 }
@@ -60,8 +60,8 @@ std::vector<Weighed> all_of(const std::vector<Experience>& experiences, int star
   return list;
 }
 
-/// Metres a V s: what a scale is worth, to measure how near two experiences are.
-double exchange(const Moments& m) {
+/// Conversion of scales to metres, in m/(V s), for the distance between two experiences.
+double metres_per_scale(const Moments& m) {
   const double spread = m.squares.trace();
   return spread > 0 ? std::sqrt(m.scatter_m2 / spread) : 0;
 }
@@ -87,17 +87,17 @@ VectorXd Base::freedom(int start) const {
   return moments_of(all_of(all_, start), drives_).squares.diagonal();
 }
 
-Base::Line Base::line_about(int start, const Vector3d& place_m) const {
+Base::Line Base::line_near(int start, const Vector3d& place_m) const {
   std::vector<Weighed> list = all_of(all_, start);
   if (list.empty()) return {Vector3d::Zero(), VectorXd::Zero(drives_), MatrixXd::Zero(3, drives_)};
   const Moments whole = moments_of(list, drives_);
-  const double worth = exchange(whole);
+  const double metres = metres_per_scale(whole);
   const Experience& nearest = *std::ranges::min_element(list, {}, [&](const Weighed& w) {
                                  return (w.one->end_m - place_m).squaredNorm();
                                })->one;
   for (auto& [one, distance] : list)
     distance = (one->end_m - place_m).squaredNorm() +
-               worth * worth * (one->scales_Vs - nearest.scales_Vs).squaredNorm();
+               metres * metres * (one->scales_Vs - nearest.scales_Vs).squaredNorm();
   std::ranges::sort(list, {}, &Weighed::weight);
   list.resize(std::min(list.size(), static_cast<std::size_t>(per_drive * double(drives_))));
   const double farthest = 1.01 * list.back().weight;  // tricube (Cleveland 1979)
@@ -108,11 +108,11 @@ Base::Line Base::line_about(int start, const Vector3d& place_m) const {
 }
 
 MatrixXd Base::influence(int start, const Vector3d& place_m) const {
-  return line_about(start, place_m).influence;
+  return line_near(start, place_m).influence;
 }
 
 VectorXd Base::inverse(int start, const Vector3d& target_m) const {
-  const Line line = line_about(start, target_m);
+  const Line line = line_near(start, target_m);
   return line.scales_Vs +
          weighted_inverse(line.influence, freedom(start)) * (target_m - line.place_m);
 }

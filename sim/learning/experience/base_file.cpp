@@ -13,8 +13,8 @@ void expect(bool right, const xml::Place& place, const std::string& what) {
     throw std::invalid_argument(place.file + ":" + std::to_string(place.line) + ": " + what);
 }
 
-std::string unequal(std::size_t found, std::ptrdiff_t wanted, const std::string& of) {
-  return std::to_string(found) + " numbers, but there are " + std::to_string(wanted) + " " + of;
+std::string unequal(std::size_t found, std::ptrdiff_t expected, const std::string& of) {
+  return std::to_string(found) + " numbers, but there are " + std::to_string(expected) + " " + of;
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void check(const BaseFile& file, Eigen::Index muscles) {
          "an <experience_base> has at least one <drive> and one <start>");
   for (const StartRow& start : file.starts.all)
     expect(std::ssize(start.line_m) == muscles, start.place,
-           unequal(start.line_m.size(), muscles, "muscles: learnt with another robot?"));
+           unequal(start.line_m.size(), muscles, "muscles; use the base of this robot"));
   for (const ExperienceRow& row : file.experiences.all) {
     expect(row.scales_Vs.size() == file.drives.all.size(), row.place,
            unequal(row.scales_Vs.size(), std::ssize(file.drives.all), "drives"));
@@ -76,7 +76,7 @@ double peak_V(const BaseFile& file, const Eigen::VectorXd& scales_Vs) {
   return peak;
 }
 
-/// Patterns are linear in a common factor of the scales, so that one division does it.
+/// Voltages are proportional to a common factor of the scales, so one division suffices.
 Eigen::VectorXd within_voltage(const BaseFile& file, const Eigen::VectorXd& scales_Vs) {
   const double peak = peak_V(file, scales_Vs);
   return peak > file.pattern_V ? Eigen::VectorXd(scales_Vs * (file.pattern_V / peak)) : scales_Vs;

@@ -3,10 +3,10 @@
 #include "sim/learning/experience/reach.hpp"
 #include "sim/model/skeleton/hand.hpp"
 
-/// All that a reach needs, as a file: `<experience_base>`.
+/// Everything that a reach needs, as a file: `<experience_base>`.
 namespace sim::experience {
 
-/// Where reaches start: `<start line_m="…"/>`, by actuator.
+/// A starting posture: `<start line_m="…"/>`, line lengths by actuator.
 struct StartRow {
   static constexpr auto element = "start", plural = "starts";
   xml::Place place;
@@ -28,9 +28,10 @@ struct ExperienceRow {
 struct BaseFile {
   static constexpr auto element = "experience_base";
   xml::Place place;
-  int rounds = 0;  ///< of the lesson that wrote it
+  int rounds = 0;  ///< completed rounds of the training that wrote it
   std::string seed;
-  double pattern_V = 10;  ///< no muscle is given more by a pattern; more is out of reach
+  /// Largest pattern voltage of a muscle; targets that need more are out of reach.
+  double pattern_V = 10;
   ReachTimes times;
   HandConfig hand;
   xml::Plural<Burst> bursts;
@@ -49,17 +50,17 @@ struct BaseFile {
 
 Base base_of(const BaseFile& file);
 std::vector<ExperienceRow> rows_of(const Base& base);
-/// Throws std::invalid_argument, naming place, value and what is expected: of other muscles, an
-/// experience of other drives or of a start that there is not, no start at all.
+/// Throws std::invalid_argument with place, value and expected value if the number of muscles or
+/// drives differs, if an experience names a start that does not exist, or if there is no start.
 void check(const BaseFile& file, Eigen::Index muscles);
 
-/// A reach from a start with such scales. `file` as checked.
+/// A reach from a start with the given scales. `file` must have passed `check`.
 Reach reach_with(const BaseFile& file, int start, const Eigen::Vector3d& target_m,
                  const Eigen::VectorXd& scales_Vs, std::shared_ptr<const Feedback> feedback);
 
-/// The most that a pattern of such scales gives a muscle, V.
+/// Largest voltage that a pattern with these scales applies to any muscle, in V.
 double peak_V(const BaseFile& file, const Eigen::VectorXd& scales_Vs);
-/// Scaled down as a whole until that is no more than `pattern_V`.
+/// The scales, reduced by a common factor if their peak voltage exceeds `pattern_V`.
 Eigen::VectorXd within_voltage(const BaseFile& file, const Eigen::VectorXd& scales_Vs);
 
 }  // namespace sim::experience

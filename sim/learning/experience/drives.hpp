@@ -4,9 +4,10 @@
 
 namespace sim::experience {
 
-/// A drive of each degree of freedom of the joints: muscles in proportion to how much their lines
-/// shorten as it turns, where the robot starts; the most is 1. Of a ball joint one about each of the
-/// child's axes. Throws std::invalid_argument as Musculoskeletal does.
+/// One drive per degree of freedom of the joints. A muscle's share is proportional to how much its
+/// line shortens when the joint turns in the starting posture; the largest share is 1. A ball joint
+/// has one drive about each of the child's axes. Throws std::invalid_argument as Musculoskeletal
+/// does.
 std::vector<Drive> drives_of(const erp::Robot& robot);
 
 }  // namespace sim::experience

@@ -5,7 +5,7 @@
 #include "interfaces/xml/fields.hpp"
 #include "sim/learning/experience/base.hpp"
 
-/// What is superimposed when the pattern has ended and the hand is still off by ΔX.
+/// Feedback voltages that correct the remaining offset ΔX of the hand after the pattern has ended.
 namespace sim::experience {
 
 enum class FeedbackKind { none, linear, fuzzy };
@@ -13,20 +13,20 @@ enum class FeedbackKind { none, linear, fuzzy };
 class Feedback {
  public:
   virtual ~Feedback() = default;
-  /// By drive. `off_m` is target less hand, `off_m_per_s` how that changes.
+  /// Voltage by drive. `off_m` is target minus hand position, `off_m_per_s` its rate of change.
   virtual Eigen::VectorXd drives_V(const Eigen::Vector3d& off_m,
                                    const Eigen::Vector3d& off_m_per_s) const = 0;
 };
 
-/// ΔV = b K ΔX (eq. 10): K the weighted inverse of the influence about the stored experience that is
-/// nearest to the target; b, 1/s, how fast it closes.
+/// ΔV = b K ΔX (eq. 10): K is the weighted inverse of the influence near the stored experience that
+/// is nearest to the target; b, in 1/s, is the rate at which the offset decreases.
 std::unique_ptr<Feedback> linear_feedback(const Base& base, int start,
                                           const Eigen::Vector3d& target_m, double closing_per_s);
 
-/// ΔV = K_Jac ΔV_fuzzy (eq. 9). K_Jac: the same inverse of the whole base's influence, scaled so that
-/// its largest number is 1; ΔV_fuzzy, V, by the rules of a file in the FuzzyLite language, for each of
-/// x, y, z: inputs off_m, off_m_per_s, output voltage_V. Throws std::invalid_argument: a file that
-/// cannot be read, or has others.
+/// ΔV = K_Jac ΔV_fuzzy (eq. 9). K_Jac is the weighted inverse of the whole base's influence, scaled
+/// so that its largest element is 1. ΔV_fuzzy, in V, follows for each of x, y, z from the rules of
+/// a file in the FuzzyLite language with inputs off_m, off_m_per_s and output voltage_V. Throws
+/// std::invalid_argument if the file cannot be read or has other variables.
 std::unique_ptr<Feedback> fuzzy_feedback(const Base& base, int start, const std::string& fll_file);
 
 }  // namespace sim::experience

@@ -5,10 +5,10 @@
 #include "sim/control/motor_inverse.hpp"
 #include "sim/learning/experience/reach.hpp"
 
-/// From what muscles are asked to what their ECUs are asked.
+/// Converts muscle commands to ECU commands.
 namespace sim::experience {
 
-struct Asked {
+struct EcuReference {
   erp::Mode mode = erp::Mode::off;
   double reference = 0;  ///< m or V
 };
@@ -21,18 +21,19 @@ class Motors {
           {MotorInverse(robot.motor_of(a), a.spindle.radius_m, creep_rad_per_s),
            1 / (robot.motor_of(a).back_emf_V_s_per_rad * robot.motor_of(a).gear_ratio)});
   }
-  /// A voltage comes on top of what the tension takes: the shaft turns at the speed that it would
-  /// have without load.
-  Asked ask(std::size_t muscle, const Wanted& wanted, double tension_N) const {
-    const double value = wanted.by_muscle[static_cast<Eigen::Index>(muscle)];
-    if (wanted.lengths) return {erp::Mode::length, value};
+  /// A voltage command is added to the voltage that holds the tension: the shaft turns as fast as
+  /// without load.
+  EcuReference ecu_reference(std::size_t muscle, const MuscleCommand& command,
+                             double tension_N) const {
+    const double value = command.by_muscle[static_cast<Eigen::Index>(muscle)];
+    if (command.lengths) return {erp::Mode::length, value};
     const Law& law = laws_[muscle];
     return {erp::Mode::voltage,
             law.inverse.voltage_V(tension_N, law.speed_rad_per_s_per_V * value, 0)};
   }
 
  private:
-  static constexpr double creep_rad_per_s = 0.005;  // a millimetre of offset asks for 0.01; chosen
+  static constexpr double creep_rad_per_s = 0.005;  // an offset of 1 mm commands 0.01 rad/s; chosen
   struct Law {
     MotorInverse inverse;
     double speed_rad_per_s_per_V;

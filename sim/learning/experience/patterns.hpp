@@ -5,18 +5,21 @@
 
 #include "interfaces/xml/plural.hpp"
 
-/// Voltage patterns after electromyograms of fast reaches, shared among muscles and scaled.
+/// Voltage patterns modelled on electromyograms of fast reaches, distributed over muscles and
+/// scaled.
 ///
 ///   V_m(t) = Σ_d s_d w_md e±(t),   ∫ e± dt = 1
 ///
-/// A drive d is a set of muscles that are wound up and let out together, in shares w_md: one of each
-/// degree of freedom. e₊ is the pattern of muscles that are wound up, the agonists, e₋ of those that
-/// are let out. Both are sums of bursts, raised cosines. s_d, V s, is all that is chosen for a reach.
+/// A drive d is the set of muscles that move one degree of freedom, with shares w_md. e₊ is the
+/// pattern of the agonists, whose lines are wound up; e₋ is that of the antagonists, whose lines
+/// are paid out. Both are sums of bursts (raised cosines). A reach is parametrised by the scales
+/// s_d alone, in V s.
 namespace sim::experience {
 
 enum class Role { agonist, antagonist };
 
-/// `<burst of="agonist" at_s="0" for_s="0.3" share="1"/>`; of an antagonist a negative share brakes.
+/// `<burst of="agonist" at_s="0" for_s="0.3" share="1"/>`. A negative share of an antagonist
+/// brakes.
 struct Burst {
   static constexpr auto element = "burst", plural = "pattern";
   xml::Place place;
@@ -30,7 +33,8 @@ struct Burst {
   }
 };
 
-/// `<drive name="elbow" shares="0 0 1 -1 …"/>`: by actuator; positive where the muscle is wound up.
+/// `<drive name="elbow" shares="0 0 1 -1 …"/>`; shares by actuator, positive if the line is wound
+/// up.
 struct Drive {
   static constexpr auto element = "drive", plural = "drives";
   xml::Place place;
@@ -42,12 +46,12 @@ struct Drive {
 class Patterns {
  public:
   Patterns() = default;
-  /// Throws std::invalid_argument: bursts of a role that sum up to nothing, or none.
+  /// Throws std::invalid_argument if the bursts of a role are missing or sum up to zero or less.
   explicit Patterns(std::vector<Burst> bursts);
 
   /// e±, 1/s.
   double at(Role role, double time_s) const;
-  /// When the last burst has ended.
+  /// End of the last burst.
   double end_s() const { return end_s_; }
 
  private:
@@ -55,11 +59,11 @@ class Patterns {
   double sum_[2] = {0, 0}, end_s_ = 0;
 };
 
-/// V by muscle, of drives (muscles × drives) scaled so.
+/// Voltages by muscle, in V. `drives` is muscles × drives.
 Eigen::VectorXd voltages_V(const Patterns& patterns, const Eigen::MatrixXd& drives,
                            const Eigen::VectorXd& scales_Vs, double time_s);
 
-/// Muscles × drives. Throws std::invalid_argument: a drive that has not a share for each muscle.
+/// Muscles × drives. Throws std::invalid_argument if a drive lacks a share for each muscle.
 Eigen::MatrixXd matrix_of(const std::vector<Drive>& drives, Eigen::Index muscles);
 
 }  // namespace sim::experience

@@ -29,8 +29,9 @@ double Reach::length_s() const {
   return HUGE_VAL;
 }
 
-/// The place at the end of a phase is the mean of its last moments; a tremor in it is thus evened out.
-void Reach::watch(double time_s, const std::optional<Vector3d>& hand_m) {
+/// The hand position at the end of a phase is the mean over its last `mean_s`, which averages out
+/// tremor.
+void Reach::track_hand(double time_s, const std::optional<Vector3d>& hand_m) {
   constexpr double smooth_s = 0.1;  // of the rate; chosen
   if (!hand_m) return hand_m_.reset(), rate_m_per_s_.setZero(), void();
   const double dt_s = time_s - last_s_;
@@ -58,13 +59,13 @@ void Reach::next() {
   }
 }
 
-Wanted Reach::lead(double into_s) const {
+MuscleCommand Reach::guide(double into_s) const {
   const double done = least_jerk(into_s / times_.way_s).done;
   return {true, from_line_m_ + done * (plan_.start_line_m - from_line_m_)};
 }
 
-/// Where the hand is not known, nothing is asked.
-Wanted Reach::correct() {
+/// Zero voltage if the hand position is not known.
+MuscleCommand Reach::correct() {
   if (!hand_m_) return {false, VectorXd::Zero(drives_.rows())};
   VectorXd drives_V = plan_.feedback->drives_V(plan_.target_m - *hand_m_, -rate_m_per_s_);
   const double most_V = drives_V.cwiseAbs().maxCoeff();
@@ -72,14 +73,15 @@ Wanted Reach::correct() {
   return {false, drives_ * drives_V};
 }
 
-Wanted Reach::step(double time_s, const VectorXd& line_m, const std::optional<Vector3d>& hand_m) {
+MuscleCommand Reach::step(double time_s, const VectorXd& line_m,
+                          const std::optional<Vector3d>& hand_m) {
   if (!begun_) begun_ = true, begin_s_ = last_s_ = time_s, from_line_m_ = line_m;
-  watch(time_s, hand_m);
+  track_hand(time_s, hand_m);
   last_s_ = time_s;
   while (phase_ != Phase::rest && time_s >= begin_s_ + length_s()) next();
   switch (phase_) {
     case Phase::way:
-      return lead(time_s - begin_s_);
+      return guide(time_s - begin_s_);
     case Phase::pattern:
       return {false, voltages_V(patterns_, drives_, plan_.scales_Vs, time_s - begin_s_)};
     case Phase::correct:

@@ -6,23 +6,25 @@
 #include "sim/learning/experience/feedback.hpp"
 #include "sim/learning/experience/patterns.hpp"
 
-/// One reach as it goes on in time; the same in the simulator without a bus and on a live graph. Pure:
-/// time is an argument.
+/// One reach over time. The simulator without a bus and a live graph run the same code. Pure: time
+/// is an argument.
 ///
-///   way      lines are led to those of the start, by the ECUs' length laws, and rest there
-///   pattern  the scaled voltage patterns, then no voltage while the arm settles
-///   correct  feedback on what the hand is off
-///   rest     no voltage: gears hold
+///   way      the ECUs' length laws move the lines to the start and hold them there
+///   pattern  the scaled voltage patterns, then zero voltage while the arm settles
+///   correct  feedback on the offset of the hand
+///   rest     zero voltage: the gears hold
 ///
-/// Voltages are those beyond what each shaft needs to stand still under its tension
-/// (sim/control/motor_inverse.hpp), so that 0 holds still and the sum over time is what is wound up.
+/// Voltages are relative to the voltage that keeps each shaft still under its tension
+/// (sim/control/motor_inverse.hpp): 0 holds the shaft, and the integral over time is the line wound
+/// up.
 namespace sim::experience {
 
 struct ReachTimes {
   double way_s = 1.5, still_s = 0.5;     ///< chosen
   double settle_s = 1.5, correct_s = 4;  ///< chosen
-  double mean_s = 0.1;                   ///< of the hand's place, at the end of each; chosen
-  double feedback_V = 3;  ///< no drive is given more by feedback: scaled down; chosen
+  double mean_s = 0.1;  ///< averaging time of the hand position at the end of a phase; chosen
+  /// Limit of the feedback voltage of a drive; larger ones are scaled down; chosen.
+  double feedback_V = 3;
   void visit(auto& v) {
     v("way_s", way_s, xml::positive);
     v("still_s", still_s, xml::positive);
@@ -33,8 +35,8 @@ struct ReachTimes {
   }
 };
 
-/// What muscles are asked: lengths of lines, m, or voltages.
-struct Wanted {
+/// A command to the muscles: line lengths in m, or voltages.
+struct MuscleCommand {
   bool lengths = true;
   Eigen::VectorXd by_muscle;
 };
@@ -45,30 +47,30 @@ class Reach {
     Eigen::VectorXd start_line_m;  ///< by muscle
     Eigen::VectorXd scales_Vs;     ///< by drive
     Eigen::Vector3d target_m;
-    std::shared_ptr<const Feedback> feedback;  ///< none: there is no phase `correct`
+    std::shared_ptr<const Feedback> feedback;  ///< nullptr: the phase `correct` is skipped
   };
-  /// Begins at its first `step`. `drives` muscles × drives.
+  /// The reach begins at the first `step`. `drives` is muscles × drives.
   Reach(Patterns patterns, Eigen::MatrixXd drives, const ReachTimes& times, Plan plan);
 
-  /// Lines as they are now, and the hand where it is known. Times rise.
-  Wanted step(double time_s, const Eigen::VectorXd& line_m,
-              const std::optional<Eigen::Vector3d>& hand_m);
+  /// Takes the current line lengths and, if known, the hand position. Times increase.
+  MuscleCommand step(double time_s, const Eigen::VectorXd& line_m,
+                     const std::optional<Eigen::Vector3d>& hand_m);
 
   bool done() const { return phase_ == Phase::rest; }
   const Plan& plan() const { return plan_; }
-  /// Where the hand was, on average, at the end of each phase; nothing: not known then.
+  /// Mean hand position at the end of each phase; nullopt if it was not known.
   const std::optional<Eigen::Vector3d>& began_m() const { return began_; }
   const std::optional<Eigen::Vector3d>& settled_m() const { return settled_; }
   const std::optional<Eigen::Vector3d>& corrected_m() const { return corrected_; }
-  bool limited() const { return limited_; }  ///< feedback asked for more than the most
+  bool limited() const { return limited_; }  ///< a feedback voltage was limited to `feedback_V`
 
  private:
   enum class Phase { way, pattern, correct, rest };
   void next();
   double length_s() const;
-  void watch(double time_s, const std::optional<Eigen::Vector3d>& hand_m);
-  Wanted lead(double into_s) const;
-  Wanted correct();
+  void track_hand(double time_s, const std::optional<Eigen::Vector3d>& hand_m);
+  MuscleCommand guide(double into_s) const;
+  MuscleCommand correct();
 
   Patterns patterns_;
   Eigen::MatrixXd drives_;

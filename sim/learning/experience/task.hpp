@@ -13,13 +13,14 @@ struct Task {
   static constexpr auto element = "acquisition";
   xml::Place place;
   std::string starts;  ///< poses.csv of postures to start from; "": where the robot starts
-  std::string rules;   ///< of fuzzy feedback, in the FuzzyLite language
-  double rest_N = 30, least_N = 20;  ///< of tensions at the start; little goes slack; chosen
+  std::string rules;   ///< file of the fuzzy feedback, in the FuzzyLite language
+  /// Tensions in the starting posture, so that few tendons go slack; chosen.
+  double rest_N = 30, least_N = 20;
   int rounds = 30, batch = 40;
-  double noise_Vs = 0.5;       ///< of every second try's scales, to explore; chosen
-  double pattern_V = 10;       ///< no muscle is given more by a pattern; chosen
-  double noise_m = 0.0002;     ///< of where the hand is seen; chosen
-  double closing_per_s = 1.5;  ///< of linear feedback; chosen
+  double noise_Vs = 0.5;       ///< exploration noise of the scales, in every second trial; chosen
+  double pattern_V = 10;       ///< largest pattern voltage of a muscle; chosen
+  double noise_m = 0.0002;     ///< measurement noise of the hand position; chosen
+  double closing_per_s = 1.5;  ///< gain b of linear feedback; chosen
   int seed = 1;
   ReachTimes times;
   HandConfig hand;

@@ -8,16 +8,16 @@ namespace sim::muscle_networks {
 
 struct BabbleOptions {
   double duration_s = 300;
-  double every_s = 0.7;  ///< from one draw to the next; chosen: limbs get somewhere meanwhile
+  double every_s = 0.7;  ///< interval between draws; chosen so that limbs move noticeably
   double least_N = 4;    ///< no tendon goes slack
-  double mean_N = 15;    ///< above the least: most pull little, few at a time much
-  double share = 0.5;    ///< of what each may pull at most
+  double mean_N = 15;    ///< above `least_N`; most muscles pull weakly, few strongly
+  double share = 0.5;    ///< upper limit, relative to the muscle's maximum tension
   std::uint64_t seed = 1;
 };
 
-/// Motor babbling: a trajectory of tendon forces for `target`, drawn anew and anew,
+/// Motor babbling: a trajectory of random tendon forces for `target`,
 ///
-///   F = F_least + x,  x exponential of mean x̄,  straight from one draw to the next
+///   F = F_least + x,  x exponential with mean x̄,  linear from one draw to the next
 ///
 /// It begins at the pretensions of robot.xml.
 recording::Table babble(const erp::Robot& robot, const BabbleOptions& options = {});

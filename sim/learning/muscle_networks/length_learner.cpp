@@ -3,7 +3,7 @@
 namespace sim::muscle_networks {
 namespace {
 
-/// P before anything was heard. The constant may be any: its entry is not held.
+/// P before the first sample. The constant is unknown, so its prior is wide.
 Eigen::MatrixXd first_p(const LengthLearner::Options& options) {
   constexpr double any_m = 1;
   Eigen::VectorXd expected_m = Eigen::VectorXd::Constant(options.units + 1, options.weight_m);
@@ -32,7 +32,7 @@ LengthLearner::LengthLearner(const PostureInputs& inputs, Index muscles, const O
       bends_(MatrixXd::Zero(options.units, inputs.coordinates())),
       jacobian_(MatrixXd::Zero(muscles, inputs.coordinates())) {}
 
-void LengthLearner::bend(std::span<const JointReading> joints) {
+void LengthLearner::compute_features(std::span<const JointReading> joints) {
   inputs_.read(joints, x_);
   const Index n = inputs_.size();
   phi_.head(options_.units).noalias() = weights_.leftCols(n) * x_;
@@ -40,8 +40,9 @@ void LengthLearner::bend(std::span<const JointReading> joints) {
   phi_[options_.units] = 1;
 }
 
-bool LengthLearner::hear(std::span<const JointReading> joints, const VectorXd& beside_base_m) {
-  bend(joints);
+bool LengthLearner::add_sample(std::span<const JointReading> joints,
+                               const VectorXd& beside_base_m) {
+  compute_features(joints);
   if ((x_ - last_x_).lpNorm<Eigen::Infinity>() < options_.move) return false;
   last_x_ = x_;
   gain_.noalias() = p_.selfadjointView<Eigen::Lower>() * phi_;
@@ -56,7 +57,7 @@ bool LengthLearner::hear(std::span<const JointReading> joints, const VectorXd& b
 }
 
 const MatrixXd& LengthLearner::jacobian(std::span<const JointReading> joints) {
-  bend(joints);
+  compute_features(joints);
   inputs_.slopes(x_, slopes_);
   bends_.noalias() = weights_.leftCols(inputs_.size()) * slopes_;
   for (Index k = 0; k < options_.units; ++k) bends_.row(k) *= 1 - phi_[k] * phi_[k];

@@ -14,7 +14,7 @@ using recording::Table;
 struct Line {
   const Column &shaft, &tension;
   TendonLaw law;
-  /// NaN: not known.
+  /// NaN if the tendon is slack.
   double path_m(std::size_t row, double taut_N) const {
     const double force_N = tension.values[row];
     return force_N > taut_N ? law.length_m(force_N, shaft.values[row]) : NAN;

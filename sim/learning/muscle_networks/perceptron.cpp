@@ -34,7 +34,7 @@ Perceptron Perceptron::drawn(Index inputs, Index units, std::uint64_t seed) {
   for (Index k = 0; k < units; ++k) {
     VectorXd at(inputs);
     for (Index i = 0; i < inputs; ++i) net.hidden(k, i) = normal(random), at[i] = place(random);
-    net.hidden(k, inputs) = -net.hidden.row(k).head(inputs).dot(at);  // it bends there
+    net.hidden(k, inputs) = -net.hidden.row(k).head(inputs).dot(at);  // inflection point at `at`
   }
   return net;
 }
@@ -48,11 +48,11 @@ struct Residuals : Eigen::DenseFunctor<double> {
   Perceptron net;
   double decay;
 
-  Residuals(const Perceptron& start, const MatrixXd& inputs, const VectorXd& wanted, double weight)
+  Residuals(const Perceptron& start, const MatrixXd& inputs, const VectorXd& targets, double weight)
       : DenseFunctor(static_cast<int>(start.hidden.size() + start.output.size()),
-                     static_cast<int>(wanted.size() + start.hidden.size() + start.output.size())),
+                     static_cast<int>(targets.size() + start.hidden.size() + start.output.size())),
         x(inputs),
-        y(wanted),
+        y(targets),
         net(start),
         decay(std::sqrt(weight)) {}
 
@@ -67,7 +67,7 @@ struct Residuals : Eigen::DenseFunctor<double> {
   }
   double share() const { return 1 / std::sqrt(static_cast<double>(y.size())); }
   /// tanh(W x + b) of all samples: units × samples.
-  MatrixXd bent() const {
+  MatrixXd hidden_outputs() const {
     return ((net.hidden.leftCols(net.inputs()) * x).colwise() + net.hidden.col(net.inputs()))
         .array()
         .tanh();
@@ -75,22 +75,22 @@ struct Residuals : Eigen::DenseFunctor<double> {
   int operator()(const VectorXd& w, VectorXd& residuals) {
     unpack(w);
     residuals.head(y.size()) =
-        share() * ((net.output.head(net.units()).transpose() * bent()).transpose() - y +
+        share() * ((net.output.head(net.units()).transpose() * hidden_outputs()).transpose() - y +
                    VectorXd::Constant(y.size(), net.output[net.units()]));
     residuals.tail(w.size()) = decay * w;
     return 0;
   }
   int df(const VectorXd& w, MatrixXd& slopes) {
     unpack(w);
-    const MatrixXd t = bent();
+    const MatrixXd t = hidden_outputs();
     const Index n = y.size(), units = net.units(), inputs = net.inputs();
     slopes.setZero(n + w.size(), w.size());
     for (Index k = 0; k < units; ++k) {
-      const VectorXd bend =
+      const VectorXd slope =
           share() * net.output[k] * (1 - t.row(k).array().square()).matrix().transpose();
       for (Index i = 0; i < inputs; ++i)
-        slopes.col(i * units + k).head(n) = bend.cwiseProduct(x.row(i).transpose());
-      slopes.col(inputs * units + k).head(n) = bend;
+        slopes.col(i * units + k).head(n) = slope.cwiseProduct(x.row(i).transpose());
+      slopes.col(inputs * units + k).head(n) = slope;
       slopes.col((inputs + 1) * units + k).head(n) = share() * t.row(k).transpose();
     }
     slopes.col(w.size() - 1).head(n).setConstant(share());
@@ -109,9 +109,9 @@ double fit(Perceptron& net, const MatrixXd& x, const VectorXd& y, const FitOptio
   search.minimize(w);
   residuals.unpack(w);
   net = residuals.net;
-  VectorXd left(residuals.values());
-  residuals(w, left);
-  return left.head(y.size()).norm();
+  VectorXd remaining(residuals.values());
+  residuals(w, remaining);
+  return remaining.head(y.size()).norm();
 }
 
 }  // namespace sim::muscle_networks

@@ -16,16 +16,16 @@ struct Perceptron {
   double value(const Eigen::VectorXd& x) const;
   void gradient(const Eigen::VectorXd& x, Eigen::VectorXd& dy_dx) const;
 
-  /// Weights drawn so that the units bend at different places of −1 … 1; output 0.
+  /// Random weights with the units' inflection points spread over −1 … 1; output 0.
   static Perceptron drawn(Eigen::Index inputs, Eigen::Index units, std::uint64_t seed);
 };
 
 struct FitOptions {
   int most_steps = 200;
-  double decay = 1e-7;  ///< what the sum of squared weights counts, beside the mean square error
+  double decay = 1e-7;  ///< weight of the sum of squared weights, relative to the mean square error
 };
-/// Levenberg–Marquardt on the mean square error. `x`: inputs × samples. Returns the root mean
-/// square of what is left.
+/// Levenberg–Marquardt on the mean square error. `x`: inputs × samples. Returns the
+/// RMS residual.
 double fit(Perceptron& net, const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
            const FitOptions& options = {});
 

@@ -14,7 +14,7 @@ PostureInputs::PostureInputs(std::span<const erp::Joint> joints, const SkeletonM
     if (first < 0) continue;
     if (joint.type == erp::JointType::free)
       throw std::invalid_argument("joint \"" + joint.name +
-                                  "\" is free: lengths over it are not learnt");
+                                  "\" is free: lengths cannot be learned over a free joint");
     const bool ball = joint.type == erp::JointType::spherical;
     parts_.push_back({j, size_, first, ball});
     size_ += ball ? 9 : 2;

@@ -6,13 +6,13 @@
 #include "sim/model/skeleton/joint_reading.hpp"
 #include "sim/model/skeleton/skeleton_model.hpp"
 
-/// Where joints are, as inputs of a network; no gimbals:
+/// Joint positions as inputs of a network, without gimbal lock:
 ///
 ///   revolute   x = (cos q, sin q)
 ///   spherical  x = the nine entries of its rotation matrix R, column by column
 ///
-/// The square of the distance between points on two bodies is linear in these, so that the length of
-/// a straight muscle is nearly what a network begins with.
+/// The squared distance between points on two bodies is linear in these inputs, so the length of a
+/// straight muscle is easy to learn.
 namespace sim::muscle_networks {
 
 class PostureInputs {
@@ -22,9 +22,9 @@ class PostureInputs {
 
   int size() const { return size_; }
   int coordinates() const { return coordinates_; }
-  /// x of these joints, one reading each. No heap.
+  /// x of the given joint readings. No heap.
   void read(std::span<const JointReading> joints, Eigen::VectorXd& x) const;
-  /// ∂x/∂q at x, inputs × coordinates: of ball joints by the turn in the child's frame,
+  /// ∂x/∂q at x, inputs × coordinates: for ball joints by rotation in the child's frame,
   /// ∂R/∂ω_k = R [e_k]×. No heap.
   void slopes(const Eigen::VectorXd& x, Eigen::MatrixXd& dx_dq) const;
 

@@ -10,24 +10,24 @@ using Eigen::MatrixXd;
 
 TorqueError torque_error(const erp::Robot& robot,
                          std::span<const std::vector<JointReading>> postures,
-                         const JacobianAt& learnt, std::uint64_t seed) {
+                         const JacobianAt& learned, std::uint64_t seed) {
   constexpr double least_N = 5;
   Musculoskeletal model(robot);
   std::mt19937_64 random(seed);
   const auto muscles = static_cast<Index>(robot.actuators.size());
   Eigen::VectorXd tension_N(muscles), squares = Eigen::VectorXd::Zero(muscles);
-  double wrong = 0, whole = 0;
+  double error_squares = 0, true_squares = 0;
   for (const auto& posture : postures) {
     model.place(posture);
-    const MatrixXd off = learnt(posture) - model.jacobian();
+    const MatrixXd off = learned(posture) - model.jacobian();
     for (Index a = 0; a < muscles; ++a)
       tension_N[a] = std::uniform_real_distribution(
           least_N, robot.actuators[static_cast<std::size_t>(a)].max_tension_N / 2)(random);
-    wrong += (off.transpose() * tension_N).squaredNorm();
-    whole += (model.jacobian().transpose() * tension_N).squaredNorm();
+    error_squares += (off.transpose() * tension_N).squaredNorm();
+    true_squares += (model.jacobian().transpose() * tension_N).squaredNorm();
     squares += off.rowwise().squaredNorm() / static_cast<double>(off.cols());
   }
-  TorqueError error{std::sqrt(wrong / whole), {}};
+  TorqueError error{std::sqrt(error_squares / true_squares), {}};
   for (Index a = 0; a < muscles; ++a)
     error.moment_arm_m.push_back(std::sqrt(squares[a] / static_cast<double>(postures.size())));
   return error;

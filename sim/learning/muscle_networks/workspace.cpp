@@ -6,14 +6,14 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/control/pose_plan.hpp"
 #include "sim/model/actuator/motor.hpp"
 #include "sim/model/actuator/musculoskeletal.hpp"
-#include "sim/control/pose_plan.hpp"
 
 namespace sim::muscle_networks {
 namespace {
 
-/// Uniform in the ball of that radius.
+/// Uniform in a ball of radius `most_rad`.
 std::array<double, 3> turn_within(double most_rad, std::mt19937_64& random) {
   std::uniform_real_distribution<double> each(-most_rad, most_rad);
   for (;;)
@@ -22,7 +22,7 @@ std::array<double, 3> turn_within(double most_rad, std::mt19937_64& random) {
       return turn;
 }
 
-/// How long ways take that the motors can follow.
+/// Durations of motions that the motors can follow.
 class Pace {
  public:
   Pace(const erp::Robot& robot, double share) : model_(robot) {
@@ -31,9 +31,9 @@ class Pace {
           share * top_line_speed_m_per_s(robot.motor_of(actuator), actuator.spindle.radius_m));
   }
 
-  /// By how far each tendon's path changes over the way, as it does in its middle.
-  double takes_s(const Pose& from, const Pose& to) {
-    constexpr double least_s = 0.2, swing = 1.5;  // chosen; swing: top speed over the mean one
+  /// Computed from the change of each tendon's path, linearised at the middle of the motion.
+  double duration_s(const Pose& from, const Pose& to) {
+    constexpr double least_s = 0.2, swing = 1.5;  // chosen; swing: ratio of top to mean speed
     std::vector<JointReading> middle;
     Eigen::VectorXd u(model_.coordinates());
     const auto& joints = model_.tree().joints;
@@ -48,11 +48,11 @@ class Pace {
     }
     model_.place(middle);
     const Eigen::VectorXd change_m = model_.jacobian() * u;
-    double takes_s = least_s;
+    double duration_s = least_s;
     for (std::size_t a = 0; a < most_m_per_s_.size(); ++a)
-      takes_s = std::max(
-          takes_s, swing * std::abs(change_m[static_cast<Eigen::Index>(a)]) / most_m_per_s_[a]);
-    return takes_s;
+      duration_s = std::max(
+          duration_s, swing * std::abs(change_m[static_cast<Eigen::Index>(a)]) / most_m_per_s_[a]);
+    return duration_s;
   }
 
  private:
@@ -60,10 +60,10 @@ class Pace {
   std::vector<double> most_m_per_s_;
 };
 
-/// Poses one after the other, each where nobody has been yet.
-class Tour {
+/// A sequence of poses, each far from those passed before.
+class PoseSequence {
  public:
-  Tour(const erp::Robot& robot, const JointMotionOptions& options)
+  PoseSequence(const erp::Robot& robot, const JointMotionOptions& options)
       : joints_(robot.joints()),
         options_(options),
         workspace_(robot, options.workspace),
@@ -73,26 +73,26 @@ class Tour {
   bool done() const { return poses_.back().time_s >= options_.duration_s; }
   const std::vector<TimedPose>& poses() const { return poses_; }
 
-  /// Of some drawn poses to which the way keeps within the joints' range, the one that is farthest
-  /// from all that has been passed, for the time it takes to get there.
-  void go_on() {
+  /// Appends, among random candidates within the joints' range, the pose with the largest distance
+  /// from all passed poses per travel time.
+  void append_pose() {
     constexpr int candidates = 60;  // chosen
     std::optional<TimedPose> best;
     double best_rad_per_s = 0;
     for (int k = 0; k < candidates; ++k) {
       const Pose pose = workspace_.draw();
-      const double takes_s = pace_.takes_s(poses_.back().pose, pose);
-      const TimedPose next{poses_.back().time_s + takes_s, pose};
-      const double new_rad_per_s = apart_from_passed_rad(pose) / takes_s;
-      if (new_rad_per_s > best_rad_per_s && in_range(next))
-        best = next, best_rad_per_s = new_rad_per_s;
+      const double duration_s = pace_.duration_s(poses_.back().pose, pose);
+      const TimedPose next{poses_.back().time_s + duration_s, pose};
+      const double distance_per_time = distance_from_passed_rad(pose) / duration_s;
+      if (distance_per_time > best_rad_per_s && in_range(next))
+        best = next, best_rad_per_s = distance_per_time;
     }
-    constexpr double halt_s = 0.1;  // chosen; from a halt every way is straight
+    constexpr double halt_s = 0.1;  // chosen; after a halt the path to the next pose is straight
     poses_.push_back(best ? *best : TimedPose{poses_.back().time_s + halt_s, poses_.back().pose});
   }
 
  private:
-  double apart_from_passed_rad(const Pose& pose) const {
+  double distance_from_passed_rad(const Pose& pose) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const TimedPose& passed : poses_) {
       double square = 0;
@@ -103,7 +103,7 @@ class Tour {
     }
     return nearest;
   }
-  /// The way's end, on which a further pose has no great influence before.
+  /// Checks only the last poses, because a new pose hardly changes the path before them.
   bool in_range(const TimedPose& next) const {
     constexpr std::size_t counts = 5;  // chosen
     std::vector<TimedPose> end(poses_.end() - std::ptrdiff_t(std::min(poses_.size(), counts)),
@@ -130,11 +130,11 @@ Workspace::Workspace(const erp::Robot& robot, const WorkspaceOptions& options)
       random_(options.seed) {}
 
 Pose Workspace::draw() {
-  for (int tries = 0; tries < 1000; ++tries)
+  for (int draws = 0; draws < 1000; ++draws)
     if (const Pose pose = anywhere(); held(pose)) return pose;
   throw std::runtime_error(
-      "of a thousand postures of robot \"" + robot_.name +
-      "\" its muscles can hold none: `erp model balance` says what is missing");
+      "the muscles of robot \"" + robot_.name +
+      "\" hold none of a thousand random postures; run `erp model balance` to see what is missing");
 }
 
 Pose Workspace::anywhere() {
@@ -174,9 +174,9 @@ std::vector<std::vector<JointReading>> postures(const erp::Robot& robot, std::si
 }
 
 recording::Table joint_motion(const erp::Robot& robot, const JointMotionOptions& options) {
-  Tour tour(robot, options);
-  while (!tour.done()) tour.go_on();
-  return table_of(tour.poses(), robot);
+  PoseSequence sequence(robot, options);
+  while (!sequence.done()) sequence.append_pose();
+  return table_of(sequence.poses(), robot);
 }
 
 }  // namespace sim::muscle_networks

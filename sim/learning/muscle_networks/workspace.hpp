@@ -5,14 +5,14 @@
 #include "interfaces/recording/table.hpp"
 #include "sim/control/holding.hpp"
 
-/// The postures that a robot's muscles can hold: what learning has to cover, and is judged over.
+/// The postures that a robot's muscles can hold: the domain of learning and of its evaluation.
 namespace sim::muscle_networks {
 
 struct WorkspaceOptions {
-  double ball_rad = 1;  ///< ball joints: turned from where they start by at most so much; chosen
-  double margin_rad = 0.1;  ///< hinges: this far from their stops; chosen
-  double share = 0.5;       ///< of what each muscle may pull at most, to hold it; chosen
-  double left_Nm = 0.05;    ///< of gravity's torque that may stay without a holder; chosen
+  double ball_rad = 1;      ///< largest rotation of ball joints from their start; chosen
+  double margin_rad = 0.1;  ///< distance of hinges from their stops; chosen
+  double share = 0.5;       ///< largest holding tension, relative to the muscle's maximum; chosen
+  double left_Nm = 0.05;    ///< largest gravity torque that may remain unbalanced; chosen
   std::uint64_t seed = 1;
 };
 
@@ -21,8 +21,8 @@ class Workspace {
   /// Throws std::invalid_argument as PoseHolder does.
   explicit Workspace(const erp::Robot& robot, const WorkspaceOptions& options = {});
 
-  /// Uniform in joint angles and, of ball joints, in the rotation vector; drawn until one can be
-  /// held. Throws std::runtime_error after a thousand in vain.
+  /// Draws postures uniformly in joint angles and, for ball joints, in the rotation vector, until
+  /// one can be held. Throws std::runtime_error after a thousand draws without success.
   Pose draw();
 
  private:
@@ -37,18 +37,19 @@ class Workspace {
   std::mt19937_64 random_;
 };
 
-/// Poses as joints' readings, at rest.
+/// Random postures as joint readings at rest.
 std::vector<std::vector<JointReading>> postures(const erp::Robot& robot, std::size_t count,
                                                 const WorkspaceOptions& options = {});
 
 struct JointMotionOptions {
   WorkspaceOptions workspace;
   double duration_s = 240;
-  double share = 0.5;  ///< of its top speed, what a motor's line is wound with on the way; chosen
+  double share = 0.5;  ///< largest line speed, relative to the motor's top speed; chosen
 };
 
-/// Joint motion: poses for `joint_target` to go through without a halt, from where the robot starts;
-/// each drawn from the workspace where nobody has been yet, as fast as the motors bear.
+/// Joint motion: a sequence of poses that `joint_target` passes through without stopping, beginning
+/// at the robot's start. Each pose is drawn from the workspace far from the poses passed before;
+/// the motors' speed limits the pace.
 recording::Table joint_motion(const erp::Robot& robot, const JointMotionOptions& options = {});
 
 }  // namespace sim::muscle_networks

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// −half … half, equally far apart; the middle where there is only one.
+/// The k-th of `count` equally spaced values in −half … half; 0 if there is only one.
 double line(int k, int count, double half) {
   return count == 1 ? 0 : half * (2.0 * k / (count - 1) - 1);
 }
@@ -18,9 +18,10 @@ std::vector<Goal> goals_of(const Experiment& experiment, Eigen::Index senses) {
   std::vector<Goal> goals;
   const auto add = [&](const xml::Place& place, const VectorXd& target) {
     if (target.size() != senses)
-      throw std::invalid_argument(place.file + ":" + std::to_string(place.line) + ": a goal of " +
-                                  std::to_string(target.size()) + " senses, where there are " +
-                                  std::to_string(senses) + "; give two a camera");
+      throw std::invalid_argument(place.file + ":" + std::to_string(place.line) +
+                                  ": the goal has " + std::to_string(target.size()) +
+                                  " senses, the cameras give " + std::to_string(senses) +
+                                  "; give two per camera");
     goals.push_back({target, VectorXd::Zero(senses), {}});
   };
   for (const Grid& grid : experiment.grids)

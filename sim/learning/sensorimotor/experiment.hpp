@@ -8,13 +8,13 @@
 /// An experiment as a file: `<sensorimotor view="view.xml"> <grid …/> </sensorimotor>`.
 namespace sim::sensorimotor {
 
-/// `<grid columns="5" rows="5" half_width="0.25" half_height="0.25"/>`: goals about the middle of
-/// one camera's image, equally far apart.
+/// `<grid columns="5" rows="5" half_width="0.25" half_height="0.25"/>`: equally spaced goals
+/// about the centre of one camera's image.
 struct Grid {
   static constexpr auto element = "grid";
   xml::Place place;
   int columns = 5, rows = 5;
-  double half_width = 0, half_height = 0;  ///< in senses
+  double half_width = 0, half_height = 0;  ///< in units of the senses
   void visit(auto& v) {
     v("columns", columns, xml::Range{1, 100});
     v("rows", rows, xml::Range{1, 100});
@@ -23,7 +23,7 @@ struct Grid {
   }
 };
 
-/// `<goal at="0.1 -0.2"/>`: in senses, two a camera.
+/// `<goal at="0.1 -0.2"/>`: in units of the senses, two per camera.
 struct GoalAt {
   static constexpr auto element = "goal";
   xml::Place place;
@@ -34,8 +34,8 @@ struct GoalAt {
 struct Experiment {
   static constexpr auto element = "sensorimotor";
   xml::Place place;
-  std::string view;       ///< who looks on, beside this file
-  double noise_px = 0.1;  ///< of a marker's place in the simulator's images
+  std::string view;       ///< file of cameras and markers, relative to this file
+  double noise_px = 0.1;  ///< noise of a marker's position in the simulator's images
   int seed = 1;
   SessionOptions session;
   std::vector<Grid> grids;
@@ -45,7 +45,7 @@ struct Experiment {
     v("noise_px", noise_px, xml::at_least_zero);
     v("seed", seed, xml::Range{0, 1e9});
     v("twitches", session.twitches, xml::Range{0, 1e5});
-    v("tries", session.tries, xml::Range{0, 1e5});
+    v("tries", session.trials, xml::Range{0, 1e5});
     v("twitch_N", session.twitch_N, xml::positive);
     v("twitch_s", session.twitch_s, xml::positive);
     v("pause_s", session.pause_s, xml::positive);
@@ -59,8 +59,8 @@ struct Experiment {
   }
 };
 
-/// Grids first, row by row from the upper left. Throws std::invalid_argument: a goal that has not as
-/// many senses as there are.
+/// Grids first, row by row from the upper left. Throws std::invalid_argument if a goal has another
+/// number of senses.
 std::vector<Goal> goals_of(const Experiment& experiment, Eigen::Index senses);
 
 }  // namespace sim::sensorimotor

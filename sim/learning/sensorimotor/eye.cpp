@@ -6,7 +6,8 @@ namespace sim::sensorimotor {
 
 Eye::Eye(const cameras::ViewConfig& view, const RobotTree& tree) {
   if (view.cameras.empty() || view.markers.empty())
-    throw std::invalid_argument(view.place.file + ": no <camera>, or no <marker> to look at");
+    throw std::invalid_argument(view.place.file +
+                                ": a view needs a <camera> and a <marker>; add the missing one");
   for (const cameras::CameraConfig& camera : view.cameras) cameras_.emplace_back(camera);
   body_ = body_named(tree.names, view.markers.front().body, "a marker");
   at_m_ = vec(view.markers.front().at_m);

@@ -2,21 +2,21 @@
 
 #include <random>
 
-#include "sim/learning/training_loop/dice.hpp"
+#include "sim/learning/training_loop/random_stream.hpp"
 
 namespace sim::sensorimotor {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Session::Session(const SessionOptions& options, Learnt learnt, std::vector<Goal> goals)
-    : options_(options), learnt_(std::move(learnt)), goals_(std::move(goals)) {
-  motors_ = VectorXd::Zero(learnt_.hebb().cols());
+Session::Session(const SessionOptions& options, LearnedMap learned, std::vector<Goal> goals)
+    : options_(options), learned_(std::move(learned)), goals_(std::move(goals)) {
+  motors_ = VectorXd::Zero(learned_.hebb().cols());
 }
 
 void Session::see(double time_s, const VectorXd& senses) {
   if (last_.size() == senses.size() && (phase_ == Phase::twitch || phase_ == Phase::pause))
-    learnt_.tie(motors_, senses - last_);
+    learned_.associate(motors_, senses - last_);
   last_ = senses;
   if (time_s < end_s_ - options_.mean_s || phase_ == Phase::done) return;
   sum_ = count_++ ? VectorXd(sum_ + senses) : senses;
@@ -40,11 +40,11 @@ void Session::begin(Phase phase, double time_s) {
 void Session::next(double time_s) {
   switch (phase_) {
     case Phase::twitch:
-      learnt_.twitched(motors_);
+      learned_.twitched(motors_);
       return begin(Phase::pause, time_s);
     case Phase::pause:
       if (twitches_ < options_.twitches) return begin_twitch(time_s);
-      return begin(options_.tries > 0 && !goals_.empty() ? Phase::relax : Phase::done, time_s);
+      return begin(options_.trials > 0 && !goals_.empty() ? Phase::relax : Phase::done, time_s);
     case Phase::relax:
       return end_relaxing(time_s);
     case Phase::reach:
@@ -55,27 +55,28 @@ void Session::next(double time_s) {
 }
 
 void Session::begin_twitch(double time_s) {
-  auto dice = training_loop::dice(options_.seed, static_cast<std::uint64_t>(twitches_++));
+  auto random =
+      training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(twitches_++));
   std::uniform_int_distribution<Index> any(0, motors_.size() - 1);
   std::uniform_real_distribution<double> share(0.5, 1);
-  const Index muscle = any(dice);
-  motors_[muscle] = share(dice) * options_.twitch_N;
+  const Index muscle = any(random);
+  motors_[muscle] = share(random) * options_.twitch_N;
   begin(Phase::twitch, time_s);
 }
 
-/// Nothing was seen when it mattered: the try begins anew.
-bool Session::all_seen(double time_s) {
+/// Restarts the trial if the marker was not seen during the averaging time.
+bool Session::was_seen(double time_s) {
   if (count_ > 0) return true;
-  ++blind_;
+  ++unseen_;
   begin(Phase::relax, time_s);
   return false;
 }
 
 void Session::end_relaxing(double time_s) {
-  if (!all_seen(time_s)) return;
+  if (!was_seen(time_s)) return;
   start_ = sum_ / count_;
-  wanted_ = goals_[goal_].target - start_;
-  motors_ = learnt_.motors_N(goals_[goal_].alpha, wanted_);
+  desired_ = goals_[goal_].target - start_;
+  motors_ = learned_.motors_N(goals_[goal_].alpha, desired_);
   if (motors_.maxCoeff() > options_.most_N) {
     motors_ *= options_.most_N / motors_.maxCoeff();
     ++limited_;
@@ -84,9 +85,9 @@ void Session::end_relaxing(double time_s) {
 }
 
 void Session::end_reaching(double time_s) {
-  if (!all_seen(time_s)) return;
-  learn(goals_[goal_], wanted_, sum_ / count_ - start_, options_.reach);
-  if (++tries_ == options_.tries) tries_ = 0, ++goal_;
+  if (!was_seen(time_s)) return;
+  learn(goals_[goal_], desired_, sum_ / count_ - start_, options_.reach);
+  if (++trials_ == options_.trials) trials_ = 0, ++goal_;
   begin(goal_ < goals_.size() ? Phase::relax : Phase::done, time_s);
 }
 

@@ -1,41 +1,44 @@
 #pragma once
 #include <cstdint>
 
-#include "sim/learning/sensorimotor/learnt.hpp"
+#include "sim/learning/sensorimotor/learned_map.hpp"
 
-/// The experiment as it goes on in time: twitches, then each goal again and again from rest. The
-/// same in the simulator without a bus and on a live graph. Pure: time is an argument.
+/// The experiment over time: twitches, then several trials of each goal from rest. The simulator
+/// without a bus and a live graph run the same code. Pure: time is an argument.
 ///
-///   twitch  one muscle, drawn, contracts for a while, then all rest; what moves meanwhile is tied
-///   relax   all rest; where it then is, on average, is where a try begins
-///   reach   M is held; where it then is, on average, tells what was moved
+///   twitch  one random muscle contracts, then all muscles rest; the motion meanwhile is associated
+///   relax   all muscles rest; the mean position at the end is the start of the trial
+///   reach   M is held; the mean position at the end gives the motion achieved
 namespace sim::sensorimotor {
 
 struct SessionOptions {
-  int twitches = 40;                                   ///< 0: none, what is learnt already serves
-  int tries = 20;                                      ///< of each goal; 0: none
-  double twitch_N = 8, twitch_s = 0.5, pause_s = 1.0;  ///< of half that force to all of it; chosen
-  double relax_s = 1.5, reach_s = 1.5, mean_s = 0.2;   ///< mean: at the end of either; chosen
-  double most_N = 60;  ///< above rest; what asks for more is held there, and counted
+  int twitches = 40;  ///< 0: none; the given map is used
+  int trials = 20;    ///< of each goal; 0: none
+  /// Forces of twitches: twitch_N/2 to twitch_N; chosen.
+  double twitch_N = 8, twitch_s = 0.5, pause_s = 1.0;
+  /// `mean_s`: averaging time at the end of relax and reach; chosen.
+  double relax_s = 1.5, reach_s = 1.5, mean_s = 0.2;
+  /// Force limit above rest; trials that exceed it are scaled down and counted.
+  double most_N = 60;
   ReachOptions reach;
   std::uint64_t seed = 1;
 };
 
 class Session {
  public:
-  /// Goals' targets and α as they are to begin with.
-  Session(const SessionOptions& options, Learnt learnt, std::vector<Goal> goals);
+  /// `goals` hold the targets and the initial α.
+  Session(const SessionOptions& options, LearnedMap learned, std::vector<Goal> goals);
 
-  /// What is seen at a time. Not to be called while nothing is.
+  /// Takes the senses at a time. Not to be called while the marker is not visible.
   void see(double time_s, const Eigen::VectorXd& senses);
-  /// By muscle, above rest. Times never step back.
+  /// Forces by muscle, in N above rest. Times do not decrease.
   const Eigen::VectorXd& motors_N(double time_s);
 
   bool done() const { return phase_ == Phase::done; }
-  const Learnt& learnt() const { return learnt_; }
+  const LearnedMap& learned() const { return learned_; }
   const std::vector<Goal>& goals() const { return goals_; }
-  int limited() const { return limited_; }  ///< tries that asked for more than the most
-  int blind() const { return blind_; }      ///< tries begun again, because nothing was seen
+  int limited() const { return limited_; }  ///< trials that exceeded the force limit
+  int unseen() const { return unseen_; }    ///< trials repeated because the marker was not seen
 
  private:
   enum class Phase { twitch, pause, relax, reach, done };
@@ -44,18 +47,18 @@ class Session {
   void begin_twitch(double time_s);
   void end_relaxing(double time_s);
   void end_reaching(double time_s);
-  bool all_seen(double time_s);
+  bool was_seen(double time_s);
 
   SessionOptions options_;
-  Learnt learnt_;
+  LearnedMap learned_;
   std::vector<Goal> goals_;
   Phase phase_ = Phase::pause;
   double end_s_ = 0;
   bool begun_ = false;
-  int twitches_ = 0, tries_ = 0, limited_ = 0, blind_ = 0;
+  int twitches_ = 0, trials_ = 0, limited_ = 0, unseen_ = 0;
   std::size_t goal_ = 0;
-  Eigen::VectorXd motors_, last_, sum_, start_, wanted_;
-  int count_ = 0;  ///< in the sum
+  Eigen::VectorXd motors_, last_, sum_, start_, desired_;
+  int count_ = 0;  ///< number of terms in `sum_`
 };
 
 }  // namespace sim::sensorimotor

@@ -15,8 +15,8 @@ namespace {
 
 double distance_m(const MotorPlan& plan, const Vector3d& at_m) { return (plan.at_m - at_m).norm(); }
 
-/// Of the fourth nearest.
-double fourth_m(const std::vector<MotorPlan>& plans, const Vector3d& at_m) {
+/// Distance of the fourth nearest plan.
+double fourth_nearest_m(const std::vector<MotorPlan>& plans, const Vector3d& at_m) {
   std::vector<double> off;
   for (const MotorPlan& plan : plans) off.push_back(distance_m(plan, at_m));
   const auto k = std::min<std::size_t>(3, off.size() - 1);
@@ -24,7 +24,7 @@ double fourth_m(const std::vector<MotorPlan>& plans, const Vector3d& at_m) {
   return off[k];
 }
 
-/// β.
+/// β_k.
 std::vector<double> credits_of(const std::vector<MotorPlan>& plans, const Vector3d& target_m,
                                double basis_m) {
   std::vector<double> credits;
@@ -33,16 +33,16 @@ std::vector<double> credits_of(const std::vector<MotorPlan>& plans, const Vector
     const double off = distance_m(plan, target_m) / basis_m;
     sum += credits.emplace_back(plan.value * plan.value * std::exp(-0.5 * off * off));
   }
-  const double none = sum > 0 ? 0 : 1;  // all are worthless, or far: each as good as any other
+  const double none = sum > 0 ? 0 : 1;  // all values are zero, or all plans far away: equal credits
   for (double& credit : credits)
     credit = (credit + none) / (sum + none * static_cast<double>(plans.size()));
   return credits;
 }
 
-/// γ.
-std::vector<double> evened_out(const std::vector<double>& credits,
-                               const std::vector<MotorPlan>& plans, const Vector3d& target_m,
-                               double basis_m, double most_m) {
+/// γ_k.
+std::vector<double> balanced_weights(const std::vector<double>& credits,
+                                     const std::vector<MotorPlan>& plans, const Vector3d& target_m,
+                                     double basis_m, double most_m) {
   constexpr double epsilon = 0.1;  // chosen
   Vector3d mean_m = Vector3d::Zero();
   for (std::size_t k = 0; k < plans.size(); ++k) mean_m += credits[k] * plans[k].at_m;
@@ -51,16 +51,16 @@ std::vector<double> evened_out(const std::vector<double>& credits,
     const Vector3d off_m = plans[k].at_m - mean_m;
     scatter += credits[k] * off_m * off_m.transpose();
   }
-  const Vector3d wanted_m = target_m - mean_m;
-  const double share = std::min(1.0, most_m / std::max(wanted_m.norm(), 1e-9));
-  const Vector3d lean = scatter.ldlt().solve(share * wanted_m);
+  const Vector3d to_target_m = target_m - mean_m;
+  const double share = std::min(1.0, most_m / std::max(to_target_m.norm(), 1e-9));
+  const Vector3d lean = scatter.ldlt().solve(share * to_target_m);
   std::vector<double> shares = credits;
   for (std::size_t k = 0; k < plans.size(); ++k) shares[k] *= 1 + lean.dot(plans[k].at_m - mean_m);
   return shares;
 }
 
-/// The less valuable of the two plans that lead nearest to each other.
-std::size_t least_missed(const std::vector<MotorPlan>& plans) {
+/// The less valuable of the two plans whose places are nearest to each other.
+std::size_t least_valuable_neighbor(const std::vector<MotorPlan>& plans) {
   double least_m = HUGE_VAL;
   std::size_t found = 0;
   for (std::size_t a = 0; a < plans.size(); ++a)
@@ -73,14 +73,16 @@ std::size_t least_missed(const std::vector<MotorPlan>& plans) {
 }  // namespace
 
 Blend Bank::blend(const Vector3d& target_m) const {
-  if (plans_.empty()) throw std::invalid_argument("a bank without plans");
-  const double basis_m = std::max(options_.basis_m, fourth_m(plans_, target_m));
+  if (plans_.empty())
+    throw std::invalid_argument(
+        "a bank without plans cannot blend one; run erp learn synergy first");
+  const double basis_m = std::max(options_.basis_m, fourth_nearest_m(plans_, target_m));
   Blend blend{.plan = {.weights_m = Eigen::VectorXd::Zero(plans_.front().weights_m.size()),
                        .signal = {0, 0},
                        .at_m = target_m,
                        .value = 0},
               .credits = credits_of(plans_, target_m, basis_m)};
-  const auto shares = evened_out(blend.credits, plans_, target_m, basis_m, options_.lean_m);
+  const auto shares = balanced_weights(blend.credits, plans_, target_m, basis_m, options_.lean_m);
   for (std::size_t k = 0; k < plans_.size(); ++k) {
     blend.plan.weights_m += shares[k] * plans_[k].weights_m;
     blend.plan.signal.rise_s += blend.credits[k] * plans_[k].signal.rise_s;
@@ -99,19 +101,19 @@ void Bank::add(MotorPlan plan) { plans_.push_back(std::move(plan)); }
 
 void Bank::cut(std::size_t count) {
   while (plans_.size() > std::max<std::size_t>(1, count))
-    plans_.erase(plans_.begin() + static_cast<std::ptrdiff_t>(least_missed(plans_)));
+    plans_.erase(plans_.begin() + static_cast<std::ptrdiff_t>(least_valuable_neighbor(plans_)));
 }
 
-MotorPlan varied(MotorPlan plan, const Exploring& by, std::mt19937_64& dice) {
+MotorPlan varied(MotorPlan plan, const Exploration& by, std::mt19937_64& random) {
   constexpr double least_s = 0.3, most_s = 1.6, most_beyond = 0.4;  // chosen
   std::normal_distribution<double> normal;
-  const double all = 1 + by.weights * normal(dice);
+  const double all = 1 + by.weights * normal(random);
   for (double& weight : plan.weights_m)
-    weight = weight * all * (1 + by.weights * normal(dice)) + by.weights_m * normal(dice);
+    weight = weight * all * (1 + by.weights * normal(random)) + by.weights_m * normal(random);
   plan.signal.rise_s =
-      std::clamp(plan.signal.rise_s * std::exp(by.rise * normal(dice)), least_s, most_s);
+      std::clamp(plan.signal.rise_s * std::exp(by.rise * normal(random)), least_s, most_s);
   plan.signal.beyond =
-      std::clamp(plan.signal.beyond + by.beyond * normal(dice), -most_beyond, most_beyond);
+      std::clamp(plan.signal.beyond + by.beyond * normal(random), -most_beyond, most_beyond);
   return plan;
 }
 

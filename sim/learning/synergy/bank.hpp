@@ -6,23 +6,24 @@
 #include "interfaces/xml/fields.hpp"
 #include "sim/learning/synergy/plan.hpp"
 
-/// The stored motor plans, and how new ones come from them (paper, 5.5).
+/// The stored motor plans, and how new plans are blended from them (paper, 5.5).
 ///
 ///   β_k ∝ v_k² exp(−|x − x_k|²/(2 σ²)),   Σ β_k = 1
 ///   plan = Σ γ_k plan_k,   γ_k = β_k (1 + (x_k − x̄)ᵀ (S + ε σ²)⁻¹ (x − x̄))
 ///   v_k ← v_k + η β_k (r − v_k)
 ///
-/// x is the target, x_k where plan k brought the hand, r the reward of the trial; x̄ and S are mean and
-/// scatter of the x_k by β. γ puts right that the plans near a target do not lie about it evenly: were
-/// all linear, Σ γ_k plan_k would lead there. Beyond what is known nothing is linear: of x − x̄ no more
-/// than `lean_m` counts. σ is `basis_m`, or the distance to the fourth nearest plan where plans are few.
+/// x is the target, x_k the place that the hand reached with plan k, r the reward of the trial; x̄
+/// and S are the mean and scatter of the x_k weighted by β. γ corrects for plans that do not
+/// surround a target evenly: for a linear robot Σ γ_k plan_k reaches the target. Extrapolation is
+/// not linear, so |x − x̄| is limited to `lean_m`. σ is `basis_m`, or the distance to the fourth
+/// nearest plan if that is larger.
 namespace sim::synergy {
 
 struct BankOptions {
   double basis_m = 0.04;  ///< chosen
   double rate = 0.3;      ///< η; chosen
-  double lean_m = 0.07;   ///< chosen: plans led farther out put the torso out of joint
-  int most = 200;         ///< plans kept; chosen
+  double lean_m = 0.07;   ///< chosen: larger extrapolation dislocated the torso
+  int most = 200;         ///< capacity of the bank; chosen
   void visit(auto& v) {
     v("basis_m", basis_m, xml::positive);
     v("lean_m", lean_m, xml::at_least_zero);
@@ -36,11 +37,11 @@ struct Blend {
   std::vector<double> credits;  ///< β, by stored plan
 };
 
-/// How a plan is varied to explore.
-struct Exploring {
-  double weights = 0.1;     ///< of each weight, a share of it; and of all together
-  double weights_m = 2e-4;  ///< of each weight beside that
-  double rise = 0.1;        ///< of T, a share
+/// Standard deviations of the variation of a plan.
+struct Exploration {
+  double weights = 0.1;     ///< relative, of each weight; also of a common factor of all weights
+  double weights_m = 2e-4;  ///< absolute, of each weight
+  double rise = 0.1;        ///< relative, of T
   double beyond = 0.05;
   void visit(auto& v) {
     v("explore_weights", weights, xml::at_least_zero);
@@ -57,14 +58,17 @@ class Bank {
       : options_(options), plans_(std::move(plans)) {}
 
   const std::vector<MotorPlan>& plans() const { return plans_; }
-  /// Throws std::invalid_argument: there is no plan.
+  /// Throws std::invalid_argument if there is no plan.
   Blend blend(const Eigen::Vector3d& target_m) const;
-  /// What a blend of this bank, as it still is, was rewarded with.
+  /// Credits the contributors of a blend with its reward. The bank must not have changed since the
+  /// blend.
   void credit(const std::vector<double>& credits, double reward);
-  /// Of two plans that lead to nearly one place the less valuable one goes when there are too many.
+  /// Stores a plan.
   void add(MotorPlan plan);
+  /// Reduces the bank to its capacity.
   void trim() { cut(static_cast<std::size_t>(options_.most)); }
-  /// Leaves so many: the key synergies.
+  /// Removes plans until `count` remain: of the two plans whose places are nearest to each other,
+  /// the less valuable one is removed first.
   void cut(std::size_t count);
 
  private:
@@ -72,10 +76,11 @@ class Bank {
   std::vector<MotorPlan> plans_;
 };
 
-MotorPlan varied(MotorPlan plan, const Exploring& by, std::mt19937_64& dice);
+/// A random variation of a plan.
+MotorPlan varied(MotorPlan plan, const Exploration& by, std::mt19937_64& random);
 
-/// How many synergies the plans' weights consist of: principal components, about zero, that hold so
-/// large a share of their squares.
+/// Number of synergies in the plans' weights: uncentred principal components that explain the given
+/// share of their sum of squares.
 int components(const Bank& bank, double share);
 
 }  // namespace sim::synergy

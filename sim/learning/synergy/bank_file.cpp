@@ -40,13 +40,13 @@ std::string text_of(BankFile file, const Bank& bank) {
   return xml::write(file);
 }
 
-std::vector<std::size_t> actuators_of(const std::vector<LearntMuscle>& muscles,
+std::vector<std::size_t> actuators_of(const std::vector<LearnedMuscle>& muscles,
                                       const erp::Robot& robot) {
   std::vector<std::size_t> found;
-  for (const LearntMuscle& learnt : muscles) {
-    const auto at = std::ranges::find(robot.actuators, learnt.muscle, &erp::Actuator::name);
+  for (const LearnedMuscle& learned : muscles) {
+    const auto at = std::ranges::find(robot.actuators, learned.muscle, &erp::Actuator::name);
     if (at == robot.actuators.end())
-      refuse(learnt.place, "the robot has no muscle \"" + learnt.muscle + "\"");
+      refuse(learned.place, "the robot has no muscle \"" + learned.muscle + "\"");
     found.push_back(static_cast<std::size_t>(at - robot.actuators.begin()));
   }
   return found;

@@ -4,17 +4,17 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/plural.hpp"
 #include "interfaces/xml/xml.hpp"
-#include "sim/model/skeleton/hand.hpp"
 #include "sim/learning/synergy/bank.hpp"
 #include "sim/learning/synergy/strike.hpp"
 #include "sim/learning/synergy/trial.hpp"
+#include "sim/model/skeleton/hand.hpp"
 
-/// All that a trial needs, as a file: `<synergy_bank>`.
+/// Everything that a trial needs, as a file: `<synergy_bank>`.
 namespace sim::synergy {
 
-/// `<learnt muscle="right_biceps"/>`: a muscle that plans have a weight for; the others stay as long as
-/// they are.
-struct LearntMuscle {
+/// `<learnt muscle="right_biceps"/>`: a muscle that plans have a weight for. The lines of the
+/// others keep their length.
+struct LearnedMuscle {
   static constexpr auto element = "learnt", plural = "muscles";
   xml::Place place;
   std::string muscle;
@@ -37,14 +37,14 @@ struct PlanRow {
 struct BankFile {
   static constexpr auto element = "synergy_bank";
   xml::Place place;
-  int rounds = 0;  ///< of the lesson that wrote it
+  int rounds = 0;  ///< completed rounds of the training that wrote it
   std::string seed;
-  xml::Vec3 rest_m{};  ///< where the hand is before a trial, in the world
+  xml::Vec3 rest_m{};  ///< position of the hand before a trial, in the world
   BankOptions options;
   TrialTimes times;
   HandConfig hand;
   BottleConfig bottle;
-  xml::Plural<LearntMuscle> muscles;
+  xml::Plural<LearnedMuscle> muscles;
   xml::Plural<PlanRow> plans;
   void visit(auto& v) {
     v("rounds", rounds);
@@ -59,12 +59,12 @@ struct BankFile {
 
 Bank bank_of(const BankFile& file);
 std::vector<PlanRow> rows_of(const Bank& bank);
-/// A file's text with a bank's plans in place of its own.
+/// The text of `file` with the plans of `bank`.
 std::string text_of(BankFile file, const Bank& bank);
-/// Which actuators the learnt muscles are. Throws std::invalid_argument: one that there is not.
-std::vector<std::size_t> actuators_of(const std::vector<LearntMuscle>& muscles,
+/// Actuator indices of the learned muscles. Throws std::invalid_argument if one does not exist.
+std::vector<std::size_t> actuators_of(const std::vector<LearnedMuscle>& muscles,
                                       const erp::Robot& robot);
-/// Throws std::invalid_argument: no plan, or one that has not a weight for each muscle.
+/// Throws std::invalid_argument if there is no plan, or if a plan lacks a weight for each muscle.
 void check(const BankFile& file);
 
 }  // namespace sim::synergy

@@ -5,11 +5,12 @@
 
 /// A motor plan: one control signal, shared in weighted proportion among muscles (paper, 5.5).
 ///
-///   l_m(t) = −w_m u(t)          line lengths, led by the ECUs' length laws: open loop
+///   l_m(t) = −w_m u(t)          line lengths, commanded to the ECUs' length laws: open loop
 ///   u(t) = (1 + b) p(t/T) − b p((t − T)/T_b)
 ///
-/// p goes from 0 to 1 with the least jerk. T: how long it rises; b: by how much it goes beyond, or
-/// stays behind, until T + T_b. The w_m, metres of line wound up, are the plan's synergy.
+/// p rises from 0 to 1 with minimum jerk. T is the rise time; b is the overshoot, or if negative
+/// the undershoot, which is removed by T + T_b. The weights w_m, in metres of line wound up, are
+/// the plan's synergy.
 namespace sim::synergy {
 
 struct Signal {
@@ -22,10 +23,10 @@ struct Signal {
 };
 
 struct MotorPlan {
-  Eigen::VectorXd weights_m;  ///< by learnt muscle, positive wound up
+  Eigen::VectorXd weights_m;  ///< by learned muscle, positive: line wound up
   Signal signal;
-  Eigen::Vector3d at_m;  ///< where it brought the hand, in the world
-  double value = 1;      ///< how rewarding it has been, by itself and as a contributor
+  Eigen::Vector3d at_m;  ///< place that the hand reached, in the world
+  double value = 1;  ///< running estimate of the reward, from its own trial and as a contributor
 };
 
 }  // namespace sim::synergy

@@ -9,7 +9,7 @@
 namespace sim::synergy {
 namespace {
 
-/// Between the hand's ball and the bottle's capsule.
+/// Distance of the surfaces of the hand's sphere and the bottle's capsule.
 double gap_m(const BottleConfig& bottle, const Vec3& bottle_m, const Vec3& hand_m) {
   const double half_m = std::max(0.0, 0.5 * bottle.height_m - bottle.radius_m);
   Vec3 off_m = hand_m - bottle_m;
@@ -24,7 +24,7 @@ double speed_m_per_s(const HandPath& path, std::size_t k) {
          (path.sample_s * static_cast<double>(after - before));
 }
 
-/// Means of five points each, against the tremor of single ones.
+/// Means over 50 ms each, which reduce the tremor of single points.
 std::vector<Vec3> every_50_ms(const HandPath& path, double end_s) {
   const auto every = static_cast<std::size_t>(std::lround(0.05 / path.sample_s));
   std::vector<Vec3> means_m;
@@ -48,8 +48,8 @@ double jerks(const std::vector<Vec3>& at_m) {
 
 }  // namespace
 
-Outcome judge(const BottleConfig& bottle, const Vec3& bottle_m, const HandPath& path,
-              double end_s) {
+Outcome evaluate(const BottleConfig& bottle, const Vec3& bottle_m, const HandPath& path,
+                 double end_s) {
   Outcome outcome;
   int after = 0, stayed = 0;
   for (std::size_t k = 0; k < path.at_m.size(); ++k) {

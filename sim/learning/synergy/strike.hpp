@@ -5,21 +5,23 @@
 #include "interfaces/xml/fields.hpp"
 #include "sim/model/skeleton/pose.hpp"
 
-/// What a trial is rewarded for: striking a bottle, and staying near it (paper, 5.5 and Fig. 10).
+/// The reward of a trial: for striking a bottle, and for staying near it (paper, 5.5 and Fig. 10).
 ///
-///   r = [struck] + zone_reward · (share of the time from the signal's end on that the hand was in the zone)
+///   r = [struck] + zone_reward · (share of the time after the signal's end with the hand in the zone)
 ///
-/// A bottle is an upright capsule, the hand a ball; touching is a matter of geometry, the bottle does
-/// not move.
+/// A bottle is an upright capsule, the hand a sphere. A strike is a geometric overlap; the bottle
+/// does not move.
 namespace sim::synergy {
 
-/// `<bottle radius_m="0.0325" …/>`: sizes of what is struck, and by what; all chosen: half a litre, a palm.
+/// `<bottle radius_m="0.0325" …/>`: sizes of the bottle and of the hand; all chosen: half a litre,
+/// a palm.
 struct BottleConfig {
   static constexpr auto element = "bottle";
   xml::Place place;
   double radius_m = 0.0325, height_m = 0.2;
   double hand_m = 0.04;  ///< radius of the hand
-  double zone_m = 0.12;  ///< the hand's point is no farther from the bottle's middle: in the zone
+  /// Radius of the zone: distance of the hand's point from the bottle's centre.
+  double zone_m = 0.12;
   double zone_reward = 0.5;
   void visit(auto& v) {
     v("radius_m", radius_m, xml::positive);
@@ -30,7 +32,7 @@ struct BottleConfig {
   }
 };
 
-/// The hand's point from a plan's beginning on, equally far apart in time.
+/// Positions of the hand's point from the beginning of a plan, at a constant sampling period.
 struct HandPath {
   double sample_s = 0.01;
   std::vector<Vec3> at_m;
@@ -38,20 +40,22 @@ struct HandPath {
 
 struct Outcome {
   bool struck = false;
-  double nearest_m = HUGE_VAL;  ///< between hand and bottle; below zero where they would overlap
-  double strike_s = 0;          ///< when first; since the plan began
-  double strike_speed_m_per_s = 0;  ///< of the hand, then
-  double stayed = 0;                ///< share of the time after the signal's end, in the zone
+  /// Smallest distance of the surfaces of hand and bottle; negative: overlap.
+  double nearest_m = HUGE_VAL;
+  double strike_s = 0;              ///< time of the first strike, since the plan began
+  double strike_speed_m_per_s = 0;  ///< speed of the hand at the strike
+  double stayed = 0;  ///< share of the time after the signal's end with the hand in the zone
   double reward = 0;
 };
-/// `end_s`: of the signal. A path without points is nothing struck.
-Outcome judge(const BottleConfig& bottle, const Vec3& bottle_m, const HandPath& path, double end_s);
+/// `end_s` is the signal's end. An empty path strikes nothing.
+Outcome evaluate(const BottleConfig& bottle, const Vec3& bottle_m, const HandPath& path,
+                 double end_s);
 
-/// Where the hand is at last: the mean of its last 0.2 s.
+/// Final position of the hand: the mean of its last 0.2 s.
 Vec3 rest_of(const HandPath& path);
 
-/// Σ |jerk|² until `end_s`, by differences over 50 ms, relative to that of the straight way from the
-/// first to the last point with the least jerk, sampled alike: 1 at best.
+/// Σ |jerk|² until `end_s`, by differences over 50 ms, relative to that of the straight
+/// minimum-jerk path from the first to the last point with the same sampling. The minimum is 1.
 double relative_jerk(const HandPath& path, double end_s);
 
 }  // namespace sim::synergy

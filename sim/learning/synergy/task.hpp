@@ -1,24 +1,24 @@
 #pragma once
 #include "sim/learning/synergy/bank_file.hpp"
 
-/// What is to be learnt, as a file: `<striking poses="reaches.csv"> <hand …/> <zone …/> … </striking>`.
+/// A training task as a file: `<striking poses="reaches.csv"> <hand …/> <zone …/> … </striking>`.
 namespace sim::synergy {
 
 struct Task {
   static constexpr auto element = "striking";
   xml::Place place;
-  std::string poses;  ///< poses.csv: a rough starting plan a row, beside this file
+  std::string poses;  ///< poses.csv: one rough initial plan per row; relative to this file
   int rounds = 60, batch = 40;
-  double noise = 0.05;     ///< deviation of the signal-dependent noise, a share; chosen
-  double beyond_m = 0.08;  ///< plans that lead no farther out of the zone are kept; chosen
+  double noise = 0.05;     ///< relative standard deviation of the signal-dependent noise; chosen
+  double beyond_m = 0.08;  ///< plans that end at most this far outside the zone are stored; chosen
   int seed = 1;
-  Exploring exploring;
+  Exploration exploring;
   BankOptions options;
   TrialTimes times;
   HandConfig hand;
   ZoneConfig zone;
   BottleConfig bottle;
-  xml::Plural<LearntMuscle> muscles;
+  xml::Plural<LearnedMuscle> muscles;
   void visit(auto& v) {
     v.required("poses", poses);
     v("rounds", rounds, xml::Range{1, 1e5});

@@ -2,22 +2,25 @@
 
 #include <cmath>
 
-#include "sim/learning/training_loop/dice.hpp"
+#include "sim/learning/training_loop/random_stream.hpp"
 
 namespace sim::synergy {
 
 using Eigen::VectorXd;
 
 Trial::Trial(MotorPlan plan, const TrialTimes& times, double noise, std::uint64_t seed)
-    : plan_(std::move(plan)), times_(times), noise_(noise), dice_(training_loop::dice(seed)) {
+    : plan_(std::move(plan)),
+      times_(times),
+      noise_(noise),
+      random_(training_loop::random_stream(seed)) {
   line_m_ = noises_ = VectorXd::Zero(plan_.weights_m.size());
 }
 
 void Trial::add_noise(double dt_s) {
   constexpr double correlated_s = 0.1;  // chosen
-  const double kept = std::exp(-dt_s / correlated_s);
-  const double fresh = noise_ * std::sqrt(1 - kept * kept);
-  for (double& n : noises_) n = kept * n + fresh * normal_(dice_);
+  const double decay = std::exp(-dt_s / correlated_s);
+  const double fresh = noise_ * std::sqrt(1 - decay * decay);
+  for (double& n : noises_) n = decay * n + fresh * normal_(random_);
 }
 
 const VectorXd& Trial::step(double time_s) {
@@ -40,19 +43,19 @@ void Trial::see(double time_s, const Eigen::Vector3d& hand_m) {
   path_.at_m.push_back(hand_m);
 }
 
-Taught taught_by(const Trial& trial, const BottleConfig& bottle, const Eigen::Vector3d& rest_m,
-                 const Eigen::Vector3d& target_m) {
-  Taught taught{.outcome = judge(bottle, target_m, trial.path(), trial.end_s()),
-                .off_m = (trial.last_m() - rest_m).norm()};
-  taught.came_back = taught.off_m <= back_m;
-  if (!taught.came_back) return taught;
-  taught.credit = taught.outcome.reward;
-  MotorPlan& plan = taught.plan.emplace(trial.plan());
+TrialResult result_of(const Trial& trial, const BottleConfig& bottle, const Eigen::Vector3d& rest_m,
+                      const Eigen::Vector3d& target_m) {
+  TrialResult result{.outcome = evaluate(bottle, target_m, trial.path(), trial.end_s()),
+                     .off_m = (trial.last_m() - rest_m).norm()};
+  result.came_back = result.off_m <= back_m;
+  if (!result.came_back) return result;
+  result.credit = result.outcome.reward;
+  MotorPlan& plan = result.plan.emplace(trial.plan());
   plan.at_m = rest_of(trial.path());
   const double missed = (plan.at_m - target_m).norm() / bottle.zone_m;
-  plan.value =
-      std::exp(-2 * missed * missed) * judge(bottle, plan.at_m, trial.path(), trial.end_s()).reward;
-  return taught;
+  plan.value = std::exp(-2 * missed * missed) *
+               evaluate(bottle, plan.at_m, trial.path(), trial.end_s()).reward;
+  return result;
 }
 
 }  // namespace sim::synergy

@@ -4,33 +4,34 @@
 #include <random>
 
 #include "sim/learning/synergy/plan.hpp"
+#include "sim/learning/synergy/return_path.hpp"
 #include "sim/learning/synergy/strike.hpp"
-#include "sim/learning/synergy/way_back.hpp"
 
-/// A motor plan as it goes on in time; the same in the simulator without a bus and on a live graph.
-/// Pure: time is an argument.
+/// One motor plan over time. The simulator without a bus and a live graph run the same code. Pure:
+/// time is an argument.
 ///
-///   plan   l_m(t) = −w_m u(t) (1 + n_m(t)): signal-dependent noise n, of muscles each by itself, an
-///          Ornstein–Uhlenbeck process (Harris and Wolpert 1998: its deviation is in proportion)
-///   watch  the lines stay; what the hand does is still watched
-///   way    lines are led back to where they started, and rest
+///   plan   l_m(t) = −w_m u(t) (1 + n_m(t)): signal-dependent noise n, independent for each muscle, an
+///          Ornstein–Uhlenbeck process (Harris and Wolpert 1998: proportional standard deviation)
+///   watch  the lines keep their length; the hand is still recorded
+///   way    the lines return to where they started, and rest
 namespace sim::synergy {
 
 class Trial {
  public:
-  /// `noise`: deviation of n, a share.
+  /// `noise` is the standard deviation of n.
   Trial(MotorPlan plan, const TrialTimes& times, double noise, std::uint64_t seed);
 
-  /// By learnt muscle, m. Times rise; the robot is at rest where it started at the first.
+  /// Line lengths by learned muscle, in m. Times increase. At the first call the robot is at rest
+  /// at its start.
   const Eigen::VectorXd& step(double time_s);
-  /// Where the hand is, where that is known.
+  /// Takes the hand position. Not to be called while it is not known.
   void see(double time_s, const Eigen::Vector3d& hand_m);
 
   bool done() const { return done_; }
   const MotorPlan& plan() const { return plan_; }
-  double end_s() const { return plan_.signal.rise_s + Signal::back_s; }  ///< of the signal
-  const HandPath& path() const { return path_; }                         ///< until the way back
-  const Eigen::Vector3d& last_m() const { return last_m_; }  ///< where the hand was last seen
+  double end_s() const { return plan_.signal.rise_s + Signal::back_s; }  ///< end of the signal
+  const HandPath& path() const { return path_; }                         ///< until the return
+  const Eigen::Vector3d& last_m() const { return last_m_; }  ///< last known position of the hand
 
  private:
   double into_s(double time_s) const { return time_s - begin_s_; }
@@ -39,36 +40,36 @@ class Trial {
   MotorPlan plan_;
   TrialTimes times_;
   double noise_;
-  std::mt19937_64 dice_;
+  std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   Eigen::VectorXd line_m_, noises_;
-  std::optional<WayBack> way_;
+  std::optional<ReturnPath> way_;
   double begin_s_ = 0, last_s_ = 0;
   bool begun_ = false, done_ = false;
   HandPath path_;
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Constant(HUGE_VAL);
 };
 
-/// A hand no farther from where it started has come back, m; chosen.
+/// Largest distance of a returned hand from its start, in m; chosen.
 constexpr double back_m = 0.02;
 
-/// What a trial teaches a bank.
+/// What a bank learns from a trial.
 ///
-///   v = exp(−2 |x_led − x|²/zone²) r(x_led)
+///   v = exp(−2 |x_end − x|²/zone²) r(x_end)
 ///
-/// A plan is stored with the place x_led to which it brought the hand, valued as if that had been its
-/// target, and less the farther that is from where it was meant to lead: one that led elsewhere tells
-/// little of what plans near it do. Half the zone's radius off it is worth 0.6 of one that led there;
-/// chosen. A plan from which the hand did not come back has put the robot out of joint: it is not
-/// stored, and those that contributed to it are credited with nothing.
-struct Taught {
+/// A plan is stored with the place x_end that the hand reached. Its value v is the reward as if
+/// x_end had been the target, reduced with the distance from the actual target x: a plan that
+/// missed predicts little about plans near it. At half the zone's radius the factor is 0.6; chosen.
+/// If the hand did not return, the plan has dislocated a joint: the plan is not stored, and its
+/// contributors receive a reward of zero.
+struct TrialResult {
   Outcome outcome;
-  double off_m = 0;  ///< of the hand from where it rests, at last
+  double off_m = 0;  ///< final distance of the hand from its rest position
   bool came_back = false;
   double credit = 0;
-  std::optional<MotorPlan> plan;  ///< to be stored
+  std::optional<MotorPlan> plan;  ///< the plan to store, if any
 };
-Taught taught_by(const Trial& trial, const BottleConfig& bottle, const Eigen::Vector3d& rest_m,
-                 const Eigen::Vector3d& target_m);
+TrialResult result_of(const Trial& trial, const BottleConfig& bottle, const Eigen::Vector3d& rest_m,
+                      const Eigen::Vector3d& target_m);
 
 }  // namespace sim::synergy

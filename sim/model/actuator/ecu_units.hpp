@@ -5,7 +5,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/values.hpp"
 
-/// Between SI and the counts of an ECU, for one actuator.
+/// Conversion between SI units and the counts of an ECU, for one actuator.
 ///
 ///   shaft = encoder · 2π / (counts per rev · N)        line = −r · shaft
 ///   current = counts · range / 2^(bits−1)              voltage = duty / 1023 · supply
@@ -31,7 +31,7 @@ struct EcuUnits {
   /// The ECU's request and set-point for a reference in V, m, A or N.
   static ecu_request request(erp::Mode mode);
   std::int32_t setpoint(erp::Mode mode, double reference) const;
-  /// And back: what an ECU says it follows.
+  /// The inverse: mode and reference from the request and set-point that an ECU reports.
   static erp::Mode mode(std::uint8_t request);
   double reference(std::uint8_t request, std::int32_t setpoint) const;
 };

@@ -18,13 +18,13 @@ Vec3 ImuSensor::disturbed(const Vec3& value, double noise, double range) {
   return read;
 }
 
-ImuReading ImuSensor::look(double time_s, const BodyPose& pose, const BodyTwist& twist) {
+ImuReading ImuSensor::sample(double time_s, const BodyPose& pose, const BodyTwist& twist) {
   const Vec3 arm = pose.rotation * Vec3(imu_.at_m[0], imu_.at_m[1], imu_.at_m[2]);
   const Vec3 velocity = twist.linear_m_per_s + twist.angular_rad_per_s.cross(arm);
   Vec3 acceleration = Vec3::Zero();
-  if (looked_ && time_s > time_s_)
+  if (sampled_ && time_s > time_s_)
     acceleration = (velocity - velocity_m_per_s_) / (time_s - time_s_);
-  velocity_m_per_s_ = velocity, time_s_ = time_s, looked_ = true;
+  velocity_m_per_s_ = velocity, time_s_ = time_s, sampled_ = true;
   const auto turned_back = pose.rotation.transpose();
   return {disturbed(turned_back * (acceleration - gravity_), imu_.acceleration_noise_m_per_s2,
                     imu_.acceleration_range_m_per_s2),

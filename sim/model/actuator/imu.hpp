@@ -5,12 +5,13 @@
 #include "sim/model/actuator/noise.hpp"
 #include "sim/model/skeleton/pose.hpp"
 
-/// What an inertial unit on a body reads, in the body's axes.
+/// Reading of an inertial measurement unit (IMU) on a body, in the body's axes.
 ///
-///   f = Rᵀ ((v − v₋)/(t − t₋) − g) + noise     specific force; v of the unit's place, v₋ at its
-///   ω = Rᵀ ω_world + noise                       last look: the mean over the time between
+///   f = Rᵀ ((v − v₋)/(t − t₋) − g) + noise     specific force: the mean since the last sample;
+///   ω = Rᵀ ω_world + noise                       v: velocity of the IMU, v₋ at the last sample
 ///
-/// both rounded to q = 2 range / 2^bits and held at ± range. At its first look v = v₋: it reads −g.
+/// Both are rounded to q = 2 range / 2^bits and saturate at ± range. At the first sample v = v₋, so the
+/// reading is −g.
 /// Ignores: bias and its drift, scale and axis errors, the unit's own bandwidth.
 namespace sim {
 
@@ -21,15 +22,15 @@ struct ImuReading {
 class ImuSensor {
  public:
   ImuSensor(const erp::Imu& imu, const Vec3& gravity_m_per_s2, std::uint64_t seed);
-  /// At a time after the last look.
-  ImuReading look(double time_s, const BodyPose& pose, const BodyTwist& twist);
+  /// `time_s` must be later than the last sample.
+  ImuReading sample(double time_s, const BodyPose& pose, const BodyTwist& twist);
 
  private:
   Vec3 disturbed(const Vec3& value, double noise, double range);
   erp::Imu imu_;
   Vec3 gravity_, velocity_m_per_s_ = Vec3::Zero();
   double time_s_ = 0;
-  bool looked_ = false;
+  bool sampled_ = false;
   Noise noise_;
 };
 

@@ -74,21 +74,22 @@ int Motor::breakaway(double current_A, const MotorLoad& load) const {
   return current_A > sticks.high_A ? 1 : current_A < sticks.low_A ? -1 : 0;
 }
 
-/// One step, as a sequence of slides and rests.
+/// One step as a sequence of motions and rests.
 class MotorRun {
  public:
   MotorRun(const Motor& motor, MotorState state, double voltage_V, const MotorLoad& load,
            double dt_s)
-      : motor_(motor), x_(state), voltage_V_(voltage_V), load_(load), left_s_(dt_s) {}
+      : motor_(motor), x_(state), voltage_V_(voltage_V), load_(load), remaining_s_(dt_s) {}
 
-  /// Without events within the usual step: one multiplication. False: not so, nothing changed.
+  /// A step of the usual length without events: one multiplication. Returns false, with the state
+  /// unchanged, if there are events.
   bool plain_step() {
-    if (x_.speed_rad_per_s == 0 || left_s_ != motor_.usual_step_s_) return false;
+    if (x_.speed_rad_per_s == 0 || remaining_s_ != motor_.usual_step_s_) return false;
     const int direction = x_.speed_rad_per_s > 0 ? 1 : -1;
     const bool drives = motor_.drives(x_, load_, direction);
     const Motor::Branch& b = motor_.branches_[drives];
     const PlaneMotion motion = slide_motion(b, direction);
-    const MotorState end = moved(motion, motion.at(b.usual_step), left_s_);
+    const MotorState end = moved(motion, motion.at(b.usual_step), remaining_s_);
     const bool turns = motion.rate({1, 0}).y() * motion.rate(b.usual_step).y() < 0;
     if (turns || end.speed_rad_per_s * direction <= 0) return false;
     if (motor_.drives(end, load_, direction) != drives) return false;
@@ -103,7 +104,7 @@ class MotorRun {
                     : x_.speed_rad_per_s < 0 ? -1
                                              : motor_.breakaway(x_.current_A, load_);
     bool drives = motor_.drives(x_, load_, direction);
-    for (int events = 0; left_s_ > 0 && events < max_events; ++events) {
+    for (int events = 0; remaining_s_ > 0 && events < max_events; ++events) {
       if (direction == 0) {
         direction = rest();
         drives = motor_.drives(x_, load_, direction);
@@ -116,7 +117,8 @@ class MotorRun {
       direction = motor_.breakaway(x_.current_A, load_);
       drives = motor_.drives(x_, load_, direction);
     }
-    if (left_s_ > 0) x_.speed_rad_per_s = 0, rest_for(left_s_);  // friction has the last word
+    if (remaining_s_ > 0)
+      x_.speed_rad_per_s = 0, rest_for(remaining_s_);  // after too many events the shaft sticks
     return x_;
   }
 
@@ -133,10 +135,10 @@ class MotorRun {
     return {end.x(), end.y(), x_.shaft_rad + motion.integral(end, t_s).y()};
   }
 
-  /// Slides to the first event, or to the end of the step.
+  /// Moves until the first event or the end of the step.
   Event slide(int direction, bool drives) {
     const PlaneMotion motion = slide_motion(motor_.branches_[drives], direction);
-    double t = left_s_;
+    double t = remaining_s_;
     Event event = Event::none;
     if (const auto stop = motion.first_fall({0.0, direction}, 0, t)) t = *stop, event = Event::stop;
     const double side = drives ? direction : -direction;
@@ -145,7 +147,7 @@ class MotorRun {
         reversal && *reversal > 0 && *reversal < t)
       t = *reversal, event = Event::power_reversal;
     x_ = moved(motion, motion.at(t), t);
-    left_s_ -= t;
+    remaining_s_ -= t;
     return event;
   }
 
@@ -154,9 +156,10 @@ class MotorRun {
     const double rate_per_s = motor_.type_.resistance_ohm / motor_.type_.inductance_H;
     return end_A + (x_.current_A - end_A) * std::exp(-rate_per_s * t_s);
   }
-  void rest_for(double t_s) { x_.current_A = resting_current_A(t_s), left_s_ -= t_s; }
+  void rest_for(double t_s) { x_.current_A = resting_current_A(t_s), remaining_s_ -= t_s; }
 
-  /// Rests until the current leaves the band, or to the end. The direction it then takes.
+  /// Rests until the current leaves the friction band or the step ends. Returns the direction of the
+  /// following motion, 0 for none.
   int rest() {
     const auto [low_A, high_A] = motor_.band(load_);
     const double end_A = voltage_V_ / motor_.type_.resistance_ohm;
@@ -166,8 +169,8 @@ class MotorRun {
     const double t = direction == 0 ? std::numeric_limits<double>::infinity()
                                     : motor_.type_.inductance_H / motor_.type_.resistance_ohm *
                                           std::log((x_.current_A - end_A) / (edge_A - end_A));
-    if (t >= left_s_) return rest_for(left_s_), 0;
-    left_s_ -= std::max(t, 0.0);
+    if (t >= remaining_s_) return rest_for(remaining_s_), 0;
+    remaining_s_ -= std::max(t, 0.0);
     x_.current_A = edge_A;
     return direction;
   }
@@ -176,7 +179,7 @@ class MotorRun {
   MotorState x_;
   double voltage_V_;
   const MotorLoad& load_;
-  double left_s_;
+  double remaining_s_;
 };
 
 MotorState step(const Motor& motor, MotorState state, double voltage_V, const MotorLoad& load,

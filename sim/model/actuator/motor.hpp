@@ -4,32 +4,32 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/model/actuator/plane_system.hpp"
 
-/// DC motor, gearbox and spindle (paper, eq. 3), solved exactly while V and F are held.
+/// DC motor, gearbox and spindle (paper, eq. 3), solved exactly for constant V and F.
 ///
 ///   L di/dt = V − R i − K_E N ω
 ///   J dω/dt = e N (K_T i − µ_M N ω − s τ_CM) − µ_G ω − s τ_CG − r F,   J = e J_M N² + J_G
 ///
 /// i current, ω speed of the gearbox shaft (positive: winding up), s = sgn ω, F line tension,
-/// r spindle radius. e is the gear's efficiency as the direction of power sets it:
+/// r spindle radius. e is the gear's efficiency for the current direction of power:
 ///
 ///   motor drives load (T ω ≥ 0):  e = η        load drives motor (T ω < 0):  e = 1/η
 ///   T = e (N τ_m J_G + J_M N² X) / J,   τ_m = K_T i − µ_M N ω − s τ_CM,   X = µ_G ω + s τ_CG + r F
 ///
 /// T is the mesh torque on the output. Its sign does not depend on e, and at T = 0 both branches
-/// agree, so the choice is unique and the gear never gives energy. e = η throughout is eq. 3.
-/// The back-driven branch is ours: the paper gives eq. 3 only for a motor that drives.
+/// agree, so the branch is unique and the gear never generates energy. Eq. 3 is the case e = η.
+/// The back-driven branch is an addition: the paper gives eq. 3 only for a motor that drives the load.
 ///
 /// At ω = 0 the shaft sticks (only L di/dt = V − R i) until the current leaves the band
 ///   N e₋ (K_T i + τ_CM) ≥ r F − τ_CG   and   N η (K_T i − τ_CM) ≤ r F + τ_CG.
 ///
-/// What else rubs or pulls can be given for a step (MotorLoad), held over it like V and F.
-/// Ignores: saturation, cogging, heating, backlash; a Stribeck rise of the friction at rest.
+/// Additional friction and torques (MotorLoad) are inputs of a step and constant over it, like V and F.
+/// Ignores: saturation, cogging, heating, backlash, the Stribeck effect.
 namespace sim {
 
 struct MotorState {
   double current_A = 0;
   double speed_rad_per_s = 0;  ///< gearbox shaft; exactly 0 while it sticks
-  double shaft_rad = 0;        ///< gearbox shaft; positive: wound up since the start
+  double shaft_rad = 0;        ///< gearbox shaft, since the start; positive: wound up
 };
 
 /// Line speed of the unloaded motor at full supply, r V/(K_E N).
@@ -37,22 +37,23 @@ inline double top_line_speed_m_per_s(const erp::MotorType& type, double spindle_
   return spindle_radius_m * type.supply_V / (type.back_emf_V_s_per_rad * type.gear_ratio);
 }
 
-/// What acts on the gearbox shaft over a step.
+/// Loads on the gearbox shaft during a step.
 struct MotorLoad {
   double tension_N = 0;                     ///< F
   double more_up_Nm = 0, more_down_Nm = 0;  ///< added to τ_CG winding up and unwinding
-  double rotor_Nm = 0;                      ///< against winding up, on the motor's own shaft
+  double rotor_Nm = 0;                      ///< torque against winding up, on the motor's shaft
 };
 
-/// A motor's constants, prepared. Throws std::invalid_argument if they make no stable motor.
+/// A motor's constants with precomputed matrices. Throws std::invalid_argument if the equations are
+/// not stable.
 class Motor {
  public:
-  /// `usual_step_s`: the dt for which the exponential is computed beforehand.
+  /// `usual_step_s`: the dt for which the matrix exponential is precomputed.
   Motor(const erp::MotorType& type, double spindle_radius_m, double usual_step_s = 0.001);
 
-  /// The direction in which a resting shaft starts to turn, 0 if it sticks.
+  /// The direction in which a shaft at rest starts to turn; 0 if it sticks.
   int breakaway(double current_A, const MotorLoad& load) const;
-  /// The mesh torque's sign at a speed of sign `direction`: true if the motor drives the load.
+  /// True if the motor drives the load at a speed of sign `direction` (sign of the mesh torque).
   bool drives(const MotorState& state, const MotorLoad& load, int direction) const;
 
   const erp::MotorType& type() const { return type_; }
@@ -67,7 +68,7 @@ class Motor {
     double efficiency, inertia_kg_m2;  ///< e, J
   };
   struct Band {
-    double low_A, high_A;  ///< currents between which a resting shaft sticks
+    double low_A, high_A;  ///< range of currents at which a shaft at rest sticks
   };
   Branch branch(double efficiency) const;
   /// τ_CG in a direction.
@@ -83,8 +84,8 @@ class Motor {
   Vec2 mesh_slope_;
 };
 
-/// `state` after dt_s with voltage and tension held. dt_s ≥ 0, any size; exact, friction included:
-/// stops, breakaways and changes of the power's direction are found inside the step.
+/// The state after dt_s at constant voltage and load. Exact for any dt_s ≥ 0, friction included: stops,
+/// breakaways and changes of the power direction are located within the step.
 MotorState step(const Motor& motor, MotorState state, double voltage_V, const MotorLoad& load,
                 double dt_s);
 inline MotorState step(const Motor& motor, const MotorState& state, double voltage_V,

@@ -6,18 +6,19 @@
 
 namespace sim {
 
-/// The joints a tendon acts on: those that move some of its points and pulleys, but not all.
+/// The joints that a tendon acts on: those that move some of its points and pulleys, but not all.
 struct Levers {
-  std::vector<int> coordinates;              ///< of the model, rising
-  std::vector<std::vector<int>> of_element;  ///< of those, the ones that move each element
+  std::vector<int> coordinates;  ///< of the model, in ascending order
+  std::vector<std::vector<int>>
+      of_element;  ///< for each element, those of `coordinates` that move it
 };
 
 Levers levers_of(const Routing& routing, const SkeletonModel& model);
 
-/// ∂L/∂q of a path (paper, eq. 7), one entry a coordinate of the model, which must stand in the
-/// posture the shape was solved at: J v is dL/dt and −F Jᵀ the torques of tension F.
-/// Analytic: by virtual work, from the pulls at the path's points and pulleys. Zero, exactly, where
-/// the tendon has no lever.
+/// ∂L/∂q of a path (paper, eq. 7), one entry per coordinate of the model. The model must be placed in
+/// the posture for which `shape` was solved. J v is dL/dt, and −F Jᵀ are the torques of tension F.
+/// Analytic, by virtual work, from the pulls at the path's points and pulleys. Exactly zero for
+/// coordinates that do not change the length.
 inline void length_gradient(const PathShape& shape, const Levers& levers,
                             const SkeletonModel& model, Eigen::VectorXd& row) {
   row.setZero(model.coordinates());

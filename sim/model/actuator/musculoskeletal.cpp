@@ -1,6 +1,6 @@
 #include "sim/model/actuator/musculoskeletal.hpp"
 
-#include "sim/model/actuator/of_actuator.hpp"
+#include "sim/model/actuator/with_actuator_name.hpp"
 
 namespace sim {
 namespace {
@@ -15,7 +15,7 @@ Vec3 gravity_of(const erp::Robot& robot) {
 Musculoskeletal::Musculoskeletal(const erp::Robot& robot)
     : tree_(robot), skeleton_(tree_, gravity_of(robot)) {
   for (const erp::Actuator& actuator : robot.actuators)
-    of_actuator(actuator, [&] {
+    with_actuator_name(actuator, [&] {
       routings_.emplace_back(actuator.tendon, tree_.names).require_outside(skeleton_.poses());
       levers_.push_back(levers_of(routings_.back(), skeleton_));
       shapes_.push_back(routings_.back().solve(skeleton_.poses()));

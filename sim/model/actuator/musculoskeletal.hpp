@@ -3,23 +3,23 @@
 
 #include "sim/model/actuator/muscle_jacobian.hpp"
 
-/// A robot's bones and tendons in one posture, without a physics engine: the internal model of
+/// A robot's bones and tendons in one posture, without a physics engine. The internal model of
 /// controllers and of statics.
 ///
 ///   l(q)             lengths of the tendons' paths, m
-///   L(q) = ∂l/∂q     how they change with the joints (paper, eq. 7); actuators × coordinates
-///   H, C, τ_G        by `skeleton()` (eq. 6)
+///   L(q) = ∂l/∂q     their gradient (paper, eq. 7); actuators × coordinates
+///   H, C, τ_G        see `skeleton()` (eq. 6)
 ///
-/// Turns around pulleys are counted from posture to posture, the first from where the robot starts.
+/// Turns around pulleys are counted from posture to posture, beginning with the starting posture.
 namespace sim {
 
 class Musculoskeletal {
  public:
-  /// Throws std::invalid_argument as RobotTree does, and with the actuator's name as Routing does or
-  /// for a point that lies inside its pulley where the robot starts.
+  /// Throws std::invalid_argument like RobotTree, and with the actuator's name like Routing or if a
+  /// path point lies inside a pulley in the starting posture.
   explicit Musculoskeletal(const erp::Robot& robot);
 
-  /// Moves the bones there: by joint of `tree()`. No heap.
+  /// Sets the posture; `joints`: one per joint of `tree()`. No heap.
   void place(std::span<const JointReading> joints);
 
   const Eigen::VectorXd& length_m() const { return length_m_; }

@@ -5,10 +5,10 @@
 
 namespace sim {
 
-/// Of each part of a quaternion as motion capture tells it; chosen.
+/// Standard deviation of each component of a quaternion measured by motion capture; chosen.
 inline constexpr double tracking_noise = 2e-4;
 
-/// Normal noise, the same on every machine from the same seed.
+/// Normally distributed noise. The same seed gives the same values on every machine.
 /// Uniform bits: splitmix64 (Steele, Lea, Flood 2014); normal: Box and Muller 1958.
 class Noise {
  public:

@@ -7,8 +7,8 @@
 namespace sim {
 namespace {
 
-/// Turned about the way's axis from where the line comes in; along a cylinder as far as it has
-/// turned.
+/// The entry point rotated about the axis of the wrap; on a cylinder also moved along the axis in
+/// proportion to the angle.
 void add_arc(std::vector<Vec3>& line, const PathShape& shape, std::size_t k, double step_rad) {
   const Vec3 &center = shape.pulls[k].at_m, &axis = shape.about[k];
   const Vec3 in = shape.entry_m[k] - center;

@@ -4,13 +4,13 @@
 
 #include "sim/model/actuator/routing.hpp"
 
-/// A tendon's path as a line through points, for pictures and for laying a rope.
+/// A tendon's path as a polyline, for pictures and for the initial shape of a rope.
 namespace sim {
 
-/// World; arcs in steps of at most `arc_step_rad`.
+/// In the world frame; arcs are divided into steps of at most `arc_step_rad`.
 std::vector<Vec3> path_line(const Routing& routing, const PathShape& shape, double arc_step_rad);
 
-/// The point at a share 0 … 1 of the line's length.
+/// The point at the fraction `share`, 0 … 1, of the line's length.
 Vec3 along_line(std::span<const Vec3> line, double share);
 
 }  // namespace sim

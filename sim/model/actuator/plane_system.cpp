@@ -12,12 +12,12 @@ PlaneSystem::PlaneSystem(const Mat2& a)
       a_inverse_(a.inverse()),
       shifted_(a - 0.5 * a.trace() * Mat2::Identity()),
       mean_(0.5 * a.trace()) {
-  // q from the shifted matrix, whose square is q I: no cancellation of m² against det A.
+  // q from the shifted matrix, whose square is q I; avoids cancellation of m² and det A.
   const double q = -shifted_.determinant();
   oscillates_ = q < 0;
   root_ = std::sqrt(std::abs(q));
   if (!(a.trace() < 0) || !(a.determinant() > 0))
-    throw std::invalid_argument("the motor's equations must be stable; check its constants");
+    throw std::invalid_argument("the motor's equations are unstable; check its constants");
 }
 
 PlaneExponential PlaneSystem::exponential(double t) const {
@@ -26,8 +26,8 @@ PlaneExponential PlaneSystem::exponential(double t) const {
     return {decay * std::cos(root_ * t), decay * std::sin(root_ * t) / root_};
   }
   const double slow = std::exp((mean_ + root_) * t);
-  const double one_less = -std::expm1(-2 * root_ * t);  // 1 − e^(−2√q t)
-  return {slow * (1 - 0.5 * one_less), root_ > 0 ? slow * one_less / (2 * root_) : slow * t};
+  const double complement = -std::expm1(-2 * root_ * t);  // 1 − e^(−2√q t)
+  return {slow * (1 - 0.5 * complement), root_ > 0 ? slow * complement / (2 * root_) : slow * t};
 }
 
 std::optional<double> PlaneSystem::first_zero(double u, double w, double after) const {
@@ -79,7 +79,7 @@ std::optional<double> PlaneMotion::first_fall(const Vec2& p, double k, double t_
     const auto turn = system_.first_zero(u, w, low);
     const double high = turn && *turn < t_end ? *turn : t_end;
     if (g(high) < 0) {
-      // From zero, a dip at the very start is rounding: let it pass and look at what follows.
+      // If g(0) = 0, a zero at the very start is due to rounding and is skipped.
       const bool dips_at_start = from_zero && low == 0 && high < t_end;
       if (!dips_at_start || g(t_end) < 0)
         return from_zero && low == 0 ? 0.0 : falling_root(g, low, high);

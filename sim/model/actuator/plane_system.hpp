@@ -19,7 +19,7 @@ struct PlaneExponential {
   double c = 1, s = 0;
 };
 
-/// A; stable and invertible, checked at construction (throws std::invalid_argument).
+/// The matrix A. Throws std::invalid_argument if A is not stable and invertible.
 class PlaneSystem {
  public:
   explicit PlaneSystem(const Mat2& a);
@@ -32,7 +32,7 @@ class PlaneSystem {
   Vec2 apply(const PlaneExponential& e, const Vec2& y) const {
     return e.c * y + e.s * (shifted_ * y);
   }
-  /// The first t > after_s where u c(t) + w s(t) = 0; none: never again.
+  /// The first t > after_s where u c(t) + w s(t) = 0; empty if there is none.
   std::optional<double> first_zero(double u, double w, double after_s) const;
   const Mat2& shifted() const { return shifted_; }  ///< A − m I
 
@@ -54,8 +54,8 @@ class PlaneMotion {
   Vec2 integral(const Vec2& end, double t_s) const {
     return rest_ * t_s + system_.a_inverse() * (end - rest_ - offset_);
   }
-  /// The first t in (0, t_end] where g = p·x + k, not negative at 0, falls below zero.
-  /// From g = 0 it must first have risen; when it falls at once, the answer is 0.
+  /// The first t in (0, t_end] where g = p·x + k, with g(0) ≥ 0, falls below zero. If g(0) = 0, g
+  /// must rise above zero first; if it decreases at once, the result is 0.
   std::optional<double> first_fall(const Vec2& p, double k, double t_end_s) const;
 
  private:

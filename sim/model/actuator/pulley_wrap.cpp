@@ -9,7 +9,7 @@ namespace sim {
 
 namespace {
 
-/// One end, seen from the centre: its direction, and the tangent from it to the sphere.
+/// One end relative to the centre: its direction, and the tangent from it to the sphere.
 struct End {
   Vec3 direction;
   double tangent_m;  ///< √(a² − r²)
@@ -24,17 +24,18 @@ End look_at(const Vec3& point, double r) {
   return {direction, tangent, std::atan2(tangent, r), distance < r};
 }
 
-/// The way from A to B: the angle, and the axis about which it is positive.
-struct Way {
+/// The arc from A to B: the angle, and the axis about which it is positive.
+struct Arc {
   Vec3 axis;
   double angle_rad;
 };
 
-Way choose_way(const Vec3& a, const Vec3& b, const Vec3& side) {
+Arc choose_arc(const Vec3& a, const Vec3& b, const Vec3& side) {
   const Vec3 cross = a.cross(b);
   const double sine = cross.norm();
   const double angle = std::atan2(sine, a.dot(b));
-  if (sine < 1e-12) {  // in line with the centre: the side, or any direction, gives the plane
+  if (sine <
+      1e-12) {  // collinear with the centre: the plane follows from the side, or is arbitrary
     const Vec3 across = a.cross(side);
     const bool long_way = a.dot(b) > 0 && side.dot(a) < 0;
     return {across.norm() > 1e-9 ? across.normalized() : a.unitOrthogonal(),
@@ -44,15 +45,16 @@ Way choose_way(const Vec3& a, const Vec3& b, const Vec3& side) {
   return {cross / sine, angle};
 }
 
-/// The one right-handed about an axis, its turns those of the last.
-Way way_about(const Vec3& a, const Vec3& b, const Vec3& axis, double last_rad) {
+/// The arc that is right-handed about an axis, with the number of turns nearest to `last_rad`.
+Arc arc_about(const Vec3& a, const Vec3& b, const Vec3& axis, double last_rad) {
   constexpr double turn = 2 * std::numbers::pi;
   const Vec3 cross = a.cross(b);
   const double sine = cross.norm(), angle = std::atan2(sine, a.dot(b));
   const bool forward = sine < 1e-12 || cross.dot(axis) >= 0;
   const Vec3 normal = sine < 1e-12 ? axis : Vec3((forward ? 1 : -1) / sine * cross);
   const double once = forward ? angle : turn - angle;
-  return {normal, once + turn * std::ceil((last_rad - once) / turn - 0.5)};  // a tie: the fewer
+  return {normal, once + turn * std::ceil((last_rad - once) / turn -
+                                          0.5)};  // for equal distance, the fewer turns
 }
 
 /// The point of the sphere at `angle` from `direction`, turning about `axis`.
@@ -60,13 +62,13 @@ Vec3 on_sphere(double r, const Vec3& direction, const Vec3& axis, double angle) 
   return r * (std::cos(angle) * direction + std::sin(angle) * axis.cross(direction));
 }
 
-/// Around the sphere, or the circle, that way.
+/// The wrap around the sphere or circle along this arc.
 Wrap wrap_around(const Vec3& a, const Vec3& b, double r, const End& from, const End& to,
-                 const Way& way) {
-  const double angle = way.angle_rad - from.angle_rad - to.angle_rad;
+                 const Arc& arc) {
+  const double angle = arc.angle_rad - from.angle_rad - to.angle_rad;
   Wrap result;
-  result.around_rad = way.angle_rad;
-  result.about = way.axis;
+  result.around_rad = arc.angle_rad;
+  result.about = arc.axis;
   result.inside = from.inside || to.inside;
   if (result.inside || !(angle > 0)) {
     result.length_m = (b - a).norm();
@@ -76,8 +78,8 @@ Wrap wrap_around(const Vec3& a, const Vec3& b, double r, const End& from, const 
   result.wrapped_rad = angle;
   result.wrapped_m = r * angle;
   result.length_m = from.tangent_m + to.tangent_m + result.wrapped_m;
-  result.entry_m = on_sphere(r, from.direction, way.axis, from.angle_rad);
-  result.exit_m = on_sphere(r, to.direction, way.axis, -to.angle_rad);
+  result.entry_m = on_sphere(r, from.direction, arc.axis, from.angle_rad);
+  result.exit_m = on_sphere(r, to.direction, arc.axis, -to.angle_rad);
   return result;
 }
 
@@ -85,12 +87,12 @@ Wrap wrap_around(const Vec3& a, const Vec3& b, double r, const End& from, const 
 
 Wrap wrap_sphere(const Vec3& a, const Vec3& b, double r, const Vec3& side) {
   const End from = look_at(a, r), to = look_at(b, r);
-  return wrap_around(a, b, r, from, to, choose_way(from.direction, to.direction, side));
+  return wrap_around(a, b, r, from, to, choose_arc(from.direction, to.direction, side));
 }
 
 Wrap wrap_sphere_about(const Vec3& a, const Vec3& b, double r, const Vec3& axis, double last_rad) {
   const End from = look_at(a, r), to = look_at(b, r);
-  return wrap_around(a, b, r, from, to, way_about(from.direction, to.direction, axis, last_rad));
+  return wrap_around(a, b, r, from, to, arc_about(from.direction, to.direction, axis, last_rad));
 }
 
 Wrap wrap_cylinder(const Vec3& a, const Vec3& b, double r, const Vec3& axis, double last_rad) {
@@ -98,8 +100,8 @@ Wrap wrap_cylinder(const Vec3& a, const Vec3& b, double r, const Vec3& axis, dou
   const Vec3 across_a = a - start * axis, across_b = b - (start + rise) * axis;
   const End from = look_at(across_a, r), to = look_at(across_b, r);
   Wrap wrap = wrap_around(across_a, across_b, r, from, to,
-                          way_about(from.direction, to.direction, axis, last_rad));
-  if (wrap.touches) {  // as far along the axis as along the unrolled line
+                          arc_about(from.direction, to.direction, axis, last_rad));
+  if (wrap.touches) {  // axial offset in proportion to the length of the unrolled line
     const double slope = rise / wrap.length_m;
     wrap.entry_m += (start + slope * from.tangent_m) * axis;
     wrap.exit_m += (start + rise - slope * to.tangent_m) * axis;

@@ -5,18 +5,18 @@
 #include "interfaces/recording/table.hpp"
 #include "sim/model/skeleton/joint_reading.hpp"
 
-/// A recording's joints, row by row.
+/// Joint positions of a recording, row by row.
 namespace sim {
 
-/// Throws std::invalid_argument naming a column that is not there.
+/// Throws std::invalid_argument with the name of the missing column.
 const recording::Column& column_of(const recording::Table& table, const std::string& name);
 
-/// The columns that say where a robot's joints are; lent.
+/// The columns with the positions of a robot's joints. Refers to the table, which must outlive it.
 class RecordedJoints {
  public:
-  /// Throws std::invalid_argument naming a joint's column that is not there.
+  /// Throws std::invalid_argument with the name of a missing column.
   RecordedJoints(const erp::Robot& robot, const recording::Table& table);
-  /// False: not all are known in that row.
+  /// Returns false if a value is missing in that row.
   bool read(std::size_t row, std::vector<JointReading>& joints) const;
 
  private:

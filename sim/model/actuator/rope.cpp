@@ -10,12 +10,12 @@
 namespace sim {
 namespace {
 
-constexpr int most_turns = 60;           // chosen
-constexpr int turns_to_leave = 20;       // chosen: later, a node that touches stays
-constexpr double at_rest_m = 1e-9;       // chosen: a node that moves less rests
-constexpr double good_enough_m = 1e-5;   // chosen: beyond it a step has not found the answer
-constexpr double fastest_m_per_s = 100;  // chosen: no rope of a robot moves so fast
-constexpr double longest_step_m = 0.02;  // chosen: of a node in one of Newton's steps
+constexpr int max_iterations = 60;           // chosen
+constexpr int iterations_with_release = 20;  // chosen: later, contacts are not released
+constexpr double at_rest_m = 1e-9;           // chosen: step at which the iteration ends
+constexpr double converged_m = 1e-5;         // chosen: a larger last step counts as failed
+constexpr double fastest_m_per_s = 100;      // chosen: far above speeds of a real rope
+constexpr double longest_step_m = 0.02;      // chosen: limit of a node's Newton step
 constexpr int most_nodes = 200;
 
 }  // namespace
@@ -27,9 +27,10 @@ Rope::Rope(const erp::Rope& rope, const TendonLaw& law, const Routing& routing,
       node_kg_(rope.mass_kg / rope.nodes),
       radius_m_(rope.radius_m),
       friction_(rope.friction) {
-  if (!(rope.mass_kg > 0)) throw std::invalid_argument("a rope needs mass_kg");
+  if (!(rope.mass_kg > 0)) throw std::invalid_argument("mass_kg of a rope must be positive");
   if (rope.nodes < 2 || rope.nodes > most_nodes)
-    throw std::invalid_argument("a rope has 2 to 200 nodes, got " + std::to_string(rope.nodes));
+    throw std::invalid_argument("nodes of a rope must be 2 to 200, got " +
+                                std::to_string(rope.nodes));
   for (const PathElement& pulley : routing.elements())
     if (pulley.radius_m > 0)
       solids.push_back({pulley.body, pulley.at_m, pulley.at_m, pulley.radius_m});
@@ -62,7 +63,7 @@ void Rope::require_fine(double length_m) const {
   if (length_m / static_cast<double>(segments()) <= smallest_m) return;
   throw std::invalid_argument(
       "a rope of " + std::to_string(length_m) + " m and nodes=" + std::to_string(segments()) +
-      " could step over a solid of half its size, " + std::to_string(smallest_m) +
+      " could pass through a solid with a radius or half edge of " + std::to_string(smallest_m) +
       " m; give nodes=" + std::to_string(static_cast<int>(std::ceil(length_m / smallest_m))));
 }
 
@@ -80,23 +81,23 @@ void Rope::lay(std::span<const Vec3> line, double shaft_rad) {
 
 void Rope::settle(std::span<const BodyPose> poses, double shaft_rad,
                   std::optional<double> pretension_N) {
-  constexpr int most_steps = 500;  // chosen
+  constexpr int max_steps = 500;  // chosen
   constexpr double step_s = 0.001;
   const std::vector<BodyTwist> still(poses.size());
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < max_steps; ++k) {
     step({poses, still, Vec3::Zero()}, shaft_rad, step_s);
     if (pretension_N)
       state_.line_m = length_m() - law_.spring.stretch_m(*pretension_N) + law_.radius_m * shaft_rad;
   }
   std::ranges::fill(state_.velocities_m_per_s, Vec3::Zero());
-  state_.troubles = 0;  // of falling into place
+  state_.failed_steps = 0;  // ignores failures while settling
 }
 
 void Rope::restore(const RopeState& state) {
   if (state.nodes_m.size() != state_.nodes_m.size() ||
       state.velocities_m_per_s.size() != state_.velocities_m_per_s.size() ||
       state.tension_N.size() != state_.tension_N.size())
-    throw std::invalid_argument("this state is of a rope with another number of nodes");
+    throw std::invalid_argument("the state belongs to a rope with another number of nodes");
   state_ = state;
 }
 
@@ -111,31 +112,31 @@ void Rope::step(const Surroundings& around, double shaft_rad, double dt_s) {
   begin(around, shaft_rad, dt_s);
   double moved_m = 0;
   bool rests = false;
-  for (int turn = 0; turn < most_turns && !rests; ++turn) {
+  for (int turn = 0; turn < max_iterations && !rests; ++turn) {
     touch(around, dt_s, turn == 0);
     stretch();
     stiffen(dt_s);
     solve();
-    moved_m = go();
+    moved_m = apply_step();
     rests = moved_m < at_rest_m;
     stretch();
-    rests = !rub(dt_s, turn < turns_to_leave) && rests;
+    rests = !update_contacts(dt_s, turn < iterations_with_release) && rests;
   }
-  end(around, moved_m < good_enough_m, dt_s);
+  end(around, moved_m < converged_m, dt_s);
 }
 
-/// Where nodes would go, and the law of each segment.
+/// Computes the free motion of the nodes and the linearised law of each segment.
 void Rope::begin(const Surroundings& around, double shaft_rad, double dt_s) {
   auto& x = state_.nodes_m;
   const auto n = segments();
   const double parts = static_cast<double>(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double stretch = (x[i + 1] - x[i]).norm() - state_.rest_m / parts;
-    const double whole = parts * stretch;  // if all segments were stretched like this one
+    const double whole = parts * stretch;  // stretch of the tendon if all segments had this stretch
     const double slope = law_.spring.slope_N_per_m(whole);
     const double force = whole > 0 ? law_.spring.force_N(whole) : slope * whole;
-    segments_[i].give_m_per_N = 1 / (parts * (slope + law_.damping_N_s_per_m / dt_s));
-    segments_[i].kept_m = stretch - segments_[i].give_m_per_N * force;
+    segments_[i].compliance_m_per_N = 1 / (parts * (slope + law_.damping_N_s_per_m / dt_s));
+    segments_[i].offset_m = stretch - segments_[i].compliance_m_per_N * force;
   }
   state_.rest_m = state_.line_m - law_.radius_m * shaft_rad;
   start_m_ = x;
@@ -146,7 +147,7 @@ void Rope::begin(const Surroundings& around, double shaft_rad, double dt_s) {
   x.front() = point(ends_[0], around.poses), x.back() = point(ends_[1], around.poses);
 }
 
-/// The tensions of this shape.
+/// Computes tensions and stiffness matrices of the current shape.
 void Rope::stretch() {
   const auto& x = state_.nodes_m;
   const double rest = state_.rest_m / static_cast<double>(segments());
@@ -155,16 +156,16 @@ void Rope::stretch() {
     const Vec3 span = x[i + 1] - x[i];
     const double length = span.norm();
     s.along = length > 0 ? Vec3(span / length) : Vec3::UnitZ();
-    state_.tension_N[i] = std::max(0.0, (length - rest - s.kept_m) / s.give_m_per_N);
+    state_.tension_N[i] = std::max(0.0, (length - rest - s.offset_m) / s.compliance_m_per_N);
     s.stiffness.setZero();
     if (state_.tension_N[i] == 0) continue;
     const Eigen::Matrix3d own = s.along * s.along.transpose();
-    s.stiffness = own / s.give_m_per_N + state_.tension_N[i] / std::max(length, at_rest_m) *
-                                             (Eigen::Matrix3d::Identity() - own);
+    s.stiffness = own / s.compliance_m_per_N + state_.tension_N[i] / std::max(length, at_rest_m) *
+                                                   (Eigen::Matrix3d::Identity() - own);
   }
 }
 
-/// Newton's system. A node on solids moves to their surfaces and along them.
+/// Assembles the Newton system. Nodes in contact move to the surfaces and along them.
 void Rope::stiffen(double dt_s) {
   const auto& x = state_.nodes_m;
   const double inertia = node_kg_ / (dt_s * dt_s);
@@ -192,14 +193,15 @@ void Rope::stiffen(double dt_s) {
   }
 }
 
-/// Of three block diagonals, symmetric.
+/// Solves the symmetric block tridiagonal system.
 void Rope::solve() {
   const auto n = segments();
   for (std::size_t i = 1; i < n; ++i) {
     Node& node = nodes_[i];
     if (i > 1) {
       const Node& before = nodes_[i - 1];
-      const Eigen::Matrix3d share = before.after.transpose() * before.own;  // its inverse by now
+      const Eigen::Matrix3d share =
+          before.after.transpose() * before.own;  // node.own is already inverted
       node.right -= share * before.right;
       node.own -= share * before.after;
     }
@@ -218,8 +220,8 @@ Vec3 Rope::pull_on(std::size_t node) const {
          state_.tension_N[node - 1] * segments_[node - 1].along;
 }
 
-/// Goes the step, all of it a share if one node's is very long; how far the farthest went.
-double Rope::go() {
+/// Applies the Newton step, scaled down if the step of a node is too long. Returns the longest step.
+double Rope::apply_step() {
   double farthest = 0;
   for (std::size_t i = 1; i < segments(); ++i)
     farthest = std::max(farthest, nodes_[i].step.lpNorm<Eigen::Infinity>());
@@ -236,7 +238,7 @@ void Rope::end(const Surroundings& around, bool rests, double dt_s) {
     if (!state_.nodes_m[i].allFinite()) fastest = 2 * fastest_m_per_s;
   }
   const bool ran_away = fastest > fastest_m_per_s;
-  if (!rests || ran_away) ++state_.troubles;
+  if (!rests || ran_away) ++state_.failed_steps;
   if (!ran_away) return balance(dt_s);
   const std::array<Vec3, 2> straight{point(ends_[0], around.poses), point(ends_[1], around.poses)};
   lay(straight, (state_.line_m - state_.rest_m) / law_.radius_m);

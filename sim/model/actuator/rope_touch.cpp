@@ -5,15 +5,15 @@
 
 #include "sim/model/actuator/rope.hpp"
 
-/// How the nodes of a rope lie on solids.
+/// Contacts between the nodes of a rope and solids.
 namespace sim {
 namespace {
 
-constexpr double touching_m = 1e-6;     // chosen: so near it begins a step on a solid
-constexpr double inside_m = 1e-9;       // chosen: so deep it comes onto one within a step
+constexpr double touching_m = 1e-6;     // chosen: distance of a contact at the start of a step
+constexpr double inside_m = 1e-9;       // chosen: depth of a new contact during a step
 constexpr double creep_m_per_s = 1e-4;  // v₀
-constexpr double regular = 1e-8;        // of two normals that are the same
-constexpr double same_way = 0.1;        // chosen: a normal nearer to the others' span adds nothing
+constexpr double regular = 1e-8;        // regularises equal normals
+constexpr double same_way = 0.1;  // chosen: a normal nearer to the span of the others is ignored
 
 Vec3 velocity_of(const BodyTwist& twist, const BodyPose& pose, const Vec3& at) {
   return twist.linear_m_per_s + twist.angular_rad_per_s.cross(at - pose.position_m);
@@ -26,7 +26,7 @@ Clearance in_world(const Solid& solid, const BodyPose& pose, const Vec3& at) {
 
 }  // namespace
 
-/// Which solids each node is on: those it lies on already, and the deepest it has come into.
+/// Updates the contacts of each node: existing contacts, and new ones with sufficient depth.
 void Rope::touch(const Surroundings& around, double dt_s, bool at_start) {
   for (std::size_t i = 1; i < segments(); ++i) {
     Node& node = nodes_[i];
@@ -55,8 +55,8 @@ void Rope::touch(Node& node, const Vec3& at, std::span<const BodyPose> poses,
   }
 }
 
-/// The way to all surfaces, Δx·n = −above, and what leads along them: one normal after the other,
-/// less what those before it hold already.
+/// Computes the step to all surfaces, Δx·n = −above, and the projection onto them, by orthogonalising
+/// the normals one after the other.
 void Rope::stay_outside(Node& node) {
   node.step.setZero();
   node.across.setIdentity();
@@ -64,18 +64,18 @@ void Rope::stay_outside(Node& node) {
     const Vec3 own = node.across * touch.normal;
     const double size = own.norm();
     if (size < same_way) continue;
-    const Vec3 way = own / size;
-    node.step += (-touch.above_m - touch.normal.dot(node.step)) / size * way;
-    node.across -= way * way.transpose();
+    const Vec3 direction = own / size;
+    node.step += (-touch.above_m - touch.normal.dot(node.step)) / size * direction;
+    node.across -= direction * direction.transpose();
   }
 }
 
-/// What solids give to a node's momentum, N.
-Vec3 Rope::held_by_solids(std::size_t i, double dt_s) const {
+/// Contact force on a node, from its momentum balance, N.
+Vec3 Rope::contact_force(std::size_t i, double dt_s) const {
   return node_kg_ / (dt_s * dt_s) * (state_.nodes_m[i] - nodes_[i].free_m) - pull_on(i);
 }
 
-/// What each solid pushes with: held = Σ N_k n_k, as nearly as can be. Their sum, N.
+/// Distributes the contact force to the solids by least squares, held = Σ N_k n_k. Returns Σ N_k, N.
 double Rope::press(Node& node, const Vec3& held) {
   const auto n = static_cast<Eigen::Index>(node.on);
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, n);
@@ -93,44 +93,44 @@ double Rope::press(Node& node, const Vec3& held) {
   return sum_N;
 }
 
-/// Pushes, and the drag that they make; of the solids that would hold a node back the worst lets it
-/// go. True if one did.
-bool Rope::rub(double dt_s, bool may_leave) {
-  bool left = false;
+/// Updates contact forces and friction drag. Releases, for each node, the contact with the most negative
+/// force. Returns true if a contact was released.
+bool Rope::update_contacts(double dt_s, bool may_release) {
+  bool released = false;
   for (std::size_t i = 1; i < segments(); ++i) {
     Node& node = nodes_[i];
     node.drag_kg_per_s = 0;
     if (node.on == 0) continue;
-    const double push_N = press(node, held_by_solids(i, dt_s));
+    const double push_N = press(node, contact_force(i, dt_s));
     const double slides = (node.across * (state_.nodes_m[i] - node.carried_m)).norm() / dt_s;
     node.drag_kg_per_s = friction_ * push_N / std::max(slides, creep_m_per_s);
     const auto worst = std::ranges::min_element(node.touching(), {}, &Touch::push_N);
-    if (worst->push_N >= 0 || !may_leave) continue;
+    if (worst->push_N >= 0 || !may_release) continue;
     *worst = node.touches[--node.on];
-    left = true;
+    released = true;
   }
-  return left;
+  return released;
 }
 
-/// The forces on the bones: the rope's own pull at its ends, and what the nodes that touch pass on;
-/// friction goes to the first solid.
+/// Computes the forces on the bones: tension at the ends, and contact forces of the nodes. Friction acts
+/// on the first solid of a node.
 void Rope::balance(double dt_s) {
   const auto n = segments();
   const auto& x = state_.nodes_m;
-  const auto way = [&](std::size_t i) { return Vec3((x[i + 1] - x[i]).stableNormalized()); };
+  const auto direction = [&](std::size_t i) { return Vec3((x[i + 1] - x[i]).stableNormalized()); };
   state_.forces.clear();
-  state_.forces.push_back({ends_[0].body, x.front(), state_.tension_N.front() * way(0)});
-  state_.forces.push_back({ends_[1].body, x.back(), -state_.tension_N.back() * way(n - 1)});
+  state_.forces.push_back({ends_[0].body, x.front(), state_.tension_N.front() * direction(0)});
+  state_.forces.push_back({ends_[1].body, x.back(), -state_.tension_N.back() * direction(n - 1)});
   for (std::size_t i = 1; i < n && dt_s > 0; ++i) {
     const Node& node = nodes_[i];
     if (node.on == 0) continue;
-    Vec3 left = -held_by_solids(i, dt_s);
+    Vec3 remaining = -contact_force(i, dt_s);
     for (std::size_t k = 1; k < node.on; ++k) {
       const Vec3 own = -node.touches[k].push_N * node.touches[k].normal;
       state_.forces.push_back({node.touches[k].solid->body, x[i], own});
-      left -= own;
+      remaining -= own;
     }
-    state_.forces.push_back({node.touches[0].solid->body, x[i], left});
+    state_.forces.push_back({node.touches[0].solid->body, x[i], remaining});
   }
 }
 

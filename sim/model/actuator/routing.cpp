@@ -12,7 +12,8 @@ namespace {
 int index_of(const std::string& body, std::span<const std::string> names) {
   const auto found = std::find(names.begin(), names.end(), body);
   if (found == names.end())
-    throw std::invalid_argument("a tendon is attached to body \"" + body + "\", which is unknown");
+    throw std::invalid_argument("a tendon is attached to body \"" + body +
+                                "\", which the robot does not have");
   return static_cast<int>(found - names.begin());
 }
 
@@ -48,15 +49,16 @@ Routing::Routing(const erp::Tendon& tendon, std::span<const std::string> names) 
     }
   }
   if (elements_.size() < 2 || elements_.size() > max_path_elements)
-    throw std::invalid_argument("a tendon's path has 2 to " + std::to_string(max_path_elements) +
-                                " elements, got " + std::to_string(elements_.size()));
+    throw std::invalid_argument("a tendon's path must have 2 to " +
+                                std::to_string(max_path_elements) + " elements, got " +
+                                std::to_string(elements_.size()));
   if (elements_.front().radius_m > 0 || elements_.back().radius_m > 0)
-    throw std::invalid_argument("a tendon's path begins and ends with <attach>");
+    throw std::invalid_argument("a tendon's path must begin and end with <attach>");
 }
 
 PathShape Routing::solve(std::span<const BodyPose> poses) const {
   PathShape shape;
-  for (std::size_t k = 0; k < elements_.size(); ++k)  // the middle of the turn it is in
+  for (std::size_t k = 0; k < elements_.size(); ++k)  // initial value: the middle of the given turn
     shape.around_rad[k] = std::numbers::pi * (1 + 2 * elements_[k].turns);
   solve(poses, shape);
   return shape;
@@ -76,12 +78,13 @@ void Routing::solve(std::span<const BodyPose> poses, PathShape& shape) const {
 }
 
 void Routing::require_outside(std::span<const BodyPose> poses) const {
-  if (const int k = solve(poses).pierced(); k >= 0)
-    throw std::invalid_argument("element " + std::to_string(k + 1) +
-                                " of the path: a neighbouring point lies inside this pulley");
+  if (const int k = solve(poses).penetrated_pulley(); k >= 0)
+    throw std::invalid_argument(
+        "element " + std::to_string(k + 1) +
+        " of the path is a pulley that contains a neighbouring point; move the point outside");
 }
 
-int PathShape::pierced() const {
+int PathShape::penetrated_pulley() const {
   for (int k = 0; k < elements; ++k)
     if (inside[k]) return k;
   return -1;
@@ -101,7 +104,7 @@ void Routing::place(PathShape& shape, std::span<const BodyPose> poses) const {
 
 void Routing::wrap_between(PathShape& shape, std::span<const BodyPose> poses,
                            std::span<const double> last_rad, int first, int last) const {
-  // Gauss–Seidel: each pulley between its neighbours' tangent points, until none moves.
+  // Gauss–Seidel: each pulley between the tangent points of its neighbours, until convergence.
   const bool single = last == first + 2;
   for (int turn = 0; turn < 200; ++turn) {
     double moved = 0;

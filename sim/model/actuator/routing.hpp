@@ -9,16 +9,16 @@
 #include "sim/model/actuator/pulley_wrap.hpp"
 #include "sim/model/skeleton/pose.hpp"
 
-/// A tendon's path over the bodies: points it passes and pulleys it may wrap around.
+/// A tendon's path over the bodies: points that it passes through and pulleys that it may wrap around.
 ///
 ///   L = Σ free spans + Σ r · wrapped angle
 ///   force on the body at element k:  F (û_before + û_after)     (unit vectors along the spans)
 ///   dL/dt = − Σ (û_before + û_after) · v_k
 ///
 /// Forces act at the points and at the pulleys' centres, sum to zero, and their power is −F dL/dt.
-/// A frictionless sphere takes no moment, a cylinder none about its axis; where a line runs along
-/// it, it takes the moment of the pulls where the line comes and leaves. Several pulleys between
-/// two points are solved one after the other, in turns, until the path rests.
+/// A frictionless sphere takes no moment, a cylinder none about its axis. A line with a component along
+/// the cylinder's axis exerts the moment of the pulls at its entry and exit points. Several pulleys
+/// between two points are solved iteratively, one after the other, until the path converges.
 namespace sim {
 
 inline constexpr int max_path_elements = 12;
@@ -28,7 +28,7 @@ struct PathElement {
   int body = 0;
   Vec3 at_m = Vec3::Zero();
   double radius_m = 0;
-  Vec3 side = Vec3::Zero(), axis = Vec3::Zero();  ///< axis zero: none
+  Vec3 side = Vec3::Zero(), axis = Vec3::Zero();  ///< axis zero: no axis
   bool cylinder = false;
   int turns = 0;
 };
@@ -36,8 +36,8 @@ struct PathElement {
 /// The pull on one element's body, for 1 N of tension; world axes.
 struct PathPull {
   int body = 0;
-  Vec3 at_m, direction;  ///< direction = û_before + û_after; zero where the line does not touch
-  Vec3 moment_m;         ///< about that point; of cylinders only
+  Vec3 at_m, direction;  ///< direction = û_before + û_after; zero without contact
+  Vec3 moment_m;         ///< about at_m; non-zero only for cylinders
 };
 
 /// A path's shape at one pose.
@@ -45,29 +45,30 @@ struct PathShape {
   double length_m = 0;
   int elements = 0;
   std::array<Vec3, max_path_elements> entry_m, exit_m;  ///< world; equal for a point
-  std::array<Vec3, max_path_elements> about;            ///< axis of the way around a pulley
+  std::array<Vec3, max_path_elements> about;            ///< axis of the wrap around a pulley
   std::array<double, max_path_elements> wrapped_rad{}, wrapped_m{};
-  /// φ of pulleys with an axis; the next shape counts their turns from here.
+  /// φ of pulleys with an axis; the next shape counts turns relative to this value.
   std::array<double, max_path_elements> around_rad{};
   std::array<bool, max_path_elements> touches{};
-  std::array<bool, max_path_elements> inside{};  ///< a point is inside this pulley: it is passed by
+  std::array<bool, max_path_elements>
+      inside{};  ///< a point is inside this pulley, which is then ignored
   std::array<PathPull, max_path_elements> pulls;
-  /// The first pulley that a neighbouring point is inside of; −1: none.
-  int pierced() const;
+  /// The first pulley that contains a neighbouring point; −1: none.
+  int penetrated_pulley() const;
   std::span<const PathPull> pulled() const { return {pulls.data(), std::size_t(elements)}; }
 };
 
 class Routing {
  public:
-  /// `body_names` gives the bodies' indices. Throws std::invalid_argument: fewer than two points,
-  /// an end that is no point, an unknown body, too many elements, a pulley without radius.
+  /// `body_names` defines the bodies' indices. Throws std::invalid_argument for fewer than two points,
+  /// an end that is not a point, an unknown body, too many elements, or a pulley without radius.
   Routing(const erp::Tendon& tendon, std::span<const std::string> body_names);
 
-  /// The first shape: all pulleys with the turns they start with.
+  /// The first shape: all pulleys with their initial number of turns.
   PathShape solve(std::span<const BodyPose> poses) const;
-  /// The next one, from the one before: turns are counted.
+  /// The next shape; turns are counted from the previous one in `shape`.
   void solve(std::span<const BodyPose> poses, PathShape& shape) const;
-  /// Throws std::invalid_argument if at this pose a point lies inside a pulley.
+  /// Throws std::invalid_argument if a point lies inside a pulley in this pose.
   void require_outside(std::span<const BodyPose> poses) const;
   std::span<const PathElement> elements() const { return elements_; }
 
@@ -81,7 +82,7 @@ class Routing {
   std::vector<PathElement> elements_;
 };
 
-/// How far the path turns: around its pulleys and at its points.
+/// Total bend angle of the path, around its pulleys and at its points.
 double bend_rad(const PathShape& shape);
 
 /// dL/dt at this shape.

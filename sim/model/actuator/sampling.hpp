@@ -5,58 +5,58 @@
 
 #include "interfaces/robot/sensors.hpp"
 
-/// When a sensor looks, and what it says meanwhile: at rate f and latency T,
+/// Zero-order hold of a sensor with sampling rate f and latency T:
 ///
-///   said(t) = seen at ⌊(t − T) f⌋ / f        f = 0: at t − T
+///   reading(t) = value at ⌊(t − T) f⌋ / f        f = 0: value at t − T
 ///
-/// and until the first look has arrived, the first look. Both are kept to the instants at which it
-/// is offered to look; a rate of which they are no multiple takes the next one.
+/// Until the first sample has arrived, the reading is the first sample. Samples are taken only at the
+/// instants of the calls of `offer`; a sampling instant between two calls moves to the later one.
 namespace sim {
 
 template <class Value>
 class Sampled {
  public:
-  /// `interval_s`: how often it is offered to look, the least.
+  /// `interval_s`: shortest time between two calls of `offer`.
   Sampled(const erp::Sampling& sampling, double interval_s)
       : period_s_(sampling.rate_Hz > 0 ? 1 / sampling.rate_Hz : 0),
         latency_s_(sampling.latency_s),
         slack_s_(1e-3 * interval_s),
-        kept_(2 + static_cast<std::size_t>(latency_s_ / std::max(period_s_, interval_s))) {}
+        samples_(2 + static_cast<std::size_t>(latency_s_ / std::max(period_s_, interval_s))) {}
 
-  /// False: it looks when asked and says so at once.
+  /// False: neither rate nor latency; the sensor is read directly.
   bool timed() const { return period_s_ > 0 || latency_s_ > 0; }
 
-  /// `see()` is called if it looks now. A time before the last begins anew. No heap.
-  template <class See>
-  void offer(double time_s, See&& see) {
-    if (time_s < offered_s_) count_ = 0;
-    offered_s_ = time_s;
+  /// Calls `take()` if a sample is due. A time before the previous one resets the samples. No heap.
+  template <class Take>
+  void offer(double time_s, Take&& take) {
+    if (time_s < last_offer_s_) count_ = 0;
+    last_offer_s_ = time_s;
     if (period_s_ > 0 && count_ > 0 && time_s < next_s_ - slack_s_) return;
-    kept_[count_ % kept_.size()] = {time_s, see()};
+    samples_[count_ % samples_.size()] = {time_s, take()};
     ++count_;
     if (period_s_ > 0) next_s_ = (std::floor((time_s + slack_s_) / period_s_) + 1) * period_s_;
   }
 
-  struct Seen {
+  struct Sample {
     double time_s = 0;
     Value value{};
   };
-  /// The newest that has arrived; offer first.
-  const Seen& said(double time_s) const {
-    const std::size_t oldest = count_ > kept_.size() ? count_ - kept_.size() : 0;
+  /// The latest sample that has arrived. Requires an earlier call of `offer`.
+  const Sample& latest(double time_s) const {
+    const std::size_t oldest = count_ > samples_.size() ? count_ - samples_.size() : 0;
     std::size_t k = count_ - 1;
-    while (k > oldest && !arrived(kept_[k % kept_.size()], time_s)) --k;
-    return kept_[k % kept_.size()];
+    while (k > oldest && !arrived(samples_[k % samples_.size()], time_s)) --k;
+    return samples_[k % samples_.size()];
   }
-  bool arrived(const Seen& seen, double time_s) const {
-    return seen.time_s <= time_s - latency_s_ + slack_s_;
+  bool arrived(const Sample& sample, double time_s) const {
+    return sample.time_s <= time_s - latency_s_ + slack_s_;
   }
 
  private:
-  double period_s_, latency_s_, slack_s_;  ///< slack: of times that are rounded
-  std::vector<Seen> kept_;
+  double period_s_, latency_s_, slack_s_;  ///< slack: tolerance for rounded times
+  std::vector<Sample> samples_;
   std::size_t count_ = 0;
-  double next_s_ = 0, offered_s_ = 0;
+  double next_s_ = 0, last_offer_s_ = 0;
 };
 
 }  // namespace sim

@@ -9,7 +9,7 @@
 namespace sim {
 
 namespace {
-/// The nearest count, held at the rails.
+/// The nearest count, saturated at the limits.
 double convert(double value, double per_count, double low, double high) {
   return std::clamp(std::round(value / per_count), low, high);
 }
@@ -75,7 +75,7 @@ JointAngleSensor::JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t
       effects_(std::move(effects)) {}
 
 std::int32_t JointAngleSensor::read(const JointReading& joint, double time_s) {
-  double seen = effects_.bearing_rad(angle_rad(joint, about_)) + noise_rad_ * noise_.normal();
+  double seen = effects_.sensor_shaft_rad(angle_rad(joint, about_)) + noise_rad_ * noise_.normal();
   if (!effects_.empty()) {
     seen = effects_.read(effects::Sense::joint, seen, {time_s, time_s - read_s_, 1});
     read_s_ = time_s;

@@ -7,9 +7,9 @@
 #include "sim/model/effects/acting.hpp"
 #include "sim/model/skeleton/joint_reading.hpp"
 
-/// What an ECU's converters read (paper, 2.3 and 4.3), as counts.
+/// Readings of an ECU's converters (paper, 2.3 and 4.3), in counts.
 ///
-///   encoder  = ⌊θ N c / 2π + ½⌋            c counts a motor revolution, 0 where it booted
+///   encoder  = ⌊θ N c / 2π + ½⌋            c counts per motor revolution, 0 at power-on
 ///   current  = ⌊(i + noise) / q⌉           q = range / 2^(bits−1), −2^(bits−1) … 2^(bits−1) − 1
 ///   tension  = z + ⌊(F + noise) / q⌉       q = range / (2^bits − 1 − z), 0 … 2^bits − 1, z the
 ///                                          live zero
@@ -17,11 +17,11 @@
 ///   potentiometer = ⌊(S_P + noise) / q⌉    S_P = (L_K − L_K0)/r + S_P0 = S_P0 − θ (eq. 5, in rad),
 ///                                          q = range / (2^bits − 1), 0 … 2^bits − 1
 ///
-/// Beyond its range a converter stays at its rail. Effects on a sensor act on value and noise,
-/// before the converter. Ignores: lost encoder steps, the potentiometer's dead angle.
+/// Outside its range a converter saturates. Effects on a sensor act on value and noise before the
+/// converter. Ignores: lost encoder steps, the potentiometer's dead angle.
 namespace sim {
 
-/// Counts to SI for one actuator.
+/// Scale factors from counts to SI units for one actuator.
 struct SensorScale {
   double shaft_rad_per_count, current_A_per_count, tension_N_per_count;
   int current_counts_max, tension_counts_max, tension_zero_counts;
@@ -35,7 +35,7 @@ struct ActuatorCounts {
   std::uint16_t tension = 0;
 };
 
-/// One actuator's converters. `effects`: of that actuator; those on its sensors act.
+/// Converters of one actuator. `effects`: the effects on this actuator; only those on sensors are used.
 class ActuatorSensors {
  public:
   ActuatorSensors(const erp::MotorType& motor, const erp::SensorType& sensors, std::uint64_t seed,
@@ -51,7 +51,8 @@ class ActuatorSensors {
   double read_s_ = 0;
 };
 
-/// A joint angle sensor. `effects`: of that joint; those on its bearing and sensor act.
+/// A joint angle sensor. `effects`: the effects on this joint; only play and effects on its sensor are
+/// used.
 class JointAngleSensor {
  public:
   JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed,
@@ -78,8 +79,8 @@ class PotentiometerSensor {
   Noise noise_;
 };
 
-/// The angle of a joint that such a sensor looks at: a revolute one's, or of its turning from the
-/// parent's axes, as a rotation vector of length up to π, one component.
+/// The angle that a joint sensor measures: the angle of a revolute joint, or the component `about` of
+/// the rotation vector (length up to π) from the parent's to the child's axes.
 double angle_rad(const JointReading& joint, std::optional<erp::AxisName> about);
 
 }  // namespace sim

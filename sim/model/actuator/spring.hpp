@@ -4,14 +4,13 @@
 
 #include "interfaces/robot/actuator.hpp"
 
-/// What is elastic in a tendon: a spring, which may stiffen as it is drawn out, and the line it
-/// hangs on, in series.
+/// Elasticity of a tendon: a spring, which may stiffen with stretch, in series with the line.
 ///
-///   F = κ x_s + κ₃ x_s³,   Δx = x_s + F / κ_line          κ_line: the kite line; none:
-///   inextensible
+///   F = κ x_s + κ₃ x_s³,   Δx = x_s + F / κ_line          κ_line: stiffness of the
+///   kite line, inextensible if not given
 ///
-/// Both ways are solved by Newton's method to rounding: Δx is a convex, rising function of x_s ≥ 0.
-/// Ignores hysteresis, and that a line's stiffness changes as it is wound up.
+/// F(Δx) and Δx(F) are solved by Newton's method to rounding: Δx is a convex, increasing function of
+/// x_s ≥ 0. Ignores hysteresis, and that the line's stiffness changes as it is wound up.
 namespace sim {
 
 struct Spring {
@@ -27,11 +26,11 @@ struct Spring {
             tendon.line_stiffness_N_per_m ? 1 / *tendon.line_stiffness_N_per_m : 0.0};
   }
 
-  /// F at a stretch Δx; a spring that is slack does not push.
+  /// F at a stretch Δx; zero if slack.
   double force_N(double stretch_m) const {
     return stretch_m > 0 ? of_spring_N(spring_stretch_m(stretch_m)) : 0.0;
   }
-  /// ∫ F dΔx from slack: in the spring, and in the line.
+  /// ∫ F dΔx from 0: energy stored in the spring and the line.
   double energy_J(double stretch_m) const {
     if (!(stretch_m > 0)) return 0;
     const double x = spring_stretch_m(stretch_m), force_N = of_spring_N(x);
@@ -43,10 +42,10 @@ struct Spring {
     const double own = own_slope_N_per_m(spring_stretch_m(std::fmax(0.0, stretch_m)));
     return own / (1 + line_compliance_m_per_N * own);
   }
-  /// Δx at a force.
+  /// Δx at a force F.
   double stretch_m(double force_N) const {
-    double x = force_N / stiffness_N_per_m;  // at least as far: Newton's steps come down to it
-    for (int k = 0; k < most_steps && cubic_N_per_m3 > 0; ++k) {
+    double x = force_N / stiffness_N_per_m;  // an upper bound, from which Newton's steps decrease
+    for (int k = 0; k < max_steps && cubic_N_per_m3 > 0; ++k) {
       const double step = (of_spring_N(x) - force_N) / own_slope_N_per_m(x);
       x -= step;
       if (!(step > rounding * x)) break;
@@ -55,7 +54,7 @@ struct Spring {
   }
 
  private:
-  static constexpr int most_steps = 60;
+  static constexpr int max_steps = 60;
   static constexpr double rounding = 1e-15;
   double of_spring_N(double x) const { return x * (stiffness_N_per_m + cubic_N_per_m3 * x * x); }
   double own_slope_N_per_m(double x) const {
@@ -65,7 +64,7 @@ struct Spring {
   double spring_stretch_m(double stretch_m) const {
     double x = stretch_m / (1 + line_compliance_m_per_N * stiffness_N_per_m);
     if (line_compliance_m_per_N == 0 || cubic_N_per_m3 == 0) return x;
-    for (int k = 0; k < most_steps; ++k) {
+    for (int k = 0; k < max_steps; ++k) {
       const double step = (x + line_compliance_m_per_N * of_spring_N(x) - stretch_m) /
                           (1 + line_compliance_m_per_N * own_slope_N_per_m(x));
       x -= step;

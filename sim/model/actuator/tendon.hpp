@@ -6,24 +6,24 @@
 
 /// Series elastic tendon on a spindle (paper, eqs 1, 2, 4).
 ///
-///   F = f(Δx) + D dΔx/dt,  Δx = L_T − (L_K + L_R)       F = 0 where Δx ≤ 0 or the sum is negative
+///   F = f(Δx) + D dΔx/dt,  Δx = L_T − (L_K + L_R)       F = 0 if Δx ≤ 0 or the sum is negative
 ///   L_K = L_K0 − r θ                                    dΔx/dt = dL_T/dt + r ω
 ///
 /// L_T length of the path, L_K of the kite line, L_R of the spring at rest; r spindle radius,
-/// θ, ω angle and speed of the gearbox shaft, positive winding up. Only L_K0 + L_R matters: it is
-/// one number here, `rest_m`. A slack tendon (Δx ≤ 0) does not pull however fast it is drawn out:
-/// the paper's law leaves the damper's pull there, we do not.
+/// θ, ω angle and speed of the gearbox shaft, positive winding up. Only the sum L_K0 + L_R
+/// matters; it is `rest_m` here. A slack tendon (Δx ≤ 0) has no tension at any rate. This differs from
+/// the paper, where the damper acts on a slack tendon as well.
 ///
 /// Ignores: mass and bending of the line, layers on the spindle, hysteresis.
 namespace sim {
 
 struct TendonLaw {
-  Spring spring;             ///< f; κ Δx for a plain one
+  Spring spring;             ///< f; κ Δx for a linear spring
   double damping_N_s_per_m;  ///< D
   double radius_m;           ///< r
   double rest_m;             ///< L_K0 + L_R
 
-  /// The law that pulls with the tendon's pretension at path length `length_m`, shaft at 0.
+  /// The law whose tension is the pretension at path length `length_m` and shaft angle 0.
   static TendonLaw at_rest(const erp::Tendon& tendon, const erp::Spindle& spindle,
                            double length_m) {
     const Spring spring = Spring::of(tendon);
@@ -37,7 +37,7 @@ struct TendonLaw {
   }
   /// Change of L_K since the start; negative: wound up.
   double line_m(double shaft_rad) const { return -radius_m * shaft_rad; }
-  /// L_T of a taut tendon whose spring pulls so much: what an actuator's own sensors tell.
+  /// L_T of a taut tendon with spring force `spring_N`: the path length from the actuator's own sensors.
   double length_m(double spring_N, double shaft_rad) const {
     return rest_m + line_m(shaft_rad) + spring.stretch_m(spring_N);
   }

@@ -21,8 +21,8 @@ Camera::Camera(const CameraConfig& config)
              right = ahead.cross(vec(config.up).normalized());
   if (!(right.norm() > 1e-6 * ahead.norm()))
     throw std::invalid_argument("camera \"" + config.name +
-                                "\" looks along its up, or at itself: give it another up, such as "
-                                "up=\"0 1 0\"");
+                                "\": the viewing direction is zero or parallel to up; change "
+                                "looks_at_m or up, for example up=\"0 1 0\"");
   axes_.col(0) = right.normalized();
   axes_.col(2) = ahead.normalized();
   axes_.col(1) = axes_.col(2).cross(axes_.col(0));
@@ -36,8 +36,8 @@ std::optional<Pixel> Camera::project(const Vec3& world_m) const {
   return Pixel(config_.focal_px * stretched(config_, flat.squaredNorm()) * flat + centre_);
 }
 
-/// The distortion is undone by fixed-point steps, which halve the error and more for lenses in use,
-/// until they move it by less than 1e-12 of the focal length.
+/// Inverts the distortion by fixed-point iteration until a step is below 1e-12 of the focal length. For
+/// common lenses each step at least halves the error.
 Vec3 Camera::ray(const Pixel& pixel) const {
   const Pixel bent = (pixel - centre_) / config_.focal_px;
   Pixel flat = bent;

@@ -7,10 +7,11 @@
 
 /// A pinhole camera with radial distortion.
 ///
-///   x = X/Z, y = Y/Z in its frame: X to the right of the image, Y down, Z ahead
+///   x = X/Z, y = Y/Z in the camera frame: X right, Y down, Z forwards
 ///   (u, v) = f (1 + k₁ ρ² + k₂ ρ⁴) (x, y) + (c_u, c_v),    ρ² = x² + y²
 ///
-/// Source: Brown 1966; the names of OpenCV's calib3d, so that its calibration can be written down.
+/// Source: Brown 1966. The parameters have the names of OpenCV's calib3d, so its calibration results can
+/// be used directly.
 namespace sim::cameras {
 
 using Pixel = Eigen::Vector2d;
@@ -21,7 +22,7 @@ struct CameraConfig {
   xml::Place place;
   std::string name;
   xml::Vec3 at_m{0, 0, 0}, looks_at_m{0, 0, 0};  ///< in the world
-  xml::Vec3 up{0, 0, 1};  ///< where the image's upper edge is, as near as can be
+  xml::Vec3 up{0, 0, 1};  ///< approximate direction of the image's upper edge
   double focal_px = 800;
   int width_px = 640, height_px = 480;
   double centre_u_px = 0, centre_v_px = 0;  ///< of the optical axis, from the image's middle
@@ -40,12 +41,12 @@ struct CameraConfig {
 
 class Camera {
  public:
-  /// Throws std::invalid_argument for a camera that looks straight along `up`, or at itself.
+  /// Throws std::invalid_argument if the viewing direction is zero or parallel to `up`.
   explicit Camera(const CameraConfig& config);
 
-  /// Nothing: behind the camera. May lie outside the image.
+  /// The pixel, which may lie outside the image; empty if the point is behind the camera.
   std::optional<Pixel> project(const Vec3& world_m) const;
-  /// The direction that a pixel sees, in the world, of length 1; at_m() + t ray is what it may be.
+  /// Unit direction of a pixel's ray in the world; the ray is at_m() + t ray(pixel).
   Vec3 ray(const Pixel& pixel) const;
   const Vec3& at_m() const { return at_m_; }
   const CameraConfig& config() const { return config_; }
@@ -57,7 +58,7 @@ class Camera {
  private:
   CameraConfig config_;
   Vec3 at_m_;
-  Eigen::Matrix3d axes_;  ///< of the camera in the world, by column
+  Eigen::Matrix3d axes_;  ///< axes of the camera in the world, as columns
   Pixel centre_;
 };
 

@@ -63,9 +63,9 @@ void Painter::draw(const Ball& ball, std::span<const Bone> bones) {
 }
 
 bool Painter::lit(const Ball& ball, std::span<const Bone> bones, const Pixel& pixel) const {
-  const Vec3 ray = camera_.ray(pixel), way = ball.at_m - camera_.at_m();
-  const double along_m = way.dot(ray);
-  if ((way - along_m * ray).norm() > ball.radius_m) return false;
+  const Vec3 ray = camera_.ray(pixel), to_ball = ball.at_m - camera_.at_m();
+  const double along_m = to_ball.dot(ray);
+  if ((to_ball - along_m * ray).norm() > ball.radius_m) return false;
   const Vec3 end = camera_.at_m() + along_m * ray;
   return std::ranges::none_of(bones, [&](const Bone& bone) {
     return apart_m(camera_.at_m(), end, bone.from_m, bone.to_m) < bone.radius_m;

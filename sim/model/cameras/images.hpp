@@ -6,11 +6,11 @@
 
 #include "sim/model/cameras/camera.hpp"
 
-/// What infrared cameras see of a robot with reflecting balls on it: bright spots before a dark
-/// ground, some hidden behind its bones.
+/// Infrared images of a robot with reflecting balls: bright spots on a dark background, some occluded
+/// by bones.
 namespace sim::cameras {
 
-/// Eight bits a pixel, row by row.
+/// Eight bits per pixel, row by row.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;
@@ -20,23 +20,24 @@ struct Ball {
   Vec3 at_m;
   double radius_m;
 };
-/// A bone that hides what is behind it: all points within a radius of a line.
+/// A bone that occludes balls: a capsule, all points within a radius of a line segment.
 struct Bone {
   Vec3 from_m, to_m;
   double radius_m;
 };
 
 struct Light {
-  double ground = 12, ball = 210;  ///< mean brightness, of 255
+  double ground = 12, ball = 210;  ///< mean brightness of background and balls, 0 … 255
   double noise = 4;                ///< standard deviation
 };
 
-/// Draws balls ray by ray, nine a pixel; noise is drawn once and laid shifted under each image.
+/// Renders balls with nine rays per pixel. The noise is generated once and added to each image with a
+/// random shift.
 class Painter {
  public:
   Painter(const Camera& camera, const Light& light, std::uint64_t seed);
 
-  /// The image of this instant. The returned one is the painter's own.
+  /// Renders an image. The reference is valid until the next call.
   const Image& paint(std::span<const Ball> balls, std::span<const Bone> bones);
 
  private:

@@ -4,7 +4,7 @@
 
 #include "sim/model/cameras/camera.hpp"
 
-/// What looks on, and at what.
+/// Cameras and markers of an XML file.
 namespace sim::cameras {
 
 /// `<marker body="forearm" at_m="0.05 0 -0.1"/>`: a ball's centre, in the body's frame.
@@ -16,8 +16,8 @@ struct MarkerConfig {
   void visit(auto& v) { v.required("body", body), v.required("at_m", at_m); }
 };
 
-/// `<camera_view>`, a file: for the component that sees, and for those who want to know beforehand what it
-/// will see.
+/// `<camera_view>`, a file: cameras and markers, for the component that detects markers and for programs that
+/// predict its images.
 struct ViewConfig {
   static constexpr auto element = "camera_view";
   xml::Place place;

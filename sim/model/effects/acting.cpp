@@ -32,7 +32,7 @@ Acting::Acting(std::span<const Placed> all, const std::string& on, Seat seat) {
 
 namespace {
 
-/// The effects of the library that `Use` takes, a bit each.
+/// The effects of the library that `Use` accepts, one bit per effect type.
 template <class Use, class... Effects>
 Types taken_by(std::type_identity<std::variant<Effects...>>) {
   constexpr std::array taken{std::is_invocable_v<Use&, Effects&, Memory&>...};
@@ -44,7 +44,7 @@ Types taken_by(std::type_identity<std::variant<Effects...>>) {
 
 }  // namespace
 
-/// Calls `use(effect, memory)` for those of `items` that it takes.
+/// Calls `use(effect, memory)` for each of `items` that `use` accepts.
 template <class Use>
 void Acting::each(auto&& items, Use use) {
   static const Types taken = taken_by<Use>(std::type_identity<AnyEffect>{});
@@ -89,10 +89,10 @@ double Acting::driver_delay_s() {
   return sum;
 }
 
-double Acting::late_voltage_V(double volts, const ChainSample& s) {
+double Acting::delayed_voltage_V(double volts, const ChainSample& s) {
   each(
-      [&](auto& e, Memory& m) requires requires { e.late_voltage_V(volts, s, m); } {
-        volts = e.late_voltage_V(volts, s, m);
+      [&](auto& e, Memory& m) requires requires { e.delayed_voltage_V(volts, s, m); } {
+        volts = e.delayed_voltage_V(volts, s, m);
       });
   return volts;
 }
@@ -179,39 +179,39 @@ Sloped Acting::joint_torque(double angle_rad) {
   return sum;
 }
 
-double Acting::bearing_rad(double angle_rad) {
+double Acting::sensor_shaft_rad(double angle_rad) {
   each(
-      [&](auto& e, Memory& m) requires requires { e.bearing_rad(angle_rad, m); } {
-        angle_rad = e.bearing_rad(angle_rad, m);
+      [&](auto& e, Memory& m) requires requires { e.sensor_shaft_rad(angle_rad, m); } {
+        angle_rad = e.sensor_shaft_rad(angle_rad, m);
       });
   return angle_rad;
 }
 
-double Acting::looseness_rad() {
+double Acting::play_rad() {
   double sum = 0;
   each(
-      [&](auto& e, Memory&) requires requires { e.looseness_rad(); } { sum += e.looseness_rad(); });
+      [&](auto& e, Memory&) requires requires { e.play_rad(); } { sum += e.play_rad(); });
   return sum;
 }
 
 double Acting::read(Sense sense, double value, const SensorSample& s) {
   each(
-      std::views::reverse(items_),  // that `undo` finds them in their order
+      std::views::reverse(items_),  // the inverse of the order in `undo`
       [&](auto& e, Memory& m) requires requires { e.read(value, s, m); } {
         if (e.sense == sense) value = e.read(value, s, m);
       });
   return value;
 }
 
-double Acting::undo(Sense sense, double said, const SensorSample& s) {
+double Acting::undo(Sense sense, double reading, const SensorSample& s) {
   each(
-      [&](auto& e, Memory& m) requires requires { e.undo(said, s, m); } {
-        if (e.sense == sense) said = e.undo(said, s, m);
+      [&](auto& e, Memory& m) requires requires { e.undo(reading, s, m); } {
+        if (e.sense == sense) reading = e.undo(reading, s, m);
       });
-  return said;
+  return reading;
 }
 
-bool Acting::reaches(Sense sense) const {
+bool Acting::acts_on(Sense sense) const {
   return std::ranges::any_of(items_, [&](const Item& i) { return sense_of(i.effect) == sense; });
 }
 

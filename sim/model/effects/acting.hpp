@@ -7,8 +7,8 @@
 
 #include "sim/model/effects/effect.hpp"
 
-/// Effects at work: those on one thing, in the order of the chain, with what they remember. Each
-/// seam goes through all that have it.
+/// The effects that act on one target in each step, in the order of the chain, with their memory.
+/// Each seam function applies all effects that implement it.
 namespace sim::effects {
 
 struct Placed;
@@ -18,7 +18,7 @@ using Types = std::bitset<128>;
 
 class Acting {
  public:
-  using Draw = std::function<double()>;  ///< uniform in 0 … 1, anew for each
+  using Draw = std::function<double()>;  ///< uniform in 0 … 1, a new value per call
 
   Acting();
   Acting(std::span<const Placed> all, const std::string& on, Seat seat);
@@ -29,14 +29,14 @@ class Acting {
   ~Acting();
   bool empty() const { return empty_; }
 
-  /// What they remember, to be saved and restored.
+  /// Appends the memory of the effects to `memories`.
   void save(std::vector<Memory>& memories) const;
-  /// Takes its own from the front of the rest.
+  /// Restores the memory of the effects from the front of `memories` and removes it there.
   void restore(std::span<const Memory>& memories);
 
   double voltage_V(double volts, const ChainSample& s);
   double driver_delay_s();
-  double late_voltage_V(double volts, const ChainSample& s);
+  double delayed_voltage_V(double volts, const ChainSample& s);
   double resistance_ohm(double ohm, const ChainSample& s);
   double rotor_Nm(const ChainSample& s);
   double friction_Nm(int direction, const ChainSample& s);
@@ -47,14 +47,14 @@ class Acting {
   double motor_side_N(double far_N, const ChainSample& s);
   double joint_friction_Nm(double speed);
   Sloped joint_torque(double angle_rad);
-  double bearing_rad(double angle_rad);
-  double looseness_rad();
-  /// What a sensor says. Of several effects on it the last meets the quantity first; `undo` takes them
-  /// away from the first on.
+  double sensor_shaft_rad(double angle_rad);
+  double play_rad();
+  /// The reading of a sensor. Of several effects, the last in the list acts on the quantity first;
+  /// `undo` inverts them from the first on.
   double read(Sense sense, double value, const SensorSample& s);
-  double undo(Sense sense, double said, const SensorSample& s);
-  /// Whether any acts on that sensor.
-  bool reaches(Sense sense) const;
+  double undo(Sense sense, double reading, const SensorSample& s);
+  /// Whether any effect acts on this sensor.
+  bool acts_on(Sense sense) const;
   double averaged(Sense sense, const SensorSample& s);
   double command_delay_s(const Draw& draw);
   double frame_delay_s(const Draw& draw);
@@ -67,7 +67,7 @@ class Acting {
   template <class Use>
   void each(Use use);
   std::vector<Item> items_;
-  Types types_;  ///< that are among them
+  Types types_;  ///< types of `items_`
   bool empty_ = true;
 };
 

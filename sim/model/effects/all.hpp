@@ -1,5 +1,6 @@
 #pragma once
-// Every effect the simulator can add and the diagnosis may name: one include and one line each.
+// All effects that the simulator can apply and the diagnosis can identify: one include and one line
+// per effect.
 #include <variant>
 
 #include "sim/model/effects/bus/command_delay.hpp"
@@ -61,7 +62,7 @@
 namespace sim::effects {
 
 // clang-format off
-/// In the order of the chain, and in this order they act.
+/// In the order of the chain, which is also the order in which they act.
 using AnyEffect = std::variant<
     CommandDelay, SensorDelay, Jitter, FrameLoss,
     MotorResistance, MotorTorqueConstant, MotorInductance, MotorThermalResistance, MotorCogging,

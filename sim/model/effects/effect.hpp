@@ -2,47 +2,47 @@
 #include <array>
 #include <string_view>
 
-/// What an unmodelled effect is: something that real robots have and the nominal model leaves out.
+/// Definition of an effect: a property of real robots that the nominal model lacks.
 ///
-/// One effect a file, one line in all.hpp. An effect is a plain struct:
+/// One file per effect, and one line in all.hpp. An effect is a plain struct:
 ///
-///   static constexpr About about     its name, where it sits, what shows it
-///   parameters, and `visit`          their neutral values change nothing; v.shape: not fitted
-///   one or more seams                functions below, called where the simulator and the diagnosis
-///                                    have the quantity in hand
+///   static constexpr About about     name, stage, target, and the excitation that shows it
+///   parameters, and `visit`          default values change nothing; v.shape: not estimated
+///   one or more seams                the functions below; the simulator and the diagnosis call
+///                                    them where they compute the quantity
 ///
-/// Seams that change constants, once (`auto&`: structs of interfaces/robot, which are not
-/// included):
+/// Seams that change constants, called once (parameters are `auto&`, because the structs of
+/// interfaces/robot are not included):
 ///   change_motor(motor)  change_actuator(actuator)  change_joint(joint)  change_body(body)
-///   change_robot(robot, on)                  acts_besides: those below act as well
-/// Seams in the chain of an actuator, each step:
-///   voltage_V(V, s)                   at the motor's terminals, from what the ECU applies
-///   driver_delay_s()                  after which that acts
-///   late_voltage_V(V, s, memory)      which acts then, as a mean over a step
+///   change_robot(robot, on)                  acts_besides: the seams below act as well
+/// Seams in the chain of an actuator, called in each step:
+///   voltage_V(V, s)                   voltage at the motor's terminals for the voltage that the ECU applies
+///   driver_delay_s()                  delay until this voltage acts
+///   delayed_voltage_V(V, s, memory)      the delayed voltage, its mean over a step
 ///   resistance_ohm(R, s, memory)      of the winding
-///   rotor_Nm(s)                       against winding up, on the motor's own shaft
+///   rotor_Nm(s)                       torque against winding up, on the motor's shaft
 ///   friction_Nm(direction, s)         added to the gearbox's Coulomb friction
-///   aged_Nm(s, memory)                the same of what remembers, once a step
-///   wound(s, wound, memory)           the line on the spindle
-///   path(path, s)                     the length of the tendon's path
-///   pull(s, memory)                   added to the tendon's pull
-///   motor_side_N(F, s)                the pull that reaches the spindle
+///   aged_Nm(s, memory)                the same for an effect with memory, called once per step
+///   wound(s, wound, memory)           length of the line on the spindle
+///   path(s, path)                     the length of the tendon's path
+///   pull(s, memory)                   added to the tension
+///   motor_side_N(F, s)                tension at the spindle
 /// Seams in a joint:
-///   joint_friction_Nm(speed)          added to its Coulomb friction
-///   joint_torque(angle)               along its axis
-///   bearing_rad(angle, memory)        what its sensor's shaft follows
-///   looseness_rad()                   how far that shaft may be off, to and fro together
+///   joint_friction_Nm(speed)          added to the joint's Coulomb friction
+///   joint_torque(angle)               torque about the joint's axis
+///   sensor_shaft_rad(angle, memory)        angle of the sensor's shaft
+///   play_rad()                   total play of that shaft
 /// Seams of sensors (`static constexpr Sense sense`) and of the bus:
-///   read(value, s, memory)            what the sensor says;   undo(said, s, memory)  its inverse
-///   averaged(s)                       share, 0 … 1, in which `undo` gives the mean around a sample
-///                                     instead of what was there at its instant
-///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, anew each time
+///   read(value, s, memory)            the reading;   undo(reading, s, memory)  its inverse
+///   averaged(s)                       weight, 0 … 1, with which `undo` returns the mean around the
+///                                     sample instead of the value at its instant
+///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, a new value per call
 namespace sim::effects {
 
-/// The part of the chain that an effect belongs to.
+/// The stage of the model that an effect belongs to.
 enum class Stage { bus, motor, gearbox, spindle, tendon, routing, joint, skeleton, sensor };
 
-/// What `on` names.
+/// The kind of target that `on` names.
 enum class Seat { actuator, joint, body, robot };
 
 enum class Sense { shaft, current, tension, joint };
@@ -54,43 +54,43 @@ struct About {
   std::string_view shown_by;  ///< the excitation that shows it
 };
 
-/// A parameter's search interval; beyond it robot.xml is refused.
+/// A parameter's search interval. Values outside are rejected when robot.xml is read.
 struct Bounds {
   double low, high;
 };
 
-/// What an effect remembers from step to step; zero at the start.
+/// State of an effect that is kept from step to step; zero at the start.
 using Memory = std::array<double, 8>;
 
-/// One actuator, now: what its seams may look at.
+/// State of one actuator at the current time, the input of its seams.
 struct ChainSample {
-  double dt_s = 0;  ///< since the sample before
+  double dt_s = 0;  ///< since the previous sample
   double supply_V = 0, voltage_V = 0;
   double current_A = 0;
-  double current_square_A2 = 0;  ///< mean since the sample before
+  double current_square_A2 = 0;  ///< mean since the previous sample
   double gear_ratio = 1;
   double shaft_rad = 0, speed_rad_per_s = 0;  ///< gearbox shaft; positive: winding up
   double radius_m = 0;                        ///< of the spindle
   double tension_N = 0;                       ///< at the distal end
-  double load_Nm = 0;                         ///< of the line on the gearbox shaft
-  double stretch_m = 0;                       ///< Δx; for `wound`, of the line as nominally wound
-  double stiffness_N_per_m = 0;               ///< dF/dΔx there, of the spring
-  double path_m = 0, path_change_m = 0;       ///< length of the path, and since the start
-  double wrap_rad = 0;                        ///< total bend of the path
-  bool pushes = false;                        ///< it is a shaft, not a line
-  double line_speed_m_per_s = 0;              ///< over the path, towards the spindle
+  double load_Nm = 0;                         ///< torque of the line on the gearbox shaft
+  double stretch_m = 0;                       ///< Δx; for `wound`, with the nominal wound length
+  double stiffness_N_per_m = 0;               ///< dF/dΔx of the spring at this stretch
+  double path_m = 0, path_change_m = 0;  ///< length of the path, and its change since the start
+  double wrap_rad = 0;                   ///< total bend of the path
+  bool pushes = false;                   ///< a shaft, which also transmits compression, not a line
+  double line_speed_m_per_s = 0;         ///< along the path, positive towards the spindle
 };
 
-/// A quantity with its derivative: d m/d rad, d m/d m, d N/d m, d Nm/d rad.
+/// A quantity and its derivative: d m/d rad, d m/d m, d N/d m, d Nm/d rad.
 struct Sloped {
   double value = 0, slope = 0;
 };
 
-/// One sensor, now.
+/// State of one sensor at the current time.
 struct SensorSample {
   double time_s = 0, dt_s = 0;
-  double turns_per_turn = 1;  ///< the sensor's own shaft to what it measures
-  double said_rate = 0;       ///< change of what it says a second, for `undo`
+  double turns_per_turn = 1;  ///< turns of the sensor's shaft per turn of the measured shaft
+  double reading_rate = 0;    ///< rate of change of the reading, per s; for `undo`
 };
 
 }  // namespace sim::effects

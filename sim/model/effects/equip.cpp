@@ -1,4 +1,4 @@
-// Effects that change a robot's constants, once.
+// Applies the effects that change a robot's constants.
 #include <algorithm>
 #include <stdexcept>
 
@@ -22,7 +22,7 @@ erp::MotorType& own_motor(erp::Robot& robot, erp::Actuator& actuator) {
   }
   for (erp::MotorType& type : robot.motor_types)
     if (type.name == actuator.motor) return type;
-  throw std::logic_error("a motor type that was just added is gone");
+  throw std::logic_error("internal error: a motor type that was just added is missing");
 }
 
 void resolve(erp::Body& body) {
@@ -37,7 +37,7 @@ void resolve(erp::Body& body) {
 
 namespace {
 
-/// Applies the seams that change constants. False: it is to act, having none or others besides.
+/// Applies the seams that change constants. Returns false if the effect also acts in each step.
 struct Change {
   erp::Robot& robot;
   const std::string& on;
@@ -75,8 +75,8 @@ void refuse_on_rope(const erp::Robot& robot, const Placed& placed) {
     if (of_line && actuator.name == placed.on && actuator.rope)
       throw std::invalid_argument("effect \"" + std::string(about(placed.effect).type) +
                                   "\" on \"" + placed.on +
-                                  "\": its tendon is a rope, which has effects of its "
-                                  "own; take <rope> out, or the effect");
+                                  "\": its tendon is a rope, whose model replaces this "
+                                  "effect; remove the <rope> or the <effect>");
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ Equipped equip(const erp::Robot& nominal) {
   erp::Robot& robot = result.robot;
   while (!robot.effects.empty()) {
     const auto placed = read_effects(robot);
-    robot.effects.clear();  // a change may add others
+    robot.effects.clear();  // a seam may have added effects
     for (const Placed& p : placed) {
       refuse_on_rope(robot, p);
       if (about(p.effect).seat == Seat::body)

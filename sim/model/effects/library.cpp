@@ -52,25 +52,25 @@ std::vector<std::string> types() {
   return names;
 }
 
-std::optional<Placed> read(const erp::Robot& robot, const erp::Effect& said,
+std::optional<Placed> read(const erp::Robot& robot, const erp::Effect& source,
                            std::vector<xml::Error>& errors) {
-  auto effect = neutral(said.type);
+  auto effect = neutral(source.type);
   if (!effect) {
-    refuse(said, "type=" + xml::quote(said.type) + " names no effect",
-           xml::did_you_mean(said.type, types()), errors);
+    refuse(source, "type=" + xml::quote(source.type) + " is not an effect",
+           xml::did_you_mean(source.type, types()), errors);
     return {};
   }
   const Seat seat = about(*effect).seat;
-  if (const auto names = places(robot, seat); !std::ranges::count(names, said.on))
-    refuse(said, "on=" + xml::quote(said.on) + " names no " + std::string(word(seat)),
-           xml::did_you_mean(said.on, names), errors);
-  const xml::Element element{said.place, erp::Effect::element, said.parameters, {}, {}};
+  if (const auto names = places(robot, seat); !std::ranges::count(names, source.on))
+    refuse(source, "on=" + xml::quote(source.on) + " names no " + std::string(word(seat)),
+           xml::did_you_mean(source.on, names), errors);
+  const xml::Element element{source.place, erp::Effect::element, source.parameters, {}, {}};
   const auto fill = [&](auto& e) {
     Attributes<std::decay_t<decltype(e)>> attributes{e};
     xml::Reader::fill(attributes, element, errors);
   };
   std::visit(fill, *effect);
-  return Placed{said.on, *effect};
+  return Placed{source.on, *effect};
 }
 
 }  // namespace
@@ -135,12 +135,12 @@ std::vector<std::string> places(const erp::Robot& robot, Seat seat) {
     case Seat::joint:
       add(robot.joints());
       for (const erp::Drive& drive : robot.drives)
-        if (erp::has_two_ends(drive)) add_once(drive.name);
+        if (erp::has_load_sensor(drive)) add_once(drive.name);
       break;
     case Seat::body:
       add(robot.bodies());
       for (const erp::Drive& drive : robot.drives)
-        if (erp::has_two_ends(drive)) add_once(drive.name + ".load");
+        if (erp::has_load_sensor(drive)) add_once(drive.name + ".load");
       break;
     case Seat::robot:
       names.push_back(robot.name);
@@ -152,8 +152,8 @@ std::vector<std::string> places(const erp::Robot& robot, Seat seat) {
 std::vector<Placed> read_effects(const erp::Robot& robot) {
   std::vector<Placed> all;
   std::vector<xml::Error> errors;
-  for (const erp::Effect& said : robot.effects)
-    if (auto placed = read(robot, said, errors)) all.push_back(std::move(*placed));
+  for (const erp::Effect& source : robot.effects)
+    if (auto placed = read(robot, source, errors)) all.push_back(std::move(*placed));
   xml::throw_if_any(std::move(errors));
   return all;
 }

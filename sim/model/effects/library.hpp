@@ -8,10 +8,10 @@
 #include "interfaces/xml/errors.hpp"
 #include "sim/model/effects/all.hpp"
 
-/// The effects as a list: by name, with their parameters, from robot.xml and back.
+/// The list of effects: access by name, parameters, reading from and writing to robot.xml.
 namespace sim::effects {
 
-/// An effect on something: an actuator, joint, body or the robot, by name.
+/// An effect on a target: an actuator, a joint, a body or the robot, by name.
 struct Placed {
   std::string on;
   AnyEffect effect;
@@ -22,14 +22,14 @@ const About& about(const AnyEffect& effect);
 inline std::string name_of(const Placed& placed) {
   return std::string(about(placed.effect).type) + " on " + placed.on;
 }
-/// Of an effect of a sensor, of which kind.
+/// The kind of sensor, for an effect on a sensor.
 std::optional<Sense> sense_of(const AnyEffect& effect);
 std::string_view word(Stage stage);
 std::string_view word(Seat seat);
 
-/// One of each, neutral, in the order of the chain.
+/// One effect of each type with default parameters, in the order of the chain.
 const std::vector<AnyEffect>& library();
-/// The neutral one of that type.
+/// The effect of a type with default parameters.
 std::optional<AnyEffect> neutral(std::string_view type);
 
 /// A parameter of an effect. `value` points into the effect.
@@ -37,26 +37,26 @@ struct Parameter {
   const char* name;
   double* value;
   Bounds bounds;
-  bool fitted;  ///< false: given, because recordings hardly show it
+  bool fitted;  ///< false: not estimated, because recordings hardly determine it
 };
 std::vector<Parameter> parameters(AnyEffect& effect);
 
-/// What effects of that seat may be on.
+/// Names of the possible targets of effects of that seat.
 std::vector<std::string> places(const erp::Robot& robot, Seat seat);
 
-/// The effects that robot.xml names. Throws xml::Errors: an unknown type, parameter or place, a
-/// value outside its bounds.
+/// The effects that robot.xml lists. Throws xml::Errors for an unknown type, parameter or target,
+/// or a value outside its bounds.
 std::vector<Placed> read_effects(const erp::Robot& robot);
-/// As robot.xml has it; parameters at their neutral values are left out.
+/// The element of robot.xml; parameters at their default values are omitted.
 erp::Effect written(const Placed& placed);
 
-/// A robot with its effects: what changes constants has changed them, the rest is to act.
+/// A robot with its effects: effects on constants are applied, the others act in each step.
 struct Equipped {
-  erp::Robot robot;  ///< names no effects
+  erp::Robot robot;  ///< without effects
   std::vector<Placed> acting;
 };
-/// Throws as `read_effects`, and std::invalid_argument for an effect on a tendon's line when the
-/// tendon is a rope.
+/// Throws like `read_effects`, and std::invalid_argument for an effect on the line of a tendon that
+/// is a rope.
 Equipped equip(const erp::Robot& robot);
 
 }  // namespace sim::effects

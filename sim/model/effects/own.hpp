@@ -1,13 +1,13 @@
 #pragma once
 #include "interfaces/robot/robot.hpp"
 
-/// Parts of a robot made ready to be changed alone.
+/// Makes a part of a robot independent of other parts, so that it can be changed separately.
 namespace sim::effects {
 
-/// A motor type that no other actuator shares: added to the robot if there is none yet.
+/// The motor type of an actuator, not shared with other actuators; added to the robot if necessary.
 erp::MotorType& own_motor(erp::Robot& robot, erp::Actuator& actuator);
 
-/// Gives a body its mass as numbers, whatever solids it was made of.
+/// Replaces a body's solids by explicit mass, centre of mass and inertia.
 void resolve(erp::Body& body);
 
 }  // namespace sim::effects

@@ -9,7 +9,7 @@ namespace {
 
 using erp::JointType;
 
-/// What turns a vector of the way's frame into that of the joint, u off it: Eᵀ.
+/// Eᵀ: rotates a vector from the frame of the trajectory to the frame of the joint, which deviates by u.
 Eigen::Matrix3d into_own(JointType type, const Vec3& u) {
   const double angle = u.norm();
   if (type != JointType::spherical || angle < 1e-12) return Eigen::Matrix3d::Identity();
@@ -18,25 +18,25 @@ Eigen::Matrix3d into_own(JointType type, const Vec3& u) {
 
 }  // namespace
 
-CatchUp::CatchUp(std::span<const JointReading> now, std::span<const JointMotion> wanted,
+CatchUp::CatchUp(std::span<const JointReading> now, std::span<const JointMotion> desired,
                  double duration_s)
     : duration_s_(duration_s) {
   for (std::size_t j = 0; j < now.size(); ++j) {
     const JointType type = now[j].type;
-    starts_.push_back(way_between(type, wanted[j].now.position, now[j].position));
+    starts_.push_back(way_between(type, desired[j].now.position, now[j].position));
     const Vec3 u = vec(starts_.back()), none = Vec3::Zero();
     const Vec3 apart =
-        vec(now[j].velocity_rad_per_s) - into_own(type, u) * vec(wanted[j].now.velocity_rad_per_s);
+        vec(now[j].velocity_rad_per_s) - into_own(type, u) * vec(desired[j].now.velocity_rad_per_s);
     const Vec3 rate = type == JointType::spherical ? RotationVector(u).rate(apart) : apart;
-    ways_.push_back(QuinticWay::between(-u, duration_s * rate, none, none, none));
+    segments_.push_back(QuinticSegment::between(-u, duration_s * rate, none, none, none));
   }
 }
 
-void CatchUp::add(double time_s, std::span<JointMotion> wanted) const {
+void CatchUp::add(double time_s, std::span<JointMotion> desired) const {
   if (time_s >= duration_s_) return;
-  for (std::size_t j = 0; j < ways_.size(); ++j) {
-    auto& [now, acceleration] = wanted[j];
-    auto p = ways_[j].at(time_s / duration_s_);
+  for (std::size_t j = 0; j < segments_.size(); ++j) {
+    auto& [now, acceleration] = desired[j];
+    auto p = segments_[j].at(time_s / duration_s_);
     p.u += vec(starts_[j]), p.rate /= duration_s_, p.rate_of_rate /= duration_s_ * duration_s_;
     const bool ball = now.type == JointType::spherical;
     const RotationVector turn(p.u);

@@ -9,7 +9,7 @@
 
 namespace sim {
 
-/// `<hand body="hand" at_m="0 0 -0.1"/>`: the point that reaches, in its body's frame.
+/// `<hand body="hand" at_m="0 0 -0.1"/>`: the reaching point, in its body's frame.
 struct HandConfig {
   static constexpr auto element = "hand";
   xml::Place place;
@@ -18,21 +18,21 @@ struct HandConfig {
   void visit(auto& v) { v.required("body", body), v("at_m", at_m); }
 };
 
-/// `<zone from_m="0.2 -0.3 -0.4" to_m="0.4 0 -0.1"/>`: a box in the world where targets lie.
+/// `<zone from_m="0.2 -0.3 -0.4" to_m="0.4 0 -0.1"/>`: a box in the world that contains the targets.
 struct ZoneConfig {
   static constexpr auto element = "zone";
   xml::Place place;
   xml::Vec3 from_m{}, to_m{};
   void visit(auto& v) { v.required("from_m", from_m), v.required("to_m", to_m); }
-  /// Anywhere in it, as likely as anywhere else.
-  Vec3 draw(auto& dice) const {
+  /// A random point, uniformly distributed in the box.
+  Vec3 draw(auto& random) const {
     Vec3 at_m;
     for (std::size_t k = 0; k < 3; ++k)
       at_m[static_cast<Eigen::Index>(k)] =
-          std::uniform_real_distribution<double>(from_m[k], to_m[k])(dice);
+          std::uniform_real_distribution<double>(from_m[k], to_m[k])(random);
     return at_m;
   }
-  /// In it, or no farther off.
+  /// True if the point is in the box enlarged by the margin.
   bool holds(const Vec3& at_m, double margin_m) const {
     return ((at_m - vec(from_m)).array() > -margin_m).all() &&
            ((vec(to_m) - at_m).array() > -margin_m).all();
@@ -41,10 +41,10 @@ struct ZoneConfig {
 
 class Hand {
  public:
-  /// Throws std::invalid_argument: no such body.
+  /// Throws std::invalid_argument for an unknown body.
   Hand(const HandConfig& config, std::span<const std::string> bodies)
       : body_(body_named(bodies, config.body, "a hand")), at_m_(vec(config.at_m)) {}
-  /// In the world; bodies as RobotTree has them.
+  /// Position in the world; `bodies` in the order of RobotTree.
   Vec3 in(std::span<const BodyPose> bodies) const {
     return bodies[body_].position_m + bodies[body_].rotation * at_m_;
   }

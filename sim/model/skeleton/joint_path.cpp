@@ -19,19 +19,19 @@ Quaterniond turn_of(const std::array<double, 4>& q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
 }
 
-/// How a joint moves at an end of a way.
+/// Motion of a joint at an end of a segment.
 struct End {
   Vec3 velocity, acceleration;
 };
 
-QuinticWay way_of(JointType type, const Vec3& u, const End& from, End to, double T) {
+QuinticSegment segment_of(JointType type, const Vec3& u, const End& from, End to, double T) {
   if (type == JointType::spherical) {
     const RotationVector turn(u);
     to.velocity = turn.rate(to.velocity);
     to.acceleration = turn.rate_of_rate(to.velocity, to.acceleration);
   }
-  return QuinticWay::between(u, T * from.velocity, T * T * from.acceleration, T * to.velocity,
-                             T * T * to.acceleration);
+  return QuinticSegment::between(u, T * from.velocity, T * T * from.acceleration, T * to.velocity,
+                                 T * T * to.acceleration);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ std::array<double, 4> gone(JointType type, const std::array<double, 4>& from,
 
 JointPath::JointPath(std::span<const erp::Joint> joints, std::vector<TimedPose> poses, Via via)
     : poses_(std::move(poses)) {
-  if (poses_.empty()) throw std::invalid_argument("a way needs a pose at least");
+  if (poses_.empty()) throw std::invalid_argument("a joint trajectory needs at least one pose");
   for (const erp::Joint& joint : joints) types_.push_back(joint.type);
   check_times();
   if (poses_.size() > 1) plan(via);
@@ -77,7 +77,8 @@ void JointPath::check_times() const {
   for (std::size_t k = 1; k < poses_.size(); ++k)
     if (!(poses_[k].time_s > poses_[k - 1].time_s))
       throw std::invalid_argument("row " + std::to_string(k + 1) + ": time_s " +
-                                  std::to_string(poses_[k].time_s) + " does not rise");
+                                  std::to_string(poses_[k].time_s) +
+                                  " is not later than the row before");
 }
 
 void JointPath::plan(Via via) {
@@ -86,19 +87,19 @@ void JointPath::plan(Via via) {
   const Eigen::MatrixXd u = turns();
   const ViaMotions motions = least_jerk_through(times_s, u, rests(via));
   for (std::size_t k = 0; k + 1 < poses_.size(); ++k) {
-    auto& ways = ways_.emplace_back();
+    auto& segments = segments_.emplace_back();
     for (std::size_t j = 0; j < types_.size(); ++j) {
       const auto of = [&](const Eigen::MatrixXd& all, std::size_t row) -> Vec3 {
         return all.block<1, 3>(Index(row), Index(3 * j)).transpose();
       };
       const End from{of(motions.velocity, k), of(motions.acceleration, k)};
       const End to{of(motions.velocity, k + 1), of(motions.acceleration, k + 1)};
-      ways.push_back(way_of(types_[j], of(u, k), from, to, times_s[k + 1] - times_s[k]));
+      segments.push_back(segment_of(types_[j], of(u, k), from, to, times_s[k + 1] - times_s[k]));
     }
   }
 }
 
-/// u(1) of all ways: segments × three a joint.
+/// u(1) of all segments: segments × three columns per joint.
 Eigen::MatrixXd JointPath::turns() const {
   Eigen::MatrixXd u(poses_.size() - 1, 3 * types_.size());
   for (std::size_t k = 0; k + 1 < poses_.size(); ++k)
@@ -119,13 +120,13 @@ void JointPath::at(double time_s, std::vector<JointMotion>& motions) const {
   motions.resize(types_.size());
   const auto after = std::ranges::upper_bound(poses_, time_s, {}, &TimedPose::time_s);
   const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - poses_.begin() - 1, 0));
-  const bool moves = k < ways_.size() && time_s >= poses_[k].time_s;
+  const bool moves = k < segments_.size() && time_s >= poses_[k].time_s;
   for (std::size_t j = 0; j < types_.size(); ++j) {
     JointMotion& motion = motions[j];
     motion = {{types_[j], poses_[k].pose[j], {}, {}, {}}, {}};
     if (!moves) continue;
     const double T = poses_[k + 1].time_s - poses_[k].time_s;
-    auto p = ways_[k][j].at((time_s - poses_[k].time_s) / T);
+    auto p = segments_[k][j].at((time_s - poses_[k].time_s) / T);
     p.rate /= T, p.rate_of_rate /= T * T;
     const bool ball = types_[j] == JointType::spherical;
     const RotationVector turn(p.u);

@@ -8,17 +8,17 @@
 #include "sim/model/skeleton/joint_reading.hpp"
 #include "sim/model/skeleton/via_points.hpp"
 
-/// Ways of joints through poses in time, with the least jerk (Flash and Hogan 1985).
+/// Minimum-jerk joint trajectories through poses at given times (Flash and Hogan 1985).
 ///
 ///   q(t) = q_k ⊕ u(s),   s = (t − t_k)/T,   u(0) = 0,   u(1) = q_{k+1} ⊖ q_k
 ///
-/// Of a ball joint u is a rotation vector in the child's frame. From rest to rest u goes straight,
-/// u = p(s) u(1) with p = s³ (10 − 15 s + 6 s²): about one axis, which stands still in parent and
-/// child. Through a pose without a halt velocity and acceleration are continuous; which they are
-/// follows from the least jerk of each entry of u, for ball joints nearly the least.
+/// For a ball joint u is a rotation vector in the child's frame. From rest to rest u follows a straight
+/// line, u = p(s) u(1) with p = s³ (10 − 15 s + 6 s²): a rotation about an axis that is fixed in parent
+/// and child. In a pose that is passed without a stop, velocity and acceleration are continuous. Their
+/// values minimise the jerk of each entry of u; for ball joints the result is nearly minimum jerk.
 namespace sim {
 
-/// One position a joint, as JointReading has it.
+/// One position per joint, in the format of JointReading.
 using Pose = std::vector<std::array<double, 4>>;
 
 struct TimedPose {
@@ -26,7 +26,7 @@ struct TimedPose {
   Pose pose;
 };
 
-/// How much of a way is done at the share s of its time, and its derivatives by s.
+/// Completed fraction of a minimum-jerk motion at the time fraction s, and its derivatives by s.
 struct LeastJerk {
   double done = 0, speed = 0, acceleration = 0;
 };
@@ -36,42 +36,42 @@ constexpr LeastJerk least_jerk(double s) {
   return {s * s * s * (10 + s * (6 * s - 15)), 30 * s * s * (1 - s) * (1 - s),
           60 * s * (1 - s) * (1 - 2 * s)};
 }
-/// The most of LeastJerk::speed, in the middle of the way.
+/// Maximum of LeastJerk::speed, at s = 0.5.
 inline constexpr double least_jerk_top_speed = 1.875;
 
-/// The pose a robot starts in.
+/// The starting pose of a robot.
 Pose starting_pose(const erp::Robot& robot);
 
-/// u = q₁ ⊖ q₀ of one joint: revolute [0], rad; ball joints a rotation vector in the child's frame,
-/// at most half a turn; nothing of others.
+/// u = q₁ ⊖ q₀ of one joint: revolute [0], rad; for ball joints a rotation vector in the child's frame,
+/// at most half a turn; zero for other types.
 std::array<double, 3> way_between(erp::JointType type, const std::array<double, 4>& from,
                                   const std::array<double, 4>& to);
-/// q ⊕ u.
+/// q ⊕ u, the inverse of `way_between`.
 std::array<double, 4> gone(erp::JointType type, const std::array<double, 4>& from,
                            const std::array<double, 3>& way);
 
-/// Where a joint is, how it moves, and how that changes; as JointReading.
+/// Position, velocity and acceleration of a joint, in the format of JointReading.
 struct JointMotion {
   JointReading now;
   std::array<double, 3> acceleration_rad_per_s2{};
 };
 
-/// What happens in the poses between the first and the last.
+/// Behaviour in the poses between the first and the last.
 enum class Via {
-  rest,    ///< a halt in each
-  through  ///< a halt only where two rows in sequence are the same pose
+  rest,    ///< stop in each pose
+  through  ///< stop only where two consecutive rows have the same pose
 };
 
 class JointPath {
  public:
   JointPath() = default;
-  /// Throws std::invalid_argument where times do not rise, or without a pose.
+  /// Throws std::invalid_argument if times do not increase or there is no pose.
   JointPath(std::span<const erp::Joint> joints, std::vector<TimedPose> poses, Via via = Via::rest);
 
   double begin_s() const { return poses_.front().time_s; }
   double end_s() const { return poses_.back().time_s; }
-  /// Every joint at a time; at rest in the first or last pose outside. No heap once `motions` has
-  /// its size.
+  /// Motion of every joint at a time; before the first and after the last pose, at rest there. No heap
+  /// once `motions` has its size.
   void at(double time_s, std::vector<JointMotion>& motions) const;
 
  private:
@@ -82,11 +82,11 @@ class JointPath {
 
   std::vector<erp::JointType> types_;
   std::vector<TimedPose> poses_;
-  std::vector<std::vector<QuinticWay>> ways_;  ///< from each pose to the next, by joint
+  std::vector<std::vector<QuinticSegment>> segments_;  ///< from each pose to the next, by joint
 };
 
-/// Where a way takes a hinge out of its range, by more than 0.01 rad; a way without halts swings out
-/// beside its poses.
+/// A time at which a trajectory moves a hinge out of its range by more than 0.01 rad. A trajectory
+/// without stops may overshoot its poses.
 struct OutOfRange {
   std::size_t joint;
   double time_s, at_rad;

@@ -33,7 +33,7 @@ std::size_t body_named(std::span<const std::string> names, const std::string& bo
                        const std::string& what) {
   const auto found = std::ranges::find(names, body);
   if (found == names.end())
-    refuse(what + " of body \"" + body + "\", which the robot does not have");
+    refuse(what + " refers to body \"" + body + "\", which the robot does not have");
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -44,19 +44,19 @@ RobotTree::RobotTree(const erp::Robot& robot) : joints(robot.joints()) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
   };
   while (!left.empty()) {
-    // The next body whose parent is already there.
+    // The next body whose parent is already in the tree.
     const auto next = std::find_if(left.begin(), left.end(), [&](const erp::Body& body) {
       const int joint = joint_that_moves(joints, body.name);
       return joint < 0 || index(joints[joint].parent) >= 0;
     });
     if (next == left.end())
-      refuse("body \"" + left.front().name + "\" hangs on an unknown body or on itself");
+      refuse("body \"" + left.front().name + "\" is connected to an unknown body or to itself");
     const int joint = joint_that_moves(joints, next->name);
     const erp::Mass mass = mass_of(*next);
     check(*next, mass, joint >= 0);
     const int parent = joint < 0 ? -1 : index(joints[joint].parent);
     if (joint >= 0 && joints[joint].type == erp::JointType::free && bodies[parent].joint >= 0)
-      refuse("free body \"" + next->name + "\" must float relative to a root");
+      refuse("free body \"" + next->name + "\": the parent of a free joint must be a root");
     bodies.push_back({*next, parent, joint, mass});
     names.push_back(next->name);
     left.erase(next);

@@ -6,7 +6,7 @@
 #include "interfaces/robot/mass.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// A robot's bodies and joints in an order a tree can be built in: parents before children.
+/// A robot's bodies and joints in tree order: parents before children.
 namespace sim {
 
 struct TreeBody {
@@ -16,17 +16,19 @@ struct TreeBody {
   erp::Mass mass;
 };
 
-/// Which of the names it is. Throws std::invalid_argument: "a grasp" by a body that there is not.
+/// Index of `body` in `names`. Throws std::invalid_argument if it is not there; `what`, for example
+/// "a grasp", names the element that refers to the body.
 std::size_t body_named(std::span<const std::string> names, const std::string& body,
                        const std::string& what);
 
 struct RobotTree {
   std::vector<TreeBody> bodies;    ///< parents first
   std::vector<erp::Joint> joints;  ///< as in robot.xml
-  std::vector<std::string> names;  ///< of the bodies
+  std::vector<std::string> names;  ///< names of the bodies
 
-  /// Throws std::invalid_argument, naming what: a body moved by two joints, a loop, an unknown
-  /// body, a moved body without mass or inertia, a root with mass, a free body whose parent moves.
+  /// Throws std::invalid_argument, with the name of the element, for a body moved by two joints, a
+  /// loop, an unknown body, a moved body without mass or inertia, a root with mass, or a free body
+  /// whose parent moves.
   explicit RobotTree(const erp::Robot& robot);
 };
 

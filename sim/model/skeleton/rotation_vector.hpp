@@ -4,7 +4,7 @@
 
 #include "sim/model/skeleton/pose.hpp"
 
-/// A turn that changes, R = exp [u]×, in the turning body's own frame:
+/// Angular velocity and acceleration of a rotation R = exp [u]×, in the frame of the rotating body:
 ///
 ///   ω = J u̇,   J = 1 − a [u]× + b [u]×²,   a = (1 − cos θ)/θ²,  b = (θ − sin θ)/θ³,  θ = |u|
 ///   α = J ü + rest,   rest = −ȧ u × u̇ + ḃ u × (u × u̇) + b u̇ × (u × u̇)
@@ -17,7 +17,7 @@ class RotationVector {
  public:
   explicit RotationVector(const Vec3& u) : u_(u) {
     const double square = u.squaredNorm(), angle = std::sqrt(square);
-    if (angle < 1e-2) {  // by series: to 1e-11
+    if (angle < 1e-2) {  // series expansion, error below 1e-11
       a_ = 1.0 / 2 - square / 24, b_ = 1.0 / 6 - square / 120;
       da_ = -1.0 / 12 + square / 180, db_ = -1.0 / 60 + square / 1260;
       return;
@@ -32,7 +32,7 @@ class RotationVector {
   Vec3 acceleration(const Vec3& rate, const Vec3& rate_of_rate) const {
     return jacobian() * rate_of_rate + rest(rate);
   }
-  /// u̇ and ü of a body that turns with ω and α.
+  /// u̇ and ü of a body that rotates with ω and α.
   Vec3 rate(const Vec3& speed) const { return jacobian().inverse() * speed; }
   Vec3 rate_of_rate(const Vec3& rate, const Vec3& acceleration) const {
     return jacobian().inverse() * (acceleration - rest(rate));

@@ -27,7 +27,8 @@ SkeletonModel::SkeletonModel(const RobotTree& tree, const Vec3& gravity,
       twists_(tree.bodies.size()) {
   for (const std::string& name : lock)
     if (std::ranges::find(tree.joints, name, &erp::Joint::name) == tree.joints.end())
-      throw std::invalid_argument("cannot lock joint \"" + name + "\": the robot has none such");
+      throw std::invalid_argument("cannot lock joint \"" + name +
+                                  "\": the robot has no joint of this name");
   axes_.resize(6, 0);
   for (std::size_t k = 0; k < tree.bodies.size(); ++k)
     if (const int joint = tree.bodies[k].joint; joint >= 0)
@@ -72,7 +73,7 @@ void SkeletonModel::turn(Link& link, const JointReading& joint) const {
   if (link.dofs == 6) link.origin_m = vec(tree_.joints[link.joint].at_m) + vec(joint.offset_m);
 }
 
-/// The body's pose, its inertia there, and the motions of its joint.
+/// Computes the body's pose, its inertia in the world frame, and the columns S of its joint.
 void SkeletonModel::place(Link& link) {
   const TreeBody& body = tree_.bodies[link.body];
   const BodyPose& parent = poses_[body.parent];
@@ -89,14 +90,14 @@ void SkeletonModel::place(Link& link) {
   link.inertia = SpatialInertia::of(body.mass.mass_kg, com, pose.rotation, link.central_kg_m2);
 }
 
-/// What the joint's own speed adds to the motion of its parent.
+/// Spatial velocity of the link relative to its parent.
 Vec6 SkeletonModel::moved(const Link& link, const Eigen::VectorXd& v) const {
   Vec6 own = Vec6::Zero();
   for (int d = 0; d < link.dofs; ++d) own += axes_.col(link.first + d) * v[link.first + d];
   return own;
 }
 
-/// Of it, the part along the root's axes.
+/// The translational part of it, along the root's axes.
 Vec3 SkeletonModel::slid(const Link& link, const Eigen::VectorXd& v) const {
   return axes_.block<3, 3>(3, link.first + 3) * v.segment<3>(link.first + 3);
 }
@@ -117,8 +118,8 @@ void SkeletonModel::place(std::span<const JointReading> joints) {
   }
 }
 
-/// Gravity is the world falling upwards. The axes of a joint turn with its child, dS/dt = v × S;
-/// those a free body slides along are the root's and stay.
+/// Gravity is modelled as an upward acceleration of the world. The axes of a joint rotate with its
+/// child, dS/dt = v × S; the translation axes of a free body are those of the root and constant.
 void SkeletonModel::newton_euler(const Eigen::VectorXd& v, const Eigen::VectorXd* a,
                                  Eigen::VectorXd& tau) {
   for (Link& link : links_) {

@@ -12,66 +12,66 @@
 ///
 ///   τ = H(q) a + C(q, v) + τ_G(q)
 ///
-/// v: one coordinate a revolute joint, three a spherical one (angular velocity of the child, in the
-/// child's frame), six a free one (the same, and the velocity of its centre of mass in the root's
-/// frame), none a fixed or locked one; in the order of RobotTree's bodies. a = dv/dt. Column S_d is
-/// the motion of coordinate d alone, in the world's frame.
+/// v has one coordinate per revolute joint, three per spherical joint (angular velocity of the child, in
+/// the child's frame), six per free joint (the same, then the velocity of the centre of mass in the
+/// root's frame), and none per fixed or locked joint, in the order of RobotTree's bodies. a = dv/dt.
+/// Column S_d is the spatial velocity for a unit velocity of coordinate d, in the world frame.
 ///
 ///   inverse   recursive Newton–Euler      f_i = I a_i + v_i ×* I v_i,  τ_d = S_dᵀ Σ f  (outwards)
 ///   H         composite rigid bodies      H_de = S_dᵀ I^c_e S_e,  d towards the root from e
-///   torques   S_dᵀ (at × F, F): of forces at points of bodies, such as the pulls of a tendon
+///   torques   S_dᵀ (at × F, F), for forces at points of bodies, such as the pulls of a tendon
 ///
-/// Source: Featherstone 2008, chapters 5 and 6. No friction, no limits; no heap after construction,
-/// but in `forward`.
+/// Source: Featherstone 2008, chapters 5 and 6. Ignores friction and joint limits. No heap after
+/// construction, except in `forward`.
 namespace sim {
 
 class SkeletonModel {
  public:
-  /// `lock`: joints held at their initial angle. Throws std::invalid_argument for an unknown one.
+  /// `lock`: joints held at their initial angle. Throws std::invalid_argument for an unknown joint.
   SkeletonModel(const RobotTree& tree, const Vec3& gravity_m_per_s2,
                 std::span<const std::string> lock = {});
 
   int coordinates() const { return static_cast<int>(axes_.cols()); }
-  /// Where a joint's coordinates begin in v, by its index in RobotTree::joints; −1: it has none.
+  /// Index in v of a joint's first coordinate; `joint`: index in RobotTree::joints. −1: no coordinate.
   int first_of(int joint) const { return first_of_[static_cast<std::size_t>(joint)]; }
-  /// The coordinates that move a body, from the nearest to the root's.
+  /// The coordinates that move a body, from the nearest joint to the root.
   std::span<const int> movers(int body) const { return movers_[static_cast<std::size_t>(body)]; }
   /// S_d.
   auto axis(int coordinate) const { return axes_.col(coordinate); }
 
-  /// Gives a body another mass; counts from the next `place` on.
+  /// Changes the mass of a body; takes effect with the next `place`.
   void set_mass(int body, const erp::Mass& mass);
-  /// Moves the bones there; all that follows is of this posture and these velocities.
+  /// Sets posture and velocities, on which all results below depend.
   void place(std::span<const JointReading> joints);
   std::span<const BodyPose> poses() const { return poses_; }
   std::span<const BodyTwist> twists() const { return twists_; }
-  /// v, as placed.
+  /// v of the last `place`.
   const Eigen::VectorXd& velocity() const { return velocity_; }
 
-  /// The torques that accelerate by `a`.
+  /// The torques for the accelerations `a` (inverse dynamics).
   void inverse(const Eigen::VectorXd& a, Eigen::VectorXd& tau) { newton_euler(velocity_, &a, tau); }
-  /// C + τ_G; of the placed velocities, or of others at the same posture.
+  /// C + τ_G, for the velocities of `place` or for other velocities in the same posture.
   void bias(Eigen::VectorXd& tau) { newton_euler(velocity_, nullptr, tau); }
   void bias(const Eigen::VectorXd& v, Eigen::VectorXd& tau) { newton_euler(v, nullptr, tau); }
-  /// τ_G: what holds the bones still against gravity.
+  /// τ_G: the torques that compensate gravity at rest.
   void gravity_torques(Eigen::VectorXd& tau) { newton_euler(still_, nullptr, tau); }
   /// H, symmetric, coordinates × coordinates.
   void inertia(Eigen::MatrixXd& h);
-  /// The accelerations that torques cause.
+  /// The accelerations for given torques (forward dynamics).
   Eigen::VectorXd forward(const Eigen::VectorXd& tau);
-  /// Kinetic and potential.
+  /// Kinetic plus potential energy.
   double energy_J() const;
 
  private:
   struct Link {
-    int body, joint, parent;  ///< parent: a link, −1: the world
+    int body, joint, parent;  ///< parent: index of a link; −1: the world
     int first = 0, dofs = 0;
     Vec3 axis = Vec3::UnitY();                               ///< of a revolute joint
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< child to parent
     Vec3 origin_m = Vec3::Zero();                            ///< in the parent's frame
     Eigen::Matrix3d central_kg_m2;                           ///< inertia about the centre of mass
     SpatialInertia inertia, composite;
-    Vec6 velocity = Vec6::Zero();  ///< as placed
+    Vec6 velocity = Vec6::Zero();  ///< of the last `place`
     Vec6 moving = Vec6::Zero(), acceleration = Vec6::Zero(), force = Vec6::Zero();
   };
   void add_link(int body, bool locked);

@@ -4,8 +4,8 @@
 #include "sim/model/skeleton/pose.hpp"
 
 /// Spatial vectors in the world's frame: angular part above, linear part below, both about the
-/// world's origin. What bodies have in common simply adds up: velocities along a limb, forces and
-/// inertias back to its root.
+/// world's origin. In this form velocities add up along a limb, and forces and inertias add up
+/// towards its root.
 /// Source: Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2.
 namespace sim {
 
@@ -17,10 +17,10 @@ inline Vec6 spatial(const Vec3& angular, const Vec3& linear) {
   return v;
 }
 
-/// The motion of turning about an axis through a point.
+/// Spatial velocity of a unit rotation about an axis through a point.
 inline Vec6 turning(const Vec3& axis, const Vec3& at_m) { return spatial(axis, at_m.cross(axis)); }
 
-/// A force at a point, as moment and force.
+/// A force at a point as a wrench: moment and force.
 inline Vec6 wrench(const Vec3& at_m, const Vec3& force_N) {
   return spatial(at_m.cross(force_N), force_N);
 }
@@ -37,14 +37,14 @@ inline Vec6 cross_force(const Vec6& v, const Vec6& f) {
   return spatial(w.cross(n) + l.cross(p), w.cross(p));
 }
 
-/// Of a rigid body, or of several that move as one: mass, first moment, second moment about the
-/// world's origin.
+/// Inertia of a rigid body, or of several bodies that move as one: mass, first moment and second moment
+/// about the world's origin.
 struct SpatialInertia {
   double mass_kg = 0;
   Vec3 moment_kg_m = Vec3::Zero();                         ///< m c
   Eigen::Matrix3d second_kg_m2 = Eigen::Matrix3d::Zero();  ///< I about the origin
 
-  /// Mass m with its centre at c and inertia about it in axes turned by `rotation`.
+  /// From mass m, centre of mass c, and the inertia about c in axes rotated by `rotation`.
   static SpatialInertia of(double mass_kg, const Vec3& com_m, const Eigen::Matrix3d& rotation,
                            const Eigen::Matrix3d& inertia_kg_m2) {
     Eigen::Matrix3d second = rotation * inertia_kg_m2 * rotation.transpose();

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// c₁ … c₅ by Δ, V₀, A₀, V₁, A₁.
+/// Matrix from (Δ, V₀, A₀, V₁, A₁) to c₁ … c₅.
 const Eigen::Matrix<double, 5, 5>& quintic_of_ends() {
   static const Eigen::Matrix<double, 5, 5> rows = (Eigen::Matrix<double, 5, 5>() <<  //
                                                        0,
@@ -22,7 +22,7 @@ const Eigen::Matrix<double, 5, 5>& quintic_of_ends() {
   return rows;
 }
 
-/// G of ∫ x‴² ds = zᵀ G z, z = (Δ, V₀, A₀, V₁, A₁).
+/// The matrix G in ∫ x‴² ds = zᵀ G z, z = (Δ, V₀, A₀, V₁, A₁).
 Eigen::Matrix<double, 5, 5> jerk_cost() {
   // x‴ = 6 c₃ + 24 c₄ s + 60 c₅ s², and ∫ sⁱ sʲ ds = 1/(i + j + 1)
   const Eigen::Matrix<double, 3, 5> jerk =
@@ -32,20 +32,20 @@ Eigen::Matrix<double, 5, 5> jerk_cost() {
   return jerk.transpose() * hilbert * jerk;
 }
 
-/// The normal equations in all v and a, point by point; those of resting points held at 0.
+/// The normal equations in v and a of all points; those of points at rest are fixed at 0.
 struct NormalEquations {
   std::vector<Eigen::Triplet<double>> entries;
   MatrixXd right;
   const std::vector<bool>& rests;
 
   bool held(Index row) const { return rests[static_cast<std::size_t>(row / 2)]; }
-  void add_segment(Index k, double T, const Eigen::RowVectorXd& way) {
+  void add_segment(Index k, double T, const Eigen::RowVectorXd& delta) {
     static const auto cost = jerk_cost();
     const Eigen::Vector4d scale(T, T * T, T, T * T);
     const double weight = std::pow(T, -5);
     for (Index i = 0; i < 4; ++i) {
       if (held(2 * k + i)) continue;
-      right.row(2 * k + i) -= weight * scale[i] * cost(1 + i, 0) * way;
+      right.row(2 * k + i) -= weight * scale[i] * cost(1 + i, 0) * delta;
       for (Index j = 0; j < 4; ++j)
         if (!held(2 * k + j))
           entries.emplace_back(2 * k + i, 2 * k + j,
@@ -56,24 +56,24 @@ struct NormalEquations {
 
 }  // namespace
 
-Quintic Quintic::between(double way, double v0, double a0, double v1, double a1) {
+Quintic Quintic::between(double delta, double v0, double a0, double v1, double a1) {
   Eigen::Matrix<double, 5, 1> ends;
-  ends << way, v0, a0, v1, a1;
+  ends << delta, v0, a0, v1, a1;
   return {quintic_of_ends() * ends};
 }
 
-QuinticWay QuinticWay::between(const Vec3& way, const Vec3& v0, const Vec3& a0, const Vec3& v1,
-                               const Vec3& a1) {
-  QuinticWay all;
+QuinticSegment QuinticSegment::between(const Vec3& delta, const Vec3& v0, const Vec3& a0,
+                                       const Vec3& v1, const Vec3& a1) {
+  QuinticSegment all;
   for (Index d = 0; d < 3; ++d) {
-    const Quintic one = Quintic::between(way[d], v0[d], a0[d], v1[d], a1[d]);
+    const Quintic one = Quintic::between(delta[d], v0[d], a0[d], v1[d], a1[d]);
     for (Index n = 0; n < 5; ++n) all.c[std::size_t(n)][std::size_t(d)] = one.c[n];
   }
   return all;
 }
 
-/// By Horner's rule.
-QuinticWay::Place QuinticWay::at(double s) const {
+/// Evaluates the polynomial by Horner's method.
+QuinticSegment::Place QuinticSegment::at(double s) const {
   Place p{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   const auto deeper = [&](const Vec3& factor) {
     p.rate_of_rate = s * p.rate_of_rate + 2 * p.rate;
@@ -85,21 +85,21 @@ QuinticWay::Place QuinticWay::at(double s) const {
   return p;
 }
 
-ViaMotions least_jerk_through(const std::vector<double>& times_s, const MatrixXd& ways,
+ViaMotions least_jerk_through(const std::vector<double>& times_s, const MatrixXd& deltas,
                               std::vector<bool> rests) {
-  const Index points = ways.rows() + 1;
+  const Index points = deltas.rows() + 1;
   rests.front() = rests.back() = true;
-  NormalEquations equations{{}, MatrixXd::Zero(2 * points, ways.cols()), rests};
+  NormalEquations equations{{}, MatrixXd::Zero(2 * points, deltas.cols()), rests};
   for (Index k = 0; k + 1 < points; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    equations.add_segment(k, times_s[at + 1] - times_s[at], ways.row(k));
+    equations.add_segment(k, times_s[at + 1] - times_s[at], deltas.row(k));
   }
   for (Index row = 0; row < 2 * points; ++row)
     if (equations.held(row)) equations.entries.emplace_back(row, row, 1);
   Eigen::SparseMatrix<double> matrix(2 * points, 2 * points);
   matrix.setFromTriplets(equations.entries.begin(), equations.entries.end());
   const MatrixXd sought = Eigen::SimplicialLDLT<decltype(matrix)>(matrix).solve(equations.right);
-  ViaMotions motions{MatrixXd(points, ways.cols()), MatrixXd(points, ways.cols())};
+  ViaMotions motions{MatrixXd(points, deltas.cols()), MatrixXd(points, deltas.cols())};
   for (Index k = 0; k < points; ++k)
     motions.velocity.row(k) = sought.row(2 * k),
     motions.acceleration.row(k) = sought.row(2 * k + 1);

@@ -1,22 +1,22 @@
 #include "sim/model/skeleton/skeleton_model.hpp"
 #include "sim/world/bullet_skeleton.hpp"
 #include "tests/bench/accuracy/figure.hpp"
-#include "tests/sim/thicket.hpp"
+#include "tests/sim/random_robots.hpp"
 
 namespace accuracy {
 namespace {
 
 using sim::Vec3;
 
-const Vec3 gravity_m_per_s2(0.3, -0.2, -9.81);  // chosen: along no axis
+const Vec3 gravity_m_per_s2(0.3, -0.2, -9.81);  // chosen: not parallel to an axis
 
-/// The worst of all robots.
+/// Largest errors of all robots.
 struct Errors {
   double round_trip_rad_per_s2 = 0, inertia = 0, acceleration = 0;
 };
 
 void compare(rigs::Draw& draw, Errors& worst) {
-  const sim::RobotTree tree(rigs::thicket(draw));
+  const sim::RobotTree tree(rigs::random_trees(draw));
   sim::SkeletonModel model(tree, gravity_m_per_s2);
   sim::BulletSkeleton bullet(tree, gravity_m_per_s2, {});
   bullet.place(rigs::posture(tree.joints, draw));
@@ -49,8 +49,8 @@ Figures dynamics() {
   for (int robot = 0; robot < 20; ++robot) compare(draw, worst);
   return {{8, "accelerations through inverse and forward dynamics, 20 robots",
            worst.round_trip_rad_per_s2, 1e-9, "rad/s²"},
-          {8, "H times the inverse of Bullet's, less 1", worst.inertia, 1e-9, ""},
-          {8, "accelerations beside Bullet's, relative", worst.acceleration, 1e-9, ""}};
+          {8, "H times the inverse of Bullet's H, minus identity", worst.inertia, 1e-9, ""},
+          {8, "accelerations against Bullet's, relative", worst.acceleration, 1e-9, ""}};
 }
 
 }  // namespace accuracy

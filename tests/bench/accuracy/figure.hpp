@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-/// What the simulator gives, beside what is known in closed form.
+/// Errors of the simulator against closed-form solutions.
 namespace accuracy {
 
 struct Figure {
   int test;
   std::string what;
   double found, allowed;
-  std::string unit;  ///< of both; empty: a ratio
+  std::string unit;  ///< unit of `found` and `allowed`; empty: a ratio
 };
 using Figures = std::vector<Figure>;
 
@@ -24,7 +24,7 @@ Figures free_arm();              ///< test 7
 Figures dynamics();              ///< test 8
 Figures order_and_repetition();  ///< test 9
 
-/// The larger one; NaN, once found, stays.
+/// The larger value; NaN if one is NaN.
 inline double larger(double worst, double found) {
   return found <= worst || std::isnan(worst) ? worst : found;
 }

@@ -11,12 +11,12 @@ namespace {
 
 using sim::World;
 
-// Chosen: 0.4 kg; at 0 V the gear's friction holds up to 15.6 N.
+// Chosen: 0.4 kg; at 0 V the friction of the gearbox holds up to 15.6 N.
 constexpr double mass_kg = 0.4, g = 9.81, line_m = 0.3, dt_s = 1e-4;
 const double kappa = rigs::hinge_tendon().stiffness_N_per_m;
 const double damping = rigs::hinge_tendon().damping_N_s_per_m;
 
-/// A body below a point of the base, free, on one tendon that is just taut and does not pull.
+/// A free body below a point of the base, on one tendon that is taut with zero tension.
 erp::Robot hung() {
   erp::Robot robot =
       rigs::robot({rigs::root(), rigs::bone("weight", mass_kg, {}, {1e-3, 1e-3, 1e-3})},
@@ -54,8 +54,8 @@ double swing_error() {
                   std::sqrt(kappa / mass_kg - decay_per_s * decay_per_s));
 }
 
-/// Thrown up from where the tendon is slack by 5 mm at 1 m/s, it is back there at that speed after
-/// 0.2 s; chosen.
+/// The body starts upwards at 1 m/s where the tendon is slack by 5 mm. It returns there with the same speed after
+/// 0.2 s. Chosen.
 double slack_tension_N() {
   World world(hung());
   world.set_joint(0, {erp::JointType::free, {1, 0, 0, 0}, {}, {0, 0, 0.005}, {0, 0, 1}});
@@ -70,8 +70,9 @@ double slack_tension_N() {
 }  // namespace
 
 Figures hung_mass() {
-  return {{5, "stretch under a hung mass at rest, relative", rest_error(), 1e-9, ""},
-          {5, "angular frequency of its damped swing at 0.1 ms, relative", swing_error(), 1e-3, ""},
+  return {{5, "stretch under a suspended mass at rest, relative", rest_error(), 1e-9, ""},
+          {5, "angular frequency of its damped oscillation at 0.1 ms, relative", swing_error(),
+           1e-3, ""},
           {5, "tension of a slack tendon", slack_tension_N(), 0, "N"}};
 }
 

@@ -12,8 +12,8 @@ namespace {
 using sim::JointReading, sim::Vec3;
 using Joints = std::vector<JointReading>;
 
-/// Of configs/arm: a shoulder, coordinates 0 to 2, and an elbow, coordinate 3. Anywhere within
-/// their limits; speeds up to 2 rad/s about each axis, chosen.
+/// A random state of configs/arm within its joint limits: shoulder, coordinates 0 to 2, and elbow, coordinate 3;
+/// speeds up to 2 rad/s about each axis, chosen.
 Joints any_pose(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -27,7 +27,7 @@ Joints any_pose(std::mt19937& random) {
   return {shoulder, elbow};
 }
 
-/// Coordinate d alone moved on.
+/// The state with only coordinate d changed.
 Joints moved(Joints joints, int d, double by_rad) {
   if (d == 3) return joints[1].position[0] += by_rad, joints;
   auto& p = joints[0].position;
@@ -72,7 +72,8 @@ Figures quarter_turn() {
     length_m = larger(length_m, std::abs(lever.path(0).length_m - 2 * span_m - r_m * q));
   }
   return {{2, "moment arm of a pulley over a quarter turn", arm_m, 1e-12, "m"},
-          {2, "length over it, linear in the angle", length_m, 1e-12, "m"}};
+          {2, "path length over that pulley, against a linear function of the angle", length_m,
+           1e-12, "m"}};
 }
 
 Figures muscle_jacobian() {
@@ -94,9 +95,9 @@ Figures muscle_jacobian() {
   }
   return {{3, "∂L/∂q of the arm's muscles in 200 poses, against central differences", gradient_m,
            1e-8, "m/rad"},
-          {3, "power of a muscle's pulls + F dL/dt, for 1 N", power_W, 1e-12, "W"},
-          {3, "sum of a muscle's pulls, pulleys' included, for 1 N", force_N, 1e-13, "N"},
-          {3, "sum of their moments, for 1 N", moment_Nm, 1e-13, "Nm"}};
+          {3, "power of a muscle's forces + F dL/dt, for 1 N", power_W, 1e-12, "W"},
+          {3, "sum of a muscle's forces, including pulleys, for 1 N", force_N, 1e-13, "N"},
+          {3, "sum of the moments of these forces, for 1 N", moment_Nm, 1e-13, "Nm"}};
 }
 
 }  // namespace accuracy

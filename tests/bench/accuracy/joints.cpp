@@ -32,7 +32,7 @@ double period_error() {
   return relative(found_s, exact_period_s(amplitude));
 }
 
-/// The angle where it turns back.
+/// The angle at which the motion reverses.
 double next_turn(World& world) {
   for (double before = speed(world);; before = speed(world)) {
     world.step({}, dt_s);
@@ -56,12 +56,12 @@ double coulomb_error() {
 
 Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-/// Relative, the largest in 5 s.
+/// Largest relative drift in 5 s.
 struct Drift {
   double energy = 0, momentum = 0;
 };
 
-// ½ ω·I ω and R I ω stay
+// ½ ω·I ω and R I ω are constant
 Drift ball_drift() {
   const erp::Robot robot = rigs::ball();
   const Vec3 inertia_kg_m2 = vector_of(robot.skeletons[0].bodies[1].inertia_kg_m2);
@@ -82,7 +82,7 @@ Drift ball_drift() {
   return worst;
 }
 
-/// configs/arm, its bones alone.
+/// The skeleton of configs/arm without muscles.
 erp::Robot bare_arm() {
   erp::Robot arm = erp::read_robot(rigs::config("arm/robot.xml"));
   arm.actuators.clear();
@@ -110,16 +110,17 @@ double arm_drift_J(double step_s) {
 
 Figures pendulum() {
   const Drift ball = ball_drift();
-  return {{6, "period of a pendulum that swings by 1.2 rad, relative", period_error(), 1e-5, ""},
-          {6, "amplitude lost to Coulomb friction each half swing, relative", coulomb_error(), 0.02,
-           ""},
-          {6, "drift of a free ball joint's energy in 5 s, relative", ball.energy, 5e-3, ""},
-          {6, "drift of its momentum, relative", ball.momentum, 5e-3, ""}};
+  return {
+      {6, "period of a pendulum with an amplitude of 1.2 rad, relative", period_error(), 1e-5, ""},
+      {6, "amplitude loss by Coulomb friction per half oscillation, relative", coulomb_error(),
+       0.02, ""},
+      {6, "drift of a free ball joint's energy in 5 s, relative", ball.energy, 5e-3, ""},
+      {6, "drift of its angular momentum, relative", ball.momentum, 5e-3, ""}};
 }
 
 Figures free_arm() {
   return {{7, "drift of the free arm's energy in 10 s at 1 ms", arm_drift_J(1e-3), 0.1, "J"},
-          {7, "the same at 0.1 ms", arm_drift_J(1e-4), 0.01, "J"}};
+          {7, "drift of the free arm's energy in 10 s at 0.1 ms", arm_drift_J(1e-4), 0.01, "J"}};
 }
 
 }  // namespace accuracy

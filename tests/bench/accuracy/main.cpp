@@ -1,4 +1,4 @@
-// Measures the simulator against answers known in closed form, prints a table of what it found.
+// Compares the simulator with closed-form solutions and prints a table of the errors.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
@@ -44,18 +44,18 @@ std::string table_of(const Figures& figures) {
   return table.str();
 }
 
-/// Says which figures miss what is allowed; NaN misses.
+/// Prints the figures that exceed their limits; NaN exceeds every limit.
 bool all_hold(const Figures& figures) {
   bool hold = true;
   for (const Figure& f : figures) {
     if (f.found <= f.allowed) continue;
-    std::cerr << "erp_accuracy: test " << f.test << " misses: " << f.what << '\n';
+    std::cerr << "erp_accuracy: test " << f.test << " exceeds its limit: " << f.what << '\n';
     hold = false;
   }
   return hold;
 }
 
-/// A text around a table.
+/// The text before and after a table.
 struct Frame {
   std::string before, after;
 };
@@ -66,7 +66,7 @@ Frame frame_of(const std::string& file) {
   const std::string text(std::istreambuf_iterator<char>(in), {});
   const auto begin = text.find(begin_line), end = text.find(end_line);
   if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw std::invalid_argument(file + " has no lines\n" + begin_line + end_line);
+    throw std::invalid_argument(file + " lacks the marker lines\n" + begin_line + end_line);
   return {text.substr(0, begin) + begin_line, text.substr(end)};
 }
 
@@ -88,11 +88,14 @@ int run(const std::string& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the simulator against answers known in closed form.", "erp_accuracy");
+  CLI::App app("Compares the simulator with closed-form solutions.", "erp_accuracy");
   std::string file;
-  app.add_option("--write", file, "Put the table between the two accuracy lines of this file")
+  app.add_option("--write", file,
+                 "write the table between the two accuracy marker lines of this file")
       ->type_name("FILE");
-  app.footer("Exit codes: 0 all as allowed, 1 not all or failed, 2 bad usage or input.");
+  app.footer(
+      "Exit codes: 0 all errors within their limits, 1 a limit is exceeded or failed, 2 bad usage "
+      "or input.");
   try {
     app.parse(argc, argv);
     return run(file);

@@ -13,10 +13,10 @@ namespace {
 using rigs::spindle_radius_m, sim::MotorState;
 
 struct Run {
-  double speed_rad_per_s, voltage_V, tension_N;  ///< the speed at the start
+  double speed_rad_per_s, voltage_V, tension_N;  ///< initial speed
 };
 
-/// At one instant, or energies over a time.
+/// Powers at one instant, or energies over a period.
 struct Powers {
   double electrical_W = 0, copper_W = 0, friction_W = 0, gear_W = 0, line_W = 0;
   void add(double weight, const Powers& other) {
@@ -32,7 +32,7 @@ struct Powers {
 
 // Mesh torque, motor.hpp:  T = e (N τ_m J_G + J_M N² X) / (e J_M N² + J_G)
 //   τ_m = K_T i − µ_M N ω − s τ_CM, X = µ_G ω + s τ_CG + r F, e = η where T ω ≥ 0, else 1/η
-// The gear keeps (1/e − 1) T ω.
+// The gearbox dissipates (1/e − 1) T ω.
 double kept_by_gear_W(const erp::MotorType& m, const MotorState& x, double tension_N) {
   const double w = x.speed_rad_per_s, n = m.gear_ratio, sign = w > 0 ? 1 : w < 0 ? -1 : 0;
   const double rotor_Nm = m.torque_Nm_per_A * x.current_A - m.rotor_viscous_Nm_s_per_rad * n * w -
@@ -76,19 +76,20 @@ void audit(const erp::MotorType& m, const Run& run, MotorAudit& worst) {
     over_step.add(h / 6, powers(m, x, run));
     over_step.add(h / 6 * 4, powers(m, after(x, h / 2), run));
     over_step.add(h / 6, powers(m, end, run));
-    worst.gear_gives_W = larger(worst.gear_gives_W, std::max(0.0, -over_step.gear_W / h));
+    worst.gearbox_generates_W =
+        larger(worst.gearbox_generates_W, std::max(0.0, -over_step.gear_W / h));
     energies.add(1, over_step);
     x = end;
   }
   const double left_J = energies.balance_W() - stored_J(m, x) + before_J;
-  worst.left_over = larger(worst.left_over, std::abs(left_J) / energies.turned_over_W());
+  worst.balance_error = larger(worst.balance_error, std::abs(left_J) / energies.turned_over_W());
 }
 
 }  // namespace
 
 MotorAudit audit_motor(const erp::MotorType& type) {
   MotorAudit worst;
-  // Chosen: winding driven, winding braked, let out driven, let out braked; then slack, short.
+  // Chosen: wind up driving, wind up braking, unwind driving, unwind braking; then slack tendon, short circuit.
   for (const Run& run : {Run{2, 8, 60}, Run{6, -2, 60}, Run{-2, -9, 60}, Run{-6, 2, 90},
                          Run{3, -6, 0}, Run{-4, 0, 150}})
     audit(type, run, worst);

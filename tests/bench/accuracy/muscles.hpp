@@ -5,13 +5,13 @@
 
 namespace accuracy {
 
-/// Of a path's pulls at 1 N, pulleys' included: power, force, moment about the world's origin.
+/// Sums over the forces of a path at 1 N, including pulleys: power, force, moment about the world origin.
 struct Sums {
   double power_W = 0;
   sim::Vec3 force_N = sim::Vec3::Zero(), moment_Nm = sim::Vec3::Zero();
 };
 
-/// A robot's bones and the paths of its tendons over them.
+/// A robot's skeleton and the paths of its tendons.
 class Muscles {
  public:
   explicit Muscles(const erp::Robot& robot) : tree_(robot), model(tree_, sim::Vec3::Zero()) {

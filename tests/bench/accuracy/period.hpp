@@ -5,8 +5,8 @@
 
 namespace accuracy {
 
-/// The mean of `periods` periods of a value of the world, from fall through 0 to fall through 0;
-/// motors at 0 V. Between steps by interpolation.
+/// Mean duration of `periods` oscillations of a value of the world, between falling zero crossings; motors at 0 V.
+/// Crossings are interpolated between steps.
 double mean_period_s(sim::World& world, int periods, double dt_s, auto&& value) {
   const std::vector<double> off_V(world.actuators().size(), 0.0);
   double first_s = 0, last_s = 0, before = value();

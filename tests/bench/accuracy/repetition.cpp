@@ -16,7 +16,7 @@ namespace {
 
 using sim::World;
 
-/// The elbow of the hinge rig after 0.2 s under 2 V and −1 V.
+/// Elbow angle of the hinge rig after 0.2 s at 2 V and −1 V.
 double elbow_rad(double dt_s) {
   World world(erp::read_robot(rigs::config("hinge_rig/robot.xml")), {.usual_step_s = dt_s});
   for (int k = 0; k < std::lround(0.2 / dt_s); ++k) world.step(std::vector{2.0, -1.0}, dt_s);
@@ -40,7 +40,7 @@ void append_values(const World& world, std::vector<double>& all) {
       all.push_back(value);
 }
 
-/// Steps of 1 ms under voltages that swing by ±2 V, chosen; all values after each.
+/// Runs steps of 1 ms with voltages oscillating by ±2 V, chosen. Returns all values after each step.
 std::vector<double> drive(World& world, int from, int to) {
   std::vector<double> voltage_V(world.actuators().size()), all;
   for (int i = from; i < to; ++i) {
@@ -52,7 +52,7 @@ std::vector<double> drive(World& world, int from, int to) {
   return all;
 }
 
-/// Bit by bit.
+/// Counts values that are not equal bit by bit.
 double differing(const std::vector<double>& a, const std::vector<double>& b) {
   const auto differ = [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) != std::bit_cast<std::uint64_t>(y);
@@ -70,7 +70,7 @@ double differing_in_reruns(const erp::Robot& robot) {
 double differing_when_restored(const erp::Robot& robot) {
   World straight(robot), other(robot);
   drive(straight, 0, 700);
-  drive(other, 300, 350);  // somewhere else
+  drive(other, 300, 350);  // a different state
   other.restore(straight.save());
   return differing(drive(straight, 700, 1200), drive(other, 700, 1200));
 }
@@ -91,13 +91,14 @@ double robots_changed_by_collada() {
 
 Figures order_and_repetition() {
   const erp::Robot arm = erp::read_robot(rigs::config("arm/robot.xml"));
-  return {
-      {9, "order in dt of the hinge rig's elbow angle, less 1", std::abs(order() - 1), 0.25, ""},
-      {9, "values that differ when the arm runs again, anew and after a reset",
-       differing_in_reruns(arm), 0, "values"},
-      {9, "values that differ in 500 steps after save and restore", differing_when_restored(arm), 0,
-       "values"},
-      {9, "robots that a COLLADA file changes", robots_changed_by_collada(), 0, "robots"}};
+  return {{9, "order of convergence in dt of the hinge rig's elbow angle, minus 1",
+           std::abs(order() - 1), 0.25, ""},
+          {9, "values that differ in a second run of the arm, in a new world and after a reset",
+           differing_in_reruns(arm), 0, "values"},
+          {9, "values that differ in 500 steps after save and restore",
+           differing_when_restored(arm), 0, "values"},
+          {9, "robots that differ after export to and import from COLLADA",
+           robots_changed_by_collada(), 0, "robots"}};
 }
 
 }  // namespace accuracy

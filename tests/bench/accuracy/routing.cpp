@@ -13,7 +13,7 @@ namespace {
 
 using sim::Vec3, sim::Wrap;
 
-/// A sphere, and two ends outside it in some plane through its centre.
+/// A sphere and two end points outside it, in a random plane through its centre.
 struct Ends {
   double r_m, a_m, b_m;
   Eigen::Matrix3d plane;
@@ -55,7 +55,7 @@ struct Ends {
   }
 };
 
-/// Chosen: spheres of 10 to 50 mm, ends up to five radii away.
+/// Chosen: spheres with radii of 10 to 50 mm, end points up to five radii away.
 Ends any_ends(std::mt19937& random) {
   std::uniform_real_distribution<double> radius_m(0.01, 0.05), far(1.05, 5), part(-1, 1);
   const double r_m = radius_m(random), a_m = r_m * far(random), b_m = r_m * far(random);
@@ -69,7 +69,7 @@ erp::Tendon over(const erp::Pulley& pulley, const erp::Attach& from, const erp::
   return tendon;
 }
 
-/// 1: a path with an end `depth` of the radius from the centre is taken.
+/// 1 if a path with an end at `depth` radii from the centre is accepted.
 double accepted(double depth) {
   const double r_m = 0.03;  // chosen
   const std::vector<std::string> bodies{"base"};
@@ -101,11 +101,11 @@ Figures sphere_wrap() {
   double inside = 0;
   for (const double depth : {0.0, 0.5, 1 - 1e-9}) inside += accepted(depth);
   return {{1, "length around a sphere, 1000 spheres", length_m, 1e-12, "m"},
-          {1, "the same with the ends opposite but for 1e-9 rad", opposite_m, 1e-12, "m"},
-          {1, "jump of dL/dθ where the line lifts off, differences over 1e-6 rad", jump_m, 1e-5,
-           "m/rad"},
+          {1, "length around a sphere, ends opposite within 1e-9 rad", opposite_m, 1e-12, "m"},
+          {1, "jump of dL/dθ where the line leaves the sphere, differences over 1e-6 rad", jump_m,
+           1e-5, "m/rad"},
           {1, "cosine between tangents and radii", cosine, 1e-12, ""},
-          {1, "paths with an end inside the sphere that are taken", inside, 0, "paths"}};
+          {1, "accepted paths with an end inside the sphere", inside, 0, "paths"}};
 }
 
 }  // namespace accuracy

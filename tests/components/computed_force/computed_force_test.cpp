@@ -10,12 +10,12 @@ using control::ComputedForce;
 
 namespace {
 
-/// The arm.
+/// A bench with the arm.
 struct Bench : JointBench {
   Bench() : JointBench("arm/robot.xml") {}
 };
 
-/// Without what the force laws need beside the tension itself.
+/// Parameters without compensation of the force laws' lag.
 ComputedForce::Params plain() {
   ComputedForce::Params params;
   params.anticipate = 0;
@@ -24,13 +24,13 @@ ComputedForce::Params plain() {
 
 }  // namespace
 
-TEST_CASE("where it shall be, and at rest, the tensions carry the bones and no more") {
+TEST_CASE("at the target and at rest the tensions give the gravity torque") {
   Bench bench;
   ComputedForce control(plain(), bench.robot);
   CHECK((bench.torque_of(bench.step(control)) - bench.gravity_Nm()).norm() < 1e-4);
 }
 
-TEST_CASE("an elbow that is behind is accelerated by k_p times the angle") {
+TEST_CASE("an elbow error of 0.1 rad commands an acceleration of k_p times the error") {
   Bench bench;
   ComputedForce control(plain(), bench.robot);
   bench.target.message.joints._buffer[1].position[0] += 0.1;
@@ -42,7 +42,7 @@ TEST_CASE("an elbow that is behind is accelerated by k_p times the angle") {
   CHECK((bench.torque_of(bench.step(control)) - torque).norm() < 1e-4);
 }
 
-TEST_CASE("a ball joint turned half round still knows the way back") {
+TEST_CASE("a ball joint error of 3.1 rad gives finite commands within limits") {
   Bench bench;
   ComputedForce control(plain(), bench.robot);
   const Eigen::AngleAxisd far(3.1, Eigen::Vector3d(1, 1, 0).normalized());
@@ -51,13 +51,13 @@ TEST_CASE("a ball joint turned half round still knows the way back") {
   std::ranges::copy(at, bench.target.message.joints._buffer[0].position);
   const auto command = bench.step(control);
   REQUIRE(command);
-  for (const auto& asked : erp::samples(command->actuators)) {
-    CHECK(std::isfinite(asked.reference));
-    CHECK(asked.reference <= 300);
+  for (const auto& command_of : erp::samples(command->actuators)) {
+    CHECK(std::isfinite(command_of.reference));
+    CHECK(command_of.reference <= 300);
   }
 }
 
-TEST_CASE("without joints, without a target, or with stale ones it says nothing") {
+TEST_CASE("without valid and fresh joints and target there is no command") {
   Bench bench;
   ComputedForce control({}, bench.robot);
   CHECK(bench.step(control));
@@ -75,22 +75,22 @@ TEST_CASE("without joints, without a target, or with stale ones it says nothing"
   CHECK_FALSE(bench.step(control));
 }
 
-TEST_CASE("only the source that was named is believed") {
+TEST_CASE("only the joint_state of the named source is used") {
   Bench bench;
   ComputedForce::Params params;
   params.source = "pose_estimator";
   const ComputedForce control(params, bench.robot);
   erp::assign(bench.state.message.source, "sim");
-  CHECK_FALSE(control.wants(bench.state.message));
+  CHECK_FALSE(control.accepts(bench.state.message));
   erp::assign(bench.state.message.source, "pose_estimator");
-  CHECK(control.wants(bench.state.message));
+  CHECK(control.accepts(bench.state.message));
 }
 
-TEST_CASE("a muscle whose ECU has tripped is counted with what it pulls, and made up for") {
+TEST_CASE("a muscle whose ECU has tripped keeps its tension, and the others compensate") {
   Bench bench;
   ComputedForce control(plain(), bench.robot);
   bench.target.message.joints._buffer[1].position[0] += 0.3;
-  const Eigen::VectorXd wanted = bench.torque_of(bench.step(control));
+  const Eigen::VectorXd desired = bench.torque_of(bench.step(control));
   constexpr int brachialis = 9;
   auto& sample = bench.frame.actuators._buffer[brachialis];
   sample.ecu_state = static_cast<std::uint8_t>(erp::EcuState::fault);
@@ -98,13 +98,13 @@ TEST_CASE("a muscle whose ECU has tripped is counted with what it pulls, and mad
   auto command = bench.step(control);
   REQUIRE(command);
   CHECK(command->actuators._buffer[brachialis].reference == Approx(2));
-  CHECK((bench.torque_of(command) - wanted).norm() < 1e-3);
+  CHECK((bench.torque_of(command) - desired).norm() < 1e-3);
 }
 
 namespace {
 
-/// Somewhere about the start: hinges by up to 0.6 rad, ball joints by 0.4 rad an axis.
-std::vector<sim::JointReading> somewhere(const erp::Robot& robot, std::mt19937& random) {
+/// A random posture near the start: hinges by up to 0.6 rad, ball joints by 0.4 rad per axis.
+std::vector<sim::JointReading> random_posture(const erp::Robot& robot, std::mt19937& random) {
   std::uniform_real_distribution<double> within(-1, 1);
   std::vector<sim::JointReading> joints;
   for (const erp::Joint& joint : robot.joints()) {
@@ -117,7 +117,7 @@ std::vector<sim::JointReading> somewhere(const erp::Robot& robot, std::mt19937& 
   return joints;
 }
 
-/// What the actuators say of a robot in a posture, all tendons pulling 10 N.
+/// A sensor frame of a robot in a posture, with all tendons at 10 N.
 erp::SensorFrame measured(const erp::Robot& robot, const sim::Musculoskeletal& model) {
   erp::SensorFrame frame;
   for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
@@ -135,22 +135,22 @@ erp::SensorFrame measured(const erp::Robot& robot, const sim::Musculoskeletal& m
 
 }  // namespace
 
-TEST_CASE("a Jacobian learnt on line comes near the robot's own where robot.xml is wrong") {
+TEST_CASE("online learning halves the Jacobian error of a wrong robot.xml") {
   const erp::Robot real = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
-  erp::Robot believed = real;
-  for (auto& actuator : believed.actuators)
+  erp::Robot model_robot = real;
+  for (auto& actuator : model_robot.actuators)
     for (auto& element : actuator.tendon.path)
       if (auto* attach = std::get_if<erp::Attach>(&element); attach && attach->body == "upper_arm")
         attach->at_m[0] += 0.008;
-  sim::Musculoskeletal truth(real), model(believed);
-  const auto source = control::jacobian_source(control::JacobianKind::on_line, "", believed, model);
+  sim::Musculoskeletal truth(real), model(model_robot);
+  const auto source = control::jacobian_source(control::JacobianKind::on_line, "", model_robot, model);
   std::mt19937 random(7);
   const auto off = [&](int postures, bool learn) {
     double squares = 0;
     for (int k = 0; k < postures; ++k) {
-      const auto joints = somewhere(real, random);
+      const auto joints = random_posture(real, random);
       truth.place(joints), model.place(joints);
-      if (learn) source->hear(joints, measured(real, truth));
+      if (learn) source->update(joints, measured(real, truth));
       squares += (source->at(joints) - truth.jacobian()).squaredNorm();
     }
     return std::sqrt(squares / postures);
@@ -163,12 +163,12 @@ TEST_CASE("a Jacobian learnt on line comes near the robot's own where robot.xml 
   CHECK(after < before / 2);
 }
 
-TEST_CASE("a frame in which a tendon is slack or not measured teaches nothing") {
+TEST_CASE("a frame with a slack or unmeasured tendon does not change the Jacobian") {
   const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
   sim::Musculoskeletal model(robot);
   const auto source = control::jacobian_source(control::JacobianKind::on_line, "", robot, model);
   std::mt19937 random(8);
-  const auto joints = somewhere(robot, random);
+  const auto joints = random_posture(robot, random);
   model.place(joints);
   for (const bool slack : {true, false}) {
     auto frame = measured(robot, model);
@@ -176,12 +176,12 @@ TEST_CASE("a frame in which a tendon is slack or not measured teaches nothing") 
     if (slack) first.tension_N = 0;
     else first.valid = 0;
     for (auto& sample : erp::samples(frame.actuators)) sample.shaft_rad += 1;
-    source->hear(joints, frame);
+    source->update(joints, frame);
     CHECK((source->at(joints) - model.jacobian()).norm() == 0);
   }
 }
 
-TEST_CASE("a learnt Jacobian without its file is refused, with the command that writes it") {
+TEST_CASE("a learned Jacobian without its file is refused, with the command that writes it") {
   const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
   ComputedForce::Params params;
   params.jacobian = control::JacobianKind::network;

@@ -20,10 +20,10 @@ erp::SensorFrame frame_with(double shaft_rad, double tension_N) {
 node::Latest<erp::ActuatorTarget> target_of(erp::Mode mode, double reference) {
   node::Latest<erp::ActuatorTarget> target;
   target.received = true;
-  erp::ActuatorReference wanted{};
-  erp::assign(wanted.name, "flexor");
-  wanted.mode = static_cast<std::uint8_t>(mode), wanted.reference = reference;
-  erp::append(target.message.actuators, wanted);
+  erp::ActuatorReference desired{};
+  erp::assign(desired.name, "flexor");
+  desired.mode = static_cast<std::uint8_t>(mode), desired.reference = reference;
+  erp::append(target.message.actuators, desired);
   return target;
 }
 
@@ -35,14 +35,14 @@ erp::ActuatorReference only(const std::optional<erp::ActuatorCommand>& command) 
 
 }  // namespace
 
-TEST_CASE("at the ECU a target is passed on as it is") {
+TEST_CASE("at the ECU a target is passed on unchanged") {
   ForceControl control({}, rig());
   const auto sent = only(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::force, 20)));
   CHECK(sent.mode == static_cast<std::uint8_t>(erp::Mode::force));
   CHECK(sent.reference == 20);
 }
 
-TEST_CASE("on the host the length law pulls a line that is too long, within the current limit") {
+TEST_CASE("on the host the length law winds a line that is too long, within the current limit") {
   LengthControl control({.where = follow::Where::host}, rig());
   const auto weak =
       only(control.step(frame_with(0, 5), 0.002, target_of(erp::Mode::length, -1e-5)));
@@ -53,7 +53,7 @@ TEST_CASE("on the host the length law pulls a line that is too long, within the 
   CHECK(far.reference == Approx(0.516 * 4).epsilon(1e-5));
 }
 
-TEST_CASE("on the host the force law rests where the ECU's would") {
+TEST_CASE("on the host the force law gives positive voltage below its reference, negative above") {
   ForceControl control({.where = follow::Where::host}, rig());
   const auto below = only(control.step(frame_with(0, 10), 0.002, target_of(erp::Mode::force, 20)));
   const auto above = only(control.step(frame_with(0, 30), 0.002, target_of(erp::Mode::force, 20)));
@@ -61,7 +61,7 @@ TEST_CASE("on the host the force law rests where the ECU's would") {
   CHECK(above.reference < 0);
 }
 
-TEST_CASE("without a fresh target nothing is commanded") {
+TEST_CASE("without a fresh target there is no command") {
   ForceControl control({}, rig());
   CHECK_FALSE(control.step(frame_with(0, 5), 0.002, {}));
   auto stale = target_of(erp::Mode::force, 20);
@@ -69,7 +69,7 @@ TEST_CASE("without a fresh target nothing is commanded") {
   CHECK_FALSE(control.step(frame_with(0, 5), 0.002, stale));
 }
 
-TEST_CASE("an actuator that was not measured, or is asked for another mode, is left out") {
+TEST_CASE("an unmeasured actuator or a target of another mode is omitted from the command") {
   ForceControl control({}, rig());
   auto frame = frame_with(0, 5);
   frame.actuators._buffer[0].valid = 0;

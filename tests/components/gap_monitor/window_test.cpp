@@ -11,7 +11,7 @@ namespace {
 
 erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
 
-/// A row of a recording as the plant would say it.
+/// A row of a recording as a sensor frame.
 erp::SensorFrame frame_of(const recording::Table& table, const erp::Robot& robot, std::size_t row) {
   const auto at = [&](const std::string& name) { return table.find(name)->values[row]; };
   erp::SensorFrame frame;
@@ -40,11 +40,11 @@ std::vector<std::string> open_after(const std::vector<erp::Effect>& effects) {
   gap_monitor::Window window(hinge_rig(), 4);
   std::string why;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    CHECK((row > 1999 || window.judge(why).empty()));
-    window.hear(frame_of(table, real, row));
+    CHECK((row > 1999 || window.evaluate(why).empty()));
+    window.receive(frame_of(table, real, row));
   }
   std::vector<std::string> open;
-  const auto gaps = window.judge(why);
+  const auto gaps = window.evaluate(why);
   CHECK(why.empty());
   CHECK_FALSE(gaps.empty());
   for (const auto& gap : gaps)
@@ -55,40 +55,44 @@ std::vector<std::string> open_after(const std::vector<erp::Effect>& effects) {
 
 }  // namespace
 
-TEST_CASE("a window of a robot as modelled is at its floor, one with an effect shows its stage") {
+TEST_CASE(
+    "no stage is open for a robot as modelled; friction in a gearbox opens the stage of that "
+    "gearbox") {
   CHECK(open_after({}).empty());
   CHECK(open_after({{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}}) ==
         std::vector<std::string>{"gearbox extensor"});
 }
 
-TEST_CASE("another run begins a window of its own") {
+TEST_CASE("a frame with an earlier stamp clears the window") {
   const erp::Robot robot = hinge_rig();
   const auto table = rig_recording::table_of_run(robot, {.seconds = 5});
   gap_monitor::Window window(robot, 4);
-  for (std::size_t row = 0; row < table.rows(); ++row) window.hear(frame_of(table, robot, row));
+  for (std::size_t row = 0; row < table.rows(); ++row) window.receive(frame_of(table, robot, row));
   CHECK(window.full());
-  for (std::size_t row = 0; row < 100; ++row) window.hear(frame_of(table, robot, row));
+  for (std::size_t row = 0; row < 100; ++row) window.receive(frame_of(table, robot, row));
   CHECK(window.table().rows() == 100);
 }
 
-TEST_CASE("a ball joint is where motion capture says, else the simulator, never an estimate") {
+TEST_CASE(
+    "the pose of a ball joint is that of motion capture, otherwise of the simulator, never of an "
+    "estimator") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const auto joints = robot.joints();
   const auto ball =
       std::ranges::find(joints, erp::JointType::spherical, [](const auto& j) { return j.type; });
   gap_monitor::Window window(robot, 4);
-  const auto hear = [&](const char* source, double w) {
+  const auto position_after = [&](const char* source, double w) {
     erp::JointState state;
     erp::assign(state.source, source);
     erp::JointStateSample sample{};
     erp::assign(sample.name, ball->name);
     sample.position[0] = w;
     erp::append(state.joints, sample);
-    window.hear(state), window.hear(erp::SensorFrame{});
+    window.receive(state), window.receive(erp::SensorFrame{});
     return window.table().find(ball->name + ".qw")->values.back();
   };
-  CHECK(std::isnan(hear("pose_estimator", 0.1)));
-  CHECK(hear("sim", 0.2) == 0.2);
-  CHECK(hear("motion_capture", 0.3) == 0.3);
-  CHECK(std::isnan(hear("sim", 0.4)));
+  CHECK(std::isnan(position_after("pose_estimator", 0.1)));
+  CHECK(position_after("sim", 0.2) == 0.2);
+  CHECK(position_after("motion_capture", 0.3) == 0.3);
+  CHECK(std::isnan(position_after("sim", 0.4)));
 }

@@ -24,17 +24,17 @@ double apart(const sim::JointReading& a, const sim::JointReading& b) {
   return std::hypot(way[0], way[1], way[2]);
 }
 
-/// Follows the arm through its figure; RMS error by joint, over the images in which it was found.
-struct Followed {
+/// Result of tracking the arm through its figure: RMS error by joint over the images in which it was found.
+struct Tracked {
   std::vector<double> rms_rad;
   int images = 0, found = 0;
 };
-Followed follow_figure(Studio& studio, std::span<const sim::cameras::Bone> more = {}) {
+Tracked track_figure(Studio& studio, std::span<const sim::cameras::Bone> more = {}) {
   const auto poses = sim::poses_of(
       recording::read_table(ERP_SOURCE_DIR "/configs/arm/figure_8.csv"), studio.robot);
   const sim::JointPath path(studio.robot.joints(), poses);
   Capture capture = studio.capture();
-  Followed followed{std::vector<double>(studio.robot.joints().size()), 0, 0};
+  Tracked tracked{std::vector<double>(studio.robot.joints().size()), 0, 0};
   std::vector<sim::JointMotion> motions;
   std::vector<sim::JointReading> joints;
   for (double t = 0; t < 8; t += period_s) {
@@ -43,19 +43,19 @@ Followed follow_figure(Studio& studio, std::span<const sim::cameras::Bone> more 
     for (const auto& motion : motions) joints.push_back(motion.now);
     const auto pair = studio.images(joints, more);
     const auto seen = capture.see(pair[0], pair[1], period_s);
-    ++followed.images;
+    ++tracked.images;
     if (!seen) continue;
-    ++followed.found;
+    ++tracked.found;
     for (std::size_t j = 0; j < joints.size(); ++j)
-      followed.rms_rad[j] += std::pow(apart(seen->joints[j], joints[j]), 2);
+      tracked.rms_rad[j] += std::pow(apart(seen->joints[j], joints[j]), 2);
   }
-  for (double& e : followed.rms_rad) e = std::sqrt(e / followed.found);
-  return followed;
+  for (double& e : tracked.rms_rad) e = std::sqrt(e / tracked.found);
+  return tracked;
 }
 
 }  // namespace
 
-TEST_CASE("a pixel's ray leads back to what was projected there, distorted or not") {
+TEST_CASE("a pixel's ray passes through the projected point, with and without distortion") {
   for (const double k1 : {0.0, -0.2, 0.1}) {
     const sim::cameras::Camera camera(
         {{}, "c", {1.7, 0.3, 0.2}, {0, -0.2, -0.1}, {0, 0, 1}, 800, 640, 480, 5, -3, k1, 0.02});
@@ -68,7 +68,7 @@ TEST_CASE("a pixel's ray leads back to what was projected there, distorted or no
   }
 }
 
-TEST_CASE("a ball's spot lies where the ball is, to a tenth of a pixel") {
+TEST_CASE("the spot of a ball is within 0.1 pixel of its projection") {
   Studio studio;
   const sim::cameras::Ball ball{{0.1, -0.1, -0.2}, 0.007};
   for (const auto& camera : studio.cameras) {
@@ -79,7 +79,7 @@ TEST_CASE("a ball's spot lies where the ball is, to a tenth of a pixel") {
   }
 }
 
-TEST_CASE("spots of the same point meet, others mostly do not") {
+TEST_CASE("two balls seen by two cameras give two points within 1 mm") {
   Studio studio;
   const std::vector<sim::cameras::Ball> balls{{{0.1, -0.1, -0.2}, 0.007}, {{0, -0.3, 0.1}, 0.007}};
   std::array<std::vector<Spot>, 2> spots;
@@ -93,22 +93,22 @@ TEST_CASE("spots of the same point meet, others mostly do not") {
                               [&](const auto& p) { return (p.at_m - ball.at_m).norm() < 0.001; }));
 }
 
-TEST_CASE("the arm is followed through its figure to 0.3 degrees, its bones hiding markers") {
+TEST_CASE("the arm is tracked through its figure within 0.3 degrees although bones hide markers") {
   Studio studio;
-  const auto followed = follow_figure(studio);
-  CHECK(followed.found == followed.images);
-  for (const double e : followed.rms_rad) CHECK(e < 0.3 * degree);
+  const auto tracked = track_figure(studio);
+  CHECK(tracked.found == tracked.images);
+  for (const double e : tracked.rms_rad) CHECK(e < 0.3 * degree);
 }
 
-TEST_CASE("a pole before the arm hides more, and it is still followed") {
+TEST_CASE("with a pole in front of the arm it is still tracked within 0.3 degrees") {
   Studio studio;
   const sim::cameras::Bone pole{{0.8, -0.25, -1}, {0.8, -0.25, 1}, 0.02};
-  const auto followed = follow_figure(studio, std::span(&pole, 1));
-  CHECK(followed.found > 0.9 * followed.images);
-  for (const double e : followed.rms_rad) CHECK(e < 0.3 * degree);
+  const auto tracked = track_figure(studio, std::span(&pole, 1));
+  CHECK(tracked.found > 0.9 * tracked.images);
+  for (const double e : tracked.rms_rad) CHECK(e < 0.3 * degree);
 }
 
-TEST_CASE("a robot that was hidden, or stands elsewhere than expected, is found again") {
+TEST_CASE("a robot that was hidden, or is not at its predicted pose, is found") {
   Studio studio;
   Capture capture = studio.capture();
   std::vector<sim::JointReading> joints;
@@ -128,7 +128,7 @@ TEST_CASE("a robot that was hidden, or stands elsewhere than expected, is found 
   CHECK(capture.see(pair[0], pair[1], period_s));
 }
 
-TEST_CASE("a joint whose body is hidden is not told of, and is found again elsewhere") {
+TEST_CASE("a joint whose body is hidden is unknown, and is found again at another angle") {
   Studio studio;
   Capture capture = studio.capture();
   std::vector<sim::JointReading> joints;
@@ -148,7 +148,7 @@ TEST_CASE("a joint whose body is hidden is not told of, and is found again elsew
   CHECK(apart(seen->joints[1], joints[1]) < 0.5 * degree);
 }
 
-TEST_CASE("images come back from files as they were; what is none is refused") {
+TEST_CASE("images survive writing and reading exactly, and a wrong size is refused") {
   test::Folder folder;
   Studio studio;
   const auto pair = studio.images(std::vector{sim::start_of(studio.robot.joints()[0]),
@@ -161,10 +161,10 @@ TEST_CASE("images come back from files as they were; what is none is refused") {
   CHECK_THROWS_AS(write_image((folder / "no/such") + "/a.png", pair[0]), std::invalid_argument);
 }
 
-TEST_CASE("a marker on a body that there is not, and a camera that looks down, are refused") {
+TEST_CASE("a marker on an unknown body and a camera along its up axis are refused") {
   Studio studio;
   const MarkerConfig tail{{}, "tail", {}};
   CHECK_THROWS_WITH(markers_of(std::span(&tail, 1), studio.tree), Catch::Contains("tail"));
   CHECK_THROWS_WITH(sim::cameras::Camera({{}, "c", {0, 0, 1}, {0, 0, 0}}),
-                    Catch::Contains("along its up"));
+                    Catch::Contains("parallel to up"));
 }

@@ -7,7 +7,7 @@ namespace tests {
 using namespace capture;
 using sim::Vec3;
 
-/// The arm before its two cameras, with what its config gives it.
+/// The arm in front of its two cameras, with the parameters of its config.
 struct Studio {
   erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
   MotionCapture::Params params;

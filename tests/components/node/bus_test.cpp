@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Two participants of one process, matched.
+/// Two matched participants in one process.
 struct Pair {
   node::Entity left = node::join("left"), right = node::join("right");
   node::Wake wake;
@@ -22,7 +22,7 @@ struct Pair {
   explicit Pair(int depth = 1) : reader(right, wake, depth) {
     while (!writer.matched() || !reader.matched()) std::this_thread::sleep_for(1ms);
   }
-  /// Takes until a sample came or patience ends.
+  /// Takes until a sample has arrived or 2000 attempts have failed.
   template <class Use>
   void take(Use&& use) {
     for (int i = 0; i < 2000 && !reader.take(use); ++i) std::this_thread::sleep_for(1ms);
@@ -43,22 +43,22 @@ erp::SensorFrame frame_of(int actuators) {
 
 }  // namespace
 
-TEST_CASE("a message crosses the bus with all its samples") {
+TEST_CASE("a message with 54 samples arrives with all its samples") {
   Pair pair;
   auto sent = frame_of(54);
   pair.writer.write(sent);
-  int seen = 0;
+  int received = 0;
   pair.take([&](const erp::SensorFrame& got) {
-    ++seen;
+    ++received;
     REQUIRE(got.actuators._length == 54);
     CHECK(std::string(got.actuators._buffer[53].name) == "muscle_53");
     CHECK(got.actuators._buffer[53].tension_N == 53);
     CHECK(got.joints._length == 0);
   });
-  CHECK(seen == 1);
+  CHECK(received == 1);
 }
 
-TEST_CASE("a shorter message after a longer one keeps nothing of it") {
+TEST_CASE("a message of two samples after one of five arrives with two samples") {
   Pair pair;
   auto longer = frame_of(5), shorter = frame_of(2);
   pair.writer.write(longer);
@@ -69,7 +69,7 @@ TEST_CASE("a shorter message after a longer one keeps nothing of it") {
   CHECK(length == 2);
 }
 
-TEST_CASE("a gap in the sequence is counted as missed") {
+TEST_CASE("a gap of three sequence numbers is counted as three missed messages") {
   Pair pair(16);
   auto frame = frame_of(1);
   pair.writer.write(frame);
@@ -80,7 +80,7 @@ TEST_CASE("a gap in the sequence is counted as missed") {
   CHECK(pair.reader.missed() == 3);
 }
 
-TEST_CASE("copies of a message own their samples") {
+TEST_CASE("a copy of a message has its own samples") {
   auto first = frame_of(3);
   erp::SensorFrame second = first;
   second.actuators._buffer[0].tension_N = 42;
@@ -90,13 +90,13 @@ TEST_CASE("copies of a message own their samples") {
   CHECK(first.actuators._buffer != second.actuators._buffer);
 }
 
-TEST_CASE("a full message refuses another sample") {
+TEST_CASE("a sample beyond the capacity or a text beyond the bound is refused") {
   auto frame = frame_of(64);
   CHECK_THROWS_AS(erp::append(frame.actuators, erp::ActuatorSample{}), std::length_error);
   CHECK_THROWS_AS(erp::assign(frame.robot, std::string(33, 'x')), std::length_error);
 }
 
-TEST_CASE("a histogram's quantile is the upper edge of its bin") {
+TEST_CASE("the quantile of a histogram is the upper edge of its bin") {
   node::Histogram histogram;
   for (int i = 0; i < 99; ++i) histogram.add_ns(20'000);
   histogram.add_ns(1'000'000);
@@ -104,12 +104,12 @@ TEST_CASE("a histogram's quantile is the upper edge of its bin") {
   CHECK(node::quantile_us(histogram.counts(), 0.995) == 1024);
 }
 
-TEST_CASE("of those who have left the bus nothing is kept") {
+TEST_CASE("data of a participant that has left the bus is discarded") {
   const node::Entity self = node::join("self");
   node::Wake wake;
-  const node::Arrival arrival = node::waking(wake);
+  const node::DataCallback callback = node::wake_callback(wake);
   const node::Entity reader =
-      node::make_builtin_reader(self, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, arrival);
+      node::make_builtin_reader(self, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, callback);
   const auto alive = [&] {
     int count = 0;
     node::for_each_alive<dds_builtintopic_participant_t>(
@@ -121,6 +121,6 @@ TEST_CASE("of those who have left the bus nothing is kept") {
     REQUIRE(alive() == 2);
   }
   REQUIRE(alive() == 1);
-  node::BuiltinSamples room;
-  CHECK(room.get(reader, dds_read_mask, DDS_ANY_STATE) == 1);  // whatever has become of it
+  node::BuiltinSamples buffers;
+  CHECK(buffers.get(reader, dds_read_mask, DDS_ANY_STATE) == 1);  // in any state
 }

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-/// Tests have a DDS domain of their own, by process, so that several may run side by side.
+/// Each test process uses its own DDS domain, so several tests can run at the same time.
 inline const int own_domain = [] {
   const int id = 1 + getpid() % 200;
   setenv("ERP_DOMAIN", std::to_string(id).c_str(), 1);

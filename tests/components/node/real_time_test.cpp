@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
-using node::RealTime;
+using node::RealTimePriority;
 
 namespace {
 
@@ -11,13 +11,13 @@ int policy() { return sched_getscheduler(0); }
 
 }  // namespace
 
-TEST_CASE("real-time priority goes over to threads that are started, and ends with its owner") {
+TEST_CASE("started threads inherit real-time priority, and it ends with its object") {
   REQUIRE(node::may_run_in_real_time());  // as root, or with ulimit -r 20
   CHECK(policy() == SCHED_OTHER);
   int of_thread = -1;
   {
-    const RealTime urgent(true);
-    CHECK(urgent.on());
+    const RealTimePriority priority(true);
+    CHECK(priority.on());
     CHECK(policy() == SCHED_FIFO);
     std::thread([&] { of_thread = policy(); }).join();
   }
@@ -25,8 +25,8 @@ TEST_CASE("real-time priority goes over to threads that are started, and ends wi
   CHECK(policy() == SCHED_OTHER);
 }
 
-TEST_CASE("who does not want real-time priority keeps what it has") {
-  const RealTime usual(false);
-  CHECK_FALSE(usual.on());
+TEST_CASE("without real-time priority enabled the scheduling policy does not change") {
+  const RealTimePriority priority(false);
+  CHECK_FALSE(priority.on());
   CHECK(policy() == SCHED_OTHER);
 }

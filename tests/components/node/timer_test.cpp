@@ -9,37 +9,37 @@ namespace {
 
 constexpr std::int64_t period_ns = 2000;
 
-/// The moments of the calls until `end_ns`, when none can be made before `free_ns`.
+/// The times of the calls until `end_ns` if no call is possible before `free_ns`.
 std::vector<std::int64_t> calls(Timer timer, std::int64_t free_ns, std::int64_t end_ns,
-                                std::int64_t& left_out) {
-  std::vector<std::int64_t> moments;
+                                std::int64_t& skipped) {
+  std::vector<std::int64_t> times_ns;
   for (auto now_ns = std::max(free_ns, timer.next_ns()); now_ns <= end_ns;
        now_ns = std::max(free_ns, timer.next_ns())) {
-    moments.push_back(now_ns);
-    left_out += timer.take(now_ns);
+    times_ns.push_back(now_ns);
+    skipped += timer.take(now_ns);
   }
-  return moments;
+  return times_ns;
 }
 
 }  // namespace
 
-TEST_CASE("calls in time are one a period") {
-  std::int64_t left_out = 0;
-  CHECK(calls(Timer(period_ns, 0, 0), 0, 8000, left_out) ==
+TEST_CASE("calls without delay occur once per period") {
+  std::int64_t skipped = 0;
+  CHECK(calls(Timer(period_ns, 0, 0), 0, 8000, skipped) ==
         std::vector<std::int64_t>{2000, 4000, 6000, 8000});
-  CHECK(left_out == 0);
+  CHECK(skipped == 0);
 }
 
-TEST_CASE("late calls are made up at twice the rate, then the clock is kept again") {
-  std::int64_t left_out = 0;
-  CHECK(calls(Timer(period_ns, 10000, 0), 7500, 14000, left_out) ==
+TEST_CASE("late calls are made at twice the rate, then at the nominal times again") {
+  std::int64_t skipped = 0;
+  CHECK(calls(Timer(period_ns, 10000, 0), 7500, 14000, skipped) ==
         std::vector<std::int64_t>{7500, 8500, 9500, 10500, 11500, 12500, 14000});
-  CHECK(left_out == 0);
+  CHECK(skipped == 0);
 }
 
-TEST_CASE("what is later than can be made up is left out and counted") {
-  std::int64_t left_out = 0;
-  CHECK(calls(Timer(period_ns, 0, 0), 9000, 12000, left_out) ==
+TEST_CASE("calls later than catch_up_ns are skipped and counted") {
+  std::int64_t skipped = 0;
+  CHECK(calls(Timer(period_ns, 0, 0), 9000, 12000, skipped) ==
         std::vector<std::int64_t>{9000, 10000, 12000});
-  CHECK(left_out == 3);
+  CHECK(skipped == 3);
 }

@@ -3,7 +3,7 @@
 
 #include "components/plant/plant.hpp"
 
-/// A plant with one muscle, driven by hand.
+/// A plant with one actuator. The test plays the controllers and the ECU.
 namespace bench {
 
 using erp::Mode;
@@ -30,7 +30,7 @@ inline erp::Robot one_muscle(erp::SafeAction safe = erp::SafeAction::relax) {
   return robot;
 }
 
-/// A plant with one actuator, and a hand to play controllers and the ECU.
+/// A plant, its time, and functions that send the messages of controllers and of the ECU.
 struct Bench {
   Plant plant;
   std::int64_t now_ns = 1000 * ms;
@@ -38,8 +38,8 @@ struct Bench {
   explicit Bench(erp::SafeAction safe = erp::SafeAction::relax) : Bench(one_muscle(safe)) {}
   explicit Bench(const erp::Robot& robot) : plant({}, robot) {}
 
-  void ecu_says(ecu_state state, std::uint8_t fault = 0, std::int32_t encoder = 0,
-                std::uint16_t tension = 819) {
+  void ecu_reports(ecu_state state, std::uint8_t fault = 0, std::int32_t encoder = 0,
+                   std::uint16_t tension = 819) {
     erp::EcuFrame frame;
     frame.sequence = sequence++;
     frame.stamp_ns = now_ns;
@@ -49,7 +49,7 @@ struct Bench {
     erp::append(frame.channels, channel);
     plant.sense(frame, now_ns);
   }
-  void says(const char* controller, int priority, Mode mode, double reference) {
+  void command(const char* controller, int priority, Mode mode, double reference) {
     erp::ActuatorCommand command;
     erp::assign(command.controller, controller);
     command.priority = priority;
@@ -57,16 +57,16 @@ struct Bench {
     erp::assign(r.name, "flexor");
     r.mode = static_cast<std::uint8_t>(mode), r.reference = reference;
     erp::append(command.actuators, r);
-    plant.accept(command, now_ns);
+    plant.receive(command, now_ns);
   }
-  erp::EcuChannelCommand asks() { return plant.command(now_ns).channels._buffer[0]; }
+  erp::EcuChannelCommand request() { return plant.command(now_ns).channels._buffer[0]; }
   erp::ActuatorOwnerSample owner() { return plant.owners().actuators._buffer[0]; }
   void run(const char* controller = "a", Mode mode = Mode::force, double reference = 20) {
-    ecu_says(ECU_STATE_ARMED);
+    ecu_reports(ECU_STATE_ARMED);
     now_ns += 2 * ms;
-    says(controller, 0, mode, reference);
-    ecu_says(ECU_STATE_RUNNING);
-    asks();
+    command(controller, 0, mode, reference);
+    ecu_reports(ECU_STATE_RUNNING);
+    request();
   }
 };
 

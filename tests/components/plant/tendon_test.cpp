@@ -8,25 +8,25 @@ using namespace bench;
 
 namespace {
 
-/// A motor that winds as it is told, on a tendon that pulls at nothing.
-struct Loose {
+/// A motor that follows its requests exactly, with a tendon that is not attached to a load.
+struct SlackTendon {
   Bench bench;
   double line_m = 0;
 
-  /// Counts of the rig's kind: 2048 a motor turn, gear 128.
+  /// Encoder counts: 2048 per motor turn, gear ratio 128.
   std::int32_t encoder() const {
     return std::int32_t(-line_m / 0.0045 / (2 * std::numbers::pi) * 2048 * 128);
   }
-  /// One period: the force law would wind at the motor's 37 mm/s.
+  /// One period; the force law winds at the motor's top speed of 37 mm/s.
   erp::EcuChannelCommand period(double reference_N, std::uint16_t tension) {
     bench.now_ns += 2 * ms;
-    bench.says("a", 0, Mode::force, reference_N);
-    bench.ecu_says(ECU_STATE_RUNNING, 0, encoder(), tension);
-    const auto asked = bench.asks();
-    if (asked.request == ECU_REQUEST_FORCE) line_m -= 0.037 * 0.002;
-    if (asked.request == ECU_REQUEST_LENGTH)
-      line_m = -0.0045 * asked.setpoint / (2048.0 * 128) * 2 * std::numbers::pi;
-    return asked;
+    bench.command("a", 0, Mode::force, reference_N);
+    bench.ecu_reports(ECU_STATE_RUNNING, 0, encoder(), tension);
+    const auto request = bench.request();
+    if (request.request == ECU_REQUEST_FORCE) line_m -= 0.037 * 0.002;
+    if (request.request == ECU_REQUEST_LENGTH)
+      line_m = -0.0045 * request.setpoint / (2048.0 * 128) * 2 * std::numbers::pi;
+    return request;
   }
   std::vector<plant::Notice> notices(const char* code) {
     auto all = bench.plant.take_notices();
@@ -38,8 +38,8 @@ struct Loose {
 }  // namespace
 
 TEST_CASE(
-    "a tendon that snaps is let run for 16 ms, wound slowly for 30 mm, and then switched off") {
-  Loose snapped;
+    "after a tendon snaps the force law runs for 16 ms, 30 mm are wound slowly, then off follows") {
+  SlackTendon snapped;
   snapped.bench.run();
   int forced = 0;
   while (snapped.period(20, 0).request == ECU_REQUEST_FORCE) ++forced;
@@ -51,16 +51,16 @@ TEST_CASE(
   CHECK(snapped.notices("tendon_snapped").size() == 1);
   CHECK(-snapped.line_m == Approx(0.030).epsilon(0.02));
   for (int k = 0; k < 100; ++k) CHECK(snapped.period(20, 0).request == ECU_REQUEST_OFF);
-  snapped.bench.ecu_says(ECU_STATE_IDLE);
-  CHECK(snapped.bench.asks().request == ECU_REQUEST_OFF);
-  snapped.bench.says("a", 0, Mode::off, 0);
-  snapped.bench.asks();
-  snapped.bench.says("a", 0, Mode::force, 20);
-  CHECK(snapped.bench.asks().request == ECU_REQUEST_ARM);
+  snapped.bench.ecu_reports(ECU_STATE_IDLE);
+  CHECK(snapped.bench.request().request == ECU_REQUEST_OFF);
+  snapped.bench.command("a", 0, Mode::off, 0);
+  snapped.bench.request();
+  snapped.bench.command("a", 0, Mode::force, 20);
+  CHECK(snapped.bench.request().request == ECU_REQUEST_ARM);
 }
 
-TEST_CASE("slack that is taken up is forgotten, and the force law goes on") {
-  Loose tendon;
+TEST_CASE("the force law continues after slack has been taken up") {
+  SlackTendon tendon;
   tendon.bench.run();
   for (int k = 0; k < 500; ++k) tendon.period(20, 0);
   CHECK(tendon.period(20, 0).request == ECU_REQUEST_LENGTH);
@@ -70,15 +70,15 @@ TEST_CASE("slack that is taken up is forgotten, and the force law goes on") {
   CHECK(tendon.notices("tendon_slack").size() == 1);
 }
 
-TEST_CASE("after a rest slack is taken up from where the line is now, not from where it was") {
-  Loose tendon;
+TEST_CASE("after mode off, slack is taken up from the new line length") {
+  SlackTendon tendon;
   tendon.bench.run();
   for (int k = 0; k < 500; ++k) tendon.period(20, 0);
-  tendon.bench.says("a", 0, Mode::off, 0);
-  tendon.bench.asks();
-  tendon.line_m = 0.010;  // let out by hand meanwhile
-  tendon.bench.ecu_says(ECU_STATE_IDLE, 0, tendon.encoder(), 0);
-  tendon.bench.asks();
+  tendon.bench.command("a", 0, Mode::off, 0);
+  tendon.bench.request();
+  tendon.line_m = 0.010;  // unwound by hand while off
+  tendon.bench.ecu_reports(ECU_STATE_IDLE, 0, tendon.encoder(), 0);
+  tendon.bench.request();
   tendon.bench.run();
   int forced = 0;
   while (tendon.period(20, 0).request == ECU_REQUEST_FORCE) ++forced;
@@ -86,8 +86,8 @@ TEST_CASE("after a rest slack is taken up from where the line is now, not from w
   CHECK(tendon.line_m == Approx(0.010 - 8 * 0.037 * 0.002).margin(5e-5));
 }
 
-TEST_CASE("who asks for next to nothing may have a slack tendon") {
-  Loose tendon;
+TEST_CASE("a force reference of 0.9 N, below twice the slack threshold, is not treated as slack") {
+  SlackTendon tendon;
   tendon.bench.run("a", Mode::force, 0.9);
   for (int k = 0; k < 500; ++k) CHECK(tendon.period(0.9, 0).request == ECU_REQUEST_FORCE);
 }

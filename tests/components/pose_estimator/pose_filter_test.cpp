@@ -15,23 +15,23 @@ const erp::Robot& arm() {
   return robot;
 }
 
-/// An arm that moves by the filter's own equation, pushed about by the noise that it counts on.
+/// An arm that moves by the filter's own equations, with the process noise that the filter assumes.
 class Truth {
  public:
   explicit Truth(unsigned seed)
-      : share_(sim::likes_of(arm(), sim::Liking::least_tension, 5), model_.coordinates()),
+      : share_(sim::objective_terms(arm(), sim::TensionObjective::least_tension, 5), model_.coordinates()),
         random_(seed) {
     for (const auto& joint : model_.tree().joints) now_.push_back(sim::start_of(joint));
     speed_.setZero(model_.coordinates());
     disturb_start();
   }
-  /// One period; the tensions during it.
+  /// Moves by one period; returns the tensions during it.
   VectorXd move(double dt_s, double sigma) {
     VectorXd gravity, bias;
     Eigen::MatrixXd inertia;
     model_.skeleton().bias(bias);
     model_.skeleton().inertia(inertia);
-    // Towards the start again, softly, so that it stays in range.
+    // A soft spring towards the start keeps the arm in range.
     VectorXd pull = -4 * offset_ - 2 * speed_;
     const VectorXd f = share_.share(model_.jacobian(), bias + inertia * pull);
     VectorXd torque = -bias - model_.jacobian().transpose() * f;
@@ -100,7 +100,7 @@ constexpr pose::FilterOptions options{
     .acceleration_rad_per_s2 = 5, .start_rad = 0.05, .start_rad_per_s = 0.1, .gate = 5};
 constexpr double sigma_m = 2e-4, dt_s = 0.002;
 
-/// A tendon whose length stays where it was, and `off_m` from there.
+/// A tendon whose measured length is stuck, with an offset `off_m`.
 struct Dead {
   int tendon = -1;
   double off_m = 0;
@@ -115,8 +115,8 @@ double run(unsigned seed, const Dead& dead = {}, double* worst_rad = nullptr) {
     const VectorXd f = truth.move(dt_s, options.acceleration_rad_per_s2);
     filter.predict(dt_s, f);
     for (int a = 0; a < 11; ++a)
-      filter.see_length(a, a == dead.tendon ? stuck_m : truth.length_m(a, sigma_m), sigma_m);
-    filter.settle();
+      filter.update_length(a, a == dead.tendon ? stuck_m : truth.length_m(a, sigma_m), sigma_m);
+    filter.apply_correction();
   }
   const VectorXd e = truth.error_of(filter);
   if (worst_rad) *worst_rad = std::max(*worst_rad, e.head(4).cwiseAbs().maxCoeff());
@@ -125,7 +125,7 @@ double run(unsigned seed, const Dead& dead = {}, double* worst_rad = nullptr) {
 
 }  // namespace
 
-TEST_CASE("what the filter says of its own error is true: NEES over 60 runs") {
+TEST_CASE("the filter's covariance is consistent: NEES over 60 runs") {
   double sum = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) sum += run(seed);
   // χ² of 60 × 8 degrees of freedom, divided by 60: 8 ± 0.5; 99.9 % within
@@ -133,7 +133,7 @@ TEST_CASE("what the filter says of its own error is true: NEES over 60 runs") {
   CHECK(sum / 60 < 9.8);
 }
 
-TEST_CASE("a sensor that is off is left out; one that is stuck misleads a little, and no more") {
+TEST_CASE("a length error of 20 mm is rejected, and a stuck sensor causes at most 2 degrees") {
   for (int tendon = 0; tendon < 11; ++tendon) {
     double off_rad = 0, stuck_rad = 0;
     for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -146,15 +146,15 @@ TEST_CASE("a sensor that is off is left out; one that is stuck misleads a little
   }
 }
 
-TEST_CASE("a joint that is seen is believed as far as it is worth") {
+TEST_CASE("a joint measurement as uncertain as the start moves the estimate halfway") {
   pose::PoseFilter filter(arm(), options);
-  CHECK(filter.see_joint(1, {0.34}, 0.05));  // as sure as the start: halfway
-  filter.settle();
+  CHECK(filter.update_joint(1, {0.34}, 0.05));  // as uncertain as the start
+  filter.apply_correction();
   CHECK(filter.joints()[1].position[0] == Approx(0.32).margin(1e-9));
-  CHECK_FALSE(filter.see_joint(1, {2.0}, 0.001));
+  CHECK_FALSE(filter.update_joint(1, {2.0}, 0.001));
 }
 
-TEST_CASE("inertial units tell how the bones turn, and which way is up") {
+TEST_CASE("inertial units give the bones' angular velocity and the direction of gravity") {
   sim::Musculoskeletal truth(arm());
   std::vector<sim::JointReading> now;
   for (const auto& joint : truth.tree().joints) now.push_back(sim::start_of(joint));
@@ -168,23 +168,24 @@ TEST_CASE("inertial units tell how the bones turn, and which way is up") {
   pose::PoseFilter filter(arm(), wide);
   const auto& there = truth.skeleton();
   const sim::Vec3 up(0, 0, 9.81);
-  const auto is_on = [](const sim::BodyPose& pose, const sim::Vec3& v) -> sim::Vec3 {
+  const auto in_body = [](const sim::BodyPose& pose, const sim::Vec3& v) -> sim::Vec3 {
     return pose.rotation.transpose() * v;
   };
   for (int k = 0; k < 30; ++k) {
     for (const int body : {1, 2}) {
       const auto b = std::size_t(body);
-      filter.see_turning(body, is_on(there.poses()[b], there.twists()[b].angular_rad_per_s), 1e-3);
-      filter.see_up(body, is_on(there.poses()[b], up), 1e-2);
+      filter.update_angular_velocity(
+          body, in_body(there.poses()[b], there.twists()[b].angular_rad_per_s), 1e-3);
+      filter.update_gravity(body, in_body(there.poses()[b], up), 1e-2);
     }
-    filter.settle();
+    filter.apply_correction();
   }
   for (const std::size_t b : {1U, 2U}) {
     const auto& seen = filter.model().skeleton();
-    CHECK((is_on(seen.poses()[b], up) - is_on(there.poses()[b], up)).norm() < 0.02);
-    CHECK((is_on(seen.poses()[b], seen.twists()[b].angular_rad_per_s) -
-           is_on(there.poses()[b], there.twists()[b].angular_rad_per_s))
+    CHECK((in_body(seen.poses()[b], up) - in_body(there.poses()[b], up)).norm() < 0.02);
+    CHECK((in_body(seen.poses()[b], seen.twists()[b].angular_rad_per_s) -
+           in_body(there.poses()[b], there.twists()[b].angular_rad_per_s))
               .norm() < 0.005);
   }
-  CHECK_FALSE(filter.see_up(2, -up, 1e-2));  // upside down: that cannot be
+  CHECK_FALSE(filter.update_gravity(2, -up, 1e-2));  // upside down: rejected
 }

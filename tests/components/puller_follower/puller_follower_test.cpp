@@ -16,7 +16,7 @@ const erp::Robot& rig() {
 
 }  // namespace
 
-TEST_CASE("the puller carries the torque, the follower keeps the reference tension") {
+TEST_CASE("the puller applies the torque, the follower keeps the reference tension") {
   const Pair pair{{0.02, 0.04}};
   for (const double torque : {-1.0, -0.3, 0.0, 0.2, 2.0}) {
     const auto f = pair.tensions_N(torque, 5);
@@ -25,19 +25,19 @@ TEST_CASE("the puller carries the torque, the follower keeps the reference tensi
   }
 }
 
-TEST_CASE("the reference tension is low where one pulls, and high at a change and just before it") {
+TEST_CASE("the reference tension is low while one muscle pulls, and high at and before a change") {
   const ReferenceTension reference{4, 15, 0.2, 0.1};
   CHECK(reference.of(1, 0) == 4);
   CHECK(reference.of(-1, 0) == 4);
   CHECK(reference.of(0, 0) == 15);
-  CHECK(reference.of(0.5, -6) == 15);  // in 0.1 s it will have changed
+  CHECK(reference.of(0.5, -6) == 15);  // the roles change within 0.1 s
   CHECK(reference.of(0.5, 6) == 4);
   const double near = reference.of(0.1, 0);
   CHECK(near > 4);
   CHECK(near < 15);
 }
 
-TEST_CASE("a tension below its reference is wound, and the more the farther it is off") {
+TEST_CASE("the voltage increases with the tension error") {
   const erp::Actuator& flexor = rig().actuators[0];
   const TensionLinearisation law({rig().motor_of(flexor), flexor.spindle.radius_m},
                                  sim::Spring::of(flexor.tendon), 60);
@@ -45,11 +45,11 @@ TEST_CASE("a tension below its reference is wound, and the more the farther it i
   CHECK(law.voltage_V({10, 0, 0, 0}, {12, 0, 0}) > still);
   CHECK(law.voltage_V({10, 0, 0, 0}, {14, 0, 0}) > law.voltage_V({10, 0, 0, 0}, {12, 0, 0}));
   CHECK(law.voltage_V({10, 0, 0, 0}, {8, 0, 0}) < still);
-  // A path that gets longer stretches the tendon: the line is let out.
+  // A lengthening path stretches the tendon: the line is paid out.
   CHECK(law.voltage_V({10, 0, 0.01, 0}, {10, 0, 0}) < still);
 }
 
-TEST_CASE("a motor's inverse gives the voltage at which the motor turns as wanted") {
+TEST_CASE("the inverse motor model gives the voltage for a desired speed") {
   const erp::Actuator& flexor = rig().actuators[0];
   const auto& type = rig().motor_of(flexor);
   const sim::Motor motor(type, flexor.spindle.radius_m);
@@ -64,9 +64,9 @@ TEST_CASE("a motor's inverse gives the voltage at which the motor turns as wante
     }
 }
 
-TEST_CASE("a robot with ball joints or muscles over two joints is refused, with a remedy") {
+TEST_CASE("a robot with ball joints or without two antagonists is refused, with a remedy") {
   const erp::Robot arm = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
-  CHECK_THROWS_WITH(PullerFollower({}, arm), Catch::Contains("\"shoulder\" is no hinge"));
+  CHECK_THROWS_WITH(PullerFollower({}, arm), Catch::Contains("\"shoulder\" is not a hinge"));
   erp::Robot lonely = rig();
   lonely.actuators.pop_back();
   CHECK_THROWS_WITH(PullerFollower({}, lonely),
@@ -76,13 +76,12 @@ TEST_CASE("a robot with ball joints or muscles over two joints is refused, with 
   CHECK_THROWS_WITH(PullerFollower(params, rig()), Catch::Contains("high_N"));
 }
 
-TEST_CASE(
-    "each law asks a joint that lags behind for more torque, and holds it where it should be") {
+TEST_CASE("each law gives the gravity torque without error and more torque for a positive error") {
   const erp::Robot seven = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
   sim::Musculoskeletal model(seven);
   const int n = model.coordinates();
   Dynamics dynamics(n);
-  dynamics.take(model.skeleton());
+  dynamics.update(model.skeleton());
   for (const Law kind : {Law::linearised, Law::loop_shaping, Law::pd}) {
     INFO(int(kind));
     const auto law = law_of(kind, {}, model);
@@ -96,11 +95,11 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a law that sums up begins with the torque that acts, and holds it") {
+TEST_CASE("a law with an integral state starts at the acting torque and holds it") {
   const erp::Robot seven = erp::read_robot(ERP_SOURCE_DIR "/configs/seven_dof/robot.xml");
   sim::Musculoskeletal model(seven);
   Dynamics dynamics(model.coordinates());
-  dynamics.take(model.skeleton());
+  dynamics.update(model.skeleton());
   const JointErrors none(model.coordinates());
   Eigen::VectorXd acts = dynamics.gravity;
   acts[3] += 0.2;
@@ -113,18 +112,18 @@ TEST_CASE("a law that sums up begins with the torque that acts, and holds it") {
   }
 }
 
-TEST_CASE("what a model of the bones does not know is seen from how they move") {
-  Unmodelled load(1);
+TEST_CASE("a constant unmodelled acceleration is estimated within 1 %") {
+  DisturbanceObserver load(1);
   Eigen::VectorXd speed = Eigen::VectorXd::Zero(1), model = speed;
   load.begin(speed, model);
-  model[0] = 3;  // the model says so, the joint falls all the same
-  for (int k = 0; k < 5000; ++k) speed[0] -= 0.002 * 2, load.see(speed, model, 0.002);
+  model[0] = 3;  // the model predicts 3, the joint accelerates at −2
+  for (int k = 0; k < 5000; ++k) speed[0] -= 0.002 * 2, load.update(speed, model, 0.002);
   CHECK(load.acceleration_rad_per_s2()[0] == Approx(-5).epsilon(0.01));
   load.begin(speed, model);
   CHECK(load.acceleration_rad_per_s2()[0] == -3);
 }
 
-TEST_CASE("a joint that outruns its motors is braked until it is at rest, then led again") {
+TEST_CASE("a joint whose motors saturate is braked until it is at rest, then controlled again") {
   JointBench bench("hinge_rig/robot.xml");
   PullerFollower control({}, bench.robot);
   auto& joint = bench.state.message.joints._buffer[0];
@@ -140,25 +139,26 @@ TEST_CASE("a joint that outruns its motors is braked until it is at rest, then l
   CHECK(mode_after(2, 0.5, 400) == erp::Mode::length);
   const double still_m = bench.references(bench.step(control))[0];
   CHECK(mode_after(2, -0.5, 400) == erp::Mode::length);
-  CHECK(bench.references(bench.step(control))[0] < still_m);  // it gave way, now it takes up
+  CHECK(bench.references(bench.step(control))[0] <
+        still_m);  // the line was paid out, now it is wound up
   CHECK(mode_after(0, 0, 40) == erp::Mode::length);
   CHECK(mode_after(0, 0, 20) == erp::Mode::voltage);
 }
 
-TEST_CASE("loops of a shape that cannot be had are refused") {
+TEST_CASE("a loop shape without solution is refused") {
   sim::Musculoskeletal model(rig());
   LawParams late;
-  late.shape.delay_s = 1e-12;  // a pole at 2e12 /s: no numbers for that
+  late.shape.delay_s = 1e-12;  // a pole at 2e12 /s is numerically infeasible
   late.shape.crossover_Hz = 1e9;
   CHECK_THROWS_AS(law_of(Law::loop_shaping, late, model), std::invalid_argument);
 }
 
-TEST_CASE("without a target, or with a tendon that is not measured, it says nothing") {
+TEST_CASE("without a target, or with an unmeasured tendon, there is no command") {
   PullerFollower control({}, rig());
   CHECK_FALSE(control.step({}, 0.002, {}, {}));
 }
 
-TEST_CASE("control begins where the joint is, and so it does anew after frames were missing") {
+TEST_CASE("control starts at the joint's position, and restarts there after missing frames") {
   JointBench bench("hinge_rig/robot.xml");
   PullerFollower control({}, bench.robot);
   const auto first = bench.references(bench.step(control));
@@ -169,7 +169,7 @@ TEST_CASE("control begins where the joint is, and so it does anew after frames w
   CHECK((bench.references(bench.step(control, 0.3)) - first).norm() < 0.2);
 }
 
-TEST_CASE("while a tendon hangs slack the joint is held where it is, then led on from there") {
+TEST_CASE("while a tendon is slack the joint is held, then guided on from there") {
   JointBench moves("hinge_rig/robot.xml"), stays("hinge_rig/robot.xml");
   PullerFollower moved({}, moves.robot), stayed({}, stays.robot);
   moves.target.message.joints._buffer[0].position[0] += 0.3;

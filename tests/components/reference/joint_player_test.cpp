@@ -10,8 +10,9 @@ namespace {
 constexpr double period_s = 0.002;
 constexpr std::int64_t period_ns = 2'000'000;
 
-/// The arm's elbow led from 0.3 to 1.3 rad within a second, and an arm that stands where one puts it.
-struct Led {
+/// A player that guides the arm's elbow from 0.3 to 1.3 rad in one second, and an arm whose position the
+/// test sets.
+struct Fixture {
   test::Folder folder;
   erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
   joints::Names names{robot};
@@ -28,7 +29,7 @@ struct Led {
     params.file = "poses.csv";
     return {params, robot};
   }
-  void stand(double elbow_rad, double elbow_rad_per_s = 0) {
+  void place_elbow(double elbow_rad, double elbow_rad_per_s = 0) {
     Eigen::VectorXd none = Eigen::VectorXd::Zero(4);
     std::vector<sim::JointReading> now;
     for (const auto& joint : names.list()) now.push_back(sim::start_of(joint));
@@ -45,55 +46,56 @@ struct Led {
     REQUIRE(names.read(*target, motions));
     return motions[1];
   }
-  /// The robot follows: it is where it was led the period before.
+  /// Runs periods in which the robot is at the reference of the period before.
   sim::JointMotion follow(int periods) {
-    sim::JointMotion led = elbow(0);
+    sim::JointMotion reference = elbow(0);
     for (int k = 0; k < periods; ++k) {
-      stand(led.now.position[0], led.now.velocity_rad_per_s[0]);
-      led = elbow(period_s);
+      place_elbow(reference.now.position[0], reference.now.velocity_rad_per_s[0]);
+      reference = elbow(period_s);
     }
-    return led;
+    return reference;
   }
 };
 
 }  // namespace
 
-TEST_CASE("a way is led from where the robot is to its first pose, and then in its time") {
-  Led led;
-  led.stand(0.4);
-  CHECK(led.elbow(0).now.position[0] == Approx(0.4));
-  CHECK(led.follow(200).now.position[0] == Approx(0.3).margin(1e-3));  // 1.875 · 0.1/0.5 s
-  CHECK(led.follow(700).now.position[0] == Approx(1.3).margin(0.01));
+TEST_CASE(
+    "the motion starts at the robot's position, reaches the first pose, then follows the path") {
+  Fixture bench;
+  bench.place_elbow(0.4);
+  CHECK(bench.elbow(0).now.position[0] == Approx(0.4));
+  CHECK(bench.follow(200).now.position[0] == Approx(0.3).margin(1e-3));  // 1.875 · 0.1/0.5 s
+  CHECK(bench.follow(700).now.position[0] == Approx(1.3).margin(0.01));
 }
 
-TEST_CASE("after missing frames the robot is led on from where it is, as it moves; the way waits") {
-  Led led;
-  led.stand(0.3);
-  const auto before = led.follow(350);
+TEST_CASE("after missing frames the motion resumes at the robot's position and velocity") {
+  Fixture bench;
+  bench.place_elbow(0.3);
+  const auto before = bench.follow(350);
   REQUIRE(before.now.velocity_rad_per_s[0] > 1);
-  led.stand(0.55, -0.4);  // it fell while nobody drove it
-  const auto after = led.elbow(0.4);
+  bench.place_elbow(0.55, -0.4);  // it fell without a command
+  const auto after = bench.elbow(0.4);
   CHECK(after.now.velocity_rad_per_s[0] == Approx(-0.4));
-  // The state is of 0.4 s ago: too old to be brought to now.
+  // The state is 0.4 s old: too old to be extrapolated.
   CHECK(after.now.position[0] == Approx(0.55));
   auto last = after;
   double longest_rad = 0;
   for (int k = 0; k < 1000; ++k) {
-    const auto next = led.follow(1);
+    const auto next = bench.follow(1);
     longest_rad = std::max(longest_rad, std::abs(next.now.position[0] - last.now.position[0]));
     last = next;
   }
-  CHECK(longest_rad < 0.01);  // of two periods: no jump
+  CHECK(longest_rad < 0.01);  // of two periods, so there is no jump
   CHECK(last.now.position[0] == Approx(1.3).margin(1e-6));
 }
 
-TEST_CASE("what was said of the period before is brought to the frame's instant, as it moves") {
-  Led led;
-  led.frame.stamp_ns = 10 * period_ns;
-  led.stand(0.5, 2);
+TEST_CASE("a state of the previous period is extrapolated to the frame's instant") {
+  Fixture bench;
+  bench.frame.stamp_ns = 10 * period_ns;
+  bench.place_elbow(0.5, 2);
   std::vector<sim::JointReading> now;
-  REQUIRE(led.names.read(led.state.message, led.frame.stamp_ns + period_ns, now));
+  REQUIRE(bench.names.read(bench.state.message, bench.frame.stamp_ns + period_ns, now));
   CHECK(now[1].position[0] == Approx(0.504));
-  REQUIRE(led.names.read(led.state.message, led.frame.stamp_ns + 60'000'000, now));
-  CHECK(now[1].position[0] == 0.5);  // clocks that differ
+  REQUIRE(bench.names.read(bench.state.message, bench.frame.stamp_ns + 60'000'000, now));
+  CHECK(now[1].position[0] == 0.5);  // not extrapolated beyond 50 ms
 }

@@ -36,14 +36,14 @@ erp::Robot one_muscle() {
 
 }  // namespace
 
-TEST_CASE("a step is its offset before it begins and offset plus amplitude after") {
+TEST_CASE("a step is its offset before the start and offset plus amplitude after it") {
   const auto step = signal(Shape::step);
   CHECK(step.at(0.999) == 2);
   CHECK(step.at(1.0) == 40);
   CHECK(step.at(1e6) == 40);
 }
 
-TEST_CASE("a sine begins at its offset and swings by its amplitude") {
+TEST_CASE("a sine starts at its offset and oscillates by its amplitude") {
   auto sine = signal(Shape::sine);
   sine.frequency_Hz = 0.5;
   CHECK(sine.at(1.0) == Approx(2));
@@ -51,7 +51,7 @@ TEST_CASE("a sine begins at its offset and swings by its amplitude") {
   CHECK(sine.at(2.5) == Approx(-36));
 }
 
-TEST_CASE("a sweep passes its whole phase: half of f0 + f1 times its duration") {
+TEST_CASE("the phase of a sweep is half of f0 + f1 times its duration") {
   auto sweep = signal(Shape::sweep);
   sweep.frequency_Hz = 1, sweep.end_frequency_Hz = 3, sweep.duration_s = 2;
   // 4 whole turns in 2 s: just before the end it is back at the offset.
@@ -59,7 +59,7 @@ TEST_CASE("a sweep passes its whole phase: half of f0 + f1 times its duration") 
   CHECK(sweep.at(3.0) == 2);
 }
 
-TEST_CASE("a trajectory is linear between rows and stands still outside") {
+TEST_CASE("a trajectory is linear between rows and constant outside") {
   const TemporaryFile file(
       "time_s,flexor.mode,flexor.reference\n0,force,10\n1,force,20\n2,force,20\n");
   const reference::Trajectory trajectory(file.path);
@@ -71,7 +71,7 @@ TEST_CASE("a trajectory is linear between rows and stands still outside") {
   CHECK(trajectory.duration_s() == 2);
 }
 
-TEST_CASE("a trajectory without modes or of another robot is refused by name") {
+TEST_CASE("a trajectory without modes or with unknown actuators is refused by name") {
   const TemporaryFile file("time_s,flexor.reference\n0,10\n");
   CHECK_THROWS_WITH(reference::Trajectory(file.path), Catch::Contains("flexor.mode"));
   reference::Params params;
@@ -81,7 +81,7 @@ TEST_CASE("a trajectory without modes or of another robot is refused by name") {
                     Catch::Contains("flexr"));
 }
 
-TEST_CASE("a reference answers each frame with the signal at the time that has passed") {
+TEST_CASE("a reference gives the signal at the elapsed time for each frame") {
   reference::Params params;
   params.signals = {signal(Shape::step)};
   reference::Reference<erp::ActuatorCommand> reference(params, one_muscle());

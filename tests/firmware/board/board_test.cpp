@@ -15,7 +15,7 @@ namespace {
 
 constexpr board_fitted both{5, 0b11, 0b0001, 42};
 
-/// A board and the host's words to it.
+/// A board and the host's commands to it.
 struct Board {
   ecu_board board;
   board_period period{};
@@ -37,17 +37,17 @@ struct Board {
     const auto gains = rig_gains();
     for (std::uint8_t k = 0; k < 2; ++k)
       for (std::uint8_t i = 0; i < ECU_PARAMETER_COUNT; ++i) {
-        const frame_parameter said{k, i, i + 1 == ECU_PARAMETER_COUNT, i, gains[i]};
+        const frame_parameter content{k, i, i + 1 == ECU_PARAMETER_COUNT, i, gains[i]};
         bus_frame frame;
-        frame_pack_parameter(&frame, 5, &said);
-        ecu_board_hear(&board, &frame);
+        frame_pack_parameter(&frame, 5, &content);
+        ecu_board_receive(&board, &frame);
       }
   }
   void command(std::uint8_t request, std::int32_t setpoint) {
-    const frame_command said{{{request, setpoint}, {request, setpoint}}, 0, count++};
+    const frame_command content{{{request, setpoint}, {request, setpoint}}, 0, count++};
     bus_frame frame;
-    frame_pack_command(&frame, 5, &said);
-    ecu_board_hear(&board, &frame);
+    frame_pack_command(&frame, 5, &content);
+    ecu_board_receive(&board, &frame);
   }
   void run() {
     gains();
@@ -60,30 +60,30 @@ struct Board {
 
 }  // namespace
 
-TEST_CASE("a board boots disarmed and says why it was reset") {
+TEST_CASE("a board boots disarmed and reports the cause of the reset") {
   Board board(both, FRAME_RESET_WATCHDOG);
-  frame_emergency said;
-  REQUIRE(frame_unpack_emergency(&board.boot, &said));
-  CHECK(said.boot);
-  CHECK(said.reset_cause == FRAME_RESET_WATCHDOG);
+  frame_emergency content;
+  REQUIRE(frame_unpack_emergency(&board.boot, &content));
+  CHECK(content.boot);
+  CHECK(content.reset_cause == FRAME_RESET_WATCHDOG);
   CHECK(board.board.channel[0].state == ECU_STATE_BOOT);
   board.command(ECU_REQUEST_VOLTAGE, 3000);
   board.pass();
   CHECK(board.duty == std::array<std::int16_t, 2>{0, 0});
 }
 
-TEST_CASE("a board drives both channels, and says each period what it did") {
+TEST_CASE("a board drives both channels and sends their state every period") {
   Board board;
   board.run();
   const auto frames = board.pass();
   CHECK(board.duty[0] == Approx(1023 * 1.5 / 12).margin(1));
   CHECK(board.duty[1] == board.duty[0]);
-  frame_status said;
-  REQUIRE(frame_unpack_status(&frames.back(), &said));
-  CHECK(said.duty == board.duty[1]);
+  frame_status content;
+  REQUIRE(frame_unpack_status(&frames.back(), &content));
+  CHECK(content.duty == board.duty[1]);
 }
 
-TEST_CASE("a channel that is not fitted is never driven or spoken of") {
+TEST_CASE("a channel that is not fitted is neither driven nor reported") {
   Board board({5, 0b10, 0, 0});
   board.run();
   CHECK(board.duty[0] == 0);
@@ -91,7 +91,7 @@ TEST_CASE("a channel that is not fitted is never driven or spoken of") {
   for (const bus_frame& frame : board.pass()) CHECK(frame_function_of(&frame) != FRAME_STATUS_0);
 }
 
-TEST_CASE("three periods overrun in a row trip both channels, two do not") {
+TEST_CASE("three overrun periods in a row trip both channels, two do not") {
   Board board;
   board.run();
   for (int k = 0; k < 2; ++k) board.period.overran = true, board.pass();
@@ -103,7 +103,7 @@ TEST_CASE("three periods overrun in a row trip both channels, two do not") {
   CHECK(board.board.channel[0].overruns == 5);
 }
 
-TEST_CASE("off the bus a board is silent in force in the same period, and rejoins disarmed") {
+TEST_CASE("in bus-off a board sets PWM to 0 in the same period and rejoins disarmed") {
   Board board;
   board.run();
   board.period.bus_off = true;
@@ -116,7 +116,7 @@ TEST_CASE("off the bus a board is silent in force in the same period, and rejoin
   CHECK(board.duty == std::array<std::int16_t, 2>{0, 0});
 }
 
-TEST_CASE("the potentiometer is read on the input that the gains name") {
+TEST_CASE("the potentiometer is read from the analog input given by the gains") {
   Board board;
   board.run();
   board.period.readings.analog[2] = 777;
@@ -129,7 +129,7 @@ TEST_CASE("the potentiometer is read on the input that the gains name") {
   CHECK(board.board.channel[1].sensed.inputs.potentiometer_counts == 0);
 }
 
-// ---- the wire to converters elsewhere ----
+// ---- messages to external converters ----
 
 namespace {
 
@@ -150,30 +150,30 @@ board_readings some_readings() {
 
 }  // namespace
 
-TEST_CASE("in lockstep a period waits for its answer, and for new readings") {
+TEST_CASE("in lockstep a period waits for the answer and for new readings") {
   Board board;
   board.gains();
   auto& readings = board.period.readings;
-  CHECK_FALSE(ecu_board_awaits_host(&board.board, &readings));  // turn 0: time does not wait
+  CHECK_FALSE(ecu_board_awaits_host(&board.board, &readings));  // turn 0: no lockstep
   readings.turn = 1;
   CHECK_FALSE(ecu_board_awaits_robot(&board.board, &readings));
-  const auto said = board.pass();
+  const auto content = board.pass();
   CHECK(ecu_board_awaits_host(&board.board, &readings));
   std::vector<bus_frame> again(ECU_LINK_FRAMES_MAX);
-  CHECK(ecu_board_repeat(&board.board, again.data()) > said.size());  // whole
+  CHECK(ecu_board_repeat(&board.board, again.data()) > content.size());  // whole
   frame_status status;
-  REQUIRE(frame_unpack_status(&said.back(), &status));
+  REQUIRE(frame_unpack_status(&content.back(), &status));
   const frame_command answer{{{ECU_REQUEST_ARM, 0}, {ECU_REQUEST_ARM, 0}}, status.counter, 1};
   bus_frame frame;
   frame_pack_command(&frame, 5, &answer);
-  ecu_board_hear(&board.board, &frame);
+  ecu_board_receive(&board.board, &frame);
   CHECK_FALSE(ecu_board_awaits_host(&board.board, &readings));
   CHECK(ecu_board_awaits_robot(&board.board, &readings));
   readings.turn = 2;
   CHECK_FALSE(ecu_board_awaits_robot(&board.board, &readings));
 }
 
-TEST_CASE("readings, duties and mishaps come over the wire as they were") {
+TEST_CASE("readings, duties and injected faults are unchanged by pack and unpack") {
   wire_reader reader{};
   std::uint8_t bytes[WIRE_MESSAGE_MAX];
   const board_readings sent = some_readings();
@@ -200,14 +200,14 @@ TEST_CASE("readings, duties and mishaps come over the wire as they were") {
   CHECK(wire_ecu(&reader) == 77);
   CHECK(wire_sample_turn(&reader) == 200);
 
-  const wire_mishap mishap{WIRE_MISHAP_BUSY, 300};
-  REQUIRE(feed(reader, bytes, wire_pack_mishap(bytes, 3, &mishap)) == WIRE_MISHAP);
-  wire_mishap heard;
-  wire_unpack_mishap(&reader, &heard);
-  CHECK((heard.kind == WIRE_MISHAP_BUSY && heard.periods == 300));
+  const wire_fault fault{WIRE_FAULT_BUSY, 300};
+  REQUIRE(feed(reader, bytes, wire_pack_fault(bytes, 3, &fault)) == WIRE_FAULT);
+  wire_fault received;
+  wire_unpack_fault(&reader, &received);
+  CHECK((received.kind == WIRE_FAULT_BUSY && received.periods == 300));
 }
 
-TEST_CASE("a wire that garbles bytes loses messages, believes none, and finds its feet again") {
+TEST_CASE("a wire that corrupts bytes loses messages, accepts no corrupt one, and recovers") {
   std::mt19937 random(4);
   wire_reader reader{};
   const board_readings sent = some_readings();
@@ -224,7 +224,7 @@ TEST_CASE("a wire that garbles bytes loses messages, believes none, and finds it
         ++sound;
       }
   }
-  CHECK(sound >= 600);  // a garbled message may take the next with it
+  CHECK(sound >= 600);  // a corrupt message may corrupt the next one
   CHECK(sound <= 1000);
   CHECK(reader.unreadable > 300);
 }

@@ -7,8 +7,8 @@
 #include <memory>
 #include <thread>
 
-// The driver against memory that stands for the controller's registers: what it writes where, by
-// RM0090. Not that a controller does with it what the manual says.
+// The driver on memory that stands for the controller's registers: checks its register accesses against
+// RM0090. It does not check that a controller behaves as the manual states.
 namespace {
 
 static_assert(offsetof(bxcan_registers, BTR) == 0x1C);
@@ -18,11 +18,11 @@ static_assert(offsetof(bxcan_registers, FMR) == 0x200);
 static_assert(offsetof(bxcan_registers, FA1R) == 0x21C);
 static_assert(offsetof(bxcan_registers, filter) == 0x240);
 
-/// Registers that acknowledge as the controller does: INAK follows INRQ.
+/// Registers that acknowledge like the controller: INAK follows INRQ.
 class Controller {
  public:
   Controller() : thread_([this] { run(); }) {
-    registers_->MCR = 1;  // it runs once it has acknowledged this
+    registers_->MCR = 1;  // the thread runs when it has acknowledged this
     while (registers_->MSR == 0) std::this_thread::yield();
   }
   ~Controller() {
@@ -42,7 +42,7 @@ class Controller {
 
 bxcan_registers silent() { return {}; }
 
-/// The driver waits some 0.1 ms, in which the controller's thread must run beside it: on a busy machine not soon.
+/// The driver waits about 0.1 ms for the controller's thread, which may be late on a busy machine.
 bool opens(bxcan_registers& can, std::uint8_t address) {
   using namespace std::chrono_literals;
   for (int tries = 0; tries < 60'000; ++tries) {
@@ -54,7 +54,7 @@ bool opens(bxcan_registers& can, std::uint8_t address) {
 
 }  // namespace
 
-TEST_CASE("it joins the bus with its bit timing, hearing what is its own and everyone's") {
+TEST_CASE("bxcan_open sets the bit timing and filters for the own address and for all ECUs") {
   Controller controller;
   bxcan_registers& can = controller.registers();
   REQUIRE(opens(can, 0x25));
@@ -66,20 +66,20 @@ TEST_CASE("it joins the bus with its bit timing, hearing what is its own and eve
   CHECK(can.FM1R == 0);
   for (const auto& [bank, address] : {std::pair{0, 0x25u}, {1, 0x7Fu}}) {
     CHECK(can.filter[bank].FR1 == address << 21);
-    CHECK(can.filter[bank].FR2 == (0x7Fu << 21 | 0b110));  // and neither extended nor remote
+    CHECK(can.filter[bank].FR2 == (0x7Fu << 21 | 0b110));  // neither extended nor remote frames
   }
 }
 
-TEST_CASE("a controller that does not answer is left alone") {
+TEST_CASE("bxcan_open fails when the controller does not answer") {
   auto can = silent();
   CHECK_FALSE(bxcan_open(&can, BXCAN_BTR_1_MBIT_42_MHZ, 1));
 }
 
-TEST_CASE("a frame goes into the first free mailbox, its request last") {
+TEST_CASE("a frame is written to the first free mailbox, the transmit request last") {
   auto can = silent();
   const bus_frame frame{0x181, 8, {1, 2, 3, 4, 5, 6, 7, 8}};
-  CHECK_FALSE(bxcan_send(&can, &frame));  // none is free
-  can.TSR = 1u << 27;                     // the second is
+  CHECK_FALSE(bxcan_send(&can, &frame));  // no mailbox is free
+  can.TSR = 1u << 27;                     // the second one is free
   REQUIRE(bxcan_send(&can, &frame));
   CHECK(can.mailbox[0].TIR == 0);
   CHECK(can.mailbox[1].TIR == (0x181u << 21 | 1u));
@@ -88,7 +88,7 @@ TEST_CASE("a frame goes into the first free mailbox, its request last") {
   CHECK(can.mailbox[1].TDHR == 0x08070605);
 }
 
-TEST_CASE("a frame heard is read and let go; one of a kind no ECU speaks is passed over") {
+TEST_CASE("a received frame is read and released; extended and remote frames are ignored") {
   auto can = silent();
   bus_frame frame{};
   CHECK_FALSE(bxcan_receive(&can, &frame));
@@ -103,7 +103,7 @@ TEST_CASE("a frame heard is read and let go; one of a kind no ECU speaks is pass
   CHECK(frame.data[0] == 0x11);
   CHECK(frame.data[7] == 0x88);
   CHECK(can.RFR[0] == 1u << 5);
-  CHECK_FALSE(bxcan_receive(&can, &frame));  // it is still letting go
+  CHECK_FALSE(bxcan_receive(&can, &frame));  // the frame is still being released
   can.RFR[0] = 1;
   can.fifo[0].RIR = 0x105u << 21 | 1u << 2;  // extended
   CHECK_FALSE(bxcan_receive(&can, &frame));

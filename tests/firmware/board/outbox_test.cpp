@@ -19,7 +19,7 @@ std::vector<int> marks(ecu_outbox& outbox) {
 
 }  // namespace
 
-TEST_CASE("frames leave in the order of their period") {
+TEST_CASE("frames are sent in the order of their period") {
   ecu_outbox outbox{};
   const bus_frame period[] = {frame_of(FRAME_EMERGENCY, 1), frame_of(FRAME_STATUS_0, 2),
                               frame_of(FRAME_STATUS_1, 3)};
@@ -28,7 +28,7 @@ TEST_CASE("frames leave in the order of their period") {
   CHECK(outbox.dropped == 0);
 }
 
-TEST_CASE("what a slow bus left of a period gives way to the next, but an emergency") {
+TEST_CASE("unsent frames of a period are replaced by the next period, except emergencies") {
   ecu_outbox outbox{};
   const bus_frame first[] = {frame_of(FRAME_EMERGENCY, 1), frame_of(FRAME_STATUS_0, 2)};
   const bus_frame second[] = {frame_of(FRAME_STATUS_0, 3), frame_of(FRAME_STATUS_1, 4)};
@@ -38,7 +38,7 @@ TEST_CASE("what a slow bus left of a period gives way to the next, but an emerge
   CHECK(outbox.dropped == 1);
 }
 
-TEST_CASE("a bus that is cut off for long keeps the first emergencies and a whole period") {
+TEST_CASE("during a long bus outage the first emergencies and one whole period are kept") {
   ecu_outbox outbox{};
   for (int k = 0; k < 100; ++k) {
     std::vector<bus_frame> period{frame_of(FRAME_EMERGENCY, std::uint8_t(k))};
@@ -49,6 +49,6 @@ TEST_CASE("a bus that is cut off for long keeps the first emergencies and a whol
   REQUIRE(left.size() == OUTBOX_EMERGENCIES_MAX + ECU_LINK_FRAMES_MAX);
   for (int k = 0; k < int(OUTBOX_EMERGENCIES_MAX); ++k) CHECK(left[std::size_t(k)] == k);
   CHECK(left.back() == 99);
-  outbox_sent(&outbox);  // of nothing: nothing
+  outbox_sent(&outbox);  // no effect on an empty outbox
   CHECK(outbox.count == 0);
 }

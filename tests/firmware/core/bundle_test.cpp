@@ -7,16 +7,16 @@
 namespace {
 
 bus_frame command_to(std::uint8_t ecu) {
-  const frame_command said{{{3, 1000 + ecu}, {4, -5}}, 1, 2};
+  const frame_command content{{{3, 1000 + ecu}, {4, -5}}, 1, 2};
   bus_frame frame;
-  frame_pack_command(&frame, ecu, &said);
+  frame_pack_command(&frame, ecu, &content);
   return frame;
 }
 
 bus_frame hello_of(std::uint8_t ecu) {
-  const frame_hello said{FRAME_VERSION, 3, 5, FRAME_RESET_WATCHDOG, 0xABCDEF};
+  const frame_hello content{FRAME_VERSION, 3, 5, FRAME_RESET_WATCHDOG, 0xABCDEF};
   bus_frame frame;
-  frame_pack_hello(&frame, ecu, &said);
+  frame_pack_hello(&frame, ecu, &content);
   return frame;
 }
 
@@ -24,43 +24,43 @@ bool same(const bus_frame& a, const bus_frame& b) {
   return a.id == b.id && a.size == b.size && std::memcmp(a.data, b.data, 8) == 0;
 }
 
-/// Packed bundle by bundle, and unpacked again.
+/// Packs into bundles and unpacks them.
 std::vector<bus_frame> through_bundles(const std::vector<bus_frame>& frames, int& bundles) {
-  std::vector<bus_frame> heard;
+  std::vector<bus_frame> received;
   bundles = 0;
   for (std::size_t at = 0; at < frames.size(); ++bundles) {
     bus_bundle bundle;
     at += bundle_pack(&bundle, &frames[at], unsigned(frames.size() - at));
     bus_frame parts[BUNDLE_FRAMES_MAX];
     const unsigned count = bundle_unpack(&bundle, parts);
-    heard.insert(heard.end(), parts, parts + count);
+    received.insert(received.end(), parts, parts + count);
   }
-  return heard;
+  return received;
 }
 
 }  // namespace
 
-TEST_CASE("what is bundled comes out whole and in order, however many") {
+TEST_CASE("any number of frames is unchanged and in order after bundling and unbundling") {
   for (unsigned count = 1; count <= 20; ++count) {
     std::vector<bus_frame> frames;
     for (unsigned i = 0; i < count; ++i) frames.push_back(command_to(std::uint8_t(i)));
     int bundles = 0;
-    const auto heard = through_bundles(frames, bundles);
-    REQUIRE(heard.size() == count);
-    for (unsigned i = 0; i < count; ++i) CHECK(same(heard[i], frames[i]));
+    const auto received = through_bundles(frames, bundles);
+    REQUIRE(received.size() == count);
+    for (unsigned i = 0; i < count; ++i) CHECK(same(received[i], frames[i]));
     CHECK(bundles == int((count + 5) / 6));
   }
 }
 
-TEST_CASE("frames go together that are of one function or of one ECU, no others") {
+TEST_CASE("only frames of one function or of one ECU share a bundle") {
   int bundles = 0;
   through_bundles({command_to(1), hello_of(1), hello_of(2)}, bundles);
   CHECK(bundles == 2);  // COMMAND and HELLO of ECU 1; HELLO of ECU 2
   through_bundles({hello_of(2), hello_of(1), command_to(2), command_to(1)}, bundles);
-  CHECK(bundles == 2);  // the third is ECU 2's, the fourth neither
+  CHECK(bundles == 2);  // the third frame is from ECU 2, the fourth from another
 }
 
-TEST_CASE("a bundle has a size that CAN FD has, and the identifier of its first frame") {
+TEST_CASE("a bundle has a CAN FD size and the identifier of its first frame") {
   const std::vector<bus_frame> frames(6, command_to(9));
   const int sizes[] = {12, 20, 32, 48, 64, 64};
   for (unsigned count = 1; count <= 6; ++count) {
@@ -72,7 +72,7 @@ TEST_CASE("a bundle has a size that CAN FD has, and the identifier of its first 
   CHECK(bundle_size(7) == 64);
 }
 
-TEST_CASE("what is no bundle of ours is none") {
+TEST_CASE("an invalid bundle contains no frames") {
   bus_frame parts[BUNDLE_FRAMES_MAX];
   bus_bundle bundle{};
   bundle.size = 9;  // too short for one frame

@@ -4,7 +4,7 @@
 
 #include "firmware/core/ecu.h"
 
-/// A channel with the rig's numbers, driven by hand.
+/// A channel with the rig's numbers, ticked by the test.
 namespace firmware {
 
 using Gains = std::array<float, ECU_PARAMETER_COUNT>;
@@ -39,7 +39,7 @@ inline Gains rig_gains() {
   return g;
 }
 
-/// The same with every sensor that an ECU can have: a live zero of 10 %, a ten-turn potentiometer
+/// The same with all sensors that an ECU supports: a live zero of 10 %, a ten-turn potentiometer
 /// of 12 bits, a winding's temperature of 0.1 degrees a count, the supply.
 inline Gains fitted_gains() {
   Gains g = rig_gains();
@@ -60,7 +60,7 @@ inline Gains fitted_gains() {
   return g;
 }
 
-/// Writes a whole set; returns what its commit said.
+/// Writes a whole set; returns the result of the commit.
 inline bool load(ecu_channel& channel, const Gains& gains) {
   bool accepted = false;
   for (std::uint8_t i = 0; i < ECU_PARAMETER_COUNT; ++i)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# coverage.sh PROGRAM OBJECTS SOURCE OUT: runs the tests on an instrumented firmware and reports which of
-# its lines and branches they took; below 95 % is a failure. Debian: gcovr.
+# coverage.sh PROGRAM OBJECTS SOURCE OUT: runs the tests on instrumented firmware and reports its line and
+# branch coverage; fails below 95 %. Debian: gcovr.
 set -eu
 find "$2" -name '*.gcda' -delete
 "$1" > "$4.log" || { cat "$4.log"; exit 1; }

@@ -72,7 +72,7 @@ bool any_unpacks(const bus_frame& f) {
 
 }  // namespace
 
-TEST_CASE("a command comes out as it went in") {
+TEST_CASE("a command is unchanged by pack and unpack") {
   for (int n = 0; n < 2000; ++n) {
     frame_command in{
         {{octet(0, 7), pick_setpoint()}, {octet(0, 7), pick_setpoint()}}, octet(0, 7), octet(0, 7)},
@@ -91,7 +91,7 @@ TEST_CASE("a command comes out as it went in") {
   }
 }
 
-TEST_CASE("a set-point beyond 22 bits arrives as one that is refused, never as another number") {
+TEST_CASE("a set-point beyond 22 bits arrives as refused, never as another number") {
   for (std::int32_t setpoint :
        {FRAME_SETPOINT_MAX + 1, -FRAME_SETPOINT_MAX - 1, INT32_MAX, INT32_MIN}) {
     const frame_command in{{{ECU_REQUEST_LENGTH, setpoint}, {}}, 0, 0};
@@ -103,7 +103,7 @@ TEST_CASE("a set-point beyond 22 bits arrives as one that is refused, never as a
   }
 }
 
-TEST_CASE("a status comes out as it went in, in every state") {
+TEST_CASE("a status is unchanged by pack and unpack, in every state") {
   for (int n = 0; n < 5000; ++n) {
     const frame_status in = random_status();
     frame_status out{};
@@ -125,7 +125,7 @@ TEST_CASE("a status comes out as it went in, in every state") {
   }
 }
 
-TEST_CASE("a status saturates what its converters could not have said") {
+TEST_CASE("a status saturates values outside the converter range") {
   frame_status in{
       .current_counts = 32767, .tension_counts = 65535, .state = ECU_STATE_RUNNING, .duty = -2000},
       out{};
@@ -137,7 +137,7 @@ TEST_CASE("a status saturates what its converters could not have said") {
   CHECK(out.duty == -1023);
 }
 
-TEST_CASE("analog readings, health, parameters and emergencies come out as they went in") {
+TEST_CASE("analog, health, parameter and emergency frames are unchanged by pack and unpack") {
   for (int n = 0; n < 2000; ++n) {
     bus_frame frame;
     const frame_analog a{
@@ -194,7 +194,7 @@ TEST_CASE("analog readings, health, parameters and emergencies come out as they 
   }
 }
 
-TEST_CASE("a frame with any one bit flipped, in data or identifier, says nothing") {
+TEST_CASE("a frame with one flipped bit, in data or identifier, is rejected") {
   for (const bus_frame& good : one_of_each(77)) {
     REQUIRE(any_unpacks(good));
     for (int bit = 0; bit < 64; ++bit) {
@@ -212,7 +212,7 @@ TEST_CASE("a frame with any one bit flipped, in data or identifier, says nothing
   }
 }
 
-TEST_CASE("a frame with up to three bits flipped says nothing") {
+TEST_CASE("a frame with up to three flipped bits is rejected") {
   for (const bus_frame& good : one_of_each(5))
     for (int a = 0; a < 64; ++a)
       for (int b = a; b < 64; ++b)
@@ -224,7 +224,7 @@ TEST_CASE("a frame with up to three bits flipped says nothing") {
         }
 }
 
-TEST_CASE("a frame of another length says nothing") {
+TEST_CASE("a frame of another length is rejected") {
   for (bus_frame frame : one_of_each(5))
     for (int size : {0, 1, 7, 9, 255}) {
       frame.size = std::uint8_t(size);
@@ -249,7 +249,7 @@ TEST_CASE("the encoder is unwrapped across both ends of 16 bits and of 32 bits")
   CHECK(frame_unwrap(INT32_MAX, 0) == INT32_MIN);
 }
 
-TEST_CASE("the unwrapped encoder follows a walk of any length") {
+TEST_CASE("the unwrapped encoder follows a random walk of any length") {
   std::int64_t truth = 0;
   std::int32_t unwrapped = 0;
   for (int n = 0; n < 100000; ++n) {

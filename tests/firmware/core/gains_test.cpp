@@ -15,7 +15,7 @@ bool in_force(const ecu_channel& channel, const Gains& gains) {
 }
 }  // namespace
 
-TEST_CASE("a channel leaves boot only when every gain has been written") {
+TEST_CASE("a channel leaves boot only after every gain has been written") {
   for (unsigned missing = 0; missing < ECU_PARAMETER_COUNT; ++missing) {
     INFO("missing parameter " << missing);
     ecu_channel channel = in_state(ECU_STATE_BOOT);
@@ -33,7 +33,7 @@ TEST_CASE("a channel leaves boot only when every gain has been written") {
   }
 }
 
-TEST_CASE("a half-written gain set is never used") {
+TEST_CASE("an incomplete gain set is never used") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   const Gains before = rig_gains();
   for (std::uint8_t i = 0; i + 1 < ECU_PARAMETER_COUNT; ++i) {
@@ -43,7 +43,8 @@ TEST_CASE("a half-written gain set is never used") {
   }
 }
 
-TEST_CASE("a number that is none spoils its set: the commit is refused and nothing of it stays") {
+TEST_CASE(
+    "a value that is not a number invalidates its set: the commit is refused, no value is kept") {
   for (float bad : {not_a_number, infinity, -infinity}) {
     ecu_channel channel = in_state(ECU_STATE_IDLE);
     const Gains before = rig_gains();
@@ -63,7 +64,7 @@ TEST_CASE("a parameter that does not exist is refused") {
   CHECK_FALSE(ecu_parameter(&channel, 255, 1, false));
 }
 
-TEST_CASE("an insane set of gains is refused") {
+TEST_CASE("an implausible set of gains is refused") {
   const std::pair<ecu_parameter_index, float> insane[] = {
       {ECU_PARAMETER_SUPPLY, 0},
       {ECU_PARAMETER_SUPPLY, -12},
@@ -105,7 +106,7 @@ TEST_CASE("gains can be changed while running, and the next tick uses them") {
   CHECK(tick(channel) == Approx(2 * before).margin(1));
 }
 
-TEST_CASE("new current gains leave the voltage of a settled loop where it is") {
+TEST_CASE("new current gains do not change the voltage of a settled loop") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   const ecu_inputs one_ampere{0, 256, 0};
   REQUIRE(tick(channel, one_ampere) != 0);

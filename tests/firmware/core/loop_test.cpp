@@ -25,7 +25,7 @@ struct Loop {
 
   Loop() { load(channel, with_force_gains()); }
 
-  /// Follows a set-point for a time; `each` sees the motor after every period.
+  /// Holds a set-point for a time; calls `each` with the motor after every period.
   template <class Each>
   void follow(ecu_request request, std::int32_t setpoint, double time_s, Each each) {
     for (int k = 0; k < int(time_s / 0.002 + 0.5); ++k) {
@@ -60,14 +60,14 @@ TEST_CASE("force control steps from 2 to 40 N as fast as the paper's robot and s
   CHECK(peak_N < 42);
 }
 
-TEST_CASE("force control lets go as well as it pulls") {
+TEST_CASE("force control decreases the tension as well as it increases it") {
   Loop loop;
   loop.follow(ECU_REQUEST_FORCE, 60000, 1.0);
   loop.follow(ECU_REQUEST_FORCE, 10000, 1.0);
   CHECK(loop.motor.tension_N() == Approx(10).margin(0.3));
 }
 
-TEST_CASE("length control winds to its angle against the spring, short of it by the load only") {
+TEST_CASE("length control reaches its angle against the spring, with the error given by the load") {
   Loop loop;
   const double scale = 2 * TinyMotor::pi / (2048 * 128);
   loop.follow(ECU_REQUEST_LENGTH, std::lround(1.0 / scale), 2.0);
@@ -81,26 +81,27 @@ TEST_CASE("length control winds to its angle against the spring, short of it by 
   CHECK(missing_rad < (load_Nm + TinyMotor::tau_c) * per_Nm + 5e-4);
 }
 
-TEST_CASE("current control leaves no error at standstill") {
+TEST_CASE("current control has no steady-state error at standstill") {
   Loop loop;
-  // A constant current takes the back-EMF's damping away: the motor swings on its spring until
-  // friction has stopped it.
+  // A constant current removes the damping of the back-EMF: the motor oscillates on its spring until
+  // friction stops it.
   loop.follow(ECU_REQUEST_CURRENT, 300, 12.0);
   CHECK(loop.motor.w_rad_per_s == Approx(0).margin(1e-3));
   CHECK(loop.motor.i_A == Approx(0.3).margin(0.02));
 }
 
-TEST_CASE("the current limit holds in the motor too, through a full reversal") {
+TEST_CASE("the motor current stays within the limit during a full reversal") {
   Loop loop;
   loop.follow(ECU_REQUEST_VOLTAGE, 12000, 0.1);
   loop.follow(ECU_REQUEST_VOLTAGE, -12000, 0.1);
   loop.follow(ECU_REQUEST_VOLTAGE, 12000, 0.1);
   INFO("peak " << loop.motor.peak_A << " A");
-  CHECK(loop.motor.peak_A < 4.5);  // speed moves within a period: some tenths above the 4 A asked
+  CHECK(loop.motor.peak_A <
+        4.5);  // the speed changes within a period: some tenths above the 4 A limit
   CHECK(loop.channel.state == ECU_STATE_RUNNING);
 }
 
-TEST_CASE("when commands stop, the current is gone within 52 ms") {
+TEST_CASE("without commands the current is zero within 52 ms") {
   Loop loop;
   loop.follow(ECU_REQUEST_FORCE, 40000, 0.1);
   for (int k = 0; k < 26; ++k) loop.motor.period(tick(loop.channel, loop.motor.read()));

@@ -5,8 +5,8 @@
 
 #include "firmware/core/ecu.h"
 
-/// A tiny plant for closed-loop tests: the paper's eq. 3 by Euler at 2 µs, pulling a spring fixed
-/// at its far end; converters without noise. Published motor, the rig's friction and spring.
+/// A small plant for closed-loop tests: eq. 3 of the paper by Euler at 2 µs, on a spring that is fixed at
+/// its other end; converters without noise. Published motor, the rig's friction and spring.
 namespace firmware {
 
 struct TinyMotor {

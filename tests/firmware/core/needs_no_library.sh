@@ -1,5 +1,5 @@
 #!/bin/sh
-# The firmware calls nothing but itself and what a compiler itself may ask for: memory copies.
+# Checks that the firmware calls only itself and functions that a compiler may insert: memory copies.
 set -eu
 library=$1
 defined=$(nm --defined-only "$library" | awk 'NF == 3 && $2 ~ /[TDRB]/ {print $3}' | sort -u)

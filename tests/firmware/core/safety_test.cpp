@@ -13,7 +13,7 @@ ecu_inputs reading(float current_A, float tension_N) {
 }
 }  // namespace
 
-TEST_CASE("50 ms without a command ends in PWM 0") {
+TEST_CASE("50 ms without a command sets PWM to 0") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (unsigned i = 0; i < 25; ++i) {
     INFO("tick " << i);
@@ -33,7 +33,7 @@ TEST_CASE("a command every 48 ms keeps a channel running") {
   }
 }
 
-TEST_CASE("clear is no set-point: it does not feed the watchdog of a running channel") {
+TEST_CASE("a clear request does not reset the watchdog of a running channel") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (int i = 0; i < 26; ++i) ecu_command(&channel, ECU_REQUEST_CLEAR, 0), tick(channel);
   CHECK(channel.fault == ECU_FAULT_COMMAND_TIMEOUT);
@@ -48,14 +48,15 @@ TEST_CASE("a fault latches until it is cleared, and keeps its first cause") {
     CHECK(tick(channel) == 0);
   }
   CHECK(channel.fault == ECU_FAULT_OVER_TENSION);
-  CHECK_FALSE(ecu_command(&channel, ECU_REQUEST_CLEAR, ECU_FAULT_COMMAND_TIMEOUT));  // of before
+  CHECK_FALSE(
+      ecu_command(&channel, ECU_REQUEST_CLEAR, ECU_FAULT_COMMAND_TIMEOUT));  // the previous fault
   CHECK(channel.state == ECU_STATE_FAULT);
   CHECK(ecu_command(&channel, ECU_REQUEST_CLEAR, ECU_FAULT_OVER_TENSION));
   CHECK(channel.state == ECU_STATE_IDLE);
   CHECK(channel.fault == ECU_FAULT_NONE);
 }
 
-TEST_CASE("after a fault the old set-point is gone: armed again, it waits at PWM 0") {
+TEST_CASE("after a fault the old set-point is discarded: armed again, the channel waits at PWM 0") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   tick(channel);
   ecu_trip(&channel, ECU_FAULT_OVER_TENSION);
@@ -86,7 +87,7 @@ TEST_CASE("over-current trips at the second tick, not at the first") {
   CHECK(channel.fault == ECU_FAULT_OVER_CURRENT);
 }
 
-TEST_CASE("a current converter at its rail trips as over-current, as a short would") {
+TEST_CASE("a current converter at its rail trips as over-current") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   tick(channel, {0, 2047, 0});
   tick(channel, {0, 2047, 0});
@@ -100,7 +101,7 @@ TEST_CASE("over-tension trips at once") {
   CHECK(channel.fault == ECU_FAULT_OVER_TENSION);
 }
 
-TEST_CASE("a force sensor at its rail trips at the third sample, and is not believed before") {
+TEST_CASE("a force sensor at its rail trips at the third sample and is ignored before") {
   ecu_channel channel = in_state(ECU_STATE_ARMED);
   ecu_command(&channel, ECU_REQUEST_FORCE, 20000);
   const auto before = tick(channel, reading(0, 15));
@@ -110,7 +111,7 @@ TEST_CASE("a force sensor at its rail trips at the third sample, and is not beli
   CHECK(channel.fault == ECU_FAULT_SENSOR_RANGE);
 }
 
-TEST_CASE("a fault whose cause persists cannot be cleared for good") {
+TEST_CASE("a fault whose cause persists trips again after a clear") {
   ecu_channel channel = in_state(ECU_STATE_IDLE);
   for (int i = 0; i < 3; ++i) tick(channel, {0, 0, 4095});
   REQUIRE(channel.state == ECU_STATE_FAULT);
@@ -119,7 +120,7 @@ TEST_CASE("a fault whose cause persists cannot be cleared for good") {
   CHECK(channel.state == ECU_STATE_FAULT);
 }
 
-TEST_CASE("set-points outside the limits are rejected, those at the limit are not") {
+TEST_CASE("set-points outside the limits are rejected; those at the limit are accepted") {
   struct Limit {
     ecu_request request;
     std::int32_t low, high;
@@ -143,7 +144,7 @@ TEST_CASE("set-points outside the limits are rejected, those at the limit are no
   }
 }
 
-TEST_CASE("a rejected set-point leaves the old one, which times out") {
+TEST_CASE("after a rejected set-point the old one stays and times out") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (int i = 0; i < 25; ++i) {
     if (i % 8 == 7) CHECK_FALSE(ecu_command(&channel, ECU_REQUEST_VOLTAGE, 13000));
@@ -153,7 +154,7 @@ TEST_CASE("a rejected set-point leaves the old one, which times out") {
   CHECK(channel.fault == ECU_FAULT_COMMAND_TIMEOUT);
 }
 
-TEST_CASE("five bad set-points in a row trip, four and a good one do not") {
+TEST_CASE("five invalid set-points in a row trip; four and a valid one do not") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (int round = 0; round < 3; ++round) {
     for (int i = 0; i < 4; ++i) ecu_command(&channel, ECU_REQUEST_FORCE, -1000);
@@ -164,7 +165,7 @@ TEST_CASE("five bad set-points in a row trip, four and a good one do not") {
   CHECK(tick(channel) == 0);
 }
 
-TEST_CASE("the predictive limit holds at standstill whatever is asked") {
+TEST_CASE("the predictive current limit holds at standstill for any set-point") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   ecu_command(&channel, ECU_REQUEST_VOLTAGE, 12000);
   const float steady_A = float(tick(channel)) / ECU_DUTY_MAX * 12 / 0.516f;
@@ -174,12 +175,12 @@ TEST_CASE("the predictive limit holds at standstill whatever is asked") {
 TEST_CASE("speed is taken from the encoder over one period, through the wrap of its counter") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   tick(channel, {INT32_MAX - 100, 0, 0});
-  tick(channel, {INT32_MIN + 99, 0, 0});  // 200 counts on
+  tick(channel, {INT32_MIN + 99, 0, 0});  // 200 counts further
   const float scale = rig_gains()[ECU_PARAMETER_SHAFT_SCALE];
   CHECK(channel.sensed.speed_rad_per_s == Approx(200 * scale / 0.002f));
 }
 
-TEST_CASE("only a running channel drives: in every other state PWM is 0 at any speed and load") {
+TEST_CASE("PWM is 0 in every state except running, at any speed and load") {
   for (ecu_state state : {ECU_STATE_BOOT, ECU_STATE_IDLE, ECU_STATE_ARMED, ECU_STATE_FAULT}) {
     ecu_channel channel = in_state(state);
     for (std::int32_t n = 0; n < 20; ++n) {
@@ -189,7 +190,7 @@ TEST_CASE("only a running channel drives: in every other state PWM is 0 at any s
   }
 }
 
-TEST_CASE("gains that overflow drive nothing") {
+TEST_CASE("with gains that overflow PWM is 0") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   ecu_parameter(&channel, ECU_PARAMETER_FORCE_PREFILTER, 3e38f, false);
   ecu_parameter(&channel, ECU_PARAMETER_FORCE_K_TENSION, 3e38f, true);

@@ -3,13 +3,13 @@
 
 #include "tests/firmware/core/channel.hpp"
 
-// Sensors that are broken, and sensors that only look so.
+// Faulty sensors, and working sensors that look faulty.
 using namespace firmware;
 
 namespace {
 
-/// A channel that is driven at 3 V, its shaft at 2 rad/s as the motor's equation wants, with noise
-/// on its converters. Each sensor can be overruled.
+/// A channel driven at 3 V, its shaft at 2 rad/s according to the motor equation, with noise on its
+/// converters. Each reading can be replaced.
 struct Turning {
   ecu_channel channel = in_state(ECU_STATE_RUNNING, fitted_gains());
   std::mt19937 random{1};
@@ -28,7 +28,7 @@ struct Turning {
             2400};
   }
 
-  /// Runs on with one reading changed; returns the tick it tripped at, 0: it did not.
+  /// Continues with one reading changed; returns the tick of the trip, 0: no trip.
   template <class Change>
   int trips_within(int ticks, Change change) {
     for (int k = 1; k <= ticks; ++k) {
@@ -48,12 +48,12 @@ struct Turning {
 
 }  // namespace
 
-TEST_CASE("sensors that live and agree trip nothing") {
+TEST_CASE("working sensors that agree do not trip") {
   Turning motor;
   CHECK(motor.runs_on(5000) == 0);
 }
 
-TEST_CASE("a force sensor that is open or shorted trips at the third sample") {
+TEST_CASE("an open or shorted force sensor trips at the third sample") {
   for (const std::uint16_t rail : {std::uint16_t(4095), std::uint16_t(0), std::uint16_t(200)}) {
     INFO("at " << rail);
     Turning motor;
@@ -65,14 +65,14 @@ TEST_CASE("a force sensor that is open or shorted trips at the third sample") {
   }
 }
 
-TEST_CASE("a slack tendon reads its live zero, or a little less, and no tension") {
+TEST_CASE("a reading at or slightly below the live zero is tension 0") {
   Turning motor;
   motor.tension_N = -1;
   CHECK(motor.runs_on(500) == 0);
   CHECK(motor.channel.sensed.tension_N == 0);
 }
 
-TEST_CASE("a slack tendon without a live zero rests at 0, and that is no stuck sensor") {
+TEST_CASE("a constant reading of 0 without live zero is a slack tendon, not a stuck sensor") {
   Turning motor;
   Gains gains = fitted_gains();
   gains[ECU_PARAMETER_TENSION_ZERO] = 0;
@@ -80,7 +80,7 @@ TEST_CASE("a slack tendon without a live zero rests at 0, and that is no stuck s
   CHECK(motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 0; }) == 0);
 }
 
-TEST_CASE("a frozen converter trips after 100 ms of turning") {
+TEST_CASE("a frozen converter trips after 100 ms of rotation") {
   Turning current, tension;
   CHECK(current.trips_within(100, [](ecu_inputs& in) { in.current_counts = 25; }) == 51);
   CHECK(current.channel.fault == ECU_FAULT_SENSOR_STUCK);
@@ -88,14 +88,14 @@ TEST_CASE("a frozen converter trips after 100 ms of turning") {
   CHECK(tension.channel.fault == ECU_FAULT_SENSOR_STUCK);
 }
 
-TEST_CASE("a reading that rests while the shaft rests is believed") {
+TEST_CASE("a constant reading is accepted while the shaft is at rest") {
   Turning motor;
   motor.speed_rad_per_s = 0.4f;
   motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 800; });
   CHECK(motor.channel.fault != ECU_FAULT_SENSOR_STUCK);
 }
 
-TEST_CASE("where the host does not ask for it, a still reading is believed") {
+TEST_CASE("a constant reading is accepted if the stuck check is disabled") {
   Turning motor;
   Gains gains = fitted_gains();
   gains[ECU_PARAMETER_TENSION_STUCK_SPEED] = 0;
@@ -103,12 +103,12 @@ TEST_CASE("where the host does not ask for it, a still reading is believed") {
   CHECK(motor.trips_within(500, [](ecu_inputs& in) { in.tension_counts = 800; }) == 0);
 }
 
-TEST_CASE("an encoder that has lost a phase trips within 50 ms of driving, either way round") {
+TEST_CASE("an encoder with a lost phase trips within 50 ms of driving, in both directions") {
   for (const bool winds : {true, false}) {
     Turning motor;
     motor.speed_rad_per_s = winds ? 2.0f : -2.0f;
     Gains gains = fitted_gains();
-    gains[ECU_PARAMETER_WIPER_TOLERANCE] = 0;  // so that it is the motor's equation that tells
+    gains[ECU_PARAMETER_WIPER_TOLERANCE] = 0;  // only the motor equation can detect it
     load(motor.channel, gains);
     int k = 0;
     const auto dithers = [&](ecu_inputs& in) { in.encoder_counts = 1000 + (++k % 2); };
@@ -126,7 +126,7 @@ TEST_CASE("an encoder that has lost a phase trips within 50 ms of driving, eithe
   }
 }
 
-TEST_CASE("a motor that stalls at its current limit is no broken encoder") {
+TEST_CASE("a motor stalled at its current limit is not reported as an encoder fault") {
   for (const float resistance : {0.516f, 0.88f}) {  // the gains say 0.516
     Turning motor;
     motor.speed_rad_per_s = 0;
@@ -143,7 +143,7 @@ TEST_CASE("a motor that stalls at its current limit is no broken encoder") {
   }
 }
 
-TEST_CASE("an encoder that slips comes apart from the potentiometer") {
+TEST_CASE("an encoder that slips is detected by the potentiometer") {
   Turning motor;
   motor.runs_on(100);
   const float scale = fitted_gains()[ECU_PARAMETER_SHAFT_SCALE];
@@ -152,10 +152,10 @@ TEST_CASE("an encoder that slips comes apart from the potentiometer") {
   CHECK(motor.channel.fault == ECU_FAULT_POTENTIOMETER);
   ecu_command(&motor.channel, ECU_REQUEST_CLEAR, motor.channel.fault);
   CHECK(motor.channel.state == ECU_STATE_IDLE);
-  CHECK(motor.trips_within(100, slipped) == 25);  // it has not gone away
+  CHECK(motor.trips_within(100, slipped) == 25);  // the evidence remains
 }
 
-TEST_CASE("an encoder that slips does not open the current limit") {
+TEST_CASE("an encoder that slips does not raise the current limit") {
   Turning motor;
   motor.runs_on(100);
   const float before_rad_per_s = motor.channel.sensed.speed_rad_per_s;
@@ -168,7 +168,7 @@ TEST_CASE("an encoder that slips does not open the current limit") {
   CHECK(drop_V / 0.516f == Approx(4).margin(0.05));  // the limit
 }
 
-TEST_CASE("a speed that no motor has trips at the third sample") {
+TEST_CASE("a speed beyond the motor's range trips at the third sample") {
   Turning motor;
   motor.runs_on(100);
   int k = 0;
@@ -176,7 +176,7 @@ TEST_CASE("a speed that no motor has trips at the third sample") {
   CHECK(motor.channel.fault == ECU_FAULT_SENSOR_RANGE);
 }
 
-TEST_CASE("beyond its range a potentiometer says nothing") {
+TEST_CASE("a potentiometer beyond its range is ignored") {
   Turning motor;
   CHECK(motor.trips_within(300, [](ecu_inputs& in) { in.potentiometer_counts = 4095; }) == 0);
 }

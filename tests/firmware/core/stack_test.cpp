@@ -1,4 +1,4 @@
-// How deep the firmware's stack gets, from the compiler's own call graph (gcc -fcallgraph-info=su).
+// Largest stack depth of the firmware, from the compiler's call graph (gcc -fcallgraph-info=su).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -12,9 +12,9 @@
 namespace {
 
 struct Graph {
-  std::map<std::string, long> bytes;                    ///< of a function's own frame
-  std::map<std::string, std::set<std::string>> callees;  ///< whom it may call
-  std::set<std::string> unbounded;                      ///< frames the compiler does not know
+  std::map<std::string, long> bytes;                     ///< stack frame of a function
+  std::map<std::string, std::set<std::string>> callees;  ///< functions it may call
+  std::set<std::string> unbounded;                       ///< functions with frames of unknown size
 };
 
 /// Static functions of two files may share a name: the compiler then prefixes the file.
@@ -35,8 +35,8 @@ void read(std::istream& text, Graph& graph) {
 /// A call stores its return address beside the callee's frame, which `bytes` counts on x86-64.
 struct Depth {
   const Graph& graph;
-  std::set<std::string> open = {};     ///< being called now
-  std::set<std::string> unknown = {};  ///< called, and not the firmware's
+  std::set<std::string> open = {};     ///< on the current call path
+  std::set<std::string> unknown = {};  ///< called, and not part of the firmware
   std::optional<std::string> recursive = {};
 
   long of(const std::string& name) {
@@ -70,10 +70,10 @@ Graph firmware() {
 
 }  // namespace
 
-TEST_CASE("the stack of the firmware is bounded and known: no recursion, no pointer calls") {
+TEST_CASE("the stack depth of the firmware is bounded: no recursion, no calls by pointer") {
   const Graph graph = firmware();
   REQUIRE(graph.bytes.contains("ecu_tick"));
-  REQUIRE(graph.bytes.contains("ecu_link_say"));
+  REQUIRE(graph.bytes.contains("ecu_link_pack"));
   CHECK(graph.unbounded.empty());
   for (const auto& [name, bytes] : graph.bytes) {
     Depth depth{graph};

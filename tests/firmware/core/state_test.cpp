@@ -12,7 +12,7 @@ namespace {
 const ecu_state boot = ECU_STATE_BOOT, idle = ECU_STATE_IDLE, armed = ECU_STATE_ARMED,
                 running = ECU_STATE_RUNNING, fault = ECU_STATE_FAULT;
 
-const std::int32_t over_current = ECU_FAULT_OVER_CURRENT;  // what in_state trips with
+const std::int32_t over_current = ECU_FAULT_OVER_CURRENT;  // the fault used by in_state
 
 struct Row {
   const char* event;
@@ -35,7 +35,7 @@ void silence(ecu_channel& c) {
 }
 }  // namespace
 
-TEST_CASE("every event leads from every state where the table says") {
+TEST_CASE("every event leads from every state to the state in the table") {
   // clang-format off
   const std::vector<Row> rows = {
     // event                                                  boot  idle   armed    running  fault
@@ -72,7 +72,7 @@ TEST_CASE("every event leads from every state where the table says") {
   }
 }
 
-TEST_CASE("from fault no event but clear leads out, and from boot none but gains") {
+TEST_CASE("only clear leaves the fault state, and only a gain set leaves boot") {
   for (int event = 0; event < ECU_EVENT_COUNT; ++event) {
     const bool clears = event == ECU_EVENT_CLEAR, loads = event == ECU_EVENT_COMMIT;
     CHECK((ecu_next_state(fault, ecu_event(event)) == (clears ? idle : fault)));
@@ -80,14 +80,14 @@ TEST_CASE("from fault no event but clear leads out, and from boot none but gains
   }
 }
 
-TEST_CASE("only an armed channel can be brought to run") {
+TEST_CASE("only an armed channel can start running") {
   for (int from = 0; from < ECU_STATE_COUNT; ++from)
     for (int event = 0; event < ECU_EVENT_COUNT; ++event)
       if (ecu_next_state(ecu_state(from), ecu_event(event)) == running)
         CHECK((from == running || (from == armed && event == ECU_EVENT_SETPOINT)));
 }
 
-TEST_CASE("a mode asked for in idle is counted and does no harm") {
+TEST_CASE("a mode request in idle is counted and has no effect") {
   ecu_channel channel = in_state(idle);
   for (int i = 0; i < 20; ++i) CHECK_FALSE(ecu_command(&channel, ECU_REQUEST_FORCE, 2000));
   CHECK(channel.rejected_setpoints == 20);

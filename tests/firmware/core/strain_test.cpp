@@ -2,7 +2,7 @@
 
 #include "tests/firmware/core/channel.hpp"
 
-// What a motor and its ECU bear.
+// Load limits of a motor and its ECU.
 using namespace firmware;
 
 namespace {
@@ -12,7 +12,7 @@ constexpr std::uint16_t warm = 600, well_supplied = 2400;  // 20 degrees, 12 V
 struct Loaded {
   ecu_channel channel = in_state(ECU_STATE_RUNNING, fitted_gains());
 
-  /// Returns the tick it tripped at, 0: it did not.
+  /// Returns the tick of the trip, 0: no trip.
   int trips_within(int ticks, float current_A, std::uint16_t temperature = warm,
                    std::uint16_t supply = well_supplied) {
     const float scale = fitted_gains()[ECU_PARAMETER_CURRENT_SCALE];
@@ -27,7 +27,7 @@ struct Loaded {
 
 }  // namespace
 
-TEST_CASE("a motor bears its continuous current for ever, and twice that for 2 s") {
+TEST_CASE("a motor may carry its continuous current for ever, and twice that for 2 s") {
   Loaded motor;
   CHECK(motor.trips_within(5000, 1.99f) == 0);
   const int ticks = motor.trips_within(2000, 4);  // 24 A2 s / (16 - 4) A2
@@ -35,7 +35,7 @@ TEST_CASE("a motor bears its continuous current for ever, and twice that for 2 s
   CHECK(motor.channel.fault == ECU_FAULT_OVERLOAD);
 }
 
-TEST_CASE("clearing an overload does not cool the motor: it trips again until it has rested") {
+TEST_CASE("after a cleared overload the motor trips again until it has cooled") {
   Loaded motor;
   motor.trips_within(2000, 4);
   ecu_command(&motor.channel, ECU_REQUEST_CLEAR, motor.channel.fault);
@@ -47,7 +47,9 @@ TEST_CASE("clearing an overload does not cool the motor: it trips again until it
   CHECK(motor.trips_within(500, 0) == 0);
 }
 
-TEST_CASE("a hot motor is given less current, a hotter one trips after 100 ms") {
+TEST_CASE(
+    "the current limit decreases with temperature, and above the trip level the channel trips "
+    "after 100 ms") {
   const auto counts = [](float temperature_C) { return std::uint16_t((temperature_C + 40) * 10); };
   const Gains gains = fitted_gains();
   const auto limit_A = [&](float temperature_C) {
@@ -69,7 +71,7 @@ TEST_CASE("a hot motor is given less current, a hotter one trips after 100 ms") 
   CHECK(motor.channel.fault == ECU_FAULT_OVER_TEMPERATURE);
 }
 
-TEST_CASE("a supply that sags for 10 ms trips, a shorter dip does not") {
+TEST_CASE("a low supply of 10 ms trips, a shorter one does not") {
   Loaded motor;
   CHECK(motor.trips_within(4, 0, warm, 1700) == 0);
   CHECK(motor.trips_within(1, 0) == 0);
@@ -77,7 +79,7 @@ TEST_CASE("a supply that sags for 10 ms trips, a shorter dip does not") {
   CHECK(motor.channel.fault == ECU_FAULT_SUPPLY);
 }
 
-TEST_CASE("what is not fitted is not judged") {
+TEST_CASE("sensors that are not fitted are not checked") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (int k = 0; k < 1000; ++k) {
     ecu_command(&channel, ECU_REQUEST_VOLTAGE, 1000);
@@ -85,7 +87,7 @@ TEST_CASE("what is not fitted is not judged") {
   }
 }
 
-TEST_CASE("the third control period in a row that overruns trips, two do not") {
+TEST_CASE("the third overrun control period in a row trips, two do not") {
   ecu_channel channel = in_state(ECU_STATE_RUNNING);
   for (const bool overran : {true, true, false, true, true}) ecu_overran(&channel, overran);
   CHECK(channel.state == ECU_STATE_RUNNING);

@@ -72,7 +72,7 @@ static int64_t order_of(uint32_t bits) {
 static void result(float value) {
   unsigned theirs;
   if (scanf("%x", &theirs) != 1) {
-    printf("the microcontroller said %u numbers of %d\n", compared, 5 * INPUTS);
+    printf("the microcontroller printed %u of %d numbers\n", compared, 5 * INPUTS);
     exit(1);
   }
   const unsigned ulp = (unsigned)llabs(order_of(bits_of(value)) - order_of(theirs));
@@ -83,7 +83,7 @@ static void result(float value) {
 
 int main(void) {
   all_laws();
-  printf("%u numbers of the control laws, %u not the same, the farthest %u ulp apart\n", compared,
+  printf("%u numbers of the control laws, %u differ, by at most %u ulp\n", compared,
          different, worst_ulp);
   return worst_ulp <= 1 ? 0 : 1;
 }

@@ -1,13 +1,13 @@
 #!/bin/bash
-# check.sh TRANSITIONS: proves the model ecu.pml on the state machine that TRANSITIONS prints, and that
-# each rule it leans on is needed: without it the proof must fail. Debian: spin gcc.
+# check.sh TRANSITIONS: verifies the model ecu.pml with the state machine that TRANSITIONS prints, and that
+# each of its rules is needed: without it the verification must fail. Debian: spin gcc.
 set -u
 here=$(dirname "$(realpath "$0")") transitions=$(realpath "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 
-# Makes the verifier; the sed expression, if any, takes a rule away.
+# Builds the verifier; the sed expression, if any, removes a rule.
 verifier() {
   "$transitions" | sed "${1:-}" > transitions.pml
   sed "${1:-}" "$here/ecu.pml" > ecu.pml
@@ -16,7 +16,7 @@ verifier() {
 
 errors() { sed -n 's/.*errors: \([0-9]*\).*/\1/p' pan.out; }
 
-holds() {  # what, arguments of the verifier
+holds() {  # name, arguments of the verifier
   ./pan -m1000000 -w26 "${@:2}" > pan.out
   if [ "$(errors)" != 0 ] || grep -q 'too small\|out of memory' pan.out; then
     cat pan.out
@@ -26,13 +26,13 @@ holds() {  # what, arguments of the verifier
   echo "$1: $(sed -n 's/^ *\([0-9]*\) states, stored.*/\1/p' pan.out) states, holds"
 }
 
-fails() {  # what is taken away, how
+fails() {  # removed rule, sed expression
   verifier "$2" -DSAFETY -DNOCLAIM
   cmp -s "$here/ecu.pml" ecu.pml && "$transitions" | cmp -s - transitions.pml &&
-    { echo "FAILED: nothing was taken away for: $1"; exit 1; }
+    { echo "FAILED: the sed expression changed nothing for: $1"; exit 1; }
   ./pan -m1000000 -w26 > pan.out
-  [ "$(errors)" = 1 ] || { cat pan.out; echo "FAILED: the proof does not need: $1"; exit 1; }
-  echo "without $1: found wrong, as it should be"
+  [ "$(errors)" = 1 ] || { cat pan.out; echo "FAILED: the verification passes without: $1"; exit 1; }
+  echo "without $1: error found, as expected"
 }
 
 verifier '' -DSAFETY -DNOCLAIM

@@ -1,17 +1,17 @@
-/* One channel of an ECU, the gateway and the plant, round by round: a period each. Until `calm`, each
- * of the three may be late, die and come back, sensors may trip, and the bus may lose, repeat, delay
- * and reorder. Checked by spin for every order of all that:
+/* One ECU channel, the gateway and the plant, in rounds of one period each. Until `calm` is set, each of
+ * the three may be late, stop and restart, sensors may trip, and the bus may lose, repeat, delay and
+ * reorder frames. spin checks every order of these events:
  *
- *   it runs only on a command no older than the watchdog and the bus's longest delay;
- *   never on a command older than the one it followed before;
- *   after a fault it is silent until a clear, an arm and a new set-point were heard, in that order;
- *   a sensor's fault is not left at all, since nobody here asks for it;
- *   no deadlock; and when all is calm, a channel whose sensors are well comes to run, and stays so.
+ *   the channel runs only on a command no older than the watchdog plus the bus's longest delay;
+ *   it never runs on a command older than the previous one;
+ *   after a fault it does not run until a clear, an arm and a new set-point arrived, in that order;
+ *   it does not leave a sensor fault, because this model never clears one;
+ *   there is no deadlock; when `calm` is set, a channel with working sensors starts and keeps running.
  *
- * The state machine is the firmware's own: transitions.cpp writes it from firmware/core/state.c. What
- * is fresh is link.c's is_fresh, the count is gateway.cpp's, what is asked is drive.cpp's decide, each
- * by hand. Shortened: the watchdog, 25 periods in the firmware. Assumed: no frame stays
- * on its way longer than DELAY periods; counters of three bits cannot tell an older one. */
+ * The state machine is the firmware's own: transitions.cpp prints it from firmware/core/state.c. Copied by
+ * hand: is_fresh of link.c, the count of gateway.cpp, decide of drive.cpp. Shortened: the watchdog, 25
+ * periods in the firmware. Assumed: no frame is in transit longer than DELAY periods; counters of three
+ * bits cannot identify an older one. */
 #include "transitions.pml"
 
 #define WATCHDOG 3
@@ -30,35 +30,35 @@ typedef frame { byte request = NOTHING; byte fault; byte count; byte age };
 bool calm;
 byte turn; /* 0 plant, 1 gateway, 2 bus, 3 ECU */
 
-frame wish; /* plant -> gateway: the newest alone */
+frame wish; /* plant -> gateway: only the newest */
 frame bus[2];
 
 /* ECU */
 byte state = BOOT, fault, since;
-bool heard;
+bool received;
 byte last_count;
-/* what the plant and the gateway know of it */
+/* state of the ECU as known to plant and gateway */
 byte seen_state = BOOT, seen_fault, count;
-/* ghosts: what the properties are about */
-byte followed_age;          /* of the command it runs on */
+/* ghost variables, for the properties only */
+byte followed_age;          /* age of the command in effect */
 bool cleared = true, armed; /* since the last fault */
 
 #define ahead(new, old) ((new + 8 - old) % 8)
 
 inline forget(f) { f.request = NOTHING; f.fault = 0; f.count = 0; f.age = 0 }
 
-/* Who comes back has been away for longer than any frame is on its way. */
+/* A restart takes longer than any frame is in transit. */
 inline clear_wires() { forget(wish); forget(bus[0]); forget(bus[1]) }
 
 inline copy(to, from) {
   to.request = from.request; to.fault = from.fault; to.count = from.count; to.age = from.age
 }
 
-/* ---- plant: components/plant/drive.cpp, with a controller that always wants to move ---- */
+/* ---- plant: components/plant/actuator_channel.cpp, with a controller that always wants to move ---- */
 
 inline decide() {
   if
-  :: seen_state == BOOT -> wish.request = COMMIT /* its gains */
+  :: seen_state == BOOT -> wish.request = COMMIT /* gain set */
   :: seen_state == IDLE -> wish.request = ARM
   :: seen_state == ARMED || seen_state == RUNNING -> wish.request = SETPOINT
   :: seen_state == FAULT && seen_fault == SILENCE -> wish.request = CLEAR; wish.fault = seen_fault
@@ -72,8 +72,8 @@ active proctype plant() {
   :: atomic { turn == 0 ->
        if
        :: decide()
-       :: !calm /* late, dead, or stopped */
-       :: !calm -> seen_state = BOOT /* it comes back and knows nothing */
+       :: !calm /* late, killed or stopped */
+       :: !calm -> seen_state = BOOT /* restarts without state */
        fi;
        turn = 1 }
   od
@@ -95,8 +95,8 @@ active proctype gateway() {
        :: wish.request != NOTHING && bus[0].request != NOTHING && bus[1].request == NOTHING ->
           send(bus[1])
        :: wish.request == NOTHING || (bus[0].request != NOTHING && bus[1].request != NOTHING)
-       :: !calm                                  /* late: the newest wish waits, not a row of them */
-       :: !calm -> clear_wires(); count = 0 /* it comes back */
+       :: !calm                                  /* late: only the newest command waits */
+       :: !calm -> clear_wires(); count = 0 /* restarts */
        fi;
        turn = 2 }
   od
@@ -111,7 +111,7 @@ inline follow(f) {
   :: f.request == CLEAR ->
      if
      :: state == FAULT && f.fault == fault ->
-        assert(fault != SENSOR); /* nobody has asked for that */
+        assert(fault != SENSOR); /* not cleared by this model */
         fault = NONE; cleared = true; armed = false;
         take(CLEAR)
      :: else
@@ -123,27 +123,27 @@ inline follow(f) {
      take(SETPOINT);
      if
      :: state == RUNNING ->
-        assert(cleared && armed);        /* clear, arm, and only then a set-point */
-        assert(f.age <= followed_age);   /* never back to an older command */
+        assert(cleared && armed);        /* clear, arm, then a set-point */
+        assert(f.age <= followed_age);   /* never an older command */
         since = 0; followed_age = f.age
      :: else
      fi
   fi
 }
 
-/* COMMIT stands for a set of gains, which carries no counter: it moves nothing. */
-inline hear(f) {
+/* COMMIT stands for a gain set, which has no counter and causes no motion. */
+inline receive(f) {
   if
   :: f.request == COMMIT -> follow(f)
   :: f.request != COMMIT &&
-     (!heard || (ahead(f.count, last_count) > 0 && ahead(f.count, last_count) < LATE)) ->
-     heard = true; last_count = f.count;
+     (!received || (ahead(f.count, last_count) > 0 && ahead(f.count, last_count) < LATE)) ->
+     received = true; last_count = f.count;
      follow(f)
   :: else /* late or repeated */
   fi
 }
 
-/* The first cause stays. */
+/* The first cause is kept. */
 inline trip(cause) {
   if
   :: state != FAULT ->
@@ -154,7 +154,7 @@ inline trip(cause) {
 }
 
 inline reset() {
-  state = BOOT; fault = NONE; since = 0; heard = false; last_count = 0;
+  state = BOOT; fault = NONE; since = 0; received = false; last_count = 0;
   followed_age = 0; cleared = true; armed = false; clear_wires()
 }
 
@@ -165,7 +165,7 @@ inline period() {
   :: else
   fi;
   followed_age = (followed_age < 15 -> followed_age + 1 : 15);
-  /* it runs only on a fresh command, and only after what has to come before */
+  /* it runs only on a fresh command, and only after clear and arm */
   assert(state != RUNNING || (since <= WATCHDOG && followed_age <= WATCHDOG + DELAY));
   assert(state != RUNNING || (cleared && armed))
 }
@@ -197,13 +197,13 @@ active proctype wire() {
   do
   :: atomic { turn == 2 ->
        if
-       :: bus[0].request != NOTHING -> hear(bus[0]); forget(bus[0])
-       :: bus[0].request != NOTHING && !calm -> hear(bus[0])     /* it comes once more */
+       :: bus[0].request != NOTHING -> receive(bus[0]); forget(bus[0])
+       :: bus[0].request != NOTHING && !calm -> receive(bus[0])     /* repeated */
        :: bus[0].request != NOTHING && !calm -> forget(bus[0])   /* lost */
-       :: bus[1].request != NOTHING -> hear(bus[1]); forget(bus[1]) /* overtakes */
+       :: bus[1].request != NOTHING -> receive(bus[1]); forget(bus[1]) /* overtakes */
        :: !calm || (bus[0].request == NOTHING && bus[1].request == NOTHING)
        fi;
-       if :: calm && bus[1].request != NOTHING -> hear(bus[1]); forget(bus[1]) :: else fi;
+       if :: calm && bus[1].request != NOTHING -> receive(bus[1]); forget(bus[1]) :: else fi;
        older(bus[0]); older(bus[1]); older(wish);
        turn = 3 }
   od

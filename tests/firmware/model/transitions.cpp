@@ -1,5 +1,4 @@
-// Writes the state machine of firmware/core/state.c as Promela, so that model and code cannot
-// drift.
+// Prints the state machine of firmware/core/state.c as Promela, so that model and code always agree.
 #include <array>
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-// Gateway and ECUs together: what must hold whatever lies between them.
+// Gateway and ECUs together: properties that hold for any bus between them.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -6,9 +6,9 @@
 #include "tests/hal/can/pair.hpp"
 
 using namespace can_test;
-using erp::Heard;
+using erp::FrameResult;
 
-TEST_CASE("a run over the bus is the run without it, bit for bit") {
+TEST_CASE("a run over the bus equals the run without it, bit for bit") {
   for (int actuators : {1, 2, 5, 64}) {
     Pair pair(actuators);
     Robotics direct(pair.robot, 1);
@@ -17,7 +17,7 @@ TEST_CASE("a run over the bus is the run without it, bit for bit") {
     for (int tick = 0; tick < 2000; ++tick) {
       INFO(actuators << " actuators, tick " << tick);
       direct.tick();
-      REQUIRE(pair.hear(pair.report()) == 1);
+      REQUIRE(pair.receive(pair.report()) == 1);
       REQUIRE(difference(pair.gateway.frame(), direct.frame) == "");
       for (const auto& sample : erp::samples(direct.frame.channels)) states.insert(sample.state);
       if (tick % 500 == 0) {
@@ -25,7 +25,7 @@ TEST_CASE("a run over the bus is the run without it, bit for bit") {
         direct.apply(gains);
         pair.send(pair.gateway.parameters(gains));
       }
-      if (tick % 400 > 360) continue;  // the plant is silent: everything that runs trips
+      if (tick % 400 > 360) continue;  // no commands: running channels trip
       const auto command = any_command(pair.robot, pair.gateway.frame().sequence, random);
       direct.apply(command);
       pair.send(pair.gateway.commands(command));
@@ -37,13 +37,13 @@ TEST_CASE("a run over the bus is the run without it, bit for bit") {
   }
 }
 
-TEST_CASE("the ECUs know when the whole robot has answered their tick") {
+TEST_CASE("the ECUs detect when the whole robot has answered their tick") {
   Pair pair;
   for (int tick = 0; tick < 30; ++tick) {
-    pair.hear(pair.report());
+    pair.receive(pair.report());
     CHECK_FALSE(pair.ecus.answered());
     const auto sequence = pair.gateway.frame().sequence;
-    if (tick > 0) {  // an answer to the tick before answers nothing
+    if (tick > 0) {  // an answer to the previous tick does not count
       pair.send(pair.gateway.commands(command_for(pair.robot, sequence - 1, ECU_REQUEST_OFF, 0)));
       CHECK_FALSE(pair.ecus.answered());
     }
@@ -55,7 +55,7 @@ TEST_CASE("the ECUs know when the whole robot has answered their tick") {
 
 TEST_CASE("a command answering the same tick again is still fresh to the ECUs") {
   Pair pair;
-  pair.hear(pair.report());
+  pair.receive(pair.report());
   pair.arm();
   for (int mV = 1; mV < 40; ++mV) {
     pair.send(pair.gateway.commands(command_for(pair.robot, 1, ECU_REQUEST_VOLTAGE, mV)));
@@ -63,24 +63,24 @@ TEST_CASE("a command answering the same tick again is still fresh to the ECUs") 
   }
 }
 
-TEST_CASE("a lost command is sent again when the ECUs say their tick again") {
+TEST_CASE("a lost command is repeated when the ECUs repeat their tick") {
   Pair pair;
-  pair.hear(pair.report());
+  pair.receive(pair.report());
   const auto lost = pair.gateway.commands(command_for(pair.robot, 1, ECU_REQUEST_OFF, 0));
   CHECK(lost.size() == 3);
   bool sent = false;
-  for (const auto& frame : std::vector(pair.ecus.again().begin(), pair.ecus.again().end()))
-    if (pair.gateway.hear(frame) == Heard::tick_repeated)
-      pair.send(pair.gateway.again()), sent = true;
+  for (const auto& frame : std::vector(pair.ecus.repeat().begin(), pair.ecus.repeat().end()))
+    if (pair.gateway.receive(frame) == FrameResult::tick_repeated)
+      pair.send(pair.gateway.repeat()), sent = true;
   CHECK(sent);
   CHECK(pair.ecus.answered());
   CHECK(pair.gateway.frame().sequence == 1);
 }
 
-TEST_CASE("loss, duplicates and corruption on the bus trip nothing and end in agreement") {
+TEST_CASE("after loss, duplicates and corruption no channel has tripped and both ends agree") {
   Pair pair;
   std::mt19937 random(3);
-  pair.hear(pair.report());
+  pair.receive(pair.report());
   pair.arm();
   const auto disturbed = [&](std::span<const erp::CanFrame> frames, auto deliver) {
     for (auto frame : std::vector(frames.begin(), frames.end())) {
@@ -91,25 +91,25 @@ TEST_CASE("loss, duplicates and corruption on the bus trip nothing and end in ag
     }
   };
   for (int tick = 0; tick < 5000; ++tick) {
-    disturbed(pair.report(), [&](const auto& frame) { pair.gateway.hear(frame); });
+    disturbed(pair.report(), [&](const auto& frame) { pair.gateway.receive(frame); });
     const auto sequence = pair.gateway.frame().sequence;
     disturbed(pair.gateway.commands(command_for(pair.robot, sequence, ECU_REQUEST_FORCE, tick)),
-              [&](const auto& frame) { pair.ecus.hear(frame); });
+              [&](const auto& frame) { pair.ecus.receive(frame); });
     for (const auto& channel : pair.robotics.channels)
       REQUIRE((channel.state == ECU_STATE_RUNNING || channel.state == ECU_STATE_ARMED));
   }
   CHECK(pair.gateway.counters().lost > 1000);
   CHECK(pair.gateway.counters().corrupt > 100);
   for (int tick = 0; tick < 3; ++tick) {
-    pair.hear(pair.report());
+    pair.receive(pair.report());
     pair.send(pair.gateway.commands(
         command_for(pair.robot, pair.gateway.frame().sequence, ECU_REQUEST_FORCE, 5)));
   }
-  pair.hear(pair.report());
+  pair.receive(pair.report());
   CHECK(difference(pair.gateway.frame(), pair.robotics.frame) == "");
 }
 
-TEST_CASE("neither end touches the heap once it is built") {
+TEST_CASE("neither end uses the heap after construction") {
   Pair pair(64);
   const auto gains = gains_for(pair.robot);
   std::mt19937 random(4);
@@ -119,10 +119,10 @@ TEST_CASE("neither end touches the heap once it is built") {
   const std::size_t before = tests::allocations();
   for (const auto& command : commands) {
     pair.robotics.tick();
-    for (const auto& frame : pair.ecus.report(pair.robotics.frame)) pair.gateway.hear(frame);
-    for (const auto& frame : pair.gateway.parameters(gains)) pair.ecus.hear(frame);
-    for (const auto& frame : pair.gateway.commands(command)) pair.ecus.hear(frame);
-    pair.gateway.clear_news();
+    for (const auto& frame : pair.ecus.report(pair.robotics.frame)) pair.gateway.receive(frame);
+    for (const auto& frame : pair.gateway.parameters(gains)) pair.ecus.receive(frame);
+    for (const auto& frame : pair.gateway.commands(command)) pair.ecus.receive(frame);
+    pair.gateway.clear_events();
   }
   CHECK(tests::allocations() == before);
 }
@@ -130,7 +130,7 @@ TEST_CASE("neither end touches the heap once it is built") {
 TEST_CASE("random frames never stop a gateway") {
   Pair pair;
   std::mt19937 random(5);
-  pair.hear(pair.report());
+  pair.receive(pair.report());
   for (int n = 0; n < 300000; ++n) {
     erp::CanFrame frame{std::uint16_t(random()), 8, {}};
     for (auto& byte : frame.data) byte = std::uint8_t(random());
@@ -140,8 +140,8 @@ TEST_CASE("random frames never stop a gateway") {
       std::copy_n(frame.data, 7, covered + 2);
       frame.data[7] = frame_crc8(covered, 9);
     }
-    pair.gateway.hear(frame);
-    pair.ecus.hear(frame);
+    pair.gateway.receive(frame);
+    pair.ecus.receive(frame);
   }
   SUCCEED();
 }

@@ -13,21 +13,23 @@
 
 using namespace can_test;
 
-TEST_CASE("two ends of a UDP bus hear each other, in order and whole") {
+TEST_CASE("two ends of a UDP bus receive each other's frames, in order and complete") {
   hears_in_order(free_udp_bus());
 }
 
-TEST_CASE("nobody on a UDP bus hears himself") { hears_not_itself(free_udp_bus()); }
+TEST_CASE("own frames are not received on a UDP bus") { hears_not_itself(free_udp_bus()); }
 
-TEST_CASE("all who open a UDP bus hear the same") { is_heard_by_all(free_udp_bus()); }
+TEST_CASE("all participants of a UDP bus receive the same frames") {
+  is_heard_by_all(free_udp_bus());
+}
 
-TEST_CASE("a receive with little room leaves the rest for the next") {
+TEST_CASE("a receive with little room leaves the other frames for the next call") {
   keeps_the_rest(free_udp_bus());
 }
 
 TEST_CASE("gateway and ECUs run in lockstep over UDP") { runs_in_lockstep(free_udp_bus()); }
 
-TEST_CASE("datagrams that are none of ours are counted and dropped") {
+TEST_CASE("datagrams of another format are counted and dropped") {
   const auto specification = free_udp_bus();
   const auto bus = erp::open_bus(specification);
   const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
@@ -49,7 +51,7 @@ TEST_CASE("datagrams that are none of ours are counted and dropped") {
   CHECK(bus->counters().received == 0);
 }
 
-TEST_CASE("a bus that cannot be opened says what, where and what to do") {
+TEST_CASE("the error of a bus that cannot be opened gives specification, reason and remedy") {
   const std::pair<const char*, const char*> cases[] = {
       {"", "unknown back end"},
       {"ethercat:0", "unknown back end \"ethercat\"; write socketcan:INTERFACE"},
@@ -72,15 +74,15 @@ TEST_CASE("a bus that cannot be opened says what, where and what to do") {
   }
 }
 
-TEST_CASE("a CAN interface that is not there is refused with the way to one that is") {
-  // A kernel without CAN says so; one with it names the interface.
+TEST_CASE("the error of a missing CAN interface gives the commands to list or create one") {
+  // A kernel without CAN reports that; one with CAN names the interface.
   CHECK_THROWS_WITH(
       erp::open_bus("socketcan:nowhere0"),
       Catch::Contains("this kernel has no SocketCAN; use udp:239.255.42.1:20000") ||
           Catch::Contains("no interface \"nowhere0\"; `ip -br link show type can` lists them"));
 }
 
-TEST_CASE("each ERP_DOMAIN has ports of its own, as many as a robot may have buses") {
+TEST_CASE("each ERP_DOMAIN has its own ports, one for each possible bus of a robot") {
   const char* before = std::getenv("ERP_DOMAIN");
   const std::string domain = before ? before : "0";
   setenv("ERP_DOMAIN", "0", 1);

@@ -1,5 +1,5 @@
-// What the gateway does about a bus: pure, on a bus that says what the test tells it. The same with
-// a real controller's error frames: slcan_test.
+// Supervision of a bus by the gateway: pure, on a simulated bus. slcan_test does the same with the error
+// frames of a real controller.
 #include "hal/can/bus_keeper.hpp"
 
 #include <catch2/catch.hpp>
@@ -20,17 +20,17 @@ struct Kept {
   erp::BusKeeper keeper{"left", std::unique_ptr<erp::CanBus>(bus)};
   std::int64_t now_ns = ms;
 
-  /// Minds the bus every millisecond; the codes of what is said.
+  /// Supervises the bus every millisecond; returns the codes of the notices.
   std::vector<std::string> pass(int milliseconds) {
     std::vector<std::string> codes;
     for (int k = 0; k < milliseconds; ++k, now_ns += ms)
-      for (const auto& notice : keeper.mind(now_ns)) codes.push_back(notice.code);
+      for (const auto& notice : keeper.supervise(now_ns)) codes.push_back(notice.code);
     return codes;
   }
   void command() {
-    const frame_command said{{{3, 7}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+    const frame_command content{{{3, 7}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
     erp::CanFrame frame;
-    frame_pack_command(&frame, 3, &said);
+    frame_pack_command(&frame, 3, &content);
     keeper.post({&frame, 1}, now_ns);
   }
 };
@@ -38,7 +38,7 @@ using Codes = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("a bus that is off is restarted three times, 100 ms apart, then left alone") {
+TEST_CASE("a bus in bus-off is restarted three times, 100 ms apart, then no more") {
   BusRecovery recovery;
   std::vector<std::int64_t> at;
   bool gave_up = false;
@@ -58,7 +58,7 @@ TEST_CASE("a bus that is off is restarted three times, 100 ms apart, then left a
   CHECK(gave_up);
 }
 
-TEST_CASE("ten seconds on the bus earn the restarts back") {
+TEST_CASE("after ten seconds without bus-off the restarts are available again") {
   BusRecovery recovery;
   const auto restarts_again = [&](std::int64_t now) {
     return recovery.step(true, now) == BusRecovery::Do::restart;
@@ -71,7 +71,7 @@ TEST_CASE("ten seconds on the bus earn the restarts back") {
   CHECK(restarts_again(10'300 * ms));
 }
 
-TEST_CASE("bus-off is said, what waits is dropped, and nothing is sent until it is over") {
+TEST_CASE("bus-off is reported, the queue is dropped, and nothing is sent until it ends") {
   Kept kept;
   kept.pass(1);
   kept.bus->counted.state = BusState::off;
@@ -88,7 +88,7 @@ TEST_CASE("bus-off is said, what waits is dropped, and nothing is sent until it 
   CHECK(kept.keeper.given_up());
 }
 
-TEST_CASE("warning, passive and well again are said once each") {
+TEST_CASE("error-warning, error-passive and error-active are reported once each") {
   Kept kept;
   for (const auto& [state, code] : {std::pair{BusState::warning, "bus_warning"},
                                     {BusState::passive, "bus_passive"},
@@ -99,18 +99,18 @@ TEST_CASE("warning, passive and well again are said once each") {
   }
 }
 
-TEST_CASE("frames that never leave are noticed after 20 ms, and no burst follows") {
+TEST_CASE("frames that are not sent are reported after 20 ms, and no burst follows") {
   Kept kept;
   kept.bus->room = 2;
   kept.bus->flying = 0;
   kept.command();
   kept.pass(1);
-  kept.bus->flying = 1;  // taken, and not seen on the wire
+  kept.bus->flying = 1;  // accepted, not seen on the wire
   CHECK(kept.pass(19).empty());
   CHECK(kept.pass(2) == Codes{"not_acknowledged"});
   for (int k = 0; k < 50; ++k) kept.command(), kept.pass(2);
   CHECK(kept.bus->taken.size() == 1);
-  kept.bus->flying = 0;  // somebody has acknowledged
+  kept.bus->flying = 0;  // acknowledged
   kept.bus->room = 100;
   CHECK(kept.pass(2) == Codes{"acknowledged"});
   CHECK(kept.bus->taken.size() == 1);
@@ -118,12 +118,12 @@ TEST_CASE("frames that never leave are noticed after 20 ms, and no burst follows
   CHECK(kept.bus->taken.size() == 2);
 }
 
-TEST_CASE("a controller that says it is alone is believed when nothing is heard") {
+TEST_CASE("missing acknowledgement is reported only while no frame is received") {
   Kept kept;
   kept.pass(5);
   kept.bus->counted.unacknowledged = 1;
   CHECK(kept.pass(10).empty());
-  kept.bus->counted.received = 1;  // so it is not
+  kept.bus->counted.received = 1;  // so another node is present
   CHECK(kept.pass(100).empty());
   kept.bus->counted.unacknowledged = 2;
   CHECK(kept.pass(30) == Codes{"not_acknowledged"});
@@ -131,28 +131,28 @@ TEST_CASE("a controller that says it is alone is believed when nothing is heard"
   CHECK(kept.pass(30) == Codes{"acknowledged"});
 }
 
-TEST_CASE("an ECU that falls silent is told of after 10 and 50 ms, and when it is back") {
+TEST_CASE("a silent ECU is reported after 10 ms, after 50 ms and when it sends again") {
   erp::EcuWatch watch;
-  std::vector<std::pair<std::int64_t, erp::EcuWatch::News>> news;
+  std::vector<std::pair<std::int64_t, erp::EcuWatch::Event>> news;
   const auto pass_until = [&](std::int64_t from_ms, std::int64_t to_ms) {
     for (std::int64_t t = from_ms; t <= to_ms; ++t)
-      watch.step(t * ms, [&](int ecu, erp::EcuWatch::News what) {
+      watch.step(t * ms, [&](int ecu, erp::EcuWatch::Event what) {
         CHECK(ecu == 5);
         news.emplace_back(t, what);
       });
   };
   pass_until(0, 100);
-  CHECK(news.empty());  // never heard
-  watch.heard(5, 100 * ms);
+  CHECK(news.empty());  // never received
+  watch.received(5, 100 * ms);
   pass_until(100, 200);
-  using enum erp::EcuWatch::News;
+  using enum erp::EcuWatch::Event;
   CHECK(news == decltype(news){{110, silent}, {150, lost}});
-  watch.heard(5, 200 * ms);
+  watch.received(5, 200 * ms);
   pass_until(200, 205);
   CHECK(news.back() == std::pair{std::int64_t{200}, back});
-  watch.heard(5, 205 * ms);
+  watch.received(5, 205 * ms);
   pass_until(206, 216);
-  watch.heard(5, 216 * ms);
+  watch.received(5, 216 * ms);
   pass_until(217, 220);
-  CHECK(news.size() == 4);  // silent once more; nothing said of its end
+  CHECK(news.size() == 4);  // silent again; its end is not reported
 }

@@ -13,10 +13,10 @@
 #include "hal/can/robot_ecus.hpp"
 #include "tests/hal/can/rig.hpp"
 
-/// What every back end must do: run against UDP here, and against SocketCAN where there is one.
+/// Checks for every back end: over UDP, and over SocketCAN where available.
 namespace can_test {
 
-/// A bus specification with a port that nobody uses now.
+/// A bus specification with an unused port.
 inline std::string free_udp_bus() {
   const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
   sockaddr_in where{};
@@ -54,8 +54,8 @@ inline void hears_in_order(const std::string& specification) {
   for (auto* pair : {&a, &b}) {
     auto& to = pair == &a ? b : a;
     REQUIRE((*pair)->send(sent) == sent.size());
-    const auto heard = collect(*to, sent.size());
-    for (std::size_t n = 0; n < sent.size(); ++n) REQUIRE(same(heard[n], sent[n]));
+    const auto received = collect(*to, sent.size());
+    for (std::size_t n = 0; n < sent.size(); ++n) REQUIRE(same(received[n], sent[n]));
   }
   CHECK(a->counters().sent == 150);
   CHECK(a->counters().received == 150);
@@ -95,7 +95,7 @@ inline void keeps_the_rest(const std::string& specification) {
   }
 }
 
-/// 500 ticks of a robot of 11 actuators, both ends in this thread, against the run without a bus.
+/// 500 ticks of a robot with 11 actuators, both ends in this thread, compared with a run without a bus.
 inline void runs_in_lockstep(const std::string& specification,
                              const erp::BusOptions& options = {}) {
   const auto robot = robot_of(11);
@@ -110,26 +110,26 @@ inline void runs_in_lockstep(const std::string& specification,
   const auto gains = gains_for(robot);
   direct.apply(gains);
   const auto all = gateway.parameters(gains);
-  for (std::size_t sent = 0, heard = 0; heard < all.size();) {  // as much as the bus takes
+  for (std::size_t sent = 0, received = 0; received < all.size();) {  // as much as the bus accepts
     sent += host_side->send(all.subspan(sent, std::min<std::size_t>(64, all.size() - sent)));
     const auto count = robot_side->receive(frames, 10);
-    for (std::size_t i = 0; i < count; ++i) ecus.hear(frames[i]);
-    heard += count;
+    for (std::size_t i = 0; i < count; ++i) ecus.receive(frames[i]);
+    received += count;
   }
   for (int tick = 0; tick < 500; ++tick) {
     INFO("tick " << tick);
     direct.tick();
     robotics.tick();
-    const auto said = ecus.report(robotics.frame);
-    REQUIRE(robot_side->send(said) == said.size());
+    const auto content = ecus.report(robotics.frame);
+    REQUIRE(robot_side->send(content) == content.size());
     for (bool whole = false; !whole;) {
       const auto count = host_side->receive(frames, 10);
       for (std::size_t i = 0; i < count; ++i)
-        whole = gateway.hear(frames[i]) == erp::Heard::tick || whole;
+        whole = gateway.receive(frames[i]) == erp::FrameResult::tick || whole;
     }
     REQUIRE(difference(gateway.frame(), direct.frame) == "");
     auto command = any_command(robot, gateway.frame().sequence, random);
-    for (const auto& actuator : robot.actuators) {  // lockstep needs a word to every ECU
+    for (const auto& actuator : robot.actuators) {  // lockstep needs a command to every ECU
       const auto asked = erp::samples(command.channels);
       const bool spoken_to = std::any_of(asked.begin(), asked.end(),
                                          [&](const auto& c) { return c.ecu == actuator.ecu; });
@@ -142,7 +142,7 @@ inline void runs_in_lockstep(const std::string& specification,
     REQUIRE(host_side->send(asked) == asked.size());
     while (!ecus.answered()) {
       const auto count = robot_side->receive(frames, 10);
-      for (std::size_t i = 0; i < count; ++i) ecus.hear(frames[i]);
+      for (std::size_t i = 0; i < count; ++i) ecus.receive(frames[i]);
     }
   }
   CHECK(gateway.counters().lost == 0);

@@ -6,7 +6,7 @@
 
 namespace can_test {
 
-/// A bus that takes as much as it is told to; for what no real one does on demand.
+/// A bus that accepts a given number of frames; for conditions that a real bus does not produce on demand.
 struct NarrowBus : erp::CanBus {
   std::size_t room = 0, flying = 0;
   std::vector<erp::CanFrame> taken;

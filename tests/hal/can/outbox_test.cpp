@@ -10,27 +10,27 @@ using namespace can_test;
 namespace {
 
 erp::CanFrame command(std::uint8_t ecu, std::int32_t setpoint) {
-  const frame_command said{{{3, setpoint}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+  const frame_command content{{{3, setpoint}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
   erp::CanFrame frame;
-  frame_pack_command(&frame, ecu, &said);
+  frame_pack_command(&frame, ecu, &content);
   return frame;
 }
 std::int32_t setpoint_of(const erp::CanFrame& frame) {
-  frame_command said;
-  REQUIRE(frame_unpack_command(&frame, &said));
-  return said.channel[0].setpoint;
+  frame_command content;
+  REQUIRE(frame_unpack_command(&frame, &content));
+  return content.channel[0].setpoint;
 }
 erp::CanFrame parameter(std::uint8_t position) {
-  const frame_parameter said{0, 1, false, position, 1.5f};
+  const frame_parameter content{0, 1, false, position, 1.5f};
   erp::CanFrame frame;
-  frame_pack_parameter(&frame, 3, &said);
+  frame_pack_parameter(&frame, 3, &content);
   return frame;
 }
 constexpr std::int64_t ms = 1'000'000, start = 1000 * ms;
 
 }  // namespace
 
-TEST_CASE("of the commands to an ECU that wait only the newest goes out") {
+TEST_CASE("only the newest waiting command to an ECU is sent") {
   erp::Outbox outbox;
   NarrowBus bus;
   for (int k = 0; k < 5; ++k) {
@@ -47,7 +47,7 @@ TEST_CASE("of the commands to an ECU that wait only the newest goes out") {
   CHECK(outbox.empty());
 }
 
-TEST_CASE("a command that could not leave within a tick never leaves") {
+TEST_CASE("a command that was not sent within a tick is never sent") {
   erp::Outbox outbox;
   NarrowBus bus;
   const auto frame = command(3, 1);
@@ -58,7 +58,7 @@ TEST_CASE("a command that could not leave within a tick never leaves") {
   CHECK(outbox.expired() == 1);
 }
 
-TEST_CASE("commands pass gains by; gains wait in order, and none is lost") {
+TEST_CASE("commands overtake gains; gains wait in order, and none is lost") {
   erp::Outbox outbox;
   NarrowBus bus;
   for (std::uint8_t position = 0; position < 30; ++position) {
@@ -75,14 +75,14 @@ TEST_CASE("commands pass gains by; gains wait in order, and none is lost") {
   REQUIRE(bus.taken.size() == 40);  // 10 ticks of a command and three gains
   std::uint8_t expected = 0;
   for (std::size_t i = 0; i < bus.taken.size(); ++i) {
-    frame_parameter said;
-    const bool is_gain = frame_unpack_parameter(&bus.taken[i], &said);
+    frame_parameter content;
+    const bool is_gain = frame_unpack_parameter(&bus.taken[i], &content);
     CHECK(is_gain == (i % 4 != 0));
-    if (is_gain) CHECK(said.position == expected++);
+    if (is_gain) CHECK(content.position == expected++);
   }
 }
 
-TEST_CASE("in lockstep, at time 0, no command passes a gain by, and none is replaced") {
+TEST_CASE("in lockstep, at time 0, no command overtakes a gain, and none is replaced") {
   erp::Outbox outbox;
   NarrowBus bus;
   const erp::CanFrame frames[] = {parameter(0), parameter(1), command(3, 1), command(3, 2)};
@@ -98,7 +98,7 @@ TEST_CASE("in lockstep, at time 0, no command passes a gain by, and none is repl
   CHECK(setpoint_of(bus.taken[3]) == 2);
 }
 
-TEST_CASE("what is dropped is counted and does not come back") {
+TEST_CASE("dropped frames are counted and not sent later") {
   erp::Outbox outbox;
   NarrowBus bus;
   const erp::CanFrame frames[] = {command(3, 1), command(4, 1), parameter(0)};
@@ -111,14 +111,14 @@ TEST_CASE("what is dropped is counted and does not come back") {
   CHECK(outbox.dropped() == 1);
 }
 
-TEST_CASE("gains beyond what can wait are counted as dropped") {
+TEST_CASE("gains beyond the capacity are counted as dropped") {
   erp::Outbox outbox;
   const std::vector<erp::CanFrame> many(erp::Outbox::most_others + 7, parameter(3));
   outbox.put(many, 0);
   CHECK(outbox.dropped() == 7);
 }
 
-TEST_CASE("an outbox touches no heap") {
+TEST_CASE("an outbox does not use the heap") {
   erp::Outbox outbox;
   NarrowBus bus;
   bus.taken.reserve(1000);

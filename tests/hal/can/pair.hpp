@@ -7,7 +7,7 @@
 
 namespace can_test {
 
-/// Gateway and ECUs with a perfect wire between them.
+/// Gateway and ECUs connected without loss or delay.
 struct Pair {
   erp::Robot robot;
   Robotics robotics{robot, 1};
@@ -17,9 +17,9 @@ struct Pair {
   explicit Pair(int actuators = 5) : Pair(robot_of(actuators)) {}
   explicit Pair(const erp::Robot& some) : robot(some) {}
 
-  int hear(std::span<const erp::CanFrame> frames) {
+  int receive(std::span<const erp::CanFrame> frames) {
     int ticks = 0;
-    for (const auto& frame : frames) ticks += gateway.hear(frame) == erp::Heard::tick;
+    for (const auto& frame : frames) ticks += gateway.receive(frame) == erp::FrameResult::tick;
     return ticks;
   }
   std::vector<erp::CanFrame> report() {
@@ -28,7 +28,7 @@ struct Pair {
     return {frames.begin(), frames.end()};
   }
   void send(std::span<const erp::CanFrame> frames) {
-    for (const auto& frame : frames) ecus.hear(frame);
+    for (const auto& frame : frames) ecus.receive(frame);
   }
   void arm() {
     send(gateway.parameters(gains_for(robot)));

@@ -9,11 +9,11 @@
 #include "interfaces/topics.hpp"
 #include "tests/firmware/core/channel.hpp"
 
-/// Small robots and messages for the tests of the bus.
+/// Small robots and messages for bus tests.
 namespace can_test {
 
-/// `actuators` actuators, two to an ECU from address 3 on, the last one alone when odd; a joint
-/// sensor on every second ECU's inputs 0 and 3.
+/// `actuators` actuators, two per ECU from address 3 on; joint sensors on inputs 0 and 3 of every second
+/// ECU.
 inline erp::Robot robot_of(int actuators) {
   erp::Robot robot;
   robot.name = "rig";
@@ -35,7 +35,7 @@ inline erp::Robot robot_of(int actuators) {
   return robot;
 }
 
-/// The robot's channels with made-up converters: readings walk at random, the same for one seed.
+/// The robot's channels with simulated converters: readings are a random walk that depends on the seed.
 class Robotics {
  public:
   Robotics(const erp::Robot& robot, unsigned seed)
@@ -44,7 +44,7 @@ class Robotics {
     erp::assign(frame.robot, robot.name);
   }
 
-  /// One period: new readings, every channel's tick, the frame that goes over DDS.
+  /// One period: new readings, a tick of every channel, the frame for DDS.
   void tick() {
     frame.channels._length = frame.analogs._length = 0;
     ++frame.sequence;
@@ -61,8 +61,9 @@ class Robotics {
   }
 
   void apply(const erp::EcuCommand& message) {
-    for (const auto& asked : erp::samples(message.channels))
-      ecu_command(&at(asked.ecu, asked.channel), ecu_request(asked.request), asked.setpoint);
+    for (const auto& command : erp::samples(message.channels))
+      ecu_command(&at(command.ecu, command.channel), ecu_request(command.request),
+                  command.setpoint);
   }
   void apply(const erp::EcuParameter& message) {
     for (const auto& value : erp::samples(message.values))
@@ -132,7 +133,7 @@ inline erp::EcuCommand command_for(const erp::Robot& robot, std::uint64_t answer
   return message;
 }
 
-/// What a plant might send: mostly sane modes, now and then anything.
+/// A random command of a plant: mostly valid modes, sometimes any value.
 inline erp::EcuCommand any_command(const erp::Robot& robot, std::uint64_t answers,
                                    std::mt19937& random) {
   const auto between = [&](int low, int high) {
@@ -140,13 +141,13 @@ inline erp::EcuCommand any_command(const erp::Robot& robot, std::uint64_t answer
   };
   erp::EcuCommand message = command_for(robot, answers, ECU_REQUEST_ARM, 0);
   std::uint32_t kept = 0;
-  for (auto& asked : erp::samples(message.channels)) {
+  for (auto& command : erp::samples(message.channels)) {
     const int kind = between(0, 19);
-    asked.request = std::uint8_t(kind < 14    ? 3 + kind % 4
-                                 : kind == 14 ? between(0, 255)
-                                              : between(0, 2));
-    asked.setpoint = between(0, 9) ? between(0, 2000) : between(INT32_MIN, INT32_MAX);
-    if (between(0, 30) != 0) message.channels._buffer[kept++] = asked;  // sometimes not spoken to
+    command.request = std::uint8_t(kind < 14    ? 3 + kind % 4
+                                   : kind == 14 ? between(0, 255)
+                                                : between(0, 2));
+    command.setpoint = between(0, 9) ? between(0, 2000) : between(INT32_MIN, INT32_MAX);
+    if (between(0, 30) != 0) message.channels._buffer[kept++] = command;  // sometimes no command
   }
   message.channels._length = kept;
   return message;
@@ -159,7 +160,7 @@ inline bool same(const erp::EcuChannelSample& a, const erp::EcuChannelSample& b)
          a.current_counts == b.current_counts && a.tension_counts == b.tension_counts;
 }
 
-/// Where two frames first differ, or an empty text.
+/// The first difference of two frames, or an empty text.
 inline std::string difference(const erp::EcuFrame& a, const erp::EcuFrame& b) {
   if (std::string(a.robot) != b.robot) return "robot";
   if (a.channels._length != b.channels._length) return "number of channels";

@@ -25,7 +25,7 @@ erp::CanFrame of(std::uint16_t function, std::uint8_t ecu) {
 
 }  // namespace
 
-TEST_CASE("a frame goes on the bus of its ECU, in order; a call to everyone on each") {
+TEST_CASE("a frame goes on the bus of its ECU, in order; a DISCOVER to all ECUs goes on each bus") {
   erp::BusRoutes routes(on_two_buses());
   const erp::CanFrame frames[] = {of(2, 4), of(2, 3), of(9, FRAME_EVERYONE), of(8, 5), of(8, 4)};
   routes.sort(frames);
@@ -39,26 +39,26 @@ TEST_CASE("a frame goes on the bus of its ECU, in order; a call to everyone on e
   CHECK(routes.name(1) == "right");
 }
 
-TEST_CASE("a robot that plans no buses has one with all its ECUs") {
+TEST_CASE("a robot without planned buses has one bus with all its ECUs") {
   const erp::BusRoutes routes(robot_of(5));
   CHECK(routes.count() == 1);
   CHECK(std::vector(routes.ecus(0).begin(), routes.ecus(0).end()) == std::vector{3, 4, 5});
 }
 
-TEST_CASE("one word for several buses counts up") {
+TEST_CASE("one specification for several buses is counted up") {
   using Words = std::vector<std::string>;
-  CHECK(erp::bus_words("socketcan:can0", 3) ==
+  CHECK(erp::bus_specifications("socketcan:can0", 3) ==
         Words{"socketcan:can0", "socketcan:can1", "socketcan:can2"});
-  CHECK(erp::bus_words("udp:239.255.42.1:20009", 2) ==
+  CHECK(erp::bus_specifications("udp:239.255.42.1:20009", 2) ==
         Words{"udp:239.255.42.1:20009", "udp:239.255.42.1:20010"});
-  CHECK(erp::bus_words("socketcan:b socketcan:a", 2) == Words{"socketcan:b", "socketcan:a"});
-  CHECK(erp::bus_words("trace:run.log", 7) == Words{"trace:run.log"});
-  CHECK_THROWS_WITH(erp::bus_words("socketcan:left", 2), Contains("does not end in a number"));
-  CHECK_THROWS_WITH(erp::bus_words("a b", 3),
-                    Contains("plans 3 buses, \"a b\" names 2; give one for each"));
+  CHECK(erp::bus_specifications("socketcan:b socketcan:a", 2) == Words{"socketcan:b", "socketcan:a"});
+  CHECK(erp::bus_specifications("trace:run.log", 7) == Words{"trace:run.log"});
+  CHECK_THROWS_WITH(erp::bus_specifications("socketcan:left", 2), Contains("does not end in a number"));
+  CHECK_THROWS_WITH(erp::bus_specifications("a b", 3),
+                    Contains("plans 3 buses, \"a b\" names 2; give one per bus"));
 }
 
-TEST_CASE("what is sent to an ECU is heard on its bus alone") {
+TEST_CASE("a frame to an ECU is sent on its bus only") {
   const auto robot = on_two_buses();
   const std::string where = free_udp_bus() + " " + free_udp_bus();
   const auto host = erp::open_buses(robot, where, 2), ecus = erp::open_buses(robot, where);
@@ -69,17 +69,17 @@ TEST_CASE("what is sent to an ECU is heard on its bus alone") {
   CHECK(ecus[0]->receive({&none, 1}, 0) == 0);
 }
 
-TEST_CASE("a controller's clock is put on the system's by the least late of its frames") {
+TEST_CASE("a controller's clock is aligned with the system clock by the smallest delay") {
   erp::can::StampClock clock;
   const std::int64_t ms = 1'000'000, start = 1'700'000'000'000 * ms;
   std::int64_t worst_ns = 0;
   for (int k = 0; k < 20'000; ++k) {
     const std::int64_t on_wire = start + k * 2 * ms;
     const std::int64_t drift_ns = k * 2 * 50;                  // 50 ppm
-    const std::int64_t late_ns = 20'000 + 7919 * k % 400'000;  // to be noticed by the kernel
+    const std::int64_t late_ns = 20'000 + 7919 * k % 400'000;  // delay until the kernel's stamp
     const auto stamp = clock.stamp_ns(on_wire + late_ns, k * 2 * ms + drift_ns + 12345);
     if (k > 500) worst_ns = std::max(worst_ns, std::abs(stamp - on_wire));
   }
-  CHECK(worst_ns < 1'100'000);  // of up to 400 µs late, and 20 s of a drifting clock: 1 ms
+  CHECK(worst_ns < 1'100'000);  // delays of up to 400 µs, and 1 ms of drift in 20 s
   CHECK(clock.stamp_ns(77, 0) == 77);
 }

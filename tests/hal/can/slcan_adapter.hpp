@@ -19,8 +19,8 @@
 
 namespace can_test {
 
-/// A serial CAN adapter, played on a pseudo-terminal: behind it is the kernel's slcan, a real CAN
-/// device with states, error frames and bus-off. What no virtual interface can show, it can.
+/// A serial CAN adapter, emulated on a pseudo-terminal and connected to the kernel's slcan: a real CAN
+/// device with states, error frames and bus-off, which virtual interfaces do not have.
 class SlcanAdapter {
  public:
   SlcanAdapter() {
@@ -47,21 +47,21 @@ class SlcanAdapter {
   std::string where() const { return "socketcan:" + interface_; }
   const std::string& interface() const { return interface_; }
 
-  /// The adapter's words to the kernel: a frame t1808…, counters sw100020, bus-off sb256256,
+  /// Sends a message of the adapter to the kernel: a frame t1808…, counters sw100020, bus-off sb256256,
   /// missing acknowledgement e1a.
-  void says(const std::string& text) {
+  void send(const std::string& text) {
     const std::string line = text + "\r";
     REQUIRE(::write(master_, line.data(), line.size()) == ssize_t(line.size()));
   }
-  /// Takes nothing off the line any more: its queue is full.
+  /// Stops reading from the line, as if the adapter's queue were full.
   void stall(bool yes) { stalled_ = yes; }
 
-  /// Frames it was given to send, in its own text: t0808…
+  /// Frames that it was given to send, as text: t0808…
   std::vector<std::string> sent() {
     const std::lock_guard lock(guard_);
     return sent_;
   }
-  /// How often it was opened: each time the interface comes up.
+  /// How often the channel was opened: each time the interface comes up.
   int opened() const { return opened_; }
 
   static void system(const std::string& command) {

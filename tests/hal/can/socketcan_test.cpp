@@ -13,18 +13,20 @@ using namespace can_test;
 namespace {
 const std::string vcan0 = "socketcan:vcan0";
 
-/// Puts a frame on vcan0 with a program that is not ours.
+/// Sends a frame on vcan0 with another program.
 void cansend(const std::string& frame) {
   REQUIRE(std::system(("cansend vcan0 " + frame).c_str()) == 0);
 }
 }  // namespace
 
-TEST_CASE("two ends of a CAN interface hear each other, in order and whole") {
+TEST_CASE("two ends of a CAN interface receive each other's frames, in order and complete") {
   hears_in_order(vcan0);
 }
-TEST_CASE("nobody on a CAN interface hears himself") { hears_not_itself(vcan0); }
-TEST_CASE("all who open a CAN interface hear the same") { is_heard_by_all(vcan0); }
-TEST_CASE("a receive with little room leaves the rest in the socket") { keeps_the_rest(vcan0); }
+TEST_CASE("own frames are not received on a CAN interface") { hears_not_itself(vcan0); }
+TEST_CASE("all participants of a CAN interface receive the same frames") { is_heard_by_all(vcan0); }
+TEST_CASE("a receive with little room leaves the other frames in the socket") {
+  keeps_the_rest(vcan0);
+}
 TEST_CASE("gateway and ECUs run in lockstep over SocketCAN") { runs_in_lockstep(vcan0); }
 
 TEST_CASE("two interfaces are two buses") {
@@ -37,7 +39,7 @@ TEST_CASE("two interfaces are two buses") {
   CHECK(b->receive({&more, 1}, 0) == 0);
 }
 
-TEST_CASE("another program's frame is heard as it was sent") {
+TEST_CASE("a frame of another program is received unchanged") {
   const auto bus = erp::open_bus(vcan0);
   cansend("17F#DEADBEEF");
   const auto frame = collect(*bus, 1)[0];
@@ -47,7 +49,7 @@ TEST_CASE("another program's frame is heard as it was sent") {
   CHECK(frame.data[3] == 0xEF);
 }
 
-TEST_CASE("frames with 29-bit identifiers and remote requests are passed over") {
+TEST_CASE("frames with 29-bit identifiers and remote requests are ignored") {
   const auto bus = erp::open_bus(vcan0);
   cansend("1F334455#1122");
   cansend("123#R");
@@ -55,20 +57,20 @@ TEST_CASE("frames with 29-bit identifiers and remote requests are passed over") 
   CHECK(collect(*bus, 1)[0].id == 0x124);
 }
 
-TEST_CASE("bus-off is seen from the controller's error frames, and its end too") {
+TEST_CASE("begin and end of bus-off are detected from the controller's error frames") {
   const auto bus = erp::open_bus(vcan0);
   erp::CanFrame frame;
   cansend("20000040#0000000000000000");  // CAN_ERR_BUSOFF
   while (!bus->counters().off()) CHECK(bus->receive({&frame, 1}, 10) == 0);
   CHECK(bus->counters().errors == 1);
   const auto refused = numbered(1);
-  CHECK(bus->send({&refused, 1}) == 0);  // the kernel would take it and forget it
+  CHECK(bus->send({&refused, 1}) == 0);  // the kernel would accept and discard it
   cansend("20000100#0000000000000000");  // CAN_ERR_RESTARTED
   while (bus->counters().off()) CHECK(bus->receive({&frame, 1}, 10) == 0);
   CHECK(bus->counters().received == 0);
 }
 
-TEST_CASE("an interface that goes down is noticed, and works again when it is up") {
+TEST_CASE("an interface that goes down is detected, and works again when it is up") {
   const auto a = erp::open_bus("socketcan:vcan1"), b = erp::open_bus("socketcan:vcan1");
   REQUIRE(std::system("ip link set vcan1 down") == 0);
   const auto frame = numbered(3);
@@ -78,17 +80,17 @@ TEST_CASE("an interface that goes down is noticed, and works again when it is up
   CHECK(a->send({&frame, 1}) == 0);
   CHECK(a->counters().refused == 1);
   REQUIRE(std::system("ip link set vcan1 up") == 0);
-  CHECK(b->receive({&none, 1}, 10) == 0);  // is told that it was down
+  CHECK(b->receive({&none, 1}, 10) == 0);  // reports that it was down
   CHECK(a->send({&frame, 1}) == 1);
   CHECK(same(collect(*b, 1)[0], frame));
   CHECK_FALSE(b->counters().off());
 }
 
-TEST_CASE("an interface that is missing, down or no CAN is refused with the remedy") {
+TEST_CASE("an interface that is missing, down or not CAN is refused with the remedy") {
   using Catch::Contains;
   CHECK_THROWS_WITH(erp::open_bus("socketcan:can7"),
                     Contains("no interface \"can7\"; `ip -br link show type can`"));
-  CHECK_THROWS_WITH(erp::open_bus("socketcan:lo"), Contains("\"lo\" is no CAN interface"));
+  CHECK_THROWS_WITH(erp::open_bus("socketcan:lo"), Contains("\"lo\" is not a CAN interface"));
   CHECK_THROWS_WITH(erp::open_bus("socketcan:vcan2"),
                     Contains("interface \"vcan2\" is down; `ip link set vcan2 up"));
 }
@@ -99,31 +101,31 @@ TEST_CASE("a robot runs in lockstep over CAN FD, its frames in bundles") {
   runs_in_lockstep("socketcan:vcan3", {.fd = true});
 }
 
-TEST_CASE("over CAN FD six commands are one frame on the wire") {
+TEST_CASE("over CAN FD six commands are sent in one frame") {
   const auto host = erp::open_bus("socketcan:vcan3", {.fd = true}),
              robot = erp::open_bus("socketcan:vcan3", {.fd = true});
   std::vector<erp::CanFrame> commands(6);
   for (std::uint8_t ecu = 0; ecu < 6; ++ecu) {
-    const frame_command said{{{3, ecu}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
-    frame_pack_command(&commands[ecu], ecu, &said);
+    const frame_command content{{{3, ecu}, {FRAME_REQUEST_NONE, 0}}, 0, 0};
+    frame_pack_command(&commands[ecu], ecu, &content);
   }
   REQUIRE(host->send(commands) == 6);
   CHECK(host->in_flight() == 1);
-  const auto heard = collect(*robot, 6);
-  for (std::size_t i = 0; i < 6; ++i) CHECK(same(heard[i], commands[i]));
+  const auto received = collect(*robot, 6);
+  for (std::size_t i = 0; i < 6; ++i) CHECK(same(received[i], commands[i]));
   erp::CanFrame none;
   CHECK(host->receive({&none, 1}, 10) == 0);
   CHECK(host->in_flight() == 0);
 }
 
-TEST_CASE("an interface without CAN FD is refused for a bus that is planned with it") {
+TEST_CASE("an interface without CAN FD is refused for a bus planned with CAN FD") {
   CHECK_THROWS_WITH(erp::open_bus(vcan0, {.fd = true}),
                     Catch::Contains("interface \"vcan0\" does not carry CAN FD; `ip link set"));
 }
 
-// ---- what the kernel tells besides ----
+// ---- other information of the kernel ----
 
-TEST_CASE("no more frames fly than the window allows, until they were seen on the wire") {
+TEST_CASE("no more frames are in flight than the window allows") {
   const auto bus = erp::open_bus(vcan0, {.window = 4});
   std::vector<erp::CanFrame> frames;
   for (unsigned n = 0; n < 6; ++n) frames.push_back(numbered(n));
@@ -137,7 +139,7 @@ TEST_CASE("no more frames fly than the window allows, until they were seen on th
   CHECK(bus->send(frames) == 4);
 }
 
-TEST_CASE("our trace and candump's are the same, line by line") {
+TEST_CASE("the trace of TraceWriter equals candump's, line by line") {
   REQUIRE(std::system(
               "candump -L vcan1 > /run/candump.log & echo $! > /run/candump.pid; sleep 1") == 0);
   const auto a = erp::open_bus("socketcan:vcan1"), b = erp::open_bus("socketcan:vcan1");

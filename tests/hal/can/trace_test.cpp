@@ -17,7 +17,7 @@ std::string in_temp(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a trace line is candump's, there and back") {
+TEST_CASE("a trace line in candump's format is unchanged by parse and write") {
   const erp::CanFrame frame{0x12A, 4, {0xDE, 0xAD, 0xBE, 0x0F}};
   const auto line = erp::trace_line(frame, 1'436'509'053'850'870'321, "can0");
   CHECK(line == "(1436509053.850870) can0 12A#DEADBE0F\n");
@@ -29,7 +29,7 @@ TEST_CASE("a trace line is candump's, there and back") {
   CHECK(erp::parse_trace_line("(1.5) left 000#")->frame.size == 0);
 }
 
-TEST_CASE("what is no frame of ours is no line") {
+TEST_CASE("a line with another kind of frame is not parsed") {
   for (const char* line :
        {"", "# comment", "(1.0) can0", "(x) can0 123#00", "(1.0) can0 1F334455#1122",
         "(1.0) can0 123#R", "(1.0) can0 123##1AABB", "(1.0) can0 123#1",
@@ -39,14 +39,15 @@ TEST_CASE("what is no frame of ours is no line") {
     CHECK_FALSE(erp::parse_trace_line(line));
 }
 
-TEST_CASE("a trace that cannot be written or read says so") {
+TEST_CASE("the error of a trace that cannot be written or read gives the reason") {
   CHECK_THROWS_WITH(erp::TraceWriter("/nowhere/trace.log", "can0"),
                     Catch::Contains("trace \"/nowhere/trace.log\": No such file"));
   CHECK_THROWS_WITH(erp::open_bus("trace:/nowhere/trace.log"), Catch::Contains("cannot read it"));
-  CHECK_THROWS_WITH(erp::open_bus("trace:/dev/null"), Catch::Contains("holds no frame of an ECU"));
+  CHECK_THROWS_WITH(erp::open_bus("trace:/dev/null"),
+                    Catch::Contains("contains no frame of an ECU"));
 }
 
-TEST_CASE("what went over a bus is in its trace, sent and heard, and plays again as it was said") {
+TEST_CASE("a trace contains the sent and received frames of a bus and replays the received ones") {
   const auto where = free_udp_bus(), file = in_temp("trace.log");
   Pair pair;
   std::vector<erp::EcuFrame> original;
@@ -58,23 +59,23 @@ TEST_CASE("what went over a bus is in its trace, sent and heard, and plays again
     for (int tick = 0; tick < 40; ++tick) {
       robot->send(pair.report());
       while (const auto count = host->receive(frames, 0.5)) {
-        pair.hear(std::span(frames).first(count));
+        pair.receive(std::span(frames).first(count));
         if (pair.gateway.frame().sequence == std::uint64_t(tick + 1)) break;
       }
       original.push_back(pair.gateway.frame());
       host->send(pair.gateway.commands(command_for(pair.robot, std::uint64_t(tick + 1), 0, 0)));
-      CHECK(host->receive(frames, 0.01) == 0);  // takes the own frames in, gives none of them
+      CHECK(host->receive(frames, 0.01) == 0);  // processes own frames, returns none
     }
   }
   std::ifstream lines(file);
-  int sent = 0, heard = 0;
+  int sent = 0, received = 0;
   for (std::string line; std::getline(lines, line);) {
     const auto read = erp::parse_trace_line(line);
     REQUIRE(read);
-    ++(frame_function_of(&read->frame) == FRAME_COMMAND ? sent : heard);
+    ++(frame_function_of(&read->frame) == FRAME_COMMAND ? sent : received);
   }
   CHECK(sent == 40 * 3);
-  CHECK(heard >= 40 * 9);
+  CHECK(received >= 40 * 9);
 
   erp::Gateway again(pair.robot);
   const auto bus = erp::open_bus("trace:" + file);
@@ -83,7 +84,7 @@ TEST_CASE("what went over a bus is in its trace, sent and heard, and plays again
   while (ticks < original.size()) {
     const auto count = bus->receive(frames, 2);
     for (std::size_t i = 0; i < count; ++i)
-      if (again.hear(frames[i]) == erp::Heard::tick)
+      if (again.receive(frames[i]) == erp::FrameResult::tick)
         CHECK(difference(again.frame(), original[ticks++]) == "");
   }
   CHECK(again.counters().lost == 0);

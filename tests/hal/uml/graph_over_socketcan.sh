@@ -1,9 +1,9 @@
 #!/bin/bash
-# graph_over_socketcan.sh BIN_DIR SOURCE_DIR GRAPH: a whole graph, closed over the kernel's CAN.
+# graph_over_socketcan.sh BIN_DIR SOURCE_DIR GRAPH: a complete graph, closed over the kernel's CAN.
 #
-# In user-mode Linux the gateway and the simulated robot behind it speak over vcan0, and vcan1 if the
-# robot has a second bus; outside, the same graph runs without a bus. In lockstep every row that they
-# record must be the same, bit by bit.
+# In user-mode Linux the gateway and the simulated robot use vcan0, and vcan1 if the robot has a second
+# bus; outside, the same graph runs without a bus. In lockstep all recorded rows must be identical, bit by
+# bit.
 set -u
 bin=$1 source=$2 graph=$3
 here=$(dirname "$(realpath "$0")")

@@ -1,5 +1,5 @@
 #!/bin/bash
-# microcontroller.sh BIN_DIR ECU_ELF SOURCE_DIR: a whole graph around a microcontroller.
+# microcontroller.sh BIN_DIR ECU_ELF SOURCE_DIR: a complete graph with an emulated microcontroller.
 #
 # The ECU's bare-metal program runs in QEMU. One of its serial lines speaks slcan to a kernel in
 # user-mode Linux, where it is a real CAN device; the other has its converters. In that kernel runs
@@ -11,7 +11,7 @@ here=$(dirname "$(realpath "$0")")
 . "$here/same_rows.sh"
 exchange=$(mktemp -d)
 started=()
-# KILL: what they leave is nothing, and an emulator that waits for its serial line may not hear TERM.
+# KILL: they leave nothing behind, and an emulator that waits for its serial line may ignore TERM.
 trap 'kill -KILL "${started[@]}" 2> /dev/null; wait; rm -rf "$exchange"' EXIT
 export ERP_DOMAIN=$((1 + $$ % 200))
 bus=udp:239.255.42.1:$((20000 + 16 * ERP_DOMAIN)) converters=$((24000 + ERP_DOMAIN))
@@ -45,7 +45,7 @@ with_process() {
   kill $ecu && wait $ecu 2> /dev/null
 }
 
-# Instructions are counted for time: a machine that stands still does not look like one that hangs.
+# Time is counted in instructions: a stalled machine does not look like a hanging program.
 with_microcontroller() {
   "$source/firmware/board/cortex_m/identity.sh" 0 3 1 7 > "$exchange/identity.bin"
   qemu-system-arm -M netduinoplus2 -icount shift=3 -display none -monitor none -kernel "$elf" \

@@ -5,7 +5,7 @@
 # needs no rights. The program sees this machine's files read-only, is root there, and finds the
 # virtual CAN interfaces vcan0 and vcan1 (classic), vcan3 and vcan4 (CAN FD) up and vcan2 down; the
 # kernel's slcan, can-gw, tbf and netem are there as well. Its exit status is passed on.
-# It has 300 s, or ERP_UML_SECONDS: then the kernel is ended, for on a busy machine it may come to nothing.
+# Time limit 300 s, or ERP_UML_SECONDS: then the kernel is ended, because it may hang on a busy machine.
 # With ERP_UML_SERIAL="/dev/pts/N /dev/pts/M" these terminals are its serial lines /run/ttyS0, ttyS1.
 # Debian: user-mode-linux kmod iproute2 can-utils gcc. Sanitizers other than UBSan do not run in it.
 set -u
@@ -65,7 +65,7 @@ cc -shared -fPIC -O2 -o "$registers" "$(dirname "$0")/whole_registers.c" || exit
 
 lines=() && for terminal in ${ERP_UML_SERIAL:-}; do lines+=("ssl${#lines[@]}=tty:$terminal"); done
 
-# A group of its own: its processes do not end with it, nor of SIGTERM.
+# A separate process group: the kernel's processes end neither with it nor on SIGTERM.
 PATH=$PATH:/usr/sbin:/sbin LD_PRELOAD=$registers setsid linux.uml mem=256M \
   root=/dev/root rootfstype=hostfs rootflags=/ ro quiet loglevel=3 uml_dir="$exchange" umid=guest con=null con0=null,fd:1 ssl=null \
   "${lines[@]}" \

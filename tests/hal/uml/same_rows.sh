@@ -1,10 +1,10 @@
 # To be sourced. Two recordings of one graph in lockstep must hold the same rows, bit by bit.
 
-# On a busy machine a guest kernel may come to nothing within its time, and any logger may miss a
-# message (it counts them): a recording gets three goes to be whole. A row that differs is a failure at once.
+# On a busy machine a guest kernel may not finish in time, and a logger may miss a message (it counts
+# them): a recording has three attempts to be complete. A row that differs is a failure at once.
 goes="1 2 3"
 
-# launched GRAPH OUT SETTING…: one second of it. What it says begins with a blank, unlike a row.
+# launched GRAPH OUT SETTING…: runs it for one second. Its messages begin with a blank, unlike a row.
 launched() {
   local graph=$1 out=$2 && shift 2
   set -o pipefail
@@ -20,8 +20,8 @@ recorded() {
 
 rows() { tr -d '\r' < "$1" | grep -a '^[0-9]'; }
 
-# whole SAID: whether what `recorded` printed is a full recording: for what it lacks an export shows
-# an older value.
+# whole SAID: whether the output of `recorded` is a complete recording; an export shows an older value for
+# missing messages.
 whole() {
   local lacks count
   lacks=$(tr -d '\r' < "$1" | sed -n 's/^lacks //p')

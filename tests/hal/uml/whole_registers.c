@@ -1,9 +1,9 @@
-/* Lets user-mode Linux run on processors whose registers are more than it has room for.
+/* Lets user-mode Linux run on processors with more register state than it supports.
  *
- * Its kernel 6.1 keeps 2696 bytes of a process's extended state, enough for AVX-512. A host kernel
- * takes back only the whole of it (11008 bytes with AMX; else EFAULT), and so every process of the
- * guest, the first among them, would end with SIGSEGV. Loaded before the C library this file fills
- * up what is given back with what the process has. The guest uses no AMX itself.
+ * The guest kernel 6.1 stores 2696 bytes of a process's extended state, enough for AVX-512. The host
+ * kernel restores only the complete state (11008 bytes with AMX; otherwise EFAULT), so that every guest
+ * process would end with SIGSEGV. This file, loaded before the C library, completes the restored state
+ * with the current state of the process. The guest itself does not use AMX.
  * Reference: Linux, arch/x86/kernel/fpu/regset.c, xstateregs_set. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -17,7 +17,7 @@
 typedef long (*Ptrace)(enum __ptrace_request request, ...);
 
 static long set_extended_state(Ptrace real, pid_t process, void* kind, struct iovec* part) {
-  /* Static: the guest kernel's stacks are small, and its thread is one. */
+  /* Static: the guest kernel's stacks are small, and it has one thread. */
   static char state[1 << 16];
   struct iovec whole = {state, sizeof state};
   if (real(PTRACE_GETREGSET, process, kind, &whole) < 0) return -1;

@@ -12,7 +12,7 @@ namespace {
 
 const fs::path broken = fs::path(ERP_SOURCE_DIR) / "tests/interfaces/broken";
 
-/// A graph beside the sound robot.xml and tracker.xml.
+/// Reads a graph from a folder that contains the valid robot.xml and tracker.xml.
 erp::Graph read(const std::string& text) {
   const fs::path folder = fs::temp_directory_path() / ("erp_graph_" + std::to_string(getpid()));
   fs::create_directories(folder / "launch");
@@ -29,7 +29,7 @@ erp::Graph read(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a graph's files come back resolved against its folder") {
+TEST_CASE("file names of a graph are resolved relative to its folder") {
   const auto graph = read(
       "<graph name='g' robot='../robot.xml' device='replay' replay='../log.mcap'>"
       "<component name='t1' type='tracker' config='../tracker.xml'/></graph>");
@@ -40,7 +40,7 @@ TEST_CASE("a graph's files come back resolved against its folder") {
   CHECK(fs::path(graph.components[0].config).parent_path() == fs::path(graph.robot).parent_path());
 }
 
-TEST_CASE("a graph that says little has the defaults") {
+TEST_CASE("attributes absent from a graph have their defaults") {
   const auto graph = read("<graph name='g' robot='../robot.xml'><component name='c'/></graph>");
   CHECK(graph.device == erp::Device::sim);
   CHECK(graph.time == erp::Time::realtime);
@@ -48,34 +48,34 @@ TEST_CASE("a graph that says little has the defaults") {
   CHECK(graph.components[0].config.empty());
 }
 
-TEST_CASE("a component's type may be a path; its config's root is the program's name") {
+TEST_CASE("a component's type may be a path; the root of its config is the program's name") {
   CHECK(read("<graph name='g' robot='../robot.xml'>"
              "<component name='mine' type='../build/tracker' config='../tracker.xml'/></graph>")
             .components.size() == 1);
 }
 
-TEST_CASE("a replay's file may stay in the graph while another device is used") {
+TEST_CASE("a missing replay file is accepted while another device is selected") {
   CHECK(read("<graph name='g' robot='../robot.xml' device='sim' replay='gone.mcap'/>").device ==
         erp::Device::sim);
 }
 
-TEST_CASE("all mistakes of a graph are reported at once") {
-  const std::string said = example::refusal([] {
+TEST_CASE("all errors of a graph are reported at once") {
+  const std::string refused = example::refusal([] {
     read(
         "<graph name='g' robot='none.xml' device='replay'>"
         "<component name='a' config='none.xml'/><component name='a'/></graph>");
   });
-  CHECK_THAT(said, Catch::Contains("robot=\"none.xml\" is no file"));
-  CHECK_THAT(said, Catch::Contains("plays no file"));
-  CHECK_THAT(said, Catch::Contains("config=\"none.xml\" is no file"));
-  CHECK_THAT(said, Catch::Contains("duplicate name \"a\""));
+  CHECK_THAT(refused, Catch::Contains("robot=\"none.xml\" is not a file"));
+  CHECK_THAT(refused, Catch::Contains("has no recording"));
+  CHECK_THAT(refused, Catch::Contains("config=\"none.xml\" is not a file"));
+  CHECK_THAT(refused, Catch::Contains("duplicate name \"a\""));
 }
 
-TEST_CASE("a config that is not well-formed is reported at its own place") {
-  const std::string said = example::refusal([] {
+TEST_CASE("a config that is not well-formed is reported with the place in the config") {
+  const std::string refused = example::refusal([] {
     read(
         "<graph name='g' robot='graph.xml'><component name='c' "
         "config='graph.xml'/>\n<open></graph>");
   });
-  CHECK_THAT(said, Catch::Contains("graph.xml:2:7: </graph> where <open> is open"));
+  CHECK_THAT(refused, Catch::Contains("graph.xml:2:7: </graph> where <open> is open"));
 }

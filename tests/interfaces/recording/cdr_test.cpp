@@ -20,7 +20,8 @@ std::string decoded(const std::string& schema, const Bytes& message) {
 
 }  // namespace
 
-TEST_CASE("numbers stand at multiples of their size, counted from behind the encapsulation") {
+TEST_CASE(
+    "numbers are aligned to multiples of their size, counted from the end of the encapsulation") {
   test::CdrWriter cdr;
   cdr.put<std::uint8_t>(1).put<double>(2.5).put<std::uint8_t>(3).put<std::int16_t>(-4);
   CHECK(cdr.bytes.size() == 4 + 8 + 8 + 2 + 2);
@@ -28,7 +29,7 @@ TEST_CASE("numbers stand at multiples of their size, counted from behind the enc
         R"({"a":1,"b":2.5,"c":3,"d":-4})");
 }
 
-TEST_CASE("a big-endian message means the same as a little-endian one") {
+TEST_CASE("big-endian and little-endian messages are decoded to equal values") {
   const auto little = GENERATE(true, false);
   test::CdrWriter cdr(little);
   cdr.put<std::int64_t>(-2).put<float>(0.1f).put<std::uint16_t>(65535).string("hé\"\n");
@@ -36,7 +37,7 @@ TEST_CASE("a big-endian message means the same as a little-endian one") {
         "{\"a\":-2,\"b\":0.1,\"c\":65535,\"d\":\"hé\\\"\\u000a\"}");
 }
 
-TEST_CASE("every primitive keeps its extremes") {
+TEST_CASE("minimum and maximum of every primitive type are decoded") {
   test::CdrWriter cdr;
   cdr.put<std::uint8_t>(1)
       .put<std::int8_t>(-128)
@@ -55,7 +56,7 @@ TEST_CASE("every primitive keeps its extremes") {
         R"("h":-9223372036854775808,"i":18446744073709551615,"j":5e-324})");
 }
 
-TEST_CASE("arrays have no length in front, sequences have one, structures nest in both") {
+TEST_CASE("arrays without a length, sequences with a length and nested structures are decoded") {
   const std::string schema =
       "p/In[2] fixed\nIn[<=3] some\nfloat64[] many\n===\nMSG: p/In\nint8 x\n"
       "string<=4 s\n";
@@ -67,7 +68,7 @@ TEST_CASE("arrays have no length in front, sequences have one, structures nest i
         R"({"fixed":[{"x":1,"s":"ab"},{"x":2,"s":"ab"}],"some":[{"x":3,"s":""}],"many":[]})");
 }
 
-TEST_CASE("a string of length 0, as some writers send it, is an empty string") {
+TEST_CASE("a string of length 0, without closing zero, is decoded as an empty string") {
   test::CdrWriter cdr;
   cdr.put<std::uint32_t>(0);
   CHECK(decoded("string s\n", cdr.bytes) == R"({"s":""})");
@@ -76,16 +77,16 @@ TEST_CASE("a string of length 0, as some writers send it, is an empty string") {
 TEST_CASE("a message that does not fit its type is refused with the field and the byte") {
   test::CdrWriter cdr;
   std::string schema, what;
-  SECTION("cut off") {
-    schema = "float64 x\n", cdr.put<std::uint32_t>(0), what = "p/msg/T.x: byte 4: is cut off";
+  SECTION("a truncated message") {
+    schema = "float64 x\n", cdr.put<std::uint32_t>(0), what = "p/msg/T.x: byte 4: is truncated";
   }
   SECTION("a sequence longer than its bound") {
     schema = "uint8[<=2] x\n", cdr.put<std::uint32_t>(3).put<std::uint32_t>(0);
-    what = "holds 3 elements, at most 2";
+    what = "has 3 elements, at most 2";
   }
   SECTION("a sequence longer than the message") {
     schema = "float64[] x\n", cdr.put<std::uint32_t>(0xffff'ffff),
-    what = "more than the message has room for";
+    what = "more than the message contains";
   }
   SECTION("a string longer than its bound") {
     schema = "string<=2 x\n", cdr.string("abc"), what = "longer than 2 characters";
@@ -97,7 +98,7 @@ TEST_CASE("a message that does not fit its type is refused with the field and th
     schema = "string x\n", cdr.put<std::uint32_t>(1).put<std::uint8_t>('a'), what = "closing zero";
   }
   SECTION("a bool of 2") { schema = "bool x\n", cdr.put<std::uint8_t>(2), what = "a bool of 2"; }
-  SECTION("bytes too many") {
+  SECTION("surplus bytes") {
     schema = "uint8 x\n", cdr.put<std::uint8_t>(2).put<std::uint64_t>(0),
     what = "bytes more than its type";
   }
@@ -105,11 +106,11 @@ TEST_CASE("a message that does not fit its type is refused with the field and th
     schema = "uint8 x\n", cdr.put<std::uint8_t>(2), cdr.bytes[1] = std::byte{9},
     what = "encoded as 9";
   }
-  SECTION("nothing") { schema = "uint8 x\n", cdr.bytes.clear(), what = "encapsulation"; }
+  SECTION("an empty message") { schema = "uint8 x\n", cdr.bytes.clear(), what = "encapsulation"; }
   CHECK_THROWS_WITH(decoded(schema, cdr.bytes), Catch::Contains(what));
 }
 
-TEST_CASE("any bytes at all are decoded or refused, never more") {
+TEST_CASE("random bytes are either decoded or refused with RecordingError") {
   const TypeDescription type = type_of(
       "string name\nIn[] list\nuint8[] raw\nfloat64[3] xyz\n===\nMSG: p/In\nstring<=8 s\nbool[] "
       "b\n");
@@ -126,7 +127,7 @@ TEST_CASE("any bytes at all are decoded or refused, never more") {
   SUCCEED();
 }
 
-TEST_CASE("stamp and sequence are found without decoding what follows") {
+TEST_CASE("stamp and sequence are decoded without the fields that follow") {
   const TypeDescription type =
       type_of("string<=32 robot\nint64 stamp_ns\nuint64 sequence\nfloat64[] rest\n");
   test::CdrWriter cdr;

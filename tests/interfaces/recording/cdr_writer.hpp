@@ -8,7 +8,7 @@
 
 namespace test {
 
-/// Writes CDR by hand, to hold the reader against.
+/// Encodes CDR explicitly, as input of the decoder.
 struct CdrWriter {
   explicit CdrWriter(bool little_endian = true) : little(little_endian) {
     bytes = {std::byte{0}, std::byte{little}, std::byte{0}, std::byte{0}};

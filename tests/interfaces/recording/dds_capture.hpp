@@ -9,8 +9,8 @@
 
 #include "interfaces/recording/bytes.hpp"
 
-/// What Cyclone itself makes of a message: written and taken back in one process, in a domain of
-/// its own on loopback.
+/// Serializes messages with Cyclone: writes and takes them in one process, in a separate domain on
+/// loopback.
 namespace test {
 
 class Capture {
@@ -25,7 +25,7 @@ class Capture {
 
   /// The bytes of `sample` (the C struct) on the wire, encapsulation first.
   recording::Bytes bytes_of(const dds_topic_descriptor_t& type, const void* sample) {
-    std::string name = type.m_typename;  // a topic's name may not hold ::
+    std::string name = type.m_typename;  // a topic name must not contain ::
     std::replace(name.begin(), name.end(), ':', '_');
     const dds_entity_t topic =
         checked(dds_create_topic(participant_, &type, name.c_str(), nullptr, nullptr));

@@ -3,8 +3,8 @@
 
 #include "interfaces/topics.hpp"
 
-/// One filled message of every topic; every number in it is different, and says by its digits
-/// where it stands.
+/// One filled message of every topic. Every number in it is different and identifies its field by its
+/// digits.
 namespace test {
 
 template <class M>

@@ -15,7 +15,7 @@ using namespace launch;
 
 namespace {
 
-/// What a verb says on stderr.
+/// Captures what a command prints to stderr.
 class Stderr {
  public:
   Stderr() : old_(std::cerr.rdbuf(text_.rdbuf())) {}
@@ -27,20 +27,20 @@ class Stderr {
   std::streambuf* old_;
 };
 
-/// Two muscles pull a joint to and fro for four seconds; frame 30 never came.
+/// Two actuators move a joint to and fro for four seconds; frame 30 is missing.
 void record_rig(const std::string& path) {
   test::RigFile file(path);
   file.writer.attach("robot.xml", "text/xml", "<robot name=\"rig\"/>");
   std::uint32_t number = 0;
   for (int i = 0; i < 2000; ++i) {
     if (i == 30) continue;
-    const double t = i * 0.002, wanted = t < 1 ? 10 : 25 + 15 * std::sin(2 * M_PI * 0.5 * (t - 1));
-    const double pull = wanted * (t < 1 ? 1 - std::exp(-t / 0.1) : 1) + 0.2 * std::sin(300 * t);
+    const double t = i * 0.002, desired = t < 1 ? 10 : 25 + 15 * std::sin(2 * M_PI * 0.5 * (t - 1));
+    const double pull = desired * (t < 1 ? 1 - std::exp(-t / 0.1) : 1) + 0.2 * std::sin(300 * t);
     const auto stamp = static_cast<std::int64_t>(i) * 2'000'000;
     number = static_cast<std::uint32_t>(i);
     const auto bytes = test::frame(
         stamp, number,
-        {{.name = "flexor", .reference = wanted, .line_m = -0.002 * pull / 10, .tension_N = pull},
+        {{.name = "flexor", .reference = desired, .line_m = -0.002 * pull / 10, .tension_N = pull},
          {.name = "extensor",
           .mode = 2,
           .reference = 0.001,
@@ -56,7 +56,7 @@ void record_rig(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("info says how long, what, how often, what is missing and what is attached") {
+TEST_CASE("info prints duration, topics, rates, missing messages and attachments") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   std::ostringstream out;
@@ -68,21 +68,21 @@ TEST_CASE("info says how long, what, how often, what is missing and what is atta
   CHECK_THAT(out.str(), Catch::Contains("robot.xml   text/xml    19 B"));
 }
 
-TEST_CASE("info on a recording that was cut off says where and how to mend it") {
+TEST_CASE("info on a truncated recording prints the place and how to recover it") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   const std::string bytes = test::read_file(folder / "a.mcap");
   test::write_file(folder / "cut.mcap", bytes.substr(0, bytes.size() / 2));
-  std::ostringstream out, said;
+  std::ostringstream out, printed;
   CHECK(log_info(folder / "cut.mcap", out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("cut off") && Catch::Contains("erp log recover"));
-  CHECK(log_recover(folder / "cut.mcap", folder / "whole.mcap", said) == 0);
-  CHECK_THAT(said.str(),
+  CHECK(log_recover(folder / "cut.mcap", folder / "whole.mcap", printed) == 0);
+  CHECK_THAT(printed.str(),
              Catch::Contains("the file ends inside") && Catch::Contains("1 attachments"));
   CHECK(recording::McapReader(folder / "whole.mcap").complete());
 }
 
-TEST_CASE("export gives the table, or any topic by its name; the same recording the same bytes") {
+TEST_CASE("export writes the table or any topic; the same recording gives the same bytes") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   std::ostringstream first, second, topic;
@@ -101,19 +101,20 @@ TEST_CASE("export gives the table, or any topic by its name; the same recording 
   CHECK_THAT(topic.str(), Catch::Contains("\n2000000,rig,sim,2000000,0,3,0.9999"));
 }
 
-TEST_CASE("bad input gives exit code 2 and says why on stderr, a disk that is full gives 1") {
+TEST_CASE("invalid input gives exit code 2 and an error on stderr, a full disk gives exit code 1") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   std::ostringstream out;
-  const Stderr said;
+  const Stderr errors;
   CHECK(log_info(folder / "missing.mcap", out) == 2);
   CHECK(log_export(folder / "a.mcap", out, {.topic = "nothing"}) == 2);
-  CHECK_THAT(said.text(), Catch::Contains("no topic \"nothing\"; there are actuator_command, "));
+  CHECK_THAT(errors.text(),
+             Catch::Contains("no topic \"nothing\"; recorded topics: actuator_command, "));
   CHECK(log_recover(folder / "a.mcap", folder / "a.mcap", out) == 2);
   CHECK(log_plot(folder / "a.mcap", folder / "a.gif") == 2);
-  CHECK_THAT(said.text(), Catch::Contains("a.gif: can draw .svg and .png only"));
+  CHECK_THAT(errors.text(), Catch::Contains("a.gif: can draw .svg and .png only"));
   CHECK(log_plot(folder / "a.mcap", folder / "a.svg", {.signals = {"knee"}}) == 2);
-  CHECK_THAT(said.text(), Catch::Contains("no signal \"knee\"; there are flexor.tension_N, "));
+  CHECK_THAT(errors.text(), Catch::Contains("no signal \"knee\"; there are flexor.tension_N, "));
   CHECK_THROWS_AS(log_plot(folder / "a.mcap", folder / "no/such/folder/a.svg"),
                   std::invalid_argument);
   std::ofstream full("/dev/full");
@@ -121,14 +122,14 @@ TEST_CASE("bad input gives exit code 2 and says why on stderr, a disk that is fu
   CHECK(log_recover(folder / "a.mcap", folder / "no/such/folder/b.mcap", out) == 1);
 }
 
-TEST_CASE("plot draws an SVG and a PNG with a panel a signal") {
+TEST_CASE("plot draws an SVG and a PNG with one panel per signal") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   REQUIRE(log_plot(folder / "a.mcap", folder / "a.svg") == 0);
   const std::string svg = test::read_file(folder / "a.svg");
   for (const char* word :
        {"tension  [N]", "line length  [mm]", "joint angle  [°]", "joint rotation  [°]", "flexor",
-        "elbow", "asked for", "time  [s]", "a.mcap"})
+        "elbow", "desired", "time  [s]", "a.mcap"})
     CHECK_THAT(svg, Catch::Contains(word));
   REQUIRE(log_plot(folder / "a.mcap", folder / "a.png", {.title = "The rig's \"first\" light"}) ==
           0);
@@ -136,7 +137,7 @@ TEST_CASE("plot draws an SVG and a PNG with a panel a signal") {
   CHECK_FALSE(std::filesystem::exists(folder / "a.png.part"));
 }
 
-TEST_CASE("what a recording calls its muscles is drawn, never executed") {
+TEST_CASE("actuator names with shell or gnuplot commands are drawn and not executed") {
   const test::Folder folder;
   const std::string evil = "'`touch " + folder / "pwned" + "`\"\nquit\n";
   recording::Table table{{{"time_s", {0, 1}}, {evil + ".tension_N", {1, 2}}}};
@@ -145,20 +146,21 @@ TEST_CASE("what a recording calls its muscles is drawn, never executed") {
   CHECK_THAT(test::read_file(folder / "a.svg"), Catch::Contains("tension  [N]"));
 }
 
-TEST_CASE("without gnuplot, plot says what to install and leaves nothing behind") {
+TEST_CASE("without gnuplot, plot prints the package to install and leaves no files") {
   const test::Folder folder;
   record_rig(folder / "a.mcap");
   const std::string path = std::getenv("PATH");
   setenv("PATH", (folder / "").c_str(), 1);
-  const Stderr said;
+  const Stderr errors;
   CHECK(log_plot(folder / "a.mcap", folder / "a.svg") == 2);
   setenv("PATH", path.c_str(), 1);
-  CHECK_THAT(said.text(), Catch::Contains("cannot run gnuplot") && Catch::Contains("gnuplot-nox"));
+  CHECK_THAT(errors.text(),
+             Catch::Contains("cannot run gnuplot") && Catch::Contains("gnuplot-nox"));
   CHECK_FALSE(std::filesystem::exists(folder / "a.svg.part"));
 }
 
 TEST_CASE(
-    "a long curve is thinned without losing its peaks, and broken where nothing was measured") {
+    "a long curve is thinned without losing its peaks, and interrupted where samples are missing") {
   recording::Table table{{{"time_s", {}}, {"m.tension_N", {}}}};
   for (int i = 0; i < 100000; ++i) {
     table.columns[0].values.push_back(i * 0.001);

@@ -6,7 +6,7 @@
 
 using namespace recording;
 
-TEST_CASE("a changed byte anywhere in a whole recording is noticed or harmless") {
+TEST_CASE("a changed byte anywhere in a recording is detected or changes no message") {
   const test::Folder folder;
   const std::string good = test::small_recording(folder / "good.mcap", {.chunk_bytes = 100}, 6);
   const auto expected = test::texts(McapReader(folder / "good.mcap"));
@@ -23,11 +23,13 @@ TEST_CASE("a changed byte anywhere in a whole recording is noticed or harmless")
       ++noticed;
     }
   }
-  // The footer's last numbers and kinds that nobody needs may change unnoticed; no data byte may.
+  // Changes in the footer's last numbers and in unused record kinds are not detected; all changes in
+  // data bytes are.
   CHECK(noticed > static_cast<int>(good.size()) - 40);
 }
 
-TEST_CASE("cut at any byte, a recording gives the messages of its whole chunks and can be mended") {
+TEST_CASE(
+    "a recording truncated at any byte gives the messages of its complete chunks, recover too") {
   const test::Folder folder;
   const auto compression = GENERATE(Compression::none, Compression::zstd);
   const std::string whole = test::small_recording(
@@ -46,29 +48,29 @@ TEST_CASE("cut at any byte, a recording gives the messages of its whole chunks a
     CHECK(found.size() == in_whole_chunks);
     CHECK(std::equal(found.begin(), found.end(), expected.begin()));
 
-    const Recovered recovered = recover(folder / "cut.mcap", folder / "mended.mcap");
-    const McapReader mended(folder / "mended.mcap");
-    const auto saved = test::texts(mended);
-    CHECK(mended.complete());
+    const Recovered recovered = recover(folder / "cut.mcap", folder / "repaired.mcap");
+    const McapReader repaired(folder / "repaired.mcap");
+    const auto saved = test::texts(repaired);
+    CHECK(repaired.complete());
     CHECK(saved.size() == recovered.messages);
     CHECK(saved.size() >= in_whole_chunks);
     CHECK(std::equal(saved.begin(), saved.end(), expected.begin()));
-    std::filesystem::remove(folder / "mended.mcap");
+    std::filesystem::remove(folder / "repaired.mcap");
   }
 }
 
-TEST_CASE("recover takes the messages at the start of a chunk that was cut") {
+TEST_CASE("recover reads the messages at the start of a truncated chunk") {
   const test::Folder folder;
   const std::string whole =
       test::small_recording(folder / "a.mcap", {.compression = Compression::none}, 10);
   const Region chunk = McapReader(folder / "a.mcap").contents().regions.at(0);
   test::write_file(folder / "cut.mcap", whole.substr(0, chunk.offset + chunk.length - 5));
   CHECK(McapReader(folder / "cut.mcap").contents().messages == 0);
-  CHECK(recover(folder / "cut.mcap", folder / "mended.mcap").messages == 9);
+  CHECK(recover(folder / "cut.mcap", folder / "repaired.mcap").messages == 9);
 }
 
 TEST_CASE(
-    "recover steps over a damaged chunk and keeps the rest, attachment and numbers included") {
+    "recover omits a damaged chunk and keeps the rest, including attachment and sequence numbers") {
   const test::Folder folder;
   std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 100}, 12);
   const McapReader good(folder / "a.mcap");
@@ -76,17 +78,17 @@ TEST_CASE(
   bytes[second.offset + second.length - 3] ^= 0x55;
   test::write_file(folder / "bad.mcap", bytes);
   CHECK_THROWS_AS(McapReader(folder / "bad.mcap"), RecordingError);
-  const Recovered recovered = recover(folder / "bad.mcap", folder / "mended.mcap");
+  const Recovered recovered = recover(folder / "bad.mcap", folder / "repaired.mcap");
   CHECK(recovered.messages == 12 - second.messages);
   CHECK(recovered.attachments == 1);
   CHECK(recovered.problems.size() == 2);  // the chunk, and the checksum over all data
-  const McapReader mended(folder / "mended.mcap");
-  CHECK(mended.complete());
-  CHECK(mended.channels() == good.channels());
-  CHECK(mended.schemas() == good.schemas());
+  const McapReader repaired(folder / "repaired.mcap");
+  CHECK(repaired.complete());
+  CHECK(repaired.channels() == good.channels());
+  CHECK(repaired.schemas() == good.schemas());
 }
 
-TEST_CASE("recover finds its way again after a wrong length, and lost definitions in the summary") {
+TEST_CASE("recover continues after a wrong length and reads lost definitions from the summary") {
   const test::Folder folder;
   std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 100}, 12);
   const std::size_t attachment = bytes.find("robot.xml") - 4 - 16 - 9;
@@ -96,20 +98,20 @@ TEST_CASE("recover finds its way again after a wrong length, and lost definition
   if (victim == 1) bytes[bytes.find("first") - 10] = 0x7f;    // the channel's length
   if (victim == 2) bytes[bytes.find("std_msgs") - 3] = 0x7f;  // the schema's name's length
   test::write_file(folder / "bad.mcap", bytes);
-  const Recovered recovered = recover(folder / "bad.mcap", folder / "mended.mcap");
+  const Recovered recovered = recover(folder / "bad.mcap", folder / "repaired.mcap");
   CHECK(recovered.messages == 12);
   CHECK_FALSE(recovered.problems.empty());
 }
 
-TEST_CASE("recover does not write over a file, its own input least of all") {
+TEST_CASE("recover does not overwrite an existing file or its own input") {
   const test::Folder folder;
   const std::string bytes = test::small_recording(folder / "a.mcap", {}, 3);
   CHECK_THROWS_WITH(recover(folder / "a.mcap", folder / "a.mcap"),
-                    Catch::Contains("there is a file already"));
+                    Catch::Contains("the file exists already"));
   CHECK(test::read_file(folder / "a.mcap") == bytes);
 }
 
-TEST_CASE("random damage never crashes the reader nor recover") {
+TEST_CASE("random damage crashes neither the reader nor recover") {
   const test::Folder folder;
   const auto compression = GENERATE(Compression::none, Compression::zstd);
   const std::string good = test::small_recording(
@@ -142,11 +144,11 @@ TEST_CASE("random damage never crashes the reader nor recover") {
     } catch (const RecordingError&) {
     }
     try {
-      recover(folder / "bad.mcap", folder / "mended.mcap");
-      CHECK(McapReader(folder / "mended.mcap").complete());
+      recover(folder / "bad.mcap", folder / "repaired.mcap");
+      CHECK(McapReader(folder / "repaired.mcap").complete());
     } catch (const RecordingError& error) {
       CHECK_THAT(error.what(), Catch::Contains("not an MCAP file"));
     }
-    std::filesystem::remove(folder / "mended.mcap");
+    std::filesystem::remove(folder / "repaired.mcap");
   }
 }

@@ -10,7 +10,7 @@ using namespace recording;
 
 namespace {
 
-/// A file of records made by hand, as another program might write them.
+/// A file of explicitly encoded records, such as another program may write.
 struct HandMade {
   Bytes bytes;
   HandMade() { put(bytes, std::as_bytes(std::span(magic))); }
@@ -29,7 +29,7 @@ struct HandMade {
 
 }  // namespace
 
-TEST_CASE("what was written is read back, with its topics, times and attachment") {
+TEST_CASE("written messages are read back with topics, times and attachment") {
   const test::Folder folder;
   const auto compression = GENERATE(Compression::none, Compression::zstd);
   test::small_recording(folder / "a.mcap", {.compression = compression, .chunk_bytes = 100}, 9);
@@ -54,7 +54,7 @@ TEST_CASE("what was written is read back, with its topics, times and attachment"
   CHECK(i == 9);
 }
 
-TEST_CASE("messages come in the order of log times even when chunks overlap") {
+TEST_CASE("messages are read in the order of log times even when chunks overlap") {
   const test::Folder folder;
   {
     McapWriter writer(folder / "a.mcap", {.chunk_bytes = 90});
@@ -76,7 +76,7 @@ TEST_CASE("messages come in the order of log times even when chunks overlap") {
   CHECK(count == 200);
 }
 
-TEST_CASE("messages outside of chunks and definitions inside of them are read too") {
+TEST_CASE("messages outside of chunks and definitions inside of chunks are read") {
   const test::Folder folder;
   HandMade file;
   file.channel(1);
@@ -93,7 +93,7 @@ TEST_CASE("messages outside of chunks and definitions inside of them are read to
   CHECK(reader.channels().at(2).topic == "inner");
 }
 
-TEST_CASE("skipped numbers are counted per channel, a restart is no loss") {
+TEST_CASE("skipped sequence numbers are counted per channel; a restart is not counted as loss") {
   const test::Folder folder;
   HandMade file;
   file.channel(1);
@@ -105,7 +105,7 @@ TEST_CASE("skipped numbers are counted per channel, a restart is no loss") {
   CHECK(statistics.messages == 7);
 }
 
-TEST_CASE("the 32-bit number may run over without a gap") {
+TEST_CASE("an overflow of the 32-bit sequence number is not counted as a gap") {
   ChannelStatistics statistics;
   statistics.count({1, 0xffff'fffe, 0, 0});
   statistics.count({1, 0xffff'ffff, 0, 0});
@@ -114,7 +114,7 @@ TEST_CASE("the 32-bit number may run over without a gap") {
   CHECK(statistics.restarts == 0);
 }
 
-TEST_CASE("a file that is none, empty or a folder is refused with its name") {
+TEST_CASE("a missing file, an empty file, a folder and another format are refused with the name") {
   const test::Folder folder;
   test::write_file(folder / "text", "time_s,flexor.mode\n");
   test::write_file(folder / "empty", "");
@@ -125,27 +125,27 @@ TEST_CASE("a file that is none, empty or a folder is refused with its name") {
   CHECK_THROWS_WITH(McapReader(folder / "."), Catch::Contains("is not a file"));
 }
 
-TEST_CASE("damage is refused with the byte where it is and what to do") {
+TEST_CASE("damage is refused with its byte position and the remedy") {
   const test::Folder folder;
   const std::string path = folder / "a.mcap";
   HandMade file;
   Bytes records;
   std::string what;
-  SECTION("a lying checksum") {
+  SECTION("a wrong checksum") {
     file.channel(1);
     file.message(records, 1, "x");
     file.chunk(records, {.uncompressed_crc = 1});
     what = "the chunk's checksum does not match";
   }
-  SECTION("a chunk of a compression nobody knows") {
+  SECTION("a chunk with an unsupported compression") {
     file.chunk(records, {.uncompressed_bytes = 1, .compression = "lz4"});
     what = "compressed with \"lz4\"";
   }
-  SECTION("a chunk that lies about its size") {
+  SECTION("a chunk with a wrong size") {
     file.chunk(records, {.uncompressed_bytes = std::uint64_t{1} << 60});
-    what = "says it holds 1152921504606846976 bytes";
+    what = "declares 1152921504606846976 bytes";
   }
-  SECTION("a compressed chunk that lies about its size") {
+  SECTION("a compressed chunk with a wrong size") {
     file.chunk(compress_zstd(view("abc")),
                {.uncompressed_bytes = std::uint64_t{1} << 60, .compression = "zstd"});
     what = "at most 268435456 are accepted";
@@ -154,7 +154,7 @@ TEST_CASE("damage is refused with the byte where it is and what to do") {
     file.chunk(compress_zstd(view("abc")), {.uncompressed_bytes = 4, .compression = "zstd"});
     what = "zstd frame differ";
   }
-  SECTION("zstd that is none") {
+  SECTION("data that is not zstd") {
     file.chunk(Bytes(20), {.uncompressed_bytes = 4, .compression = "zstd"});
     what = "zstd";
   }
@@ -198,7 +198,7 @@ TEST_CASE("damage is refused with the byte where it is and what to do") {
     end_record(file.bytes, start);
     what = "needs 4294967295 bytes";
   }
-  SECTION("an attachment that changed") {
+  SECTION("a changed attachment") {
     put_attachment(file.bytes, {0, 0, "robot.xml", "", "<robot/>"});
     file.bytes[file.bytes.size() - 6] ^= std::byte{1};
     what = "the attachment \"robot.xml\" does not match";

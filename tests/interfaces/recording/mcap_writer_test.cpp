@@ -29,7 +29,7 @@ std::uint32_t crc(const std::string& bytes) {
       crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
-/// The kinds of the records from `at` to the closing magic, and where each starts.
+/// The kinds of the records from `at` to the closing magic, and their positions.
 std::vector<std::pair<int, std::size_t>> records(const std::string& bytes) {
   std::vector<std::pair<int, std::size_t>> found;
   for (std::size_t at = 8; at + 8 < bytes.size(); at += 9 + u64(bytes, at + 1))
@@ -56,7 +56,7 @@ TEST_CASE("a recording starts and ends with MCAP's eight bytes and a header with
   CHECK(u32(bytes, 21) == u64(bytes, 9) - 8);
 }
 
-TEST_CASE("the records stand in the order that the format asks for") {
+TEST_CASE("the records are in the order that the format requires") {
   const test::Folder folder;
   const std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 3);
   std::vector<int> kinds;
@@ -69,7 +69,7 @@ TEST_CASE("the records stand in the order that the format asks for") {
   CHECK(kinds == expected);
 }
 
-TEST_CASE("data, summary, chunk and attachment carry the checksums of what they cover") {
+TEST_CASE("data, summary, chunk and attachment have correct checksums") {
   const test::Folder folder;
   const std::string bytes =
       test::small_recording(folder / "a.mcap", {.compression = Compression::none}, 4);
@@ -84,7 +84,7 @@ TEST_CASE("data, summary, chunk and attachment carry the checksums of what they 
   CHECK(u32(bytes, attachment + 9 + length - 4) == crc(bytes.substr(attachment + 9, length - 4)));
 }
 
-TEST_CASE("every summary offset and index points at the record it speaks of") {
+TEST_CASE("every summary offset and index points at its record") {
   const test::Folder folder;
   const std::string bytes = test::small_recording(folder / "a.mcap", {.chunk_bytes = 60}, 5);
   for (const auto& [kind, at] : records(bytes)) {
@@ -105,7 +105,7 @@ TEST_CASE("every summary offset and index points at the record it speaks of") {
   }
 }
 
-TEST_CASE("a chunk spans at most a second of log time") {
+TEST_CASE("a chunk spans at most one second of log time") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   const auto channel = writer.add_channel("t", "cdr", 0);
@@ -117,7 +117,7 @@ TEST_CASE("a chunk spans at most a second of log time") {
   CHECK(reader.contents().chunks == 4);
 }
 
-TEST_CASE("two clocks in one recording do not make a chunk of every message") {
+TEST_CASE("two clocks in one recording do not lead to one chunk per message") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   const auto channel = writer.add_channel("t", "cdr", 0);
@@ -127,7 +127,7 @@ TEST_CASE("two clocks in one recording do not make a chunk of every message") {
   CHECK(McapReader(folder / "a.mcap").contents().chunks == 1);
 }
 
-TEST_CASE("a flushed message is in the file although the recording was never closed") {
+TEST_CASE("a flushed message is in the file of a recording that was not closed") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   const auto channel = writer.add_channel("t", "cdr", 0);
@@ -143,14 +143,13 @@ TEST_CASE("a flushed message is in the file although the recording was never clo
   CHECK(McapReader(folder / "a.mcap").complete());
 }
 
-TEST_CASE("a full disk is reported with the file's name and the system's reason") {
+TEST_CASE("a full disk is reported with the file name and the system error") {
   McapOptions replace{.replace = true};
   CHECK_THROWS_WITH(McapWriter("/dev/full", replace),
                     Catch::Contains("/dev/full: cannot write: No space left on device"));
 }
 
-TEST_CASE(
-    "a write that fails half-way is taken back, said once more, and loses nothing before it") {
+TEST_CASE("a partial write is undone; later writes are refused and earlier data is kept") {
   const test::Folder folder;
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
@@ -174,22 +173,22 @@ TEST_CASE(
   CHECK(reader.truncation().find("without a footer") != std::string::npos);
 }
 
-TEST_CASE("a recording that exists is not overwritten unless asked") {
+TEST_CASE("an existing recording is overwritten only with the option replace") {
   const test::Folder folder;
   test::write_file(folder / "a.mcap", "precious");
-  CHECK_THROWS_WITH(McapWriter(folder / "a.mcap"), Catch::Contains("there is a file already"));
+  CHECK_THROWS_WITH(McapWriter(folder / "a.mcap"), Catch::Contains("the file exists already"));
   CHECK(test::read_file(folder / "a.mcap") == "precious");
   CHECK_NOTHROW(McapWriter(folder / "a.mcap", {.replace = true}));
 }
 
-TEST_CASE("a channel or schema that was never added is refused") {
+TEST_CASE("a channel or schema that was not added is refused") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   CHECK_THROWS_AS(writer.add_channel("t", "cdr", 1), std::invalid_argument);
   CHECK_THROWS_AS(writer.write(1, 0, 0, 0, {}), std::invalid_argument);
 }
 
-TEST_CASE("a closed recording takes nothing more") {
+TEST_CASE("a write to a closed recording is refused") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   const auto channel = writer.add_channel("t", "cdr", 0);

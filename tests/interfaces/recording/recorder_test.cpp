@@ -21,7 +21,7 @@ Sample sample(std::string_view writer, std::uint64_t sequence, std::uint64_t tim
 
 }  // namespace
 
-TEST_CASE("the attachments are on the disk before the first message") {
+TEST_CASE("the attachments are in the file before the first message") {
   const test::Folder folder;
   Recorder recorder(folder / "a.mcap", {{0, 0, "git_revision", "text/plain", "abc"}});
   CHECK(McapReader(folder / "a.mcap").attachments().at(0).data == "abc");
@@ -30,7 +30,7 @@ TEST_CASE("the attachments are on the disk before the first message") {
   CHECK(reader.attachments().at(1).name == "erp/msg/SensorFrame.idl");
 }
 
-TEST_CASE("gaps are counted for each writer of a topic alone, and the file shows the same") {
+TEST_CASE("gaps are counted separately per writer of a topic, in the recorder and from the file") {
   const test::Folder folder;
   Recorder recorder(folder / "a.mcap", {});
   const auto topic = recorder.add_topic("actuator_command", frame_type);
@@ -55,7 +55,7 @@ TEST_CASE("gaps are counted for each writer of a topic alone, and the file shows
   CHECK(reader.schemas().size() == 1);
 }
 
-TEST_CASE("a topic added twice is the same one; of another type it is another") {
+TEST_CASE("a topic added twice has the same handle; with another type it has another handle") {
   const test::Folder folder;
   Recorder recorder(folder / "a.mcap", {});
   CHECK(recorder.add_topic("t", frame_type) == recorder.add_topic("t", frame_type));
@@ -63,7 +63,7 @@ TEST_CASE("a topic added twice is the same one; of another type it is another") 
   CHECK(recorder.add_topic("u", {"unknown", "", ""}) == 2);
 }
 
-TEST_CASE("a tick puts on the disk what has waited for half a second, and only then") {
+TEST_CASE("a tick writes data to the disk after half a second and not before") {
   const test::Folder folder;
   Recorder recorder(folder / "a.mcap", {});
   const auto on_disk = [&] { return McapReader(folder / "a.mcap").contents().messages; };
@@ -77,7 +77,7 @@ TEST_CASE("a tick puts on the disk what has waited for half a second, and only t
   CHECK(on_disk() == 1);
 }
 
-TEST_CASE("a killed recorder loses less than a second, and recover makes the file whole") {
+TEST_CASE("a killed recorder loses less than one second of data, and recover completes the file") {
   const test::Folder folder;
   constexpr std::uint64_t messages = 2000;  // at 500 Hz: 4 s
   const pid_t child = fork();

@@ -4,7 +4,7 @@
 
 using namespace recording;
 
-TEST_CASE("a type written as ros2msg text reads back as the same type") {
+TEST_CASE("a type written as ros2msg text is parsed to the same type") {
   TypeDescription type;
   type.structures.push_back(
       {"erp/msg/Frame",
@@ -38,7 +38,7 @@ TEST_CASE("a type written as ros2msg text reads back as the same type") {
   CHECK(parse_ros2msg("erp/msg/Frame", text).name() == "erp/msg/Frame");
 }
 
-TEST_CASE("constants, defaults, comments and short names of a person's message are understood") {
+TEST_CASE("constants, defaults, comments and short names in a user's message are parsed") {
   const TypeDescription type = parse_ros2msg(
       "a/B",
       "# a message\nint32 LIMIT=5\nstring NAME = \"x\"\n  int32 n 7 # with a default\r\nbyte raw\n"
@@ -51,7 +51,7 @@ TEST_CASE("constants, defaults, comments and short names of a person's message a
   CHECK(type.structures[type.root().fields[3].structure].name == "b/msg/Other");
 }
 
-TEST_CASE("a person's comment does not rename a field") {
+TEST_CASE("an ordinary comment does not rename a field") {
   const auto field = [](const std::string& line) {
     return parse_ros2msg("a/msg/B", line).root().fields[0];
   };
@@ -61,7 +61,7 @@ TEST_CASE("a person's comment does not rename a field") {
   CHECK(field("float64 x # [m]\n").unit == "m");
 }
 
-TEST_CASE("a schema that describes nothing is refused with its name, line and value") {
+TEST_CASE("an invalid schema is refused with its name, line and value") {
   const auto refused = [](const std::string& text, const std::string& what) {
     CHECK_THROWS_WITH(parse_ros2msg("a/msg/B", text),
                       Catch::Contains("a/msg/B") && Catch::Contains(what));
@@ -75,13 +75,13 @@ TEST_CASE("a schema that describes nothing is refused with its name, line and va
   refused("float64[2 a\n", "lacks a ]");
   refused("int8<=3 a\n", "only a string has a bound");
   refused("", "has no fields");
-  refused("B again\n", "holds itself");
-  refused("In x\n===\nMSG: a/In\nB[] back\n", "holds itself");
-  refused("bool x\nbool x\n", "stands there twice");
+  refused("B again\n", "contains itself");
+  refused("In x\n===\nMSG: a/In\nB[] back\n", "contains itself");
+  refused("bool x\nbool x\n", "is defined twice");
   refused("bool x\n===\nbool y\n", ":3: expected \"MSG:");
 }
 
-TEST_CASE("a schema that doubles at every level costs no time and no memory") {
+TEST_CASE("a schema whose size doubles at each of 30 levels is parsed without expansion") {
   std::string text = "L0 a\nL0 b\n";
   for (int i = 0; i < 30; ++i) {
     const std::string next = i < 29 ? "L" + std::to_string(i + 1) : "uint8";
@@ -90,7 +90,7 @@ TEST_CASE("a schema that doubles at every level costs no time and no memory") {
   CHECK(parse_ros2msg("a/msg/B", text).root().least_bytes == std::size_t{1} << 31);
 }
 
-TEST_CASE("IDL names become package and type") {
+TEST_CASE("IDL names are converted to package and type") {
   CHECK(ros_name("erp::SensorFrame") == "erp/msg/SensorFrame");
   CHECK(ros_name("sensor_msgs::msg::dds_::JointState_") == "sensor_msgs/msg/JointState");
   CHECK(ros_name("a::b::C") == "a_b/msg/C");

@@ -10,13 +10,13 @@
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/mcap_writer.hpp"
 
-/// What the recording tests share: a folder of their own, whole files, small recordings.
+/// Shared by the recording tests: temporary folders, file contents, small recordings.
 namespace test {
 
 class Folder {
  public:
   Folder() {
-    // In memory where there is such a place: these tests write thousands of files, each synced.
+    // In memory if possible: these tests write and sync thousands of files.
     std::filesystem::path base = "/dev/shm";
     if (!std::filesystem::is_directory(base)) base = std::filesystem::temp_directory_path();
     std::string name = (base / "erp_recording_XXXXXX").string();

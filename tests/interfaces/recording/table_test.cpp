@@ -26,7 +26,7 @@ std::string csv_of(const std::string& path, const TableOptions& options = {}) {
 
 }  // namespace
 
-TEST_CASE("a sensor frame becomes a row; what was not measured is an empty cell") {
+TEST_CASE("each sensor frame gives one row; a measurement that was not taken gives an empty cell") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -62,7 +62,7 @@ TEST_CASE("a sensor frame becomes a row; what was not measured is an empty cell"
         "0.004,,,,,,,\n");
 }
 
-TEST_CASE("rows follow the stamps, not the order in which the logger heard them") {
+TEST_CASE("rows are in the order of stamps, not in the order of arrival") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -73,7 +73,7 @@ TEST_CASE("rows follow the stamps, not the order in which the logger heard them"
   CHECK(csv_of(folder / "a.mcap") == "time_s,j.angle_rad\n0,1\n1e-06,2\n2e-06,3\n");
 }
 
-TEST_CASE("an actuator that appears late has empty cells before") {
+TEST_CASE("an actuator that is missing in the first frames has empty cells there") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -87,12 +87,13 @@ TEST_CASE("an actuator that appears late has empty cells before") {
 }
 
 TEST_CASE(
-    "a spherical joint comes from joint_state, each of its samples once, never for a joint that is "
-    "measured") {
+    "an unmeasured spherical joint is filled from joint_state, with each of its samples used "
+    "once") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
-    file.write(file.joints, 1, test::ball(90, "shoulder", 0.9));  // before the first frame: not its
+    file.write(file.joints, 1,
+               test::ball(90, "shoulder", 0.9));  // before the first frame: not used
     for (const std::int64_t t : {100, 200, 300})
       file.write(file.frames, 2, test::frame(t, 0, {}, {{.name = "elbow", .angle_rad = 1}}));
     file.write(file.joints, 3, test::ball(100, "shoulder", 0.1));
@@ -105,7 +106,7 @@ TEST_CASE(
         "0,1,0.1,0,0,0\n1e-07,1,0.19,0,0,0\n2e-07,1,,,,\n");
 }
 
-TEST_CASE("motion capture goes before the simulator's truth, unless another source is asked for") {
+TEST_CASE("motion capture is preferred to the simulator unless a source is given") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -119,7 +120,7 @@ TEST_CASE("motion capture goes before the simulator's truth, unless another sour
   CHECK(read_table(folder / "a.mcap", {.pose_source = "nobody"}).find("s.qw") == nullptr);
 }
 
-TEST_CASE("targets stand in the row they answer; a command is no target") {
+TEST_CASE("targets are in the row that they answer; commands are not targets") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -141,7 +142,7 @@ TEST_CASE("targets stand in the row they answer; a command is no target") {
   CHECK(read_table(folder / "a.mcap").find("m.target") == nullptr);
 }
 
-TEST_CASE("two robots in one recording need a name, a recording without frames says so") {
+TEST_CASE("a recording of two robots without a robot's name, or one without frames, is refused") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -149,17 +150,17 @@ TEST_CASE("two robots in one recording need a name, a recording without frames s
     file.write(file.frames, 1, test::frame(0, 0, {}, {{.name = "j", .angle_rad = 2}}, "right"));
   }
   CHECK_THROWS_WITH(read_table(folder / "a.mcap"),
-                    Catch::Contains("holds the robots left and right"));
+                    Catch::Contains("contains the robots left and right"));
   CHECK(read_table(folder / "a.mcap", {.robot = "right"}).find("j.angle_rad")->values ==
         std::vector<double>{2});
   CHECK_THROWS_WITH(read_table(folder / "a.mcap", {.robot = "up"}),
                     Catch::Contains("no sensor_frame of robot \"up\""));
   { test::RigFile empty(folder / "empty.mcap"); }
   CHECK_THROWS_WITH(read_table(folder / "empty.mcap"),
-                    Catch::Contains("no sensor_frame; see what"));
+                    Catch::Contains("no sensor_frame; list its contents"));
 }
 
-TEST_CASE("a table written as CSV reads back bit-equal and writes the same bytes again") {
+TEST_CASE("a table written as CSV is read back bit-equal and written to the same bytes") {
   std::mt19937_64 random(11);
   Table table{
       {{"time_s", {}}, {"m.mode", {}}, {"m.tension_N", {}}, {"odd, \"name\".angle_rad", {}}}};
@@ -198,7 +199,7 @@ TEST_CASE("a table written as CSV reads back bit-equal and writes the same bytes
 }
 
 TEST_CASE(
-    "a foreign machine's CSV is read: its order, quotes, blanks, line ends, missing columns") {
+    "a CSV of another program is read: other order, quotes, blanks, line ends, missing columns") {
   const Table table = parse_csv("t.csv",
                                 "\xEF\xBB\xBF\"flexor.tension_N\" , time_s,flexor.mode\r\n "
                                 "1e1,+0.0,force\r\n\r\n,0.5,\r\nnan,1,off\r\n");
@@ -213,7 +214,7 @@ TEST_CASE(
   CHECK(table.owners("tension_N") == std::vector<std::string>{"flexor"});
 }
 
-TEST_CASE("a mistake in a CSV is refused with file, line, column, value and remedy") {
+TEST_CASE("an error in a CSV is refused with file, line, column, value and remedy") {
   const auto refused = [](const std::string& text, const std::string& what) {
     CHECK_THROWS_WITH(parse_csv("t.csv", text),
                       Catch::StartsWith("t.csv:") && Catch::Contains(what));
@@ -224,26 +225,28 @@ TEST_CASE("a mistake in a CSV is refused with file, line, column, value and reme
   refused("time_s,m.tension\n",
           ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");
   refused("time_s,m.force_N\n",
-          ":1:8: unknown column \"m.force_N\"; known here: m.mode, m.reference");
+          ":1:8: unknown column \"m.force_N\"; valid names: m.mode, m.reference");
   refused("time_s,tension_N\n", ":1:8: unknown column \"tension_N\"; name it <actuator or joint>.");
-  refused("time_s,m.mode,m.mode\n", ":1:15: column \"m.mode\" stands there twice");
+  refused("time_s,m.mode,m.mode\n", ":1:15: column \"m.mode\" occurs twice");
   refused("time_s,m.mode\n0,fast\n", ":2:3: unknown mode \"fast\"; use off, voltage");
   refused("time_s,m.tension_N\n0,1\n1,1x\n", ":3:3: \"1x\" is not a number");
   refused("time_s,m.tension_N\n0,1,5\n", ":2:5: the row has 3 cells, the header 2");
   refused("time_s,m.tension_N\n0\n", ":2:1: the row has 1 cells");
   refused("time_s,m.tension_N\n0,1e999\n", "beyond what a double holds");
-  refused("time_s,m.tension_N\n1,0\n0.5,0\n", ":3:1: time_s steps back to 0.5; two recordings in one");
+  refused("time_s,m.tension_N\n1,0\n0.5,0\n",
+          ":3:1: time_s steps back to 0.5; two recordings in one");
   refused("time_s,m.tension_N\n,0\n", ":2:1: time_s is empty");
   refused("m.tension_N,time_s\n0,1\n0,0\n", ":3:3: time_s steps back");
-  refused("time_s,\"m.mode\n0,1\n", "a quoted cell does not end");
+  refused("time_s,\"m.mode\n0,1\n", "a quoted cell is not closed");
 }
 
-TEST_CASE("CSV and MCAP are told apart by their first bytes") {
+TEST_CASE("CSV and MCAP are distinguished by their first bytes") {
   const test::Folder folder;
   test::write_file(folder / "a.data", "time_s,j.angle_rad\n0,1\n");
   CHECK(csv_of(folder / "a.data") == "time_s,j.angle_rad\n0,1\n");
   test::write_file(folder / "b.data", "{}");
   std::ofstream(folder / "robot.xml") << "<?xml version=\"1.0\"?><robot/>";
-  CHECK_THROWS_WITH(read_table(folder / "robot.xml"), Catch::Contains("this is XML, no recording"));
+  CHECK_THROWS_WITH(read_table(folder / "robot.xml"),
+                    Catch::Contains("this is XML, not a recording"));
   CHECK_THROWS_WITH(read_table(folder / "b.data"), Catch::Contains("b.data:1:1:"));
 }

@@ -7,7 +7,7 @@
 #include "interfaces/recording/mcap_writer.hpp"
 #include "tests/interfaces/recording/cdr_writer.hpp"
 
-/// Recordings of a two-muscle rig made by hand, without a bus.
+/// Writes recordings of a rig with two actuators, without a bus.
 namespace test {
 
 constexpr auto* frame_schema =

@@ -7,21 +7,21 @@
 
 #include "interfaces/recording/cdr.hpp"
 #include "interfaces/recording/ros2msg.hpp"
-#include "odd_types.h"
 #include "tests/interfaces/recording/dds_capture.hpp"
 #include "tests/interfaces/recording/example_messages.hpp"
+#include "unusual_types.h"
 
 using namespace recording;
 
 namespace {
 
-/// The schema as it would stand in a recording: described, written, parsed.
+/// The schema as in a recording: described, written, parsed.
 TypeDescription through_text(const dds_topic_descriptor_t& type) {
   const TypeDescription described = node::describe(type);
   return parse_ros2msg(described.name(), ros2msg_text(described));
 }
 
-/// What Cyclone made of one example, decoded; `text["a"]` is field a as text.
+/// An example serialized by Cyclone and decoded; `text["a"]` is field a as text.
 class Decoded {
  public:
   Decoded(const dds_topic_descriptor_t& descriptor, const void* sample)
@@ -47,7 +47,7 @@ Decoded example(std::uint64_t n = 3) {
 
 }  // namespace
 
-TEST_CASE("the sensor frame's schema has our names, units and bounds, spelled as ROS 2 asks") {
+TEST_CASE("the schema of sensor_frame has valid ROS 2 names and keeps names, units and bounds") {
   CHECK(
       ros2msg_text(node::describe(erp_SensorFrame_desc)) ==
       "string<=32 robot\nint64 stamp_ns  # [ns]\nuint64 sequence\n"
@@ -64,7 +64,7 @@ TEST_CASE("the sensor frame's schema has our names, units and bounds, spelled as
   CHECK(node::describe(erp_SensorFrame_desc).name() == "erp/msg/SensorFrame");
 }
 
-TEST_CASE("every topic's message decodes to the very struct that was written") {
+TEST_CASE("a message of every topic is decoded to the values that were written") {
   CHECK(
       example<erp::SensorFrame>().json() ==
       R"({"robot":"rig","stamp_ns":1700000000000000003,"sequence":3,"actuators":[)"
@@ -118,7 +118,7 @@ TEST_CASE("every topic's message decodes to the very struct that was written") {
   CHECK(example<erp::Event>()["text"] == "no command for 22 ms");
 }
 
-TEST_CASE("stamp and sequence are found in every topic") {
+TEST_CASE("stamp and sequence are decoded in every topic") {
   test::Capture capture;
   test::each_example(17, [&](const auto& m, const std::string& topic, const auto& descriptor) {
     using Wire = typename std::decay_t<decltype(m)>::Wire;
@@ -130,22 +130,23 @@ TEST_CASE("stamp and sequence are found in every topic") {
   });
 }
 
-// (An int8 comes as uint8: type objects of XTypes 1.2 know bytes only.)
-TEST_CASE("enums, bitmasks, typedefs, inheritance and nested arrays keep their bytes") {
-  odd_Everything m{};
+// (int8 is decoded as uint8: type objects of XTypes 1.2 have bytes only.)
+TEST_CASE("enums, bitmasks, typedefs, inheritance and nested arrays are decoded") {
+  unusual_Everything m{};
   std::int32_t few[] = {5, -6};
-  odd_Inner inner{'x', -7, {1, 2, 3}};
+  unusual_Inner inner{'x', -7, {1, 2, 3}};
   char words[2][6] = {"ab", "cdefg"};
   m.parent.head = 9, m.name = const_cast<char*>("key"), m.yes = true, m.i8 = -1, m.u8 = 200;
   m.i16 = -300, m.u16 = 60000, m.i32 = -70000, m.u32 = 4000000000, m.i64 = -5, m.u64 = 6;
-  m.f32 = 0.25f, m.f64 = -0.5, m.paint = odd_blue, m.little = odd_yes, m.bits = odd_hot | odd_cold;
+  m.f32 = 0.25f, m.f64 = -0.5, m.paint = unusual_blue, m.little = unusual_yes,
+  m.bits = unusual_hot | unusual_cold;
   m.at[2] = 8, m.rows[1][0] = 4, m.grid[1][2] = 12;
   m.few = {4, 2, few, false};
   m.many = {1, 1, &inner, false};
   m.two[0] = inner, m.two[1].tiny = 3;
   m.words._buffer = words, m.words._length = 2, m.words._maximum = 3;
-  m.text = const_cast<char*>("free"), m.pair[1] = odd_green;
-  const Decoded decoded(odd_Everything_desc, &m);
+  m.text = const_cast<char*>("free"), m.pair[1] = unusual_green;
+  const Decoded decoded(unusual_Everything_desc, &m);
   CHECK(
       decoded.json() ==
       R"({"head":9,"name":"key","yes":true,"i8":255,"u8":200,"i16":-300,"u16":60000,"i32":-70000,)"
@@ -156,25 +157,24 @@ TEST_CASE("enums, bitmasks, typedefs, inheritance and nested arrays keep their b
       R"("words":["ab","cdefg"],"text":"free","pair":[0,1]})");
 }
 
-TEST_CASE("what a ROS 2 message cannot say is refused with type, member and reason") {
-  CHECK_THROWS_WITH(node::describe(odd_HasUnion_desc),
-                    Catch::Contains("odd::HasUnion.which is a union"));
-  CHECK_THROWS_WITH(node::describe(odd_HasOptional_desc),
-                    Catch::Contains("odd::HasOptional.maybe is optional"));
-  CHECK_THROWS_WITH(node::describe(odd_HasNested_desc),
-                    Catch::Contains("odd::HasNested.deep nests sequences"));
-  CHECK_THROWS_WITH(node::describe(odd_Growing_desc),
-                    Catch::Contains("odd::Growing is not @final"));
-  dds_topic_descriptor_t bare = odd_Left_desc;
+TEST_CASE("a type that a ROS 2 message cannot represent is refused with type, member and reason") {
+  CHECK_THROWS_WITH(node::describe(unusual_HasUnion_desc),
+                    Catch::Contains("unusual::HasUnion.which is a union"));
+  CHECK_THROWS_WITH(node::describe(unusual_HasOptional_desc),
+                    Catch::Contains("unusual::HasOptional.maybe is optional"));
+  CHECK_THROWS_WITH(node::describe(unusual_HasNested_desc),
+                    Catch::Contains("unusual::HasNested.deep nests sequences"));
+  CHECK_THROWS_WITH(node::describe(unusual_Growing_desc),
+                    Catch::Contains("unusual::Growing is not @final"));
+  dds_topic_descriptor_t bare = unusual_Left_desc;
   bare.type_mapping = {nullptr, 0};
   CHECK_THROWS_WITH(node::describe(bare), Catch::Contains("no type information"));
 }
 
-TEST_CASE(
-    "a type met on the bus for the first time is described like the one it was compiled from") {
-  test::Capture theirs(78), ours(79);  // two domains that see each other as two processes do
+TEST_CASE("a type discovered on the bus has the same description as the compiled type") {
+  test::Capture theirs(78), ours(79);  // two domains that discover each other like two processes
   const dds_entity_t topic =
-      dds_create_topic(theirs.participant(), &odd_Everything_desc, "odd", nullptr, nullptr);
+      dds_create_topic(theirs.participant(), &unusual_Everything_desc, "unusual", nullptr, nullptr);
   dds_create_writer(theirs.participant(), topic, nullptr, nullptr);
   const dds_entity_t found =
       dds_create_reader(ours.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
@@ -189,7 +189,7 @@ TEST_CASE(
     auto* endpoint = static_cast<dds_builtintopic_endpoint_t*>(sample);
     const dds_typeinfo_t* type_info = nullptr;
     dds_topic_descriptor_t* met = nullptr;
-    if (info.valid_data && std::string(endpoint->topic_name) == "odd" &&
+    if (info.valid_data && std::string(endpoint->topic_name) == "unusual" &&
         dds_builtintopic_get_endpoint_type_info(endpoint, &type_info) == DDS_RETCODE_OK &&
         type_info &&
         dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, ours.participant(), type_info,
@@ -199,5 +199,5 @@ TEST_CASE(
     }
     dds_return_loan(found, &sample, 1);
   }
-  CHECK(text == ros2msg_text(node::describe(odd_Everything_desc)));
+  CHECK(text == ros2msg_text(node::describe(unusual_Everything_desc)));
 }

@@ -91,7 +91,7 @@ Matrix rotation(erp::Vec3 n, double q) {
   return r;
 }
 
-/// Where a point of a joint's child stands in the parent's frame.
+/// Position of a point of the joint's child in the parent's frame.
 erp::Vec3 in_parent(const erp::Joint& joint, double q, const erp::Vec3& p) {
   const Matrix r = rotation(joint.axis, q);
   erp::Vec3 out = joint.at_m;
@@ -102,7 +102,7 @@ erp::Vec3 in_parent(const erp::Joint& joint, double q, const erp::Vec3& p) {
 
 }  // namespace
 
-TEST_CASE("parts are included, in parts too, with paths relative to the including file") {
+TEST_CASE("nested includes are read, with paths relative to the including file") {
   const Files files;
   const erp::Robot robot = two_arms(files);
   CHECK(robot.name == "both");
@@ -132,7 +132,7 @@ TEST_CASE("a mirrored part has its names, references and ecus replaced") {
   CHECK(shoulder.min_rad == -0.5);
 }
 
-TEST_CASE("a mirrored part stands at the other side of y = 0") {
+TEST_CASE("points of a mirrored part have the opposite sign of y") {
   const Files files;
   const erp::Robot robot = two_arms(files);
   const auto bodies = robot.bodies();
@@ -158,7 +158,7 @@ TEST_CASE("at the same joint angle a mirrored body is the mirror image") {
   }
 }
 
-TEST_CASE("mirroring there and back gives the same robot to the bit") {
+TEST_CASE("mirroring twice gives the same robot, bit-equal") {
   const Files files;
   two_arms(files);
   const erp::Robot part = erp::assemble_robot(files.path("parts/arm.xml"));
@@ -168,14 +168,14 @@ TEST_CASE("mirroring there and back gives the same robot to the bit") {
   CHECK(erp::write_robot(back) == erp::write_robot(part));
 }
 
-TEST_CASE("an assembled robot written flat reads back to the same") {
+TEST_CASE("an assembled robot written to one file is read back equal") {
   const Files files;
   const erp::Robot robot = two_arms(files);
   files.put("flat.xml", erp::write_robot(robot));
   CHECK(erp::write_robot(erp::read_robot(files.path("flat.xml"))) == erp::write_robot(robot));
 }
 
-TEST_CASE("a circle of includes is refused with the way it goes") {
+TEST_CASE("a circular include is refused with its place") {
   const Files files;
   files.put("a.xml", "<robot name='a'><include file='b.xml'/></robot>");
   files.put("b.xml", "<robot name='b'>\n<mirror file='a.xml' from='l' to='r'/></robot>");
@@ -188,7 +188,7 @@ TEST_CASE("a circle of includes is refused with the way it goes") {
   }
 }
 
-TEST_CASE("the mistakes of all included files are reported together") {
+TEST_CASE("the errors of all included files are reported at once") {
   const Files files;
   files.put("a.xml", "<robot name='a' x=''><include file='b.xml'/><include file='c.xml'/></robot>");
   files.put("b.xml", "<robot nam='b'/>");

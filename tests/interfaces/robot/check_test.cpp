@@ -1,5 +1,4 @@
-// tests/interfaces/broken/robot holds one file a mistake; here is what takes more than one file
-// can show.
+// Checks that need a modified robot; tests/interfaces/broken/robot contains one file per error.
 #include "interfaces/robot/check.hpp"
 
 #include <catch2/catch.hpp>
@@ -8,7 +7,7 @@ namespace {
 
 erp::Robot rig() { return erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml"); }
 
-std::string mistakes(const erp::Robot& robot) {
+std::string errors_of(const erp::Robot& robot) {
   std::string text;
   for (const auto& error : erp::check_robot(robot)) text += to_string(error) + "\n";
   return text;
@@ -16,9 +15,9 @@ std::string mistakes(const erp::Robot& robot) {
 
 }  // namespace
 
-TEST_CASE("a sound robot has no mistakes") { CHECK(mistakes(rig()).empty()); }
+TEST_CASE("a valid robot gives no errors") { CHECK(errors_of(rig()).empty()); }
 
-TEST_CASE("more actuators than the bus carries are refused") {
+TEST_CASE("64 actuators are accepted and 65 are refused") {
   erp::Robot robot = rig();
   const erp::Actuator flexor = robot.actuators[0];
   robot.actuators.clear();
@@ -28,13 +27,13 @@ TEST_CASE("more actuators than the bus carries are refused") {
     robot.actuators.back().name = "a" + std::to_string(i);
     robot.actuators.back().ecu = i;
   }
-  CHECK(mistakes(robot).empty());
+  CHECK(errors_of(robot).empty());
   robot.actuators.push_back(flexor);
   robot.actuators.back().ecu = 64;
-  CHECK_THAT(mistakes(robot), Catch::Contains("65 actuators; the bus carries at most 64"));
+  CHECK_THAT(errors_of(robot), Catch::Contains("65 actuators; the bus allows at most 64"));
 }
 
-TEST_CASE("a loop is reported once, and a chain that hangs on it not at all") {
+TEST_CASE("a loop of joints is reported once, without the chain attached to it") {
   erp::Robot robot = rig();
   auto& skeleton = robot.skeletons[0];
   for (const char* name : {"a", "b", "c", "d"}) {
@@ -45,15 +44,15 @@ TEST_CASE("a loop is reported once, and a chain that hangs on it not at all") {
     return skeleton.joints.at(joint).parent;
   };
   parent_of(1) = "c", parent_of(2) = "a", parent_of(3) = "b", parent_of(4) = "c";
-  const std::string said = mistakes(robot);
-  CHECK_THAT(said, Catch::Contains("the joints form a loop: a < c < b < a"));
-  CHECK(said.find("loop") == said.rfind("loop"));
+  const std::string errors = errors_of(robot);
+  CHECK_THAT(errors, Catch::Contains("the joints form a loop: a < c < b < a"));
+  CHECK(errors.find("loop") == errors.rfind("loop"));
 }
 
-TEST_CASE("a body that hangs on itself is a loop") {
+TEST_CASE("a joint whose parent is its own child is a loop") {
   erp::Robot robot = rig();
   robot.skeletons[0].joints[0].parent = "forearm";
-  CHECK_THAT(mistakes(robot), Catch::Contains("loop: forearm < forearm"));
+  CHECK_THAT(errors_of(robot), Catch::Contains("loop: forearm < forearm"));
 }
 
 TEST_CASE("spherical and fixed joints need no axis and no limits") {
@@ -63,31 +62,32 @@ TEST_CASE("spherical and fixed joints need no axis and no limits") {
   joint.axis = {0, 0, 0};
   joint.min_rad = 3;
   joint.type = erp::JointType::spherical;
-  CHECK(mistakes(robot).empty());
+  CHECK(errors_of(robot).empty());
 }
 
-TEST_CASE("two sensors may not share an input nor a joint") {
+TEST_CASE("two sensors on one input or on one joint are refused") {
   erp::Robot robot = rig();
   robot.joint_sensors.push_back(robot.joint_sensors[0]);
-  CHECK_THAT(mistakes(robot), Catch::Contains("input=\"0\" reads joint \"elbow\" already") &&
-                                  Catch::Contains("a second sensor on joint \"elbow\""));
+  CHECK_THAT(errors_of(robot), Catch::Contains("input=\"0\" already reads joint \"elbow\"") &&
+                                   Catch::Contains("a second sensor on joint \"elbow\""));
 }
 
-TEST_CASE("a point may touch its pulley, and lie inside one that is not its neighbour") {
+TEST_CASE(
+    "a point inside its neighbouring pulley is refused, on its surface or in another accepted") {
   erp::Robot robot = rig();
   auto& path = robot.actuators[0].tendon.path;
   std::get<erp::Attach>(path[1]).at_m = {-0.025, 0, 0};
   std::get<erp::Attach>(path[0]).at_m = {0, 0, 0.001};
-  CHECK(mistakes(robot).empty());
+  CHECK(errors_of(robot).empty());
   std::get<erp::Attach>(path[1]).at_m = {-0.0249, 0, 0};
-  CHECK_THAT(mistakes(robot), Catch::Contains("inside its radius_m=\"0.025\""));
+  CHECK_THAT(errors_of(robot), Catch::Contains("inside its radius_m=\"0.025\""));
 }
 
-TEST_CASE("tensions that cannot be held are refused") {
+TEST_CASE("relax_tension_N and pretension_N above max_tension_N are refused") {
   erp::Robot robot = rig();
   robot.actuators[0].relax_tension_N = 151;
   robot.actuators[1].tendon.pretension_N = 151;
-  CHECK_THAT(mistakes(robot),
+  CHECK_THAT(errors_of(robot),
              Catch::Contains("relax_tension_N=\"151\" exceeds max_tension_N=\"150\"") &&
                  Catch::Contains("pretension_N=\"151\" exceeds max_tension_N=\"150\""));
 }

@@ -1,4 +1,4 @@
-// The figures that make the rig the same rig for everyone.
+// The values of the hinge rig that other tests and publications refer to.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@ namespace {
 
 erp::Robot rig() { return erp::read_robot(ERP_SOURCE_DIR "/configs/hinge_rig/robot.xml"); }
 
-/// The pulley and the two points beside it; the last one turns with the elbow.
+/// The pulley and its two neighbouring points; the last one moves with the elbow.
 struct AroundPulley {
   erp::Attach guide;
   erp::Pulley pulley;
@@ -25,17 +25,17 @@ AroundPulley around_pulley(const erp::Actuator& actuator) {
 double angle_rad(const erp::Vec3& p) { return std::atan2(p[0], p[2]); }
 double radius_m(const erp::Vec3& p) { return std::hypot(p[0], p[2]); }
 
-/// The angle from guide to end, the way the tendon takes: past −x for the flexor, +x else.
-double way_rad(const AroundPulley& a, double elbow_rad) {
+/// Angle from guide to end along the tendon: past −x for the flexor, past +x otherwise.
+double path_angle_rad(const AroundPulley& a, double elbow_rad) {
   const double turn = angle_rad(a.end.at_m) + elbow_rad - angle_rad(a.guide.at_m);
-  const double way = a.guide.at_m[0] < 0 ? -turn : turn;
-  return std::fmod(way + 4 * std::numbers::pi, 2 * std::numbers::pi);
+  const double along_path = a.guide.at_m[0] < 0 ? -turn : turn;
+  return std::fmod(along_path + 4 * std::numbers::pi, 2 * std::numbers::pi);
 }
 
 // L = √(a²−r²) + √(b²−r²) + r (θ − α − β), α = acos(r/a), β = acos(r/b)
 double length_m(const AroundPulley& a, double elbow_rad) {
   const double r = a.pulley.radius_m, to = radius_m(a.guide.at_m), from = radius_m(a.end.at_m);
-  const double wrapped = way_rad(a, elbow_rad) - std::acos(r / to) - std::acos(r / from);
+  const double wrapped = path_angle_rad(a, elbow_rad) - std::acos(r / to) - std::acos(r / from);
   REQUIRE(wrapped > 0.05);
   return std::sqrt(to * to - r * r) + std::sqrt(from * from - r * r) + r * wrapped;
 }
@@ -50,7 +50,7 @@ TEST_CASE("the forearm's inertia about the elbow is 0.01752 kg m2") {
   CHECK(forearm.inertia_kg_m2[1] + forearm.mass_kg * 0.12 * 0.12 == Approx(0.01752).epsilon(1e-12));
 }
 
-TEST_CASE("the elbow turns right-handed about +y between its limits") {
+TEST_CASE("the elbow's axis is +y and its limits are -1.2 and 1.6 rad") {
   const erp::Joint elbow = rig().joints().at(0);
   CHECK(elbow.axis == erp::Vec3{0, 1, 0});
   CHECK(elbow.at_m == erp::Vec3{0, 0, 0});
@@ -58,7 +58,8 @@ TEST_CASE("the elbow turns right-handed about +y between its limits") {
   CHECK(elbow.max_rad == 1.6);
 }
 
-TEST_CASE("flexion shortens the flexor and lengthens the extensor by 25 mm a radian, everywhere") {
+TEST_CASE(
+    "over the whole range flexion shortens the flexor by 25 mm/rad and lengthens the extensor") {
   const auto robot = rig();
   const auto flexor = around_pulley(robot.actuators.at(0));
   const auto extensor = around_pulley(robot.actuators.at(1));
@@ -70,15 +71,15 @@ TEST_CASE("flexion shortens the flexor and lengthens the extensor by 25 mm a rad
   }
 }
 
-TEST_CASE("the tendons stay within half a turn over the whole range") {
+TEST_CASE("over the whole range the tendons wrap around their pulley by less than half a turn") {
   const auto robot = rig();
   for (const auto& actuator : robot.actuators)
-    for (double q : {-1.2, 1.6}) CHECK(way_rad(around_pulley(actuator), q) < 3.05);
+    for (double q : {-1.2, 1.6}) CHECK(path_angle_rad(around_pulley(actuator), q) < 3.05);
 }
 
-TEST_CASE("the motor's derived constants are the published ones") {
+TEST_CASE("the motor's derived constants equal the published ones") {
   const erp::MotorType m = rig().motor_types.at(0);
-  // J_tot = (J_M + J_G) N² η: the rotor seen from the output
+  // J_tot = (J_M + J_G) N² η: the rotor's inertia referred to the output
   const double inertia = (m.rotor_inertia_kg_m2 + m.gear_inertia_kg_m2) * std::pow(m.gear_ratio, 2);
   CHECK(inertia * m.gear_efficiency == Approx(0.01402).epsilon(0.03));
   // 40 N · r = K_T i N η
@@ -87,7 +88,7 @@ TEST_CASE("the motor's derived constants are the published ones") {
   CHECK(m.supply_V / (m.back_emf_V_s_per_rad * m.gear_ratio) == Approx(8.15).epsilon(0.001));
 }
 
-TEST_CASE("every element of the rig that holds numbers says where they come from") {
+TEST_CASE("every element of the rig that contains numbers has a source") {
   const auto robot = rig();
   for (const auto& body : robot.bodies()) CHECK_FALSE(body.source.empty());
   for (const auto& joint : robot.joints()) CHECK_FALSE(joint.source.empty());

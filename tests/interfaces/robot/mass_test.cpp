@@ -27,7 +27,7 @@ bool inside(const Capsule& c, const xml::Vec3& p) {
          c.radius_m;
 }
 
-/// A solid within ±0.2 m cut into little cubes, as points.
+/// Mass of a solid within ±0.2 m, approximated by point masses on a grid of 2.5 mm.
 template <class Solid>
 Mass cut(const Solid& solid, double density) {
   const double edge = 0.0025;
@@ -52,7 +52,7 @@ Mass cut(const Solid& solid, double density) {
 }
 
 template <class Solid>
-void check_like_its_cubes(const Solid& solid) {
+void check_against_point_masses(const Solid& solid) {
   Body body;
   body.density_kg_per_m3 = 1130;
   body.parts = {solid};
@@ -66,13 +66,13 @@ void check_like_its_cubes(const Solid& solid) {
 
 }  // namespace
 
-TEST_CASE("a solid weighs and turns like the little cubes it can be cut into") {
-  check_like_its_cubes(Sphere{{}, {0.02, 0.03, -0.05}, 0.08});
-  check_like_its_cubes(Box{{}, {0.02, 0.03, -0.05}, {0.1, 0.2, 0.05}});
-  check_like_its_cubes(Capsule{{}, {-0.08, -0.05, 0.02}, {0.09, 0.03, 0.1}, 0.06});
+TEST_CASE("mass and inertia of a solid equal those of its point masses within 1 %") {
+  check_against_point_masses(Sphere{{}, {0.02, 0.03, -0.05}, 0.08});
+  check_against_point_masses(Box{{}, {0.02, 0.03, -0.05}, {0.1, 0.2, 0.05}});
+  check_against_point_masses(Capsule{{}, {-0.08, -0.05, 0.02}, {0.09, 0.03, 0.1}, 0.06});
 }
 
-TEST_CASE("weights and solids add up about the common centre of mass") {
+TEST_CASE("weights are summed about their common centre of mass") {
   Body body;
   body.parts = {Weight{{}, {0.1, 0, 0}, 1}, Weight{{}, {-0.1, 0, 0}, 1},
                 Weight{{}, {0, 0, 0.3}, 2}};
@@ -85,7 +85,7 @@ TEST_CASE("weights and solids add up about the common centre of mass") {
   CHECK(std::abs(mass.inertia_kg_m2[4]) < 1e-12);
 }
 
-TEST_CASE("given numbers stay as they are") {
+TEST_CASE("a body with given mass keeps mass, centre of mass and inertia") {
   Body body;
   body.mass_kg = 2, body.com_m = {1, 2, 3}, body.inertia_kg_m2 = {0.1, 0.2, 0.25};
   body.products_kg_m2 = {0.01, 0.02, 0.03};

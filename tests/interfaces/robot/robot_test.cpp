@@ -20,7 +20,7 @@ erp::Robot from_text(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a robot written to one file and read back is the same to the bit") {
+TEST_CASE("a robot written to one file is read back bit-equal") {
   erp::Robot robot = erp::read_robot(hinge_rig);
   robot.motor_types[0].resistance_ohm = 0.1 + 0.2;
   robot.skeletons[0].joints[0].at_m = {1.0 / 3, -2e-17, 4e9};
@@ -32,7 +32,7 @@ TEST_CASE("a robot written to one file and read back is the same to the bit") {
   CHECK(back.actuators[1].tendon.path.size() == robot.actuators[1].tendon.path.size());
 }
 
-TEST_CASE("bodies and joints of all skeletons are seen, and gravity wherever it stands") {
+TEST_CASE("bodies, joints and gravity of all skeletons are joined") {
   const auto robot = from_text(R"(<robot name="r">
     <skeleton><body name="a"/><body name="b" mass_kg="1"/>
       <joint name="j" type="fixed" parent="a" child="b"/></skeleton>
@@ -43,7 +43,7 @@ TEST_CASE("bodies and joints of all skeletons are seen, and gravity wherever it 
   CHECK(robot.gravity_m_per_s2() == erp::Vec3{0, 0, -3.7});
 }
 
-TEST_CASE("a robot without gravity floats") {
+TEST_CASE("a robot without gravity_m_per_s2 has zero gravity") {
   CHECK(from_text("<robot name='r'/>").gravity_m_per_s2() == erp::Vec3{0, 0, 0});
 }
 

@@ -42,7 +42,7 @@ std::vector<std::string> files_of(const std::string& kind) {
   return files;
 }
 
-/// The structure alone: a part of a robot may refer to bodies of another.
+/// Checks the structure only, since a part of a robot may refer to bodies of another part.
 template <class T>
 void check_agreement(const std::string& kind) {
   const auto files = files_of(kind);
@@ -58,7 +58,7 @@ void check_agreement(const std::string& kind) {
 
 }  // namespace
 
-TEST_CASE("the committed XSDs are what the structs say") {
+TEST_CASE("the committed XSDs equal those generated from the structs") {
   // To renew one: erp check --schema robot > interfaces/schema/robot.xsd
   CHECK(contents(source / "interfaces/schema/robot.xsd") == generated("robot"));
   CHECK(contents(source / "interfaces/schema/graph.xsd") == generated("graph"));
@@ -72,7 +72,7 @@ TEST_CASE("reader and XSD both accept every graph in configs and launch") {
   check_agreement<erp::Graph>("graph");
 }
 
-TEST_CASE("every robot in configs that is not a part of one is sound") {
+TEST_CASE("every robot.xml in configs is valid") {
   for (const std::string& file : files_of("robot"))
     if (fs::path(file).filename() == "robot.xml") {
       INFO(file);

@@ -18,7 +18,7 @@ namespace {
 
 const fs::path folder = fs::path(ERP_SOURCE_DIR) / "tests/interfaces/broken";
 
-/// From a file's first line: `<!-- expect [semantic] LINE:COLUMN WORDS -->`.
+/// From the first line of a file: `<!-- expect [semantic] LINE:COLUMN WORDS -->`.
 struct Expected {
   bool semantic = false;
   std::string place, words;
@@ -55,7 +55,7 @@ void read_tracker(const std::string& file) {
   xml::read_into(params, file, "tracker");
 }
 
-/// One file, one mistake: its place and its words.
+/// Checks that the file has exactly one error, with the expected place and message.
 void check_refused(const Read& read, const std::string& file, const Expected& expected) {
   INFO(file);
   try {
@@ -87,63 +87,68 @@ std::string schema_file(const std::string& kind) {
 
 }  // namespace
 
-TEST_CASE("every broken robot is refused at its place; the XSD refuses what is structure") {
+TEST_CASE(
+    "every broken robot is refused with the place of its error; the XSD refuses structural "
+    "errors") {
   check_kind("robot", schema_file("robot"), [](const auto& file) { erp::read_robot(file); });
 }
 
-TEST_CASE("every broken graph is refused at its place; the XSD refuses what is structure") {
+TEST_CASE(
+    "every broken graph is refused with the place of its error; the XSD refuses structural "
+    "errors") {
   check_kind("graph", schema_file("graph"), [](const auto& file) { erp::read_graph(file); });
 }
 
-TEST_CASE("every broken component config is refused at its place; its XSD refuses it too") {
+TEST_CASE("every broken component config is refused with the place of its error, and by its XSD") {
   const std::string schema = temporary("tracker.xsd", xml::schema<example::Params>("tracker"));
   check_kind("component", schema, read_tracker);
   fs::remove(schema);
 }
 
-TEST_CASE("the files that the broken ones were made from are sound") {
+TEST_CASE("the files from which the broken ones were made are valid") {
   CHECK_NOTHROW(erp::read_robot((folder / "good/robot.xml").string()));
   CHECK_NOTHROW(erp::read_graph((folder / "good/graph.xml").string()));
   CHECK_NOTHROW(read_tracker((folder / "good/tracker.xml").string()));
 }
 
-TEST_CASE("erp check names every mistake, says ok where there is none, and ends with 2 or 0") {
+TEST_CASE("erp check prints every error and exits with 2, or prints ok and exits with 0") {
   const launch::CheckComponent only_trackers =
       [](const std::string& type, const std::string& file) -> std::optional<std::string> {
     if (type != "tracker") return std::nullopt;
     return example::refusal([&] { read_tracker(file); });
   };
-  const auto check = [&](const fs::path& file, std::string& said) {
+  const auto check = [&](const fs::path& file, std::string& printed) {
     std::ostringstream out;
     const int code = launch::check({file.string()}, out, only_trackers);
-    said = out.str();
+    printed = out.str();
     return code;
   };
-  std::string said;
-  CHECK(check(folder / "good/graph.xml", said) == 0);
-  CHECK_THAT(said, Catch::Contains("good/graph.xml: ok\n") && Catch::Contains("robot.xml: ok\n") &&
-                       Catch::Contains("tracker.xml: ok\n"));
+  std::string printed;
+  CHECK(check(folder / "good/graph.xml", printed) == 0);
+  CHECK_THAT(printed, Catch::Contains("good/graph.xml: ok\n") &&
+                          Catch::Contains("robot.xml: ok\n") &&
+                          Catch::Contains("tracker.xml: ok\n"));
   for (const char* kind : {"robot", "graph", "component"})
     for (const std::string& file : files_in(kind)) {
       INFO(file);
-      CHECK(check(file, said) == 2);
-      CHECK_THAT(said, Catch::Contains(": ") && !Catch::Contains("ok\n"));
+      CHECK(check(file, printed) == 2);
+      CHECK_THAT(printed, Catch::Contains(": ") && !Catch::Contains("ok\n"));
     }
-  CHECK(check("none.xml", said) == 2);
+  CHECK(check("none.xml", printed) == 2);
 }
 
-TEST_CASE("a component's own program is asked about its config") {
-  const auto says = [](const std::string& script) {
+TEST_CASE("the program of a component checks its config") {
+  const auto output_of = [](const std::string& script) {
     const std::string program = temporary("component.sh", "#!/bin/sh\n" + script + "\n");
     fs::permissions(program, fs::perms::owner_all);
-    const auto ask = launch::ask_program(
+    const auto ask = launch::check_by_program(
         [&](const std::string& type) { return type == "tracker" ? program : ""; });
     const auto answer = ask("tracker", "f.xml");
     CHECK_FALSE(ask("other", "f.xml").has_value());
     fs::remove(program);
     return answer.value();
   };
-  CHECK(says("exit 0").empty());
-  CHECK(says("echo \"$2:1:1: $3\" >&2; exit 2") == "f.xml:1:1: --check\n");
-  CHECK_THAT(says("exit 1"), Catch::Contains("failed without a word"));
+  CHECK(output_of("exit 0").empty());
+  CHECK(output_of("echo \"$2:1:1: $3\" >&2; exit 2") == "f.xml:1:1: --check\n");
+  CHECK_THAT(output_of("exit 1"), Catch::Contains("failed without a message"));
 }

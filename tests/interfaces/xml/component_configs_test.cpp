@@ -1,4 +1,4 @@
-// Reader and XSD agree on the components' configs too. One line a component.
+// Reader and XSD agree on the configs of components. One line per component.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <functional>
@@ -8,6 +8,7 @@
 #include "components/experience/experience.hpp"
 #include "components/eye/eye.hpp"
 #include "components/follow/follow.hpp"
+#include "components/gateway/gateway_node.hpp"
 #include "components/logger/logger_node.hpp"
 #include "components/motion_capture/motion_capture.hpp"
 #include "components/plant/plant.hpp"
@@ -16,14 +17,13 @@
 #include "components/reference/reference.hpp"
 #include "components/replay/replay_node.hpp"
 #include "components/sensorimotor/sensorimotor.hpp"
+#include "components/sim/sim_node.hpp"
 #include "components/synergy/synergy.hpp"
-#include "components/gateway/gateway_node.hpp"
 #include "interfaces/xml/xml.hpp"
 #include "sim/learning/calibration/parameters.hpp"
 #include "sim/learning/experience/task.hpp"
-#include "sim/learning/muscle_networks/learnt_lengths.hpp"
+#include "sim/learning/muscle_networks/learned_lengths.hpp"
 #include "sim/learning/synergy/task.hpp"
-#include "components/sim/sim_node.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
 
 namespace fs = std::filesystem;
@@ -59,7 +59,7 @@ const std::map<std::string, Kind> kinds{
     {"loops", kind_of<sim::loop_shaping::JointShape>()},
     {"logger", kind_of<logger::LoggerNode::Params>()},
     {"motion_capture", kind_of<capture::MotionCapture::Params>()},
-    {"muscles", kind_of<sim::muscle_networks::LearntMuscles>()},
+    {"muscles", kind_of<sim::muscle_networks::LearnedMuscles>()},
     {"plant", kind_of<plant::Plant::Params>()},
     {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},
@@ -74,7 +74,7 @@ const std::map<std::string, Kind> kinds{
 
 using Configs = std::map<std::string, std::vector<std::string>>;
 
-/// The components' configs, by root element.
+/// The configs of components, by root element.
 Configs configs_by_root() {
   Configs configs;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERP_SOURCE_DIR) / "configs")) {
@@ -91,7 +91,7 @@ TEST_CASE("reader and XSD both accept every component's config") {
   const Configs configs = configs_by_root();
   REQUIRE_FALSE(configs.empty());
   for (const auto& [root, files] : configs) {
-    INFO("<" << root << "> needs its line in the list above");
+    INFO("<" << root << "> is missing in the list above");
     REQUIRE(kinds.contains(root));
     const std::string schema = temporary(root + ".xsd", kinds.at(root).schema(root));
     const auto valid = valid_by_schema(schema, files);
@@ -104,11 +104,11 @@ TEST_CASE("reader and XSD both accept every component's config") {
   }
 }
 
-TEST_CASE("every component's parameters have an XSD, and it refuses an unknown one") {
+TEST_CASE("reader and XSD of every component refuse an unknown parameter") {
   for (const auto& [root, kind] : kinds) {
     INFO(root);
     const std::string schema = temporary(root + ".xsd", kind.schema(root));
-    const std::string file = temporary(root + ".xml", "<" + root + " unheard_of=\"1\"/>");
+    const std::string file = temporary(root + ".xml", "<" + root + " unknown_parameter=\"1\"/>");
     CHECK(valid_by_schema(schema, {file}).empty());
     CHECK_THROWS_AS(kind.read(file, root), xml::Errors);
     fs::remove(schema);

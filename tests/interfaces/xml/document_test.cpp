@@ -22,7 +22,7 @@ std::string malformed(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("every element and attribute knows its line and column") {
+TEST_CASE("every element and attribute has its line and column") {
   const auto root = parsed("<a>\n  <b x=\"1\"\n     y=\"2\"/><c/>\n</a>");
   CHECK(at(root.place) == "1:1");
   const auto& b = root.children.at(0);
@@ -32,7 +32,7 @@ TEST_CASE("every element and attribute knows its line and column") {
   CHECK(at(root.children.at(1).place) == "3:13");
 }
 
-TEST_CASE("places hold with CRLF, in text and in values that the parser rewrites") {
+TEST_CASE("places are correct with CRLF, in text and in values that the parser rewrites") {
   const auto root =
       parsed("<a>\r\n words\r\n more <b x=\"&lt;&amp;\r\n&gt;\" y=\"2\"/>\r\n <c/></a>");
   const auto& b = root.children.at(0);
@@ -48,13 +48,13 @@ TEST_CASE("places count characters, not bytes, and skip a byte order mark") {
   CHECK(at(parsed("<a n=\"größe\"><b/></a>").children.at(0).place) == "1:14");
 }
 
-TEST_CASE("a declaration and comments before the root do not move places") {
+TEST_CASE("places are correct after a declaration and comments before the root") {
   const auto root = parsed("<?xml version=\"1.0\"?>\n<!-- a\nb -->\n <a><!-- c --><b/></a>");
   CHECK(at(root.place) == "4:2");
   CHECK(at(root.children.at(0).place) == "4:15");
 }
 
-TEST_CASE("what XML forbids is refused where it stands") {
+TEST_CASE("text that is not well-formed XML is refused with the place of the violation") {
   CHECK(malformed("<a>\n <b></a>") == "f.xml:2:5: </a> where <b> is open; write </b> first");
   CHECK_THAT(malformed("<a>\n<b>"), Catch::StartsWith("f.xml:2:1: <b> is never closed"));
   CHECK_THAT(malformed("<a x='1' x='2'/>"), Catch::StartsWith("f.xml:1:10: <a>: x is given twice"));
@@ -63,14 +63,14 @@ TEST_CASE("what XML forbids is refused where it stands") {
   CHECK_THAT(malformed("<a x/>"), Catch::Contains("x has no value"));
   CHECK_THAT(malformed("<a>&nbsp;</a>"), Catch::StartsWith("f.xml:1:4: a bare \"&\""));
   CHECK_THAT(malformed("<a><!-- x -- y --></a>"), Catch::Contains("\"--\" inside a comment"));
-  CHECK_THAT(malformed("<a/><!-- x"), Catch::StartsWith("f.xml:1:5: a comment never ends"));
-  CHECK_THAT(malformed("<a/></b>"), Catch::Contains("</b> closes nothing"));
+  CHECK_THAT(malformed("<a/><!-- x"), Catch::StartsWith("f.xml:1:5: a comment is never closed"));
+  CHECK_THAT(malformed("<a/></b>"), Catch::Contains("</b> has no opening tag"));
   CHECK_THAT(malformed("<a/><b/>"), Catch::StartsWith("f.xml:1:5: a second root element <b>"));
   CHECK_THAT(malformed("<a/>b"), Catch::Contains("text outside the root element: \"b\""));
   CHECK_THAT(malformed("<!DOCTYPE a><a/>"), Catch::Contains("document types"));
   CHECK_THAT(malformed("<a><![CDATA[x]]></a>"), Catch::Contains("CDATA"));
   CHECK_THAT(malformed("<a"), Catch::Contains("<a has no \">\""));
-  CHECK_THAT(malformed("<1a/>"), Catch::Contains("here should stand the name of an element"));
+  CHECK_THAT(malformed("<1a/>"), Catch::Contains("expected the name of an element"));
   CHECK_THAT(malformed("no XML"), Catch::StartsWith("f.xml:1:1: text outside the root element"));
 }
 
@@ -81,20 +81,20 @@ TEST_CASE("text that is not UTF-8 and control characters are refused") {
              Catch::StartsWith("f.xml:1:5: has a control character, code 0"));
 }
 
-TEST_CASE("an empty text is refused, and one without an element") {
+TEST_CASE("an empty text and a text without an element are refused") {
   CHECK(malformed("") == "f.xml:1:1: is empty; write the root element");
   CHECK_THAT(malformed(" \n"), Catch::Contains("is empty"));
-  CHECK(malformed("<!-- nothing -->") == "f.xml:1:1: has no element; write the root element");
+  CHECK(malformed("<!-- nothing -->") == "f.xml:1:1: contains no element; write the root element");
 }
 
-TEST_CASE("very deep nesting is refused instead of exhausting the stack") {
+TEST_CASE("nesting of 100000 elements is refused without exhausting the stack") {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "<a>";
   for (int i = 0; i < 100000; ++i) text += "</a>";
   CHECK_THAT(malformed(text), Catch::Contains("DEPTH"));
 }
 
-TEST_CASE("a missing file, a folder and an empty file are told apart") {
+TEST_CASE("a missing file, a folder and an empty file are refused with different messages") {
   const auto folder = std::filesystem::temp_directory_path();
   const auto empty = folder / "erp_empty_document_test.xml";
   std::ofstream(empty).close();

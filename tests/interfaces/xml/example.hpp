@@ -6,7 +6,7 @@
 
 #include "interfaces/xml/xml.hpp"
 
-/// Structs of every kind that `visit` knows, for the tests.
+/// Example structs for the tests; together they use every function of `visit`.
 namespace example {
 
 enum class Mode { slow, fast };
@@ -22,7 +22,7 @@ struct Track {
   }
 };
 
-/// A component's parameters: no element name of their own.
+/// Parameters of a component, without an element name.
 struct Params {
   double gain_per_s = 1;
   Mode mode = Mode::fast;
@@ -57,7 +57,7 @@ struct Bell {
   void visit(auto& v) { v("tone", tone); }
 };
 
-/// Single children.
+/// A struct with single children.
 struct Cart {
   static constexpr auto element = "cart";
   xml::Place place;
@@ -69,14 +69,14 @@ struct Cart {
   }
 };
 
-/// Children of several kinds, their order kept.
+/// A struct with a list of several kinds, which keeps its order.
 struct Row {
   static constexpr auto element = "row";
   std::vector<std::variant<Wheel, Bell>> things;
   void visit(auto& v) { v.list(things); }
 };
 
-/// The lines of what a call refuses; "" when it refuses nothing.
+/// The message of the xml::Errors that a call throws; "" if it throws none.
 template <class Call>
 std::string refusal(Call&& call) {
   try {

@@ -27,7 +27,7 @@ TEST_CASE("a component's parameters of every type are read") {
   CHECK(p.tracks[1].place.column == 142);
 }
 
-TEST_CASE("what a file does not say keeps its default") {
+TEST_CASE("parameters absent from a file keep their defaults") {
   const auto p = params_of("<tracker gain_per_s='2'/>");
   CHECK(p.mode == example::Mode::fast);
   CHECK_FALSE(p.limit_N.has_value());
@@ -44,7 +44,7 @@ TEST_CASE("numbers are decimal and finite, with white space and a sign allowed")
                Contains("is not a finite number"));
 }
 
-TEST_CASE("integers take no fraction and do not wrap around") {
+TEST_CASE("integers with a fraction or out of range are refused") {
   const auto step = [](const std::string& text) {
     return refusal_of_params("<tracker gain_per_s='1'><track name='a' step='" + text +
                              "'/></tracker>");
@@ -56,30 +56,30 @@ TEST_CASE("integers take no fraction and do not wrap around") {
   CHECK_THAT(step("99999999999999999999"), Contains("is out of range"));
 }
 
-TEST_CASE("an unknown name is refused with the nearest known one, and not reported missing too") {
+TEST_CASE("an unknown name is refused with the nearest known one, which is not reported missing") {
   CHECK(refusal_of_params("<tracker gain='1'/>") ==
         "f.xml:1:10: <tracker>: unknown attribute \"gain\"; did you mean \"gain_per_s\"?");
   CHECK(refusal_of<Cart>("<cart><wheal/></cart>") ==
         "f.xml:1:7: <cart>: unknown element \"wheal\"; did you mean \"wheel\"?");
 }
 
-TEST_CASE("all mistakes of a file are reported at once, in the order they stand there") {
+TEST_CASE("all errors of a file are reported at once, in the order of their places") {
   CHECK(refusal_of_params("<tracker mode='medium' colour='red'>\n<track step='0'/>x</tracker>") ==
         "f.xml:1:1: <tracker>: attribute \"gain_per_s\" is missing; add gain_per_s=\"…\"\n"
         "f.xml:1:10: <tracker>: mode=\"medium\" is not one of slow, fast; choose one of them\n"
-        "f.xml:1:24: <tracker>: unknown attribute \"colour\"; known here: gain_per_s, mode, "
+        "f.xml:1:24: <tracker>: unknown attribute \"colour\"; valid names: gain_per_s, mode, "
         "enabled, offset_m, limit_N, names, factor\n"
         "f.xml:2:1: <track>: attribute \"name\" is missing; add name=\"…\"\n"
         "f.xml:2:8: <track>: step=\"0\" is out of range; give an integer from 1 to 10\n"
         "f.xml:2:18: <tracker>: stray text \"x\"; remove it, or put it into a comment");
 }
 
-TEST_CASE("a single child must stand there once, an optional one at most once") {
+TEST_CASE("a single child is required exactly once, an optional child at most once") {
   CHECK(xml::parse<Cart>("<cart><wheel radius_m='2'/></cart>", "f.xml").wheel.radius_m == 2);
   CHECK(xml::parse<Cart>("<cart><bell tone='c'/><wheel/></cart>", "f.xml").bell->tone == "c");
   CHECK(refusal_of<Cart>("<cart/>") == "f.xml:1:1: <cart>: element <wheel> is missing; add one");
   CHECK(refusal_of<Cart>("<cart><wheel/><wheel/></cart>") ==
-        "f.xml:1:15: <cart>: a second <wheel>; keep one; the first stands in line 1");
+        "f.xml:1:15: <cart>: a second <wheel>; keep one; the first is in line 1");
   CHECK_THAT(refusal_of<Cart>("<cart><wheel/><bell/><bell/></cart>"), Contains("a second <bell>"));
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("a list of several kinds keeps its order") {
   CHECK(std::get<example::Bell>(row.things[2]).tone == "d");
 }
 
-TEST_CASE("attributes by which an editor finds the XSD are allowed") {
+TEST_CASE("attributes with which an editor finds the XSD are allowed") {
   CHECK(refusal_of<Row>("<row xmlns:xsi='http://www.w3.org/2001/XMLSchema-instance' "
                         "xsi:noNamespaceSchemaLocation='row.xsd'/>")
             .empty());

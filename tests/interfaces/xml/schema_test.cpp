@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Whether the XSD of `T` and the reader agree on a text; and what they say.
+/// Checks that the XSD of `T` and the reader agree on a text; returns whether they accept it.
 template <class T>
 bool both_accept(const std::string& text) {
   const std::string schema = temporary("schema.xsd", xml::schema<T>());
@@ -23,7 +23,7 @@ bool both_accept(const std::string& text) {
   return by_schema && refused.empty();
 }
 
-/// Numbers of each kind, to compare what the two call a number.
+/// Values of each type, for comparing what reader and XSD accept.
 struct Numbers {
   static constexpr auto element = "numbers";
   double x = 0;
@@ -49,7 +49,7 @@ struct Numbers {
   }
 };
 
-/// What XSD 1.0 cannot say.
+/// A struct that XSD 1.0 cannot express.
 struct Mixture {
   static constexpr auto element = "mixture";
   example::Wheel wheel;
@@ -59,7 +59,7 @@ struct Mixture {
 
 }  // namespace
 
-TEST_CASE("reader and XSD agree on what a value is") {
+TEST_CASE("reader and XSD accept the same values") {
   const auto with = [](const std::string& attribute, const std::string& text) {
     return both_accept<Numbers>("<numbers " + attribute + "=\"" + text + "\"/>");
   };
@@ -83,7 +83,7 @@ TEST_CASE("reader and XSD agree on what a value is") {
   for (const char* bad : {"1 2", "1 2 3 4", "1 2 -3", ""}) CHECK_FALSE(with("v", bad));
 }
 
-TEST_CASE("reader and XSD agree on which children may stand where") {
+TEST_CASE("reader and XSD accept the same children") {
   CHECK(both_accept<example::Cart>("<cart><bell/><wheel/></cart>"));
   CHECK_FALSE(both_accept<example::Cart>("<cart><bell/></cart>"));
   CHECK_FALSE(both_accept<example::Cart>("<cart><wheel/><wheel/></cart>"));
@@ -93,6 +93,6 @@ TEST_CASE("reader and XSD agree on which children may stand where") {
   CHECK_FALSE(both_accept<example::Row>("<row><track/></row>"));
 }
 
-TEST_CASE("a struct that mixes lists and single children has no XSD") {
+TEST_CASE("schema throws for a struct that mixes lists and single children") {
   CHECK_THROWS_AS(xml::schema<Mixture>(), std::logic_error);
 }

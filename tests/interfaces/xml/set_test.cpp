@@ -6,7 +6,7 @@
 
 using example::refusal;
 
-TEST_CASE("a value is set by its path: own, of a single child, of a named list item") {
+TEST_CASE("the path sets an attribute of the struct, of a single child or of a named list item") {
   example::Params p;
   p.tracks = {{{}, "flexor", 1}, {{}, "extensor", 1}};
   xml::set(p, "gain_per_s", "4");
@@ -21,7 +21,7 @@ TEST_CASE("a value is set by its path: own, of a single child, of a named list i
   CHECK(cart.bell->tone == "d");
 }
 
-TEST_CASE("a refused value changes nothing and says the range") {
+TEST_CASE("an invalid value changes nothing and is refused with the valid range") {
   example::Params p;
   CHECK(refusal([&] { xml::set(p, "gain_per_s", "-1"); }) ==
         "--set gain_per_s=-1: is out of range; give a number > 0");

@@ -2,13 +2,13 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE("the edit distance counts letters to insert, delete or replace, case ignored") {
+TEST_CASE("the edit distance counts letters to insert, delete or replace, ignoring case") {
   CHECK(xml::edit_distance("kitten", "sitting") == 3);
   CHECK(xml::edit_distance("", "abc") == 3);
   CHECK(xml::edit_distance("Mass_KG", "mass_kg") == 0);
 }
 
-TEST_CASE("the nearest name forgives typing mistakes and units, not other words") {
+TEST_CASE("names with typing errors or another unit have a nearest name, other words have none") {
   const std::vector<std::string> known{"length_m", "mass_kg", "name"};
   CHECK(xml::nearest("legnth_m", known) == "length_m");
   CHECK(xml::nearest("mass", known) == "mass_kg");
@@ -18,7 +18,7 @@ TEST_CASE("the nearest name forgives typing mistakes and units, not other words"
   CHECK(xml::nearest("x", known).empty());
 }
 
-TEST_CASE("without a near name the known ones are listed") {
-  CHECK(xml::did_you_mean("colour", {"name", "mass_kg"}) == "known here: name, mass_kg");
+TEST_CASE("all known names are listed if none is close") {
+  CHECK(xml::did_you_mean("colour", {"name", "mass_kg"}) == "valid names: name, mass_kg");
   CHECK(xml::did_you_mean("colour", {}) == "remove it");
 }

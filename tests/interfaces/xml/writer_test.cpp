@@ -14,7 +14,7 @@ bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; 
 
 }  // namespace
 
-TEST_CASE("what equals its default is left out, what is required is not") {
+TEST_CASE("optional attributes equal to their default are omitted, required ones are written") {
   example::Params p;
   CHECK(xml::write(p, "tracker") ==
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<tracker gain_per_s=\"1\"/>\n");
@@ -28,7 +28,7 @@ TEST_CASE("what equals its default is left out, what is required is not") {
         "</tracker>\n");
 }
 
-TEST_CASE("any finite number is read back to the same bits") {
+TEST_CASE("any finite number is read back bit-equal") {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20000; ++i) {
     const std::uint64_t bits = random();
@@ -44,7 +44,7 @@ TEST_CASE("any finite number is read back to the same bits") {
   CHECK(same_bits(back, -0.0));
 }
 
-TEST_CASE("numbers of everyday size are written without an exponent") {
+TEST_CASE("numbers of at least 1e-4 and below 1e20 are written without an exponent") {
   CHECK(xml::write_number(1e9) == "1000000000");
   CHECK(xml::write_number(-0.0004) == "-0.0004");
   CHECK(xml::write_number(57.3e-6) == "5.73e-05");

@@ -16,9 +16,9 @@ std::set<std::string> valid_by_schema(const std::string& schema_file,
   std::set<std::string> valid;
   std::string all;
   for (char line[4096]; std::fgets(line, sizeof line, out.get());) {
-    const std::string said = line;
-    all += said;
-    if (said.ends_with(" validates\n")) valid.insert(said.substr(0, said.size() - 11));
+    const std::string text = line;
+    all += text;
+    if (text.ends_with(" validates\n")) valid.insert(text.substr(0, text.size() - 11));
   }
   if (all.find("not found") != all.npos || all.find("failed to compile") != all.npos)
     throw std::runtime_error(all);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-/// Of `files`, those that xmllint finds valid against the schema.
-/// Throws std::runtime_error when xmllint is not installed or the schema itself is wrong.
+/// The files that are valid against the schema according to xmllint. Throws std::runtime_error when
+/// xmllint is not installed or the schema is invalid.
 std::set<std::string> valid_by_schema(const std::string& schema_file,
                                       const std::vector<std::string>& files);
 

@@ -1,4 +1,4 @@
-// The verbs that look at a running bus, against real components.
+// The verbs that inspect a running bus, with real components.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A `sim` that makes time and a `worker` that listens, on a bus of their own; no launcher.
+/// A `sim` that publishes the clock and a `worker` that subscribes to it, on a domain of their own,
+/// without launcher.
 struct Bus {
   fs::path folder;
   launch::Process sim, worker;
@@ -40,10 +41,10 @@ struct Bus {
     int code;
     std::string text;
   };
-  Result erp(std::vector<std::string> words) const {
-    words.insert(words.begin(), ERP_BIN_DIR "/erp");
+  Result erp(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), ERP_BIN_DIR "/erp");
     const auto log = folder / ("out" + std::to_string(++runs_));
-    launch::Process process(words, log.string());
+    launch::Process process(arguments, log.string());
     for (;;) {
       if (const auto ending = process.poll()) {
         std::ostringstream text;
@@ -60,9 +61,9 @@ struct Bus {
 
 }  // namespace
 
-TEST_CASE("the verbs show a running bus") {
+TEST_CASE("echo, ps, ls, graph, hz and delay show a running bus") {
   const Bus bus;
-  // found by discovery: what the first verb waits for, the others have
+  // the first verb waits for discovery
   const auto echo = bus.erp({"echo", "clock", "-n", "2"});
   CHECK(echo.code == 0);
   CHECK_THAT(echo.text, Contains("real_time_factor: 1\n") && Contains("finished: false\n---\n"));
@@ -92,21 +93,21 @@ TEST_CASE("the verbs show a running bus") {
   CHECK_THAT(simulated_age.text, Contains("simulated time"));
 }
 
-TEST_CASE("a topic that nobody has ends with exit code 1 and the nearest name") {
+TEST_CASE("an unknown topic ends with exit code 1 and the most similar name") {
   const Bus bus;
   const auto result = bus.erp({"echo", "clokc"});
   CHECK(result.code == 1);
   CHECK_THAT(result.text, Contains("did you mean \"clock\"?"));
 }
 
-TEST_CASE("a recording that is not there ends with exit code 2 and its name") {
+TEST_CASE("a recording that does not exist ends with exit code 2 and its name") {
   const Bus bus;
   const auto result = bus.erp({"log", "info", "none.mcap"});
   CHECK(result.code == 2);
   CHECK_THAT(result.text, Contains("none.mcap: cannot open"));
 }
 
-TEST_CASE("a component without a robot says so, with exit code 2") {
+TEST_CASE("a component without --robot ends with exit code 2 and names the option") {
   const auto folder = Bus::make_folder();
   launch::Process worker({ERP_TEST_COMPONENTS "/worker"}, (folder / "log").string());
   std::optional<launch::Ending> ending;
@@ -118,7 +119,7 @@ TEST_CASE("a component without a robot says so, with exit code 2") {
   fs::remove_all(folder);
 }
 
-TEST_CASE("erp gap monitor is the component, with its options and its exit codes") {
+TEST_CASE("erp gap monitor runs the component with its options and exit codes") {
   const Bus bus;
   const auto help = bus.erp({"gap", "monitor", "--help"});
   CHECK(help.code == 0);
@@ -129,14 +130,14 @@ TEST_CASE("erp gap monitor is the component, with its options and its exit codes
   CHECK_THAT(checked.text, Contains("times"));
 }
 
-TEST_CASE("an unknown verb ends with exit code 2 and the nearest name") {
+TEST_CASE("an unknown verb ends with exit code 2 and the most similar name") {
   const Bus bus;
   const auto result = bus.erp({"lunch"});
   CHECK(result.code == 2);
   CHECK_THAT(result.text, Contains("did you mean \"launch\"?"));
 }
 
-TEST_CASE("every verb has help") {
+TEST_CASE("every verb has a help text") {
   const Bus bus;
   for (const char* verb : {"launch", "check", "ps", "ls", "hz", "echo", "delay", "graph", "new"}) {
     INFO(verb);

@@ -14,7 +14,7 @@ struct Problem {
   VectorXd c, low, high;
 };
 
-/// Of condition up to 10^`decades`; a quarter of the bounds are on one value.
+/// A random problem with condition number up to 10^`decades`; a quarter of the bounds are equalities.
 Problem random_problem(std::mt19937& random, int n, double decades) {
   std::normal_distribution<double> normal;
   const auto draw = [&] { return normal(random); };
@@ -31,13 +31,13 @@ Problem random_problem(std::mt19937& random, int n, double decades) {
   return p;
 }
 
-/// The conditions of Karush, Kuhn and Tucker: x within the bounds, the slope zero where it is free
-/// and against the bound where it is not.
+/// Karush–Kuhn–Tucker conditions: x is within the bounds; the gradient is zero for free variables, ≥ 0 at
+/// lower and ≤ 0 at upper bounds.
 void check_best(const Problem& p, const VectorXd& x) {
   const VectorXd slope = p.h * x - p.c;
   const double small = 1e-7 * (p.h.cwiseAbs() * x.cwiseAbs() + p.c.cwiseAbs()).maxCoeff();
   for (Eigen::Index k = 0; k < x.size(); ++k) {
-    INFO("unknown " << k << " at " << x[k] << " in " << p.low[k] << " … " << p.high[k]);
+    INFO("variable " << k << " at " << x[k] << " in " << p.low[k] << " … " << p.high[k]);
     REQUIRE(x[k] >= p.low[k]);
     REQUIRE(x[k] <= p.high[k]);
     if (x[k] > p.low[k]) REQUIRE(slope[k] < small);
@@ -47,7 +47,7 @@ void check_best(const Problem& p, const VectorXd& x) {
 
 }  // namespace
 
-TEST_CASE("of two unknowns, one is held at its bound and the other goes where that leaves it") {
+TEST_CASE("with one of two variables at its bound, the other is the constrained minimum") {
   // min ½ (2 x² + 2 x y + 2 y²) − 4 x − 2 y,  x ≤ 1: at the bound y = (2 − x) / 2
   sim::BoxQp qp(2);
   const MatrixXd h = (MatrixXd(2, 2) << 2, 1, 1, 2).finished();
@@ -59,7 +59,7 @@ TEST_CASE("of two unknowns, one is held at its bound and the other goes where th
   CHECK(qp.multipliers()[1] == Approx(0).margin(1e-15));
 }
 
-TEST_CASE("without bounds in the way it is a linear system") {
+TEST_CASE("without active bounds the result solves the linear system H x = c") {
   std::mt19937 random(1);
   Problem p = random_problem(random, 20, 2);
   p.low.setConstant(-1e9), p.high.setConstant(1e9);
@@ -68,7 +68,7 @@ TEST_CASE("without bounds in the way it is a linear system") {
   CHECK(qp.changes() == 0);
 }
 
-TEST_CASE("what it finds is the best, for any number of unknowns, cold or from another's bounds") {
+TEST_CASE("the result satisfies the KKT conditions for any size, from a cold or a warm start") {
   std::mt19937 random(2);
   for (const int n : {1, 2, 5, 11, 54}) {
     sim::BoxQp qp(n);
@@ -82,7 +82,7 @@ TEST_CASE("what it finds is the best, for any number of unknowns, cold or from a
   }
 }
 
-TEST_CASE("near its last solution it changes few bounds, and finds what a cold start finds") {
+TEST_CASE("near the last solution few bounds change, and the result equals that of a cold start") {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   Problem p = random_problem(random, 54, 1);
@@ -99,7 +99,7 @@ TEST_CASE("near its last solution it changes few bounds, and finds what a cold s
   CHECK(warm_changes < cold_changes / 5);
 }
 
-TEST_CASE("bounds that contradict each other and a saddle are refused") {
+TEST_CASE("contradictory bounds and an indefinite H are rejected") {
   sim::BoxQp qp(2);
   const MatrixXd one = MatrixXd::Identity(2, 2);
   const VectorXd zero = VectorXd::Zero(2), up = VectorXd::Ones(2);

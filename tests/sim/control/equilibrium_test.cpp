@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Shafts at which statics holds a pose, by the inverse way: lines of these lengths.
+/// Shaft angles that hold a pose, from the line lengths of statics.
 std::vector<double> shafts_for(const erp::Robot& robot, const sim::Pose& pose) {
   const auto holding = sim::hold_pose(robot, pose);
   REQUIRE(holding.unbalanced_Nm < 1e-4);
@@ -27,7 +27,8 @@ sim::Pose arm_at(double turn_rad, double elbow_rad) {
 
 }  // namespace
 
-TEST_CASE("with the shafts of a held pose a robot rests in that pose, from wherever it begins") {
+TEST_CASE(
+    "with the shaft angles of a held pose the equilibrium is that pose, from any initial pose") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   sim::Equilibrium equilibrium(robot);
   for (const double turn : {-0.3, 0.2, 0.5})
@@ -36,7 +37,7 @@ TEST_CASE("with the shafts of a held pose a robot rests in that pose, from where
       const auto shafts = shafts_for(robot, pose);
       for (const auto& from : {pose, arm_at(turn + 0.2, elbow - 0.2)}) {
         const auto rest = equilibrium.find(shafts, from);
-        CHECK(rest.left_Nm < 1e-6);
+        CHECK(rest.unbalanced_Nm < 1e-6);
         const auto off = sim::way_between(erp::JointType::spherical, pose[0], rest.pose[0]);
         CHECK(std::hypot(off[0], off[1], off[2]) < 1e-5);
         CHECK(rest.pose[1][0] == Approx(elbow).margin(1e-5));
@@ -44,17 +45,17 @@ TEST_CASE("with the shafts of a held pose a robot rests in that pose, from where
     }
 }
 
-TEST_CASE("a hinge that tendons pull beyond its range rests at its stop") {
+TEST_CASE("a hinge that tendons pull beyond its range is in equilibrium at its stop") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   sim::Equilibrium equilibrium(robot);
   const auto start = sim::starting_pose(robot);
   const auto rest = equilibrium.find(std::vector<double>{20, -20}, start);
   const auto joint = robot.joints().front();
   CHECK((rest.pose[0][0] == joint.max_rad || rest.pose[0][0] == joint.min_rad));
-  CHECK(rest.left_Nm < 1e-6);
+  CHECK(rest.unbalanced_Nm < 1e-6);
 }
 
-TEST_CASE("a path that is longer than drawn acts as a shaft that has wound so much more") {
+TEST_CASE("additional path length is equivalent to additional winding of the shaft") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const auto pose = arm_at(0.2, 0.8);
   auto shafts = shafts_for(robot, pose);
@@ -65,7 +66,7 @@ TEST_CASE("a path that is longer than drawn acts as a shaft that has wound so mu
   CHECK(rest.pose[1][0] == Approx(0.8).margin(1e-5));
 }
 
-TEST_CASE("a spring's energy is what its force has done") {
+TEST_CASE("a spring's energy is the work of its force") {
   for (const sim::Spring spring :
        {sim::Spring{6000}, sim::Spring{6000, 4e7}, sim::Spring{6000, 4e7, 1e-5}}) {
     double sum = 0;

@@ -6,8 +6,8 @@
 
 #include "tests/sim/rigs.hpp"
 
-TEST_CASE("postures that no path of a tendon reaches are drawn nearer to the middle of the range") {
-  // Wide postures of ecce4 carry a point of its serratus into the pulley beside it.
+TEST_CASE("the posture range is reduced until every tendon has a path") {
+  // In extreme postures of ecce4 a point of serratus is inside the adjacent pulley.
   const erp::Robot robot = erp::read_robot(rigs::config("ecce4/robot.xml"));
   for (int recording = 0; recording < 2; ++recording) {
     const auto excitation = sim::excitation(robot, recording, 2, 282001);

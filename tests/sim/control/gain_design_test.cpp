@@ -31,7 +31,7 @@ erp::Robot rig() {
   return robot;
 }
 
-/// The firmware, the motor and a tendon whose far end is held.
+/// The firmware, the motor and a tendon with a fixed distal end.
 class Bench {
  public:
   explicit Bench(const erp::Robot& robot = rig(), std::uint64_t seed = 1)
@@ -74,7 +74,7 @@ class Bench {
 
 }  // namespace
 
-TEST_CASE("the model has the published poles, and a slow one where the tendon is wound up") {
+TEST_CASE("the model has the published poles and a slow pole for winding up the tendon") {
   const auto model = sim::force_model(rigs::without_friction(rigs::caliper()), rigs::hinge_tendon(),
                                       rigs::spindle_radius_m);
   auto poles = Eigen::Vector3d(model.a.eigenvalues().real());
@@ -84,7 +84,7 @@ TEST_CASE("the model has the published poles, and a slow one where the tendon is
   CHECK(std::abs(poles[2]) < 1.0);
 }
 
-TEST_CASE("the model's tension changes as the tendon's law does") {
+TEST_CASE("the tension rate of the model equals that of the tendon law") {
   erp::Tendon tendon = rigs::hinge_tendon();
   tendon.damping_N_s_per_m = 300;
   const double r = rigs::spindle_radius_m, h = 1e-6;
@@ -97,7 +97,7 @@ TEST_CASE("the model's tension changes as the tendon's law does") {
   CHECK(rate.z() == Approx((later - x.z()) / h).epsilon(1e-6));
 }
 
-TEST_CASE("Ackermann's formula puts the discrete poles where they were wanted") {
+TEST_CASE("Ackermann's formula places the discrete poles at the desired values") {
   const auto model =
       sim::force_model(rigs::caliper(), rigs::hinge_tendon(), rigs::spindle_radius_m);
   DesignOptions options;
@@ -105,7 +105,7 @@ TEST_CASE("Ackermann's formula puts the discrete poles where they were wanted") 
                               std::array<std::complex<double>, 3>{{{-60, 20}, {-60, -20}, -800.0}});
   options.force_poles_per_s = poles;
   const auto gains = sim::design_force(model, options);
-  // Φ − Γ k from the differential equation alone: column by column, by fine Euler–Heun steps.
+  // Φ − Γ k from the differential equation, column by column, by fine Euler–Heun steps.
   const auto next = [&](Eigen::Vector3d x, double v) {
     const int fine = 200000;
     const double h = 0.002 / fine;
@@ -126,18 +126,18 @@ TEST_CASE("Ackermann's formula puts the discrete poles where they were wanted") 
   }
 }
 
-TEST_CASE("the prefilter makes the frictionless loop rest exactly at its reference") {
+TEST_CASE("without friction the prefilter gives zero steady-state error") {
   erp::MotorType motor = rigs::without_friction(rigs::caliper());
   const auto model = sim::force_model(motor, rigs::hinge_tendon(), rigs::spindle_radius_m);
   const auto gains = sim::design_force(model, {});
-  // At rest ω = 0, V = R i, i = r F / (η N K_T); the law must give that V.
+  // At rest ω = 0, V = R i, i = r F / (η N K_T); the law must return this V.
   const double force = 40, current = rigs::spindle_radius_m * force / (0.59 * 128 * 11.5e-3);
   const double voltage =
       gains.prefilter_V_per_N * force - gains.feedback.x() * current - gains.feedback.z() * force;
   CHECK(voltage == Approx(0.516 * current).epsilon(1e-6));
 }
 
-TEST_CASE("poles that are unstable or not paired are refused") {
+TEST_CASE("poles that are unstable or not in conjugate pairs are rejected") {
   const auto model =
       sim::force_model(rigs::caliper(), rigs::hinge_tendon(), rigs::spindle_radius_m);
   DesignOptions options;
@@ -147,7 +147,9 @@ TEST_CASE("poles that are unstable or not paired are refused") {
   CHECK_THROWS_AS(sim::design_force(model, options), std::invalid_argument);
 }
 
-TEST_CASE("2 to 40 N: fast, without overshoot, quiet at rest, within the current limit") {
+TEST_CASE(
+    "a force step from 2 to 40 N is fast, without overshoot, with low noise at rest and within the "
+    "current limit") {
   Bench bench;
   bench.hold_force(2, 0.5);
   double at_10 = -1, at_90 = -1, peak = 0, current = 0;
@@ -166,13 +168,13 @@ TEST_CASE("2 to 40 N: fast, without overshoot, quiet at rest, within the current
   CAPTURE(at_90 - at_10, peak, current, std::sqrt(squares));
   CHECK(bench.state() == ECU_STATE_RUNNING);
   CHECK(at_90 - at_10 <= 0.200);
-  CHECK(at_90 - at_10 >= 0.130);  // the motor's speed allows no less
+  CHECK(at_90 - at_10 >= 0.130);  // lower bound from the motor's speed
   CHECK(peak < 40.4);
   CHECK(std::sqrt(squares) <= 0.1);
   CHECK(current < 4.2);
 }
 
-TEST_CASE("without noise the tension rests inside the stated band, from below and from above") {
+TEST_CASE("without noise the tension at rest is within resting_band, from below and from above") {
   erp::Robot quiet = rig();
   quiet.sensor_types[0].current_noise_A = quiet.sensor_types[0].tension_noise_N = 0;
   const double force = GENERATE(10.0, 40.0, 120.0), from = GENERATE(2.0, 140.0);
@@ -186,11 +188,11 @@ TEST_CASE("without noise the tension rests inside the stated band, from below an
   CAPTURE(force, from, bench.tension_N() - force, band.below_N, band.above_N);
   CHECK(bench.tension_N() > force - band.below_N - half_quanta);
   CHECK(bench.tension_N() < force + band.above_N + half_quanta);
-  // Let out, it does rest above: the band is not empty talk.
+  // After unwinding, the tension at rest is above the reference, as resting_band predicts.
   if (from > force) CHECK(bench.tension_N() > force + 0.5 * band.above_N - half_quanta);
 }
 
-TEST_CASE("letting out, where the load drives the motor, the force loop stays stable") {
+TEST_CASE("while unwinding, when the load drives the motor, the force loop is stable") {
   Bench bench;
   bench.hold_force(60, 1.5);
   double lowest = 60;
@@ -200,7 +202,7 @@ TEST_CASE("letting out, where the load drives the motor, the force loop stays st
   CHECK(std::abs(bench.tension_N() - 10) < 0.4);
 }
 
-TEST_CASE("the length law reaches its reference without overshoot") {
+TEST_CASE("the length loop reaches its reference without overshoot") {
   Bench bench;
   const double target = 5000;  // counts
   double peak = 0;
@@ -213,7 +215,7 @@ TEST_CASE("the length law reaches its reference without overshoot") {
   CHECK(peak < reference * 1.02);
 }
 
-TEST_CASE("the current law settles within ten periods on a shaft that sticks") {
+TEST_CASE("with a sticking shaft the current loop settles within ten periods") {
   Bench bench;
   for (int k = 0; k < 25; ++k) bench.tick(ECU_REQUEST_CURRENT, 25);
   double mean = 0;
@@ -222,6 +224,6 @@ TEST_CASE("the current law settles within ten periods on a shaft that sticks") {
   CHECK(mean == Approx(0.025).margin(0.002));
 }
 
-TEST_CASE("every parameter of the list is given and accepted by the firmware") {
+TEST_CASE("every parameter is set and accepted by the firmware") {
   CHECK(Bench().state() == ECU_STATE_ARMED);
 }

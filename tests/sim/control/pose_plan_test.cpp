@@ -10,7 +10,7 @@
 using recording::parse_csv, recording::Table;
 using sim::lengths_through, sim::poses_of;
 
-TEST_CASE("lengths.csv of each robot is what erp model lengths makes of its poses.csv") {
+TEST_CASE("lengths.csv of each robot is the output of erp model lengths for its poses.csv") {
   const auto* name =
       GENERATE("arm", "twin_joint", "seven_dof", "pendulum", "ecce1", "ecce2", "ecce3", "ecce4");
   CAPTURE(name);
@@ -29,7 +29,9 @@ TEST_CASE("lengths.csv of each robot is what erp model lengths makes of its pose
       REQUIRE(std::abs(kept.columns[c].values[row] - made.columns[c].values[row]) < 1e-6);
 }
 
-TEST_CASE("joints without a column stay where they start, empty cells where they were") {
+TEST_CASE(
+    "joints without a column keep their starting position, and empty cells keep the previous "
+    "value") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const auto poses =
       poses_of(parse_csv("poses.csv", "time_s,elbow.angle_rad\n0,0.5\n1,\n2,0.7\n"), robot);
@@ -40,23 +42,24 @@ TEST_CASE("joints without a column stay where they start, empty cells where they
   CHECK(poses[2].time_s == 2);
 }
 
-TEST_CASE("poses out of a joint's range or of no rotation are refused with row, joint and value") {
+TEST_CASE(
+    "poses out of range or with an invalid quaternion are rejected with row, joint and value") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
-  const auto refused = [&](const std::string& csv) {
+  const auto check_rejected = [&](const std::string& csv) {
     CHECK_THROWS_WITH(poses_of(parse_csv("poses.csv", csv), robot), Catch::Contains("row 2"));
   };
-  refused("time_s,elbow.angle_rad\n0,0.5\n1,9\n");
-  refused("time_s,shoulder.qw\n0,1\n1,0.5\n");
+  check_rejected("time_s,elbow.angle_rad\n0,0.5\n1,9\n");
+  check_rejected("time_s,shoulder.qw\n0,1\n1,0.5\n");
 }
 
-TEST_CASE("a recording's columns of ball joints' sensors are no poses and no mistake") {
+TEST_CASE("sensor columns of ball joints in a recording are ignored without an error") {
   erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   robot.joint_sensors = {{.joint = "shoulder", .about = erp::AxisName::x}};
   CHECK(poses_of(parse_csv("poses.csv", "time_s,shoulder_x.angle_rad\n0,0.5\n"), robot).size() ==
         1);
 }
 
-TEST_CASE("a plan counts turns around a shaft from pose to pose") {
+TEST_CASE("turns around a pulley are counted from pose to pose") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   robot.skeletons[0].joints[0].min_rad = -20, robot.skeletons[0].joints[0].max_rad = 20;
   auto& path = robot.actuators[0].tendon.path;
@@ -67,10 +70,10 @@ TEST_CASE("a plan counts turns around a shaft from pose to pose") {
   const Table plan = lengths_through(robot, poses).table;
   const auto& line = plan.find("flexor.reference")->values;
   for (std::size_t row = 1; row < line.size(); ++row)
-    REQUIRE(std::abs(line[row] - line[row - 1]) < 0.025);  // below 1 rad of elbow
+    REQUIRE(std::abs(line[row] - line[row - 1]) < 0.025);  // less than 1 rad of the elbow
 }
 
-TEST_CASE("a column of no joint is refused with the nearest name") {
+TEST_CASE("a column that belongs to no joint is rejected with the nearest name") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const Table table = parse_csv("poses.csv", "time_s,elbo.angle_rad\n0,0.5\n");
   CHECK_THROWS_WITH(poses_of(table, robot),

@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 struct Arm {
   erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   sim::Musculoskeletal model{robot};
-  sim::TensionShare share(sim::Liking liking, double least_N = 5) const {
-    return {sim::likes_of(robot, liking, least_N), model.coordinates()};
+  sim::TensionShare share(sim::TensionObjective objective, double least_N = 5) const {
+    return {sim::objective_terms(robot, objective, least_N), model.coordinates()};
   }
   VectorXd gravity_Nm() {
     VectorXd torque;
@@ -36,11 +36,12 @@ double copper_W(const erp::Robot& robot, const VectorXd& f) {
 
 }  // namespace
 
-TEST_CASE("the tensions give the torque, and no tendon pulls less than the least") {
+TEST_CASE("the tensions produce the torque and are at or above the lower bound") {
   Arm arm;
-  for (const auto liking : {sim::Liking::least_tension, sim::Liking::least_energy,
-                            sim::Liking::least_activation, sim::Liking::smooth}) {
-    auto share = arm.share(liking);
+  for (const auto objective :
+       {sim::TensionObjective::least_tension, sim::TensionObjective::least_energy,
+        sim::TensionObjective::least_activation, sim::TensionObjective::smooth}) {
+    auto share = arm.share(objective);
     const VectorXd torque = arm.gravity_Nm();
     const VectorXd f = share.share(arm.model.jacobian(), torque);
     CHECK((arm.model.jacobian().transpose() * f + torque).norm() < 1e-5 * torque.norm() + 1e-6);
@@ -50,20 +51,20 @@ TEST_CASE("the tensions give the torque, and no tendon pulls less than the least
   }
 }
 
-TEST_CASE("each liking has its own sum least") {
+TEST_CASE("each objective has the smallest value of its own cost") {
   Arm arm;
   const VectorXd torque = arm.gravity_Nm();
   const auto& l = arm.model.jacobian();
-  const VectorXd tension = arm.share(sim::Liking::least_tension).share(l, torque);
-  const VectorXd energy = arm.share(sim::Liking::least_energy).share(l, torque);
+  const VectorXd tension = arm.share(sim::TensionObjective::least_tension).share(l, torque);
+  const VectorXd energy = arm.share(sim::TensionObjective::least_energy).share(l, torque);
   CHECK(energy.squaredNorm() == Approx(tension.squaredNorm()).epsilon(0.2));
   CHECK(copper_W(arm.robot, energy) <= copper_W(arm.robot, tension) + 1e-9);
   CHECK((tension.array() - 5).matrix().norm() <= (energy.array() - 5).matrix().norm() + 1e-9);
 }
 
-TEST_CASE("what no tensions give is missed by as little as can be") {
+TEST_CASE("for an infeasible torque the error is minimal") {
   Arm arm;
-  auto share = arm.share(sim::Liking::least_tension);
+  auto share = arm.share(sim::TensionObjective::least_tension);
   const auto& l = arm.model.jacobian();
   const VectorXd torque = 40 * arm.gravity_Nm();
   const VectorXd f = share.share(l, torque);
@@ -82,9 +83,9 @@ TEST_CASE("what no tensions give is missed by as little as can be") {
   }
 }
 
-TEST_CASE("a tendon that is lost is made up for by the others, as far as they can") {
+TEST_CASE("the other tendons compensate a lost tendon as far as possible") {
   Arm arm;
-  auto share = arm.share(sim::Liking::least_tension);
+  auto share = arm.share(sim::TensionObjective::least_tension);
   const VectorXd torque = 2 * arm.gravity_Nm();
   const VectorXd all = share.share(arm.model.jacobian(), torque);
   constexpr int deltoid_middle = 1, brachialis = 9;
@@ -100,20 +101,21 @@ TEST_CASE("a tendon that is lost is made up for by the others, as far as they ca
   CHECK(share.missing().norm() > 0.1);
 }
 
-TEST_CASE("smooth shares stay near the ones before") {
+TEST_CASE("with the objective smooth, tensions stay near the previous ones") {
   Arm arm;
-  auto smooth = arm.share(sim::Liking::smooth), anew = arm.share(sim::Liking::least_tension);
+  auto smooth = arm.share(sim::TensionObjective::smooth),
+       independent = arm.share(sim::TensionObjective::least_tension);
   const VectorXd torque = arm.gravity_Nm();
   const VectorXd raised = smooth.share(arm.model.jacobian(), 3 * torque);
   const VectorXd back = smooth.share(arm.model.jacobian(), torque);
-  anew.share(arm.model.jacobian(), 3 * torque);
-  const VectorXd fresh = anew.share(arm.model.jacobian(), torque);
+  independent.share(arm.model.jacobian(), 3 * torque);
+  const VectorXd fresh = independent.share(arm.model.jacobian(), torque);
   CHECK((back - raised).norm() < (fresh - raised).norm());
 }
 
-TEST_CASE("a least tension above what a tendon may pull is refused, by name") {
+TEST_CASE("a least tension above max_tension_N is rejected with the actuator's name") {
   Arm arm;
-  CHECK_THROWS_WITH(arm.share(sim::Liking::smooth, 300),
+  CHECK_THROWS_WITH(arm.share(sim::TensionObjective::smooth, 300),
                     Catch::Contains("deltoid_anterior") && Catch::Contains("300"));
-  CHECK_THROWS_AS(arm.share(sim::Liking::smooth, -1), std::invalid_argument);
+  CHECK_THROWS_AS(arm.share(sim::TensionObjective::smooth, -1), std::invalid_argument);
 }

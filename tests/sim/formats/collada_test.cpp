@@ -36,7 +36,7 @@ std::string without_extra(const std::string& text) {
   return text.substr(0, from) + text.substr(to + 8);
 }
 
-/// Another's reader; what it has to complain about is kept.
+/// The third-party reader collada-dom; collects its errors and warnings in `messages`.
 class Dom : daeErrorHandler {
  public:
   explicit Dom(const std::string& file) {
@@ -50,16 +50,16 @@ class Dom : daeErrorHandler {
   std::vector<Element*> all() {
     return dae_.getDatabase()->typeLookup<Element>();
   }
-  std::string said;
+  std::string messages;
 
  private:
-  void handleError(daeString message) override { said += message; }
-  void handleWarning(daeString message) override { said += message; }
+  void handleError(daeString message) override { messages += message; }
+  void handleWarning(daeString message) override { messages += message; }
   DAE dae_{nullptr, nullptr, "1.5.0"};
   ColladaDOM150::domCOLLADA* root_ = nullptr;
 };
 
-/// A rod on a hinge, in centimetres, y upwards, as another program might write it.
+/// A rod on a hinge as another program might write it: in centimetres, with y upwards.
 const std::string foreign =
     R"(<COLLADA xmlns="http://www.collada.org/2008/03/COLLADASchema" version="1.5.0">
   <asset><unit name="centimeter" meter="0.01"/><up_axis>Y_UP</up_axis></asset>
@@ -78,7 +78,7 @@ const std::string foreign =
 
 }  // namespace
 
-TEST_CASE("every robot goes through COLLADA and comes back bit by bit") {
+TEST_CASE("export to and import from COLLADA returns the same robot bit for bit") {
   for (const auto& name : robots) {
     CAPTURE(name);
     const erp::Robot robot = read(name);
@@ -86,14 +86,15 @@ TEST_CASE("every robot goes through COLLADA and comes back bit by bit") {
   }
 }
 
-TEST_CASE("collada-dom reads our files without complaint and finds the same joints and masses") {
+TEST_CASE(
+    "collada-dom reads exported files without messages and finds the same joints and masses") {
   for (const auto& name : robots) {
     CAPTURE(name);
     const erp::Robot robot = read(name);
     const File file(formats::to_collada(robot), ".dae");
     Dom dom(file.path);
     REQUIRE(dom.root());
-    CHECK(dom.said == "");
+    CHECK(dom.messages == "");
     const auto joints = dom.all<ColladaDOM150::domJoint>();
     const auto own_joints = robot.joints();
     REQUIRE(joints.size() == own_joints.size());
@@ -113,7 +114,7 @@ TEST_CASE("collada-dom reads our files without complaint and finds the same join
   }
 }
 
-TEST_CASE("a robot that collada-dom has read and written is still the same") {
+TEST_CASE("a file that collada-dom has read and rewritten gives the same robot") {
   const erp::Robot robot = read("arm");
   const File file(formats::to_collada(robot), ".dae"), again("", "_again.dae");
   Dom dom(file.path);
@@ -121,7 +122,7 @@ TEST_CASE("a robot that collada-dom has read and written is still the same") {
   CHECK(erp::write_robot(formats::from_collada(again.path)) == erp::write_robot(robot));
 }
 
-TEST_CASE("what another program changed in the standard elements holds") {
+TEST_CASE("a value that another program changed in the standard elements takes precedence") {
   const erp::Robot rig = read("hinge_rig");
   const std::string text = formats::to_collada(rig);
   const erp::Robot heavier = through_file(replaced(text, "<mass>0.8</mass>", "<mass>0.9</mass>"));
@@ -137,7 +138,7 @@ TEST_CASE("what another program changed in the standard elements holds") {
                     Catch::Contains("body \"arm\" is not in the extra"));
 }
 
-TEST_CASE("a base that weighs something, and another gravity, go through as well") {
+TEST_CASE("the mass of the base is kept, and a changed gravity is imported") {
   erp::Robot robot = read("hinge_rig");
   erp::Body& base = robot.skeletons[0].bodies[0];
   base.density_kg_per_m3 = 1000;
@@ -148,7 +149,7 @@ TEST_CASE("a base that weighs something, and another gravity, go through as well
   CHECK(moon.gravity_m_per_s2() == xml::Vec3{0, 0, -1.62});
 }
 
-TEST_CASE("without our extra the skeleton comes through") {
+TEST_CASE("without the extra element, the skeleton is imported") {
   for (const auto& name : robots) {
     CAPTURE(name);
     const erp::Robot robot = read(name);
@@ -163,11 +164,11 @@ TEST_CASE("without our extra the skeleton comes through") {
   }
 }
 
-TEST_CASE("another program's file: its unit, its upward axis and its turned frames") {
+TEST_CASE("unit, upward axis and rotated frames of another program's file are converted") {
   const erp::Robot robot = through_file(foreign);
   const erp::Joint joint = robot.joints()[0];
-  CHECK(joint.at_m[2] == Approx(1.0));  // y upwards is our z
-  CHECK(joint.axis[0] == Approx(1.0));  // z of a frame turned about y
+  CHECK(joint.at_m[2] == Approx(1.0));  // y upwards becomes z
+  CHECK(joint.axis[0] == Approx(1.0));  // z of a frame rotated about y
   CHECK(joint.min_rad == Approx(-M_PI / 2));
   const erp::Mass rod = mass_of(robot.bodies()[1]);
   CHECK(rod.mass_kg == 2);
@@ -177,8 +178,8 @@ TEST_CASE("another program's file: its unit, its upward axis and its turned fram
   CHECK(rod.inertia_kg_m2[2] == Approx(0.02));
 }
 
-TEST_CASE("a broken file is refused with its place and a remedy") {
-  const auto said = [](const std::string& text) -> std::string {
+TEST_CASE("an invalid file is rejected with place and remedy") {
+  const auto error_of = [](const std::string& text) -> std::string {
     try {
       through_file(text);
     } catch (const xml::Errors& errors) {
@@ -187,15 +188,16 @@ TEST_CASE("a broken file is refused with its place and a remedy") {
     return "";
   };
   using Catch::Contains;
-  CHECK_THAT(said("<robot/>"), Contains("1:1") && Contains("its root element is <COLLADA>"));
-  CHECK_THAT(said(replaced(foreign, "1.5.0", "1.4.1")), Contains("export COLLADA 1.5"));
-  CHECK_THAT(said(replaced(foreign, "#j\"", "#k\"")),
+  CHECK_THAT(error_of("<robot/>"),
+             Contains("1:1") && Contains("the root element must be <COLLADA>"));
+  CHECK_THAT(error_of(replaced(foreign, "1.5.0", "1.4.1")), Contains("export COLLADA 1.5"));
+  CHECK_THAT(error_of(replaced(foreign, "#j\"", "#k\"")),
              Contains(":6:5") && Contains("names no joint"));
-  CHECK_THAT(said(replaced(foreign, "k/swing", "k/sway")),
+  CHECK_THAT(error_of(replaced(foreign, "k/swing", "k/sway")),
              Contains("<instance_joint sid=\"sway\">"));
-  CHECK_THAT(said(replaced(foreign, "0 100 0", "0 100")), Contains("holds 2 numbers"));
-  CHECK_THAT(said(replaced(foreign, "0 100 0", "0 1OO 0")), Contains(":7:"));
-  CHECK_THAT(said(replaced(foreign, "<axis>0 0 1</axis>", "")), Contains("has no <axis>"));
-  CHECK_THAT(said(replaced(foreign, "revolute sid", "prismatic sid")), Contains("prismatic"));
-  CHECK_THAT(said(replaced(foreign, "</joint>", "")), Contains(":4:") && Contains("joint"));
+  CHECK_THAT(error_of(replaced(foreign, "0 100 0", "0 100")), Contains("contains 2 numbers"));
+  CHECK_THAT(error_of(replaced(foreign, "0 100 0", "0 1OO 0")), Contains(":7:"));
+  CHECK_THAT(error_of(replaced(foreign, "<axis>0 0 1</axis>", "")), Contains("has no <axis>"));
+  CHECK_THAT(error_of(replaced(foreign, "revolute sid", "prismatic sid")), Contains("prismatic"));
+  CHECK_THAT(error_of(replaced(foreign, "</joint>", "")), Contains(":4:") && Contains("joint"));
 }

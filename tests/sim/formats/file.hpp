@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-/// A text as a file, for as long as it lives.
+/// A temporary file with a given content, removed by the destructor.
 struct File {
   std::string path;
   explicit File(const std::string& text, const std::string& ending = ".xml")

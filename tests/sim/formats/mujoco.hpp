@@ -10,7 +10,7 @@
 
 #include "sim/formats/formats.hpp"
 
-/// A robot in MuJoCo, through the file we export: the peer.
+/// A robot loaded into MuJoCo from the exported MJCF, as a reference implementation.
 namespace peer {
 
 class Mujoco {

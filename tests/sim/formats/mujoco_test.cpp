@@ -10,10 +10,10 @@ using sim::JointReading, sim::World;
 
 namespace {
 
-erp::Robot arm(bool rubbing) {
+erp::Robot arm(bool with_friction) {
   erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   for (auto& joint : robot.skeletons[0].joints)
-    if (!rubbing) joint.coulomb_Nm = 0;  // MuJoCo's is soft
+    if (!with_friction) joint.coulomb_Nm = 0;  // MuJoCo's Coulomb friction is softened
   return robot;
 }
 
@@ -24,9 +24,9 @@ void put(const peer::Mujoco& mujoco, World& world, int joint, const JointReading
   for (int i = 0; i < n; ++i) q[i] = reading.position[static_cast<std::size_t>(i)];
 }
 
-/// MuJoCo 2.2.2 now and then lets a tendon with a sidesite pass straight through its sphere, by a
-/// jump of its length: then it measures from point to point.
-bool pierces(const sim::PathShape& shape, double their_length_m) {
+/// True if MuJoCo's tendon passes straight through its sphere. MuJoCo 2.2.2 occasionally does this for a
+/// tendon with a sidesite, with a jump of the length to the distance of the end points.
+bool penetrates(const sim::PathShape& shape, double their_length_m) {
   if (shape.elements != 3 || !shape.touches[1]) return false;
   const Eigen::Vector3d a = shape.entry_m[0], b = shape.entry_m[2], along = b - a;
   const Eigen::Vector3d center = shape.pulls[1].at_m;
@@ -38,12 +38,12 @@ bool pierces(const sim::PathShape& shape, double their_length_m) {
 
 }  // namespace
 
-TEST_CASE("wrapped lengths are MuJoCo's to 1e-9 m") {
+TEST_CASE("wrapped lengths on spheres agree with MuJoCo to 1e-9 m") {
   World world(arm(false));
   const peer::Mujoco mujoco(world.robot());
   std::mt19937 random(3);
   std::uniform_real_distribution<double> angle(-0.7, 0.7), bend(0, 2.2);
-  int compared = 0, pierced = 0;
+  int compared = 0, penetrated = 0;
   double largest_m = 0;
   for (int trial = 0; trial < 1000; ++trial) {
     const Eigen::Quaterniond q = Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitX()) *
@@ -54,8 +54,8 @@ TEST_CASE("wrapped lengths are MuJoCo's to 1e-9 m") {
     mj_forward(mujoco.model.get(), mujoco.data.get());
     for (std::size_t k = 0; k < world.actuators().size(); ++k) {
       const double theirs_m = mujoco.length_m(world.robot().actuators[k].name);
-      if (++compared; pierces(world.path(static_cast<int>(k)), theirs_m)) {
-        ++pierced;
+      if (++compared; penetrates(world.path(static_cast<int>(k)), theirs_m)) {
+        ++penetrated;
         continue;
       }
       CAPTURE(trial, world.robot().actuators[k].name);
@@ -63,12 +63,13 @@ TEST_CASE("wrapped lengths are MuJoCo's to 1e-9 m") {
       CHECK(largest_m < 1e-9);
     }
   }
-  WARN("largest difference of a length: " << largest_m << " m; " << pierced << " of " << compared
-                                          << " not compared: MuJoCo goes through the pulley");
-  CHECK(pierced < compared / 100);
+  WARN("largest difference of a length: "
+       << largest_m << " m; " << penetrated << " of " << compared
+       << " not compared, because MuJoCo's tendon passes through the pulley");
+  CHECK(penetrated < compared / 100);
 }
 
-TEST_CASE("lengths around a cylinder, askew, are MuJoCo's to 1e-9 m") {
+TEST_CASE("lengths around an inclined cylinder agree with MuJoCo to 1e-9 m") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   erp::Pulley cylinder{{}, "base", {0, 0, 0}, 0.02};
   cylinder.shape = erp::PulleyShape::cylinder;
@@ -88,7 +89,7 @@ TEST_CASE("lengths around a cylinder, askew, are MuJoCo's to 1e-9 m") {
   CHECK(wrapped > 100);
 }
 
-TEST_CASE("under the same tensions the arm moves as MuJoCo's, to 1e-3 rad over 1 s") {
+TEST_CASE("with equal tensions the motion of the arm agrees with MuJoCo to 1e-3 rad over 1 s") {
   World world(arm(false));
   const peer::Mujoco mujoco(world.robot());
   const double dt_s = 1e-4;
@@ -117,7 +118,7 @@ TEST_CASE("under the same tensions the arm moves as MuJoCo's, to 1e-3 rad over 1
 
 namespace {
 
-/// A floating bone of solids, with a second one on a hinge, pulled by a tendon each.
+/// A free bone made of solids and a second bone on a hinge, each pulled by one tendon.
 erp::Robot floating() {
   erp::Body blade, rod;
   blade.name = "blade", rod.name = "rod";
@@ -146,7 +147,7 @@ erp::Robot floating() {
 
 }  // namespace
 
-TEST_CASE("a floating body and what hangs on it move as MuJoCo's, to 1e-3 m over 0.5 s") {
+TEST_CASE("the motion of a free body with a hinged body agrees with MuJoCo to 1e-3 m over 0.5 s") {
   World world(floating());
   const peer::Mujoco mujoco(world.robot());
   const double dt_s = 2e-5;

@@ -55,7 +55,7 @@ void check_same(const erp::Robot& was, const erp::Robot& now) {
 
 }  // namespace
 
-TEST_CASE("a skeleton that is written and read again is the same") {
+TEST_CASE("export and import of a skeleton returns the same skeleton") {
   const Format format = GENERATE(Format{"urdf", formats::to_urdf, formats::from_urdf},
                                  Format{"sdf", formats::to_sdf, formats::from_sdf});
   for (const char* robot : {"hinge_rig", "arm", "seven_dof", "ecce4"}) {
@@ -66,7 +66,7 @@ TEST_CASE("a skeleton that is written and read again is the same") {
   }
 }
 
-TEST_CASE("turned frames of URDF become parallel ones") {
+TEST_CASE("rotated frames of URDF are converted to parallel frames") {
   const File file(R"(<robot name="r"><link name="base"/>
     <link name="rod"><inertial><origin xyz="0.1 0 0" rpy="0 0 1.5707963267948966"/>
       <mass value="2"/><inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial></link>
@@ -75,31 +75,31 @@ TEST_CASE("turned frames of URDF become parallel ones") {
   const erp::Robot robot = formats::from_urdf(file.path);
   const erp::Body rod = robot.bodies().at(1);
   CHECK(near(rod.com_m, {0, 0.1, 0}));
-  CHECK(near(rod.inertia_kg_m2, {1, 2, 2.5}));  // turned twice by a quarter
+  CHECK(near(rod.inertia_kg_m2, {1, 2, 2.5}));  // rotated twice by a quarter turn
   CHECK(near(robot.joints().at(0).axis, {0, 1, 0}));
   CHECK(near(robot.joints().at(0).at_m, {0, 0, 1}));
 }
 
-TEST_CASE("what is wrong in a foreign file is said with its place") {
-  const auto says = [](const char* text, const char* words) {
+TEST_CASE("an error in a URDF file is reported with its position") {
+  const auto check_error = [](const char* text, const char* message) {
     const File file(text);
-    CHECK_THROWS_WITH(formats::from_urdf(file.path), Catch::Contains(words));
+    CHECK_THROWS_WITH(formats::from_urdf(file.path), Catch::Contains(message));
   };
-  says("<model/>", ":1:1: <model>: is no URDF");
-  says("<robot><link name='a'/></robot>", "has no name");
-  says(
+  check_error("<model/>", ":1:1: <model>: is not a URDF file");
+  check_error("<robot><link name='a'/></robot>", "has no name");
+  check_error(
       "<robot name='r'><link name='a'/><link name='b'/>\n<joint name='j' type='prismatic'>"
       "<parent link='a'/><child link='b'/></joint></robot>",
-      ":2:1: <joint>: type=\"prismatic\" is not simulated; revolute");
-  says(
+      ":2:1: <joint>: type=\"prismatic\" is not supported; use revolute");
+  check_error(
       "<robot name='r'><link name='a'><inertial>\n<mass value='heavy'/><inertia ixx='1' iyy='1' "
       "izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>",
       ":2:1: <mass>: value=\"heavy\"");
-  says(
+  check_error(
       "<robot name='r'><link name='a'/><joint name='j' type='fixed'><parent link='a'/>"
       "<child link='c'/></joint></robot>",
-      "which are not both links");
-  says(
+      "at least one of them is not a link");
+  check_error(
       "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>"
       "<parent link='a'/><child link='b'/></joint><joint name='k' type='fixed'>"
       "<parent link='b'/><child link='a'/></joint></robot>",

@@ -13,7 +13,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 erp::Robot arm() { return erp::read_robot(rigs::config("arm/robot.xml")); }
 
-/// The fifteen poses that it holds.
+/// The fifteen poses to be held.
 std::vector<sim::Pose> arm_poses() {
   std::vector<sim::Pose> held;
   const auto rows = sim::poses_of(recording::read_table(rigs::config("arm/poses.csv")), arm());
@@ -24,7 +24,7 @@ std::vector<sim::Pose> arm_poses() {
 
 Eigen::Quaterniond turn(const std::array<double, 4>& p) { return {p[0], p[1], p[2], p[3]}; }
 
-/// How far apart two poses are: the larger of shoulder and elbow.
+/// Distance of two poses: the larger angle of shoulder and elbow.
 double apart_rad(const sim::Pose& a, const sim::Pose& b) {
   return std::max(turn(a[0]).angularDistance(turn(b[0])), std::abs(a[1][0] - b[1][0]));
 }
@@ -37,9 +37,9 @@ struct Hold {
   double drift_rad = 0, error_rad = 0;
 };
 
-/// Ramps in 1.5 s, settles, then watches for 3 s.
+/// Ramps in 1.5 s, settles, then measures for 3 s.
 Hold hold(Limb& limb, const std::vector<double>& from, const std::vector<double>& to,
-          const sim::Pose& wanted, double settle_s = 1) {
+          const sim::Pose& desired, double settle_s = 1) {
   std::vector<double> lines = from;
   for (int k = 0; k <= std::lround((1.5 + settle_s) / 0.002); ++k) {
     for (std::size_t i = 0; i < lines.size(); ++i)
@@ -52,7 +52,7 @@ Hold hold(Limb& limb, const std::vector<double>& from, const std::vector<double>
     limb.follow_lines(to);
     result.drift_rad = std::max(result.drift_rad, apart_rad(pose_of(limb.world), settled));
   }
-  result.error_rad = apart_rad(pose_of(limb.world), wanted);
+  result.error_rad = apart_rad(pose_of(limb.world), desired);
   return result;
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("the arm has the eleven muscles, two of them over both joints") {
   CHECK(biarticular == 2);
 }
 
-TEST_CASE("no muscle's point comes inside a pulley in any of the poses") {
+TEST_CASE("no muscle's path point is inside a pulley in any of the poses") {
   const erp::Robot robot = arm();
   sim::World world(robot);
   for (const sim::Pose& pose : arm_poses()) {
@@ -84,7 +84,7 @@ TEST_CASE("no muscle's point comes inside a pulley in any of the poses") {
   }
 }
 
-TEST_CASE("under length control the arm stands at its start") {
+TEST_CASE("under length control the arm stays at its initial pose") {
   const erp::Robot robot = arm();
   Limb limb(robot);
   const std::vector<double> start(11, 0.0);
@@ -97,8 +97,8 @@ TEST_CASE("under length control the arm stands at its start") {
 
 TEST_CASE("under length control of all muscles the arm holds fifteen poses without drift") {
   erp::Robot robot = arm();
-  const bool joints_rub =
-      GENERATE(true, false);  // without, the muscles alone hold it, and it swings longer
+  const bool joints_rub = GENERATE(
+      true, false);  // without friction the muscles alone hold it, and it oscillates longer
   if (!joints_rub)
     for (auto& joint : robot.skeletons[0].joints) joint.coulomb_Nm = 0;
   const auto poses = arm_poses();

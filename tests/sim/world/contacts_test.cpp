@@ -15,7 +15,7 @@ erp::Body solid(const std::string& name, erp::Part part) {
   return body;
 }
 
-/// Bodies that float where they are put, each in contact with the one before; the first stands.
+/// Free bodies at given positions, each in contact with the previous one; the first is fixed.
 erp::Robot loose(std::vector<erp::Body> bodies, const std::vector<xml::Vec3>& at,
                  xml::Vec3 gravity = {0, 0, -9.81}) {
   std::vector<erp::Joint> joints;
@@ -45,14 +45,14 @@ double lowest_m(World& world, int body, int steps) {
 
 }  // namespace
 
-TEST_CASE("a ball that falls on a floor stops there and lies on it") {
+TEST_CASE("a ball that falls on a floor stops there and stays") {
   World world(loose({floor(), ball()}, {{}, {0.1, 0.2, 0.5}}));
   CHECK(lowest_m(world, 1, 2000) > 0.03 - 1e-6);
   CHECK(world.poses()[1].position_m.z() == Approx(0.03).margin(1e-6));
   for (const double v : world.joints()[0].slide_m_per_s) CHECK(std::abs(v) < 1e-6);
 }
 
-TEST_CASE("a capsule lies along the floor, on its whole length") {
+TEST_CASE("a capsule rests on the floor along its whole length") {
   erp::Body rod = solid("rod", erp::Capsule{{}, {-0.1, 0, 0}, {0.1, 0, 0.02}, 0.02});
   World world(loose({floor(), rod}, {{}, {0, 0, 0.3}}));
   for (int i = 0; i < 3000; ++i) world.step({}, 0.001);
@@ -68,7 +68,7 @@ TEST_CASE("without a contact bodies pass through each other") {
   CHECK(lowest_m(world, 1, 500) < -0.5);
 }
 
-TEST_CASE("two balls that meet go on together: momentum stays, to rounding") {
+TEST_CASE("two colliding balls move on together; momentum is conserved to rounding") {
   World world(loose({floor(), ball("a"), ball("b")}, {{}, {0, 0, 1}, {0.1, 0.01, 1}}, {0, 0, 0}));
   JointReading moving = world.joints()[0];
   moving.slide_m_per_s = {2, 0, 0};
@@ -83,10 +83,10 @@ TEST_CASE("two balls that meet go on together: momentum stays, to rounding") {
   CHECK(a[0] + b[0] == Approx(2).epsilon(1e-9));
   CHECK(std::abs(a[1] + b[1]) < 1e-9);
   CHECK(b[0] > 0.9);
-  CHECK(b[1] > 0.05);  // pushed aside: it was not hit in the middle
+  CHECK(b[1] > 0.05);  // pushed aside: not hit at its centre
 }
 
-TEST_CASE("bodies that begin inside each other come apart, slowly") {
+TEST_CASE("bodies that start in overlap separate slowly") {
   for (const double depth : {0.001, 0.02, 0.05}) {
     CAPTURE(depth);
     World world(

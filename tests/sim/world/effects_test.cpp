@@ -20,7 +20,7 @@ erp::Robot with(const effects::AnyEffect& effect) {
   return robot;
 }
 
-/// What the ECUs of the rig say over 6 s of tensions that come and go, and of line let out slack.
+/// The ECU readings of the rig over 6 s of changing tensions and of a line unwound until slack.
 Counts recording(const erp::Robot& robot) {
   Limb limb(robot);
   erp::EcuFrame frame;
@@ -41,7 +41,7 @@ Counts recording(const erp::Robot& robot) {
         counts.push_back(said);
     for (const auto& a : erp::samples(frame.analogs)) counts.push_back(a.counts);
   }
-  CHECK(limb.world.sound());
+  CHECK(limb.world.is_finite());
   return counts;
 }
 
@@ -53,7 +53,7 @@ double share_changed(const Counts& a, const Counts& b) {
 
 }  // namespace
 
-TEST_CASE("every effect shows in what the rig's sensors say; a neutral one changes no bit") {
+TEST_CASE("every effect changes the rig's sensor readings; a neutral one changes no bit") {
   const Counts plain = recording(hinge_rig());
   for (const auto& neutral : effects::library()) {
     const std::string type(effects::about(neutral).type);
@@ -63,7 +63,7 @@ TEST_CASE("every effect shows in what the rig's sensors say; a neutral one chang
   }
 }
 
-TEST_CASE("a world with effects goes on from a saved state bit by bit") {
+TEST_CASE("a world with effects continues from a saved state bit by bit") {
   erp::Robot robot = hinge_rig();
   for (const char* type : {"gearbox_backlash", "spindle_slip", "tendon_creep", "tendon_hysteresis",
                            "motor_thermal_resistance", "joint_stribeck"}) {
@@ -87,7 +87,7 @@ TEST_CASE("a world with effects goes on from a saved state bit by bit") {
   CHECK(straight.joints()[0].position[0] == other.joints()[0].position[0]);
 }
 
-TEST_CASE("effects on what is drawn from a rope are refused") {
+TEST_CASE("effects on a tendon modelled as a rope are refused") {
   erp::Robot robot = with(magnitudes::visible("tendon_creep"));
   robot.actuators[0].rope = erp::Rope{{}, 20, 0.01, 0.0005, 0, ""};
   CHECK_THROWS_WITH(sim::World(robot), Catch::Contains("is a rope"));

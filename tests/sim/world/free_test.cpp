@@ -11,7 +11,7 @@ namespace {
 
 constexpr double mass_kg = 0.4;
 
-/// A body that nothing holds, its centre of mass off its origin.
+/// A free body whose centre of mass is not at its origin.
 erp::Robot stone(xml::Vec3 gravity = {0, 0, -9.81}) {
   return rigs::robot(
       {rigs::root(), rigs::bone("stone", mass_kg, {0.05, -0.02, 0.03}, {2e-3, 3e-3, 4e-3})},
@@ -37,7 +37,7 @@ Vector3d spin(const World& world) {
   return world.poses()[1].rotation * w.cwiseProduct(Vector3d(2e-3, 3e-3, 4e-3));
 }
 
-/// A plate of 0.4 kg that hangs on eight tendons, two at each corner.
+/// A plate of 0.4 kg on eight tendons, two at each corner.
 erp::Robot hung() {
   erp::Robot robot = stone();
   robot.motor_types = {rigs::caliper()};
@@ -59,19 +59,20 @@ erp::Robot hung() {
 
 }  // namespace
 
-TEST_CASE("a thrown stone's centre of mass flies a parabola and its spin stays") {
+TEST_CASE("the centre of mass of a thrown body follows a parabola and its spin is constant") {
   World world(stone());
   world.set_joint(0, thrown());
   const Vector3d start = com(world), spun = spin(world);
   const double dt = 0.001;
   for (int i = 0; i < 1000; ++i) world.step({}, dt);
   const Vector3d expected =
-      start + Vector3d(1, 0.5, 2) - Vector3d(0, 0, 9.81) * (0.5 + dt / 2);  // Euler's parabola
+      start + Vector3d(1, 0.5, 2) -
+      Vector3d(0, 0, 9.81) * (0.5 + dt / 2);  // the parabola of Euler's method
   CHECK((com(world) - expected).norm() < 1e-9);
   CHECK((spin(world) - spun).norm() < 2e-3 * spun.norm());
 }
 
-TEST_CASE("a stone that turns in space keeps its energy") {
+TEST_CASE("a freely rotating body conserves its energy") {
   World world(stone({0, 0, 0}));
   world.set_joint(0, thrown());
   const double energy = world.energy_J();
@@ -79,7 +80,7 @@ TEST_CASE("a stone that turns in space keeps its energy") {
   CHECK(world.energy_J() == Approx(energy).epsilon(1e-4));
 }
 
-TEST_CASE("a restored flight goes on bit by bit") {
+TEST_CASE("a restored free flight continues bit by bit") {
   World world(hung()), other(hung());
   world.set_joint(0, thrown());
   const std::vector<double> voltage(8, 0.5);
@@ -91,7 +92,7 @@ TEST_CASE("a restored flight goes on bit by bit") {
   CHECK(world.joints()[0].slide_m_per_s == other.joints()[0].slide_m_per_s);
 }
 
-TEST_CASE("a body held by nothing but tendons stays where they balance it") {
+TEST_CASE("a body held only by tendons stays in their equilibrium") {
   erp::Robot robot = hung();
   const sim::Holding holding = sim::hold_pose(robot, sim::starting_pose(robot));
   CHECK(holding.unbalanced_Nm < 1e-6);
@@ -110,5 +111,6 @@ TEST_CASE("a free body can be locked, and must float relative to a root") {
   robot.skeletons[0].bodies.push_back(rigs::bone("dust", 0.1, {0, 0, 0}, {1e-4, 1e-4, 1e-4}));
   robot.skeletons[0].joints.push_back(
       rigs::joint("float_too", erp::JointType::free, "stone", "dust"));
-  CHECK_THROWS_WITH(World(robot), Catch::Contains("\"dust\" must float relative to a root"));
+  CHECK_THROWS_WITH(World(robot),
+                    Catch::Contains("\"dust\": the parent of a free joint must be a root"));
 }

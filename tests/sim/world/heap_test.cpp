@@ -1,4 +1,4 @@
-// Its own program: it counts every allocation.
+// A separate program, because it counts every allocation.
 #include <catch2/catch.hpp>
 
 #include "sim/world/imus.hpp"
@@ -6,7 +6,7 @@
 #include "tests/sim/rigs.hpp"
 #include "tests/sim/world/limb.hpp"
 
-TEST_CASE("ropes on bones, timed sensors and inertial units do not touch the heap either") {
+TEST_CASE("ropes on bodies, timed sensors and inertial units do not use the heap") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   auto& path = robot.actuators[0].tendon.path;
   path = {path.front(), path[path.size() - 2], path.back()};
@@ -21,19 +21,20 @@ TEST_CASE("ropes on bones, timed sensors and inertial units do not touch the hea
   erp::ImuFrame frame;
   const auto tick = [&] {
     limb.follow_lines({-0.005, 0.005});
-    imus.look(limb.world);
+    imus.sample(limb.world);
     while (imus.next(frame)) {
     }
   };
   for (int k = 0; k < 50; ++k) tick();
   REQUIRE(limb.world.rope(0)->forces().size() > 3);
   const std::size_t before = tests::allocations();
-  for (int k = 0; k < 100; ++k) limb.ecus.tick(limb.world), imus.look(limb.world), imus.next(frame);
+  for (int k = 0; k < 100; ++k)
+    limb.ecus.tick(limb.world), imus.sample(limb.world), imus.next(frame);
   const std::size_t after = tests::allocations();
   CHECK(after == before);
 }
 
-TEST_CASE("a tick of the arm, its ECUs and its frame does not touch the heap") {
+TEST_CASE("a tick of the arm, its ECUs and its frame does not use the heap") {
   Limb limb(erp::read_robot(rigs::config("arm/robot.xml")));
   erp::EcuFrame frame;
   erp::JointState joints;

@@ -11,14 +11,14 @@ using namespace sim;
 
 namespace {
 
-/// A mass on a tendon that always pulls: x⁺⁺ = −κ x / m, about a stretch of `rest_m`.
+/// A mass on a tendon that is always taut: x⁺⁺ = −κ x / m, about a stretch of `rest_m`.
 struct Oscillator {
   double mass_kg, stiffness_N_per_m, damping_N_s_per_m = 0;
   double stretch_m = 0.02, speed_m_per_s = 0;
   static constexpr double rest_m = 0.01;
 
   double force_N() const { return stiffness_N_per_m * rest_m; }
-  /// `theta` 0: the step chooses.
+  /// `theta` 0: chosen at each step.
   void step(double dt_s, double theta = 0) {
     const StretchedTendon tendon{stiffness_N_per_m, damping_N_s_per_m,
                                  stretch_m,         stiffness_N_per_m * stretch_m,
@@ -52,7 +52,7 @@ TEST_CASE("a resolved oscillation keeps its amplitude and its period") {
   CHECK(mass.stretch_m == Approx(0.02).epsilon(0.02));
 }
 
-TEST_CASE("backward Euler drains, one half keeps, at a step that resolves little") {
+TEST_CASE("with a coarse step θ = 1 dissipates energy and θ = ½ conserves it") {
   Oscillator drained{1, 1e4}, kept{1, 1e4};
   double least_m = 1;
   for (int i = 0; i < 2000; ++i) {
@@ -63,7 +63,7 @@ TEST_CASE("backward Euler drains, one half keeps, at a step that resolves little
   CHECK(least_m > 0.002);
 }
 
-TEST_CASE("a damped oscillation swings and dies as it should, to second order in the step") {
+TEST_CASE("a damped oscillation matches the exact solution to second order in the step") {
   const double kappa = 6000, damping = 20, mass_kg = 0.4;
   const double decay = damping / (2 * mass_kg);
   const double omega = std::sqrt(kappa / mass_kg - decay * decay);
@@ -93,7 +93,7 @@ TEST_CASE("damping of any size is stable") {
   CHECK(std::abs(mass.stretch_m) < 0.03);
 }
 
-TEST_CASE("a slack tendon does nothing until it is drawn taut") {
+TEST_CASE("a slack tendon has tension 0 until it is taut") {
   OneSidedForce force{0, 0, {{0, 1}}};
   pull_implicitly({1000, 10, -0.002, -2, 1, 0}, {0.5, 0.5}, 1e-3, force);
   CHECK((force.row.empty() && force.start_N == 0));
@@ -102,7 +102,7 @@ TEST_CASE("a slack tendon does nothing until it is drawn taut") {
   CHECK(force.row.size() == 1);
 }
 
-TEST_CASE("tendons of 1e7 N/m are stable at 1 ms for a minute of being driven") {
+TEST_CASE("tendons of 1e7 N/m are stable at 1 ms for a minute of motion") {
   for (const char* name : {"hinge_rig/robot.xml", "arm/robot.xml"}) {
     INFO(name);
     erp::Robot robot = erp::read_robot(rigs::config(name));

@@ -18,7 +18,8 @@ erp::Imu unit(const std::string& name, double rate_Hz, double latency_s) {
 
 }  // namespace
 
-TEST_CASE("inertial units look at their rates and arrive late, stamped with when they looked") {
+TEST_CASE(
+    "inertial units sample at their rates and arrive after their latency with the sampling time") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   robot.imus = {unit("quick", 500, 0), unit("slow", 100, 0.004), unit("other", 100, 0.004)};
   sim::World world(robot);
@@ -26,7 +27,7 @@ TEST_CASE("inertial units look at their rates and arrive late, stamped with when
   std::map<std::string, std::vector<std::int64_t>> stamps;
   erp::ImuFrame frame;
   for (int tick = 0; tick <= 5000; ++tick) {
-    imus.look(world);
+    imus.sample(world);
     while (imus.next(frame)) {
       for (const auto& sample : erp::samples(frame.imus)) {
         stamps[sample.name].push_back(frame.stamp_ns);
@@ -46,7 +47,7 @@ TEST_CASE("inertial units look at their rates and arrive late, stamped with when
   CHECK(frame.imus._buffer[0].acceleration_m_per_s2[2] == Approx(9.81).epsilon(1e-3));
 }
 
-TEST_CASE("an inertial unit on no body is refused") {
+TEST_CASE("an inertial unit on an unknown body is refused") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   robot.imus = {unit("lost", 100, 0)};
   robot.imus[0].body = "hand";

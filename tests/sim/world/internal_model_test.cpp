@@ -25,7 +25,7 @@ bool same(const sim::WorldState& a, const sim::WorldState& b) {
 
 }  // namespace
 
-TEST_CASE("the internal model foresees what the world then does, with any number of threads") {
+TEST_CASE("the internal model predicts the world exactly, with any number of threads") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   sim::World world(robot);
   for (int k = 0; k < 50; ++k) world.step(std::vector<double>(robot.actuators.size(), 0.3), 0.001);
@@ -45,7 +45,7 @@ TEST_CASE("the internal model foresees what the world then does, with any number
   }
 }
 
-TEST_CASE("what goes wrong in one candidate reaches the caller, and the model goes on") {
+TEST_CASE("an exception in one candidate reaches the caller, and the model remains usable") {
   const erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   sim::InternalModel model(robot, {}, 2);
   const sim::WorldState start = sim::World(robot).save();

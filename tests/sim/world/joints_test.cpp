@@ -66,7 +66,7 @@ TEST_CASE("a pendulum's period is the elliptic integral's") {
         Approx(4 * elliptic(amplitude) / omega).epsilon(1e-5));
 }
 
-TEST_CASE("Coulomb friction takes 2 τ_c / (m g l) of amplitude each half swing") {
+TEST_CASE("Coulomb friction reduces the amplitude by 2 τ_c / (m g l) each half swing") {
   const double torque = 0.004;
   World world(pendulum(0.15, 0, torque));
   const double step = 2 * torque / (pendulum_mass_kg * 9.81 * pendulum_l_m);
@@ -86,7 +86,7 @@ TEST_CASE("a joint sticks, without creeping, while the load is below its frictio
   CHECK(std::abs(angle(above) - holds * 1.001) > 1e-6);
 }
 
-TEST_CASE("viscous friction decays as exp(−µ t / I), and no µ is too large") {
+TEST_CASE("with viscous friction speed decays as exp(−µ t / I), stable for any µ") {
   const double mu = 0.05;
   erp::Robot free = pendulum(0, mu);
   free.skeletons[0].gravity_m_per_s2 = xml::Vec3{0, 0, 0};
@@ -104,7 +104,7 @@ TEST_CASE("viscous friction decays as exp(−µ t / I), and no µ is too large")
   CHECK(std::abs(speed(stiff)) < 1e-3);
 }
 
-TEST_CASE("a free ball joint keeps its energy and its momentum") {
+TEST_CASE("a free ball joint conserves energy and momentum") {
   World world(ball());
   world.set_joint(0, spinning({3, 1, 2}));
   const Vec3 inertia(0.02, 0.015, 0.01);
@@ -168,7 +168,7 @@ TEST_CASE("a ball joint's whole rotation stays within its limit") {
   CHECK(largest == Approx(0.7).margin(2e-3));
 }
 
-TEST_CASE("a locked joint keeps its initial angle and moves the rest with it") {
+TEST_CASE("a locked joint keeps its initial angle") {
   World world(pendulum(0.4), {.lock = {"hinge"}});
   const Vec3 before = world.poses()[1].rotation * Vec3(0, 0, -1);
   for (int k = 0; k < 100; ++k) world.step({}, 1e-3);
@@ -178,7 +178,7 @@ TEST_CASE("a locked joint keeps its initial angle and moves the rest with it") {
   CHECK_THROWS_AS(World(pendulum(0), {.lock = {"hinch"}}), std::invalid_argument);
 }
 
-TEST_CASE("a robot that is no tree is refused") {
+TEST_CASE("a robot that is not a tree is refused") {
   const auto hinge = [](const char* parent, const char* child) {
     return joint("j", erp::JointType::revolute, parent, child);
   };

@@ -5,7 +5,7 @@
 #include "sim/control/gain_design.hpp"
 #include "sim/world/virtual_ecus.hpp"
 
-/// A simulated robot driven as the plant drives it: parameters, arming, set-points every tick.
+/// A simulated robot commanded as by the plant: parameters, arming, set-points every tick.
 class Limb {
  public:
   explicit Limb(const erp::Robot& robot, const sim::WorldOptions& world_options = {},
@@ -18,12 +18,12 @@ class Limb {
         erp::append(message.values, erp::EcuParameterValue{
                                         std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
                                         std::uint8_t(k), k + 1 == gains.size(), gains[k]});
-      ecus.accept(message);
+      ecus.receive(message);
     }
     command(ECU_REQUEST_ARM, std::vector<double>(robot_.actuators.size(), 0.0));
   }
 
-  /// Set-points in the request's own quantum.
+  /// Set-points in the unit of the request.
   void command(ecu_request request, const std::vector<double>& setpoints) {
     erp::EcuCommand message;
     for (std::size_t k = 0; k < setpoints.size(); ++k) {
@@ -33,7 +33,7 @@ class Limb {
           erp::EcuChannelCommand{std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
                                  std::uint8_t(request), std::int32_t(std::lround(setpoints[k]))});
     }
-    ecus.accept(message);
+    ecus.receive(message);
   }
 
   /// One tick of length control; lines as change since the start.

@@ -23,22 +23,22 @@ std::vector<double> lines_at(const recording::Table& plan, std::size_t actuators
   return lines;
 }
 
-/// How far the joints are from a pose; where free bodies are is not planned.
+/// Distance of the joints from a pose; free bodies are not planned.
 double off_rad(const Limb& limb, const sim::Pose& pose) {
   double off = 0;
   for (std::size_t j = 0; j < pose.size(); ++j) {
     const sim::JointReading& now = limb.world.joints()[j];
     if (now.type == erp::JointType::free) continue;
-    sim::JointReading wanted = now;
-    wanted.position = pose[j];
-    off = std::max(off, apart_rad(now, wanted));
+    sim::JointReading desired = now;
+    desired.position = pose[j];
+    off = std::max(off, apart_rad(now, desired));
   }
   return off;
 }
 
 }  // namespace
 
-TEST_CASE("every torso goes through its poses under length control and returns") {
+TEST_CASE("every torso reaches its poses under length control and returns") {
   const auto* name = GENERATE("ecce1", "ecce2", "ecce3", "ecce4");
   CAPTURE(name);
   const std::string folder = rigs::config(name);
@@ -55,6 +55,6 @@ TEST_CASE("every torso goes through its poses under length control and returns")
     CAPTURE(poses[p].time_s);
     REQUIRE(farthest < 0.1);
   }
-  WARN(robot.name << ": at most " << farthest << " rad from a pose it holds");
+  WARN(robot.name << ": at most " << farthest << " rad from a pose that it holds");
   CHECK(limb.all_running());
 }

@@ -18,8 +18,8 @@ std::vector<std::string> robot_files() {
 
 }  // namespace
 
-/// Held by its muscles alone: friction, which would hold it anywhere, is taken out.
-TEST_CASE("every robot stands for a minute under length control, without drift") {
+/// Held by its muscles alone: friction, which could hold any pose, is removed.
+TEST_CASE("every robot holds its pose for a minute under length control, without drift") {
   for (const std::string& file : robot_files()) {
     CAPTURE(file);
     erp::Robot robot = erp::read_robot(file);

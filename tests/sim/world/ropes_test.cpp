@@ -30,18 +30,18 @@ double settled_rad(sim::World& world, const std::vector<double>& voltage_V) {
 
 }  // namespace
 
-TEST_CASE("a rope moves the joint as the tendon that finds its path at once does") {
+TEST_CASE("a rope moves the joint like a tendon without rope dynamics") {
   sim::World rope(rope_rig()), path(virtual_rig());
   const std::vector<double> voltage_V{4.0, -2.0};
   const double a = settled_rad(rope, voltage_V), b = settled_rad(path, voltage_V);
   CHECK(std::abs(b) > 0.1);
   CHECK(a == Approx(b).margin(0.01));
   CHECK(rope.actuators()[0].tension_N == Approx(path.actuators()[0].tension_N).epsilon(0.02));
-  CHECK(rope.rope(0)->troubles() == 0);
+  CHECK(rope.rope(0)->failed_steps() == 0);
   CHECK(path.rope(0) == nullptr);
 }
 
-/// The same, with a groove of two bones and friction in the rope's way.
+/// The same, with two bodies that form a groove in the rope's path, and friction.
 erp::Robot groove_rig() {
   erp::Robot robot = rope_rig();
   robot.actuators[0].rope->friction = 0.2;
@@ -52,32 +52,32 @@ erp::Robot groove_rig() {
   return robot;
 }
 
-TEST_CASE("with bones in its way a rope starts with its pretension and rests in their groove") {
+TEST_CASE("a rope over two bodies starts with its pretension and rests in their groove") {
   sim::World world(groove_rig());
   CHECK(world.actuators()[0].tension_N == Approx(5).epsilon(0.01));
   for (int k = 0; k < 300; ++k) world.step(std::vector<double>{2.0, -0.5}, 0.001);
-  CHECK(world.rope(0)->troubles() == 0);
+  CHECK(world.rope(0)->failed_steps() == 0);
   std::set<double> sides;
   for (const auto& force : world.rope(0)->forces())
     if (force.at_m.z() > 0.1 && force.at_m.z() < 0.2)
       sides.insert(std::copysign(1, force.force_N.y()));
-  CHECK(sides.size() == 2);  // both bones are pushed, apart
+  CHECK(sides.size() == 2);  // both bodies are pushed, in opposite directions
 }
 
-TEST_CASE("a rope whose nodes could step over a bone is refused, with the number it needs") {
+TEST_CASE("a rope with too few nodes for a body is refused with the required number") {
   erp::Robot robot = groove_rig();
   robot.actuators[0].rope->nodes = 5;
   CHECK_THROWS_WITH(sim::World(robot), Catch::Contains("flexor") && Catch::Contains("give nodes="));
 }
 
-TEST_CASE("a joint that is put elsewhere takes its rope along") {
+TEST_CASE("a rope follows when set_joint moves its joint") {
   sim::World world(rope_rig());
   world.set_joint(0, {erp::JointType::revolute, {-0.2}, {}, {}, {}});
-  CHECK(world.rope(0)->troubles() == 0);
+  CHECK(world.rope(0)->failed_steps() == 0);
   CHECK(world.actuators()[0].length_m == Approx(world.path(0).length_m).epsilon(1e-3));
 }
 
-TEST_CASE("a world with a rope goes on from what was saved, bit by bit") {
+TEST_CASE("a world with a rope continues from a saved state bit by bit") {
   const erp::Robot robot = GENERATE(rope_rig(), groove_rig());
   sim::World one(robot), other(robot);
   const std::vector<double> voltage_V{1.0, 0.2};
@@ -92,12 +92,11 @@ TEST_CASE("a world with a rope goes on from what was saved, bit by bit") {
   CHECK_THROWS_AS(sim::World(coarse).restore(one.save()), std::invalid_argument);
 }
 
-TEST_CASE(
-    "a line far stiffer than what it holds is heavy is unstable as a rope, and it is counted") {
+TEST_CASE("a rope too stiff for its load is unstable, and the unstable steps are counted") {
   erp::Robot robot = rope_rig();
   robot.actuators[0].tendon.stiffness_N_per_m = 1e8;
   sim::World world(robot);
   for (int k = 0; k < 500; ++k) world.step(std::vector<double>(2, 0.5), 0.001);
-  CHECK(world.rope(0)->troubles() > 0);
+  CHECK(world.rope(0)->failed_steps() > 0);
   CHECK(std::isfinite(world.joints()[0].position[0]));
 }

@@ -41,7 +41,7 @@ VectorXd solve(const MatrixXd& h, const std::vector<OneSidedForce>& forces,
   return v;
 }
 
-/// How far v is from the balance of momentum, in N s: what no allowed friction explains.
+/// Error of the momentum balance at v, in N s, beyond the admissible friction.
 double unbalanced(const MatrixXd& h, const std::vector<OneSidedForce>& forces,
                   const std::vector<JointFriction>& joints, const VectorXd& p, const VectorXd& v) {
   VectorXd missing = h * v - p;
@@ -61,7 +61,7 @@ double unbalanced(const MatrixXd& h, const std::vector<OneSidedForce>& forces,
 
 }  // namespace
 
-TEST_CASE("each friction impulse is the law at the velocity it leaves") {
+TEST_CASE("each friction impulse satisfies its law at the final velocity") {
   const VectorXd p = coupled() * four(1, -2, 0.5, 3);
   const VectorXd v = solve(coupled(), {}, frictions, p);
   const VectorXd impulse = coupled() * v - p;
@@ -70,17 +70,17 @@ TEST_CASE("each friction impulse is the law at the velocity it leaves") {
   CHECK(impulse[3] == Approx(-dt * (0.05 * v[3] + 0.03)).epsilon(1e-9));
 }
 
-TEST_CASE("slow joints are stopped, exactly") {
+TEST_CASE("slow joints stop exactly") {
   CHECK(solve(coupled(), {}, frictions, four(2e-5, -2e-5, 1e-5, 2e-5)).norm() == 0.0);
 }
 
-TEST_CASE("a joint may stick while its neighbour slides") {
+TEST_CASE("a joint can stick while its neighbour slides") {
   const VectorXd v = solve(coupled(), {}, frictions, four(0, 0, 0, 8e-5));
   CHECK(v.head<3>().norm() == 0.0);
   CHECK(v[3] > 1e-4);
 }
 
-TEST_CASE("a force that would act the wrong way does nothing, the other carries all") {
+TEST_CASE("a one-sided force of the wrong sign is zero and the other one takes the whole load") {
   // Antagonists on one coordinate.
   const std::vector<OneSidedForce> pair{{1, 5, {{0, 1}}}, {1e-6, 5, {{0, -1}}}};
   std::vector<double> f;
@@ -93,14 +93,14 @@ TEST_CASE("a force that would act the wrong way does nothing, the other carries 
   CHECK(f[1] == 0);
 }
 
-TEST_CASE("a hard stop takes away all but 1e-7 of the speed that is too much") {
+TEST_CASE("a stop removes all but 1e-7 of the excess speed") {
   const double allowed = 1, gain = 1e7 * 0.04 / dt;
   const std::vector<OneSidedForce> stop{{-gain * allowed, gain, {{3, 1}}}};
   CHECK(solve(coupled(), stop, {}, coupled() * four(0, 0, 0, 5))[3] == Approx(1).epsilon(1e-6));
   CHECK(solve(coupled(), stop, {}, coupled() * four(0, 0, 0, 0.5))[3] == Approx(0.5));
 }
 
-TEST_CASE("the momentum of any step balances") {
+TEST_CASE("momentum is balanced in every step") {
   std::mt19937 random(7);
   const auto draw = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -126,7 +126,7 @@ TEST_CASE("the momentum of any step balances") {
   }
 }
 
-TEST_CASE("a second load on the same posture is solved as well") {
+TEST_CASE("a second load in the same posture is solved correctly") {
   StepSolver solver(4, 0, frictions);
   const MatrixXd h = coupled();
   solver.begin(h, {}, dt);

@@ -22,7 +22,7 @@ void pull(Limb& limb, double force_N, int ticks) {
 
 }  // namespace
 
-TEST_CASE("without gains the ECUs boot, apply nothing and report what they read") {
+TEST_CASE("without gains the ECUs stay in boot, apply no voltage and report their readings") {
   sim::World world(hinge_rig());
   sim::VirtualEcus ecus(hinge_rig());
   ecus.measure(world);
@@ -38,7 +38,7 @@ TEST_CASE("without gains the ECUs boot, apply nothing and report what they read"
   CHECK(flexor.fresh);
 }
 
-TEST_CASE("the second motor set is designed for and meets them as well") {
+TEST_CASE("gains designed for the second motor set meet the paper's figures") {
   erp::Robot robot = hinge_rig();
   const erp::Robot motors = erp::read_robot(rigs::config("parts/motors.xml"));
   robot.motor_types = motors.motor_types;
@@ -55,7 +55,7 @@ TEST_CASE("the second motor set is designed for and meets them as well") {
   CHECK(limb.all_running());
 }
 
-TEST_CASE("2 to 40 N on the rig's flexor, forearm held: paper's figures are met") {
+TEST_CASE("a step from 2 to 40 N on the rig's flexor, forearm held, meets the paper's figures") {
   Limb limb(hinge_rig(), {.lock = {"elbow"}});
   pull(limb, 2, 500);
   double at_10 = -1, at_90 = -1, peak = 0, squares = 0;
@@ -76,7 +76,7 @@ TEST_CASE("2 to 40 N on the rig's flexor, forearm held: paper's figures are met"
   CHECK(limb.all_running());
 }
 
-TEST_CASE("without commands the channels trip, and the voltage goes to zero") {
+TEST_CASE("without commands the channels trip and the voltage is zero") {
   Limb limb(hinge_rig());
   pull(limb, 10, 50);
   for (int k = 0; k < 30; ++k) limb.ecus.tick(limb.world);
@@ -127,7 +127,7 @@ TEST_CASE("the joint sensor's counts are the joint's angle") {
   CHECK(frame.analogs._buffer[0].counts * 2 * M_PI / 16384 == Approx(angle).margin(2e-4));
 }
 
-TEST_CASE("two runs with the same seed send the same frames; another seed does not") {
+TEST_CASE("two runs with the same seed give the same frames; another seed gives others") {
   const auto run = [](std::uint64_t seed) {
     Limb limb(hinge_rig(), {}, {.seed = seed});
     std::vector<erp::EcuChannelSample> trace;
@@ -149,7 +149,7 @@ TEST_CASE("two runs with the same seed send the same frames; another seed does n
   CHECK_FALSE(same(run(7), run(8)));
 }
 
-TEST_CASE("finer physics under the same ECUs changes little") {
+TEST_CASE("a finer physics step with the same ECUs changes the result little") {
   const auto angle = [](int substeps) {
     Limb limb(hinge_rig(), {.usual_step_s = 0.002 / substeps}, {.substeps = substeps});
     pull(limb, 20, 500);

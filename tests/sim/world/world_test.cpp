@@ -43,7 +43,7 @@ TEST_CASE("the hinge rig's moment arm is 25 mm over the whole range") {
   }
 }
 
-TEST_CASE("the rig stands at its pretension, unpowered, by the friction of its gears") {
+TEST_CASE("the unpowered rig keeps its pretension by gear friction") {
   World world(hinge_rig());
   CHECK(world.actuators()[0].tension_N == Approx(5));
   const std::vector<double> off(2, 0.0);
@@ -53,7 +53,7 @@ TEST_CASE("the rig stands at its pretension, unpowered, by the friction of its g
   CHECK(world.actuators()[0].shaft_rad == 0.0);
 }
 
-TEST_CASE("a tension is of the same instant as the shaft, the joint and their speeds") {
+TEST_CASE("tension, shaft, joint and their speeds belong to the same instant") {
   World world(hinge_rig());
   const erp::Actuator flexor = world.robot().actuators[0];
   const double r = flexor.spindle.radius_m, start_m = world.actuators()[0].length_m;
@@ -84,7 +84,7 @@ TEST_CASE("winding up the flexor flexes the elbow") {
   CHECK(world.actuators()[1].line_m > 0);
 }
 
-TEST_CASE("the two tendons and the forearm swing at √(2 κ r² + m g l) / I") {
+TEST_CASE("the two tendons and the forearm oscillate at √(2 κ r² + m g l) / I") {
   erp::Robot rig = hinge_rig();
   auto& elbow = rig.skeletons[0].joints[0];
   elbow.viscous_Nm_s_per_rad = elbow.coulomb_Nm = 0;
@@ -115,7 +115,7 @@ TEST_CASE("halving the step halves the error") {
   CHECK(std::log2(coarse / fine) == Approx(1).margin(0.15));
 }
 
-TEST_CASE("the same run again, and after a reset, is the same to the last bit") {
+TEST_CASE("a repeated run, and a run after a reset, are identical to the last bit") {
   const auto run = [](World& world) {
     std::vector<double> trace;
     for (int k = 0; k < 2000; ++k) {
@@ -140,7 +140,7 @@ TEST_CASE("the wrong number of voltages is refused") {
   CHECK_THROWS_AS(world.step(std::vector<double>(3), 1e-3), std::invalid_argument);
 }
 
-TEST_CASE("a free arm keeps its energy for ten seconds, the better the finer the step") {
+TEST_CASE("a free arm conserves its energy for ten seconds, better with a finer step") {
   erp::Robot arm = erp::read_robot(rigs::config("arm/robot.xml"));
   arm.actuators.clear();
   for (auto& joint : arm.skeletons[0].joints) {
@@ -158,12 +158,12 @@ TEST_CASE("a free arm keeps its energy for ten seconds, the better the finer the
     }
     return worst;
   };
-  // It falls from 5 J above its lowest point; Bullet's own step gains 7 J in this time.
+  // It starts 5 J above its lowest point; Bullet's own step gains 7 J in this time.
   CHECK(worst_J(1e-3) < 0.1);
   CHECK(worst_J(1e-4) < 0.01);
 }
 
-TEST_CASE("tendons of 1e4 N/m stay quiet at 1 ms") {
+TEST_CASE("tendons of 1e4 N/m do not oscillate at 1 ms") {
   erp::Robot arm = erp::read_robot(rigs::config("arm/robot.xml"));
   for (auto& actuator : arm.actuators) {
     actuator.tendon.stiffness_N_per_m = 1e4;
@@ -177,7 +177,7 @@ TEST_CASE("tendons of 1e4 N/m stay quiet at 1 ms") {
     for (double speed : joint.velocity_rad_per_s) CHECK(std::abs(speed) < 1e-2);
 }
 
-TEST_CASE("a restored world goes on as the saved one, bit by bit") {
+TEST_CASE("a restored world continues like the saved one, bit by bit") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   World straight(robot), other(robot);
   std::vector<double> voltage_V(11, 0.0);
@@ -189,7 +189,7 @@ TEST_CASE("a restored world goes on as the saved one, bit by bit") {
     }
   };
   drive(straight, 0, 700);
-  drive(other, 300, 350);  // somewhere else
+  drive(other, 300, 350);  // to a different state
   other.restore(straight.save());
   drive(straight, 700, 1500);
   drive(other, 700, 1500);

@@ -3,15 +3,15 @@
 
 namespace sim::effects {
 
-/// Commands arrive later.
+/// A constant delay of the commands.
 ///
-///   t_heard = t_sent + T
+///   t_received = t_sent + T
 ///
-/// One delay of all sensors looks the same unless both ends stamp time.
+/// An equal delay of all sensors cannot be distinguished from it unless both ends timestamp.
 /// Source: Nilsson, Real-Time Control Systems with Delays, Lund 1998.
 struct CommandDelay {
   static constexpr About about{"bus_command_delay", Stage::bus, Seat::robot,
-                               "references that change fast"};
+                               "fast changes of the references"};
 
   double delay_s = 0;  // T
 

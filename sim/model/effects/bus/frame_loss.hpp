@@ -3,12 +3,12 @@
 
 namespace sim::effects {
 
-/// Commands get lost, each with the same probability; the one before holds on.
+/// Commands are lost, each with the same probability; the previous command stays in effect.
 ///
-/// Source: Gilbert 1960, without bursts.
+/// Ignores bursts. Source: Gilbert 1960.
 struct FrameLoss {
   static constexpr About about{"bus_frame_loss", Stage::bus, Seat::robot,
-                               "references that change fast"};
+                               "fast changes of the references"};
 
   double probability = 0;
 

@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// Commands arrive later by a time that is drawn anew for each.
+/// A random delay of each command.
 ///
-///   t_heard = t_sent + T u,   u uniform in 0 … 1
+///   t_received = t_sent + T u,   u uniform in 0 … 1
 ///
 /// Source: Nilsson, Real-Time Control Systems with Delays, Lund 1998.
 struct Jitter {
   static constexpr About about{"bus_jitter", Stage::bus, Seat::robot,
-                               "references that change fast"};
+                               "fast changes of the references"};
 
   double spread_s = 0;  // T
 

@@ -3,14 +3,15 @@
 
 namespace sim::effects {
 
-/// What the ECUs measured reaches the controllers later; the ECUs' own loops see it at once.
+/// A constant delay of the measurements from the ECUs to the controllers. The ECUs' own loops are not
+/// delayed.
 ///
-///   t_heard = t_measured + T
+///   t_received = t_measured + T
 ///
 /// Source: Nilsson, Real-Time Control Systems with Delays, Lund 1998.
 struct SensorDelay {
   static constexpr About about{"bus_sensor_delay", Stage::bus, Seat::robot,
-                               "references that change fast"};
+                               "fast changes of the references"};
 
   double delay_s = 0;  // T
 

@@ -5,16 +5,16 @@
 
 namespace sim::effects {
 
-/// Dry friction that grows while the shaft rests, and wears off as it turns.
+/// Dry friction that increases while the shaft is at rest and decreases as it turns.
 ///
-///   τ_CG' = τ_CG + a z,   dz/dt = (1 − z)/T − |ω| z/θ_s          z = 0 at first
+///   τ_CG' = τ_CG + a z,   dz/dt = (1 − z)/T − |ω| z/θ_s          z(0) = 0
 ///
 /// Exact for a step at constant speed.
-/// Source: Rabinowicz, Proc. Phys. Soc. 71, 1958 (time of rest); Dieterich, J. Geophys. Res. 84, 1979 (the
-/// way over which it is lost).
+/// Source: Rabinowicz, Proc. Phys. Soc. 71, 1958 (rest time); Dieterich, J. Geophys. Res. 84, 1979 (slip
+/// distance over which it is lost).
 struct GearboxAgeingStiction {
   static constexpr About about{"gearbox_ageing_stiction", Stage::gearbox, Seat::actuator,
-                               "starts after rests of several lengths"};
+                               "starts after rest periods of different lengths"};
 
   double extra_Nm = 0;   // a
   double rest_s = 1;     // T

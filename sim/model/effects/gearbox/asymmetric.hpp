@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// Friction that is greater in one direction, dry and viscous.
+/// Dry and viscous friction that is greater in one direction.
 ///
 ///   τ_CG⁺ = τ_CG + a + b |ω| winding up,   τ_CG⁻ = τ_CG − a − b |ω| unwinding
 ///
 /// Source: Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30, 1994.
 struct GearboxAsymmetric {
   static constexpr About about{"gearbox_asymmetric", Stage::gearbox, Seat::actuator,
-                               "slow motion both ways under a steady load"};
+                               "slow motion in both directions under a constant load"};
 
   double extra_Nm = 0;            // a
   double extra_Nm_s_per_rad = 0;  // b

@@ -6,22 +6,22 @@
 
 namespace sim::effects {
 
-/// Play between the gearbox, where the angle is measured, and the spindle.
+/// Backlash between the gearbox, where the angle is measured, and the spindle.
 ///
-///   θ_s = θ + g,   0 ≤ g ≤ b        g = 0: the gear holds the line
+///   θ_s = θ + g,   0 ≤ g ≤ b        g = 0: the gear carries the line
 ///
-/// A tendon only pulls. Where it goes nearly slack the gear leaves the spindle, which its own
-/// friction τ₀ holds; a line that pulls more, r F > τ₀, draws it along until the gear is met again:
+/// A tendon only pulls. When it is nearly slack, the gear separates from the spindle, which its own
+/// friction τ₀ holds in place. A line with r F > τ₀ turns the spindle until it contacts the gear:
 ///
-///   g ← g − Δθ  within 0 … b,   then as much less as brings r κ Δx(θ + g) down to τ₀
+///   g ← g − Δθ  within 0 … b,   then reduced until r κ Δx(θ + g) falls to τ₀
 ///
-/// A shaft in place of a line pushes too: below −τ₀ it draws the spindle to the gear's other flank;
-/// its angles are 0 in the middle of the play, θ_s = θ + g − b/2.
-/// The spindle has no mass. Source: Nordin, Gutman, Automatica 38, 2002 (play with a light load
-/// side).
+/// A shaft instead of a line also pushes: below −τ₀ it turns the spindle to the gear's other flank.
+/// Its angles are 0 in the middle of the backlash, θ_s = θ + g − b/2.
+/// Ignores the mass of the spindle. Source: Nordin, Gutman, Automatica 38, 2002 (backlash with a light
+/// load side).
 struct GearboxBacklash {
   static constexpr About about{"gearbox_backlash", Stage::gearbox, Seat::actuator,
-                               "reversals through slack"};
+                               "reversals through the slack state"};
 
   double width_rad = 0;                // b, of the gearbox shaft
   double spindle_friction_Nm = 0.003;  // τ₀

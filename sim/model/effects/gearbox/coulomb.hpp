@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// More dry friction, or less.
+/// Change of the dry friction.
 ///
 ///   τ_CG' = max(0, τ_CG + a)
 ///
 /// Source: Coulomb 1785; paper, eq. 3.
 struct GearboxCoulomb {
   static constexpr About about{"gearbox_coulomb", Stage::gearbox, Seat::actuator,
-                               "slow motion both ways under a steady load"};
+                               "slow motion in both directions under a constant load"};
 
   double extra_Nm = 0;  // a
 

@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// The gear passes on a smaller or a larger share of the torque, driven and back-driven.
+/// Change of the gear's efficiency, driven and back-driven.
 ///
 ///   η' = min(1, (1 + a) η)
 ///
-/// Source: paper, eq. 3; back-driven, a load counts η' times (sim/model/actuator/motor.hpp).
+/// Source: paper, eq. 3; a back-driving load acts with the factor η' (sim/model/actuator/motor.hpp).
 struct GearboxEfficiency {
   static constexpr About about{"gearbox_efficiency", Stage::gearbox, Seat::actuator,
-                               "motion both ways under several loads"};
+                               "motion in both directions under several loads"};
 
   double relative = 0;  // a
 

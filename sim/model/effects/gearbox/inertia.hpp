@@ -3,7 +3,7 @@
 
 namespace sim::effects {
 
-/// The rotor's inertia, with what turns with it, is another one.
+/// Change of the inertia of the rotor and the parts that turn with it.
 ///
 ///   J_M' = (1 + a) J_M
 ///

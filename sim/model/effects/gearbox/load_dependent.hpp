@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// Dry friction of the teeth and bearings that grows with what they carry.
+/// Dry friction of teeth and bearings that increases with their load.
 ///
 ///   τ_CG' = τ_CG + µ |r F|
 ///
 /// Source: Hamon et al., dry friction depending on load and velocity, ISR 2010.
 struct GearboxLoadDependent {
   static constexpr About about{"gearbox_load_dependent", Stage::gearbox, Seat::actuator,
-                               "motion both ways under several loads"};
+                               "motion in both directions under several loads"};
 
   double share = 0;  // µ
 

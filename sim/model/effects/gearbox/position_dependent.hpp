@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// Dry friction that changes with the shaft's angle: a tooth that is worn, a bearing that is tilted.
+/// Dry friction that depends on the shaft angle, caused by a worn tooth or a tilted bearing.
 ///
-///   τ_CG' = max(0, τ_CG + a sin n θ + b cos n θ)          θ: of the gearbox shaft
+///   τ_CG' = max(0, τ_CG + a sin n θ + b cos n θ)          θ: angle of the gearbox shaft
 ///
 /// Source: Armstrong-Hélouvry 1991, ch. 4 (position-dependent friction of gears).
 struct GearboxPositionDependent {
   static constexpr About about{"gearbox_position_dependent", Stage::gearbox, Seat::actuator,
-                               "slow turning both ways over a whole turn of the gearbox"};
+                               "slow turning in both directions over a full turn of the gearbox"};
 
   double sine_Nm = 0, cosine_Nm = 0;  // a, b
   double periods_per_turn = 1;        // n, of the gearbox shaft

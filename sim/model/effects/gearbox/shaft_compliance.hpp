@@ -4,11 +4,12 @@
 
 namespace sim::effects {
 
-/// The shaft between the gearbox, where the angle is measured, and the spindle twists.
+/// Torsional compliance of the shaft between the gearbox, where the angle is measured, and the
+/// spindle.
 ///
-///   θ_s = θ − c r F,   which is a line softer by  r² c
+///   θ_s = θ − c r F,   equivalent to an additional line compliance  r² c
 ///
-/// The same as an elastic line and, of a plain spring, nearly as a softer spring.
+/// Equivalent to an elastic line and, for a linear spring, nearly equivalent to a softer spring.
 /// Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 struct GearboxShaftCompliance {
   static constexpr About about{"gearbox_shaft_compliance", Stage::gearbox, Seat::actuator,

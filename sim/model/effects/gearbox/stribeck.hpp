@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// Dry friction that is greater near rest and falls off as the film of grease builds up.
+/// Additional dry friction near zero speed, which decreases as the lubricant film builds up.
 ///
 ///   τ_CG' = τ_CG + a exp(−(ω/ω_s)²)
 ///
 /// Source: Stribeck 1902; Armstrong-Hélouvry 1991.
 struct GearboxStribeck {
   static constexpr About about{"gearbox_stribeck", Stage::gearbox, Seat::actuator,
-                               "slow reversals, down to standing still"};
+                               "slow reversals, down to standstill"};
 
   double extra_Nm = 0;           // a
   double speed_rad_per_s = 0.3;  // ω_s

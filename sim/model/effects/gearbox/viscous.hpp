@@ -5,7 +5,7 @@
 
 namespace sim::effects {
 
-/// More friction that grows with speed: stiff or much grease.
+/// Change of the viscous friction, for example by stiff grease.
 ///
 ///   µ_G' = max(0, µ_G + a)
 ///

@@ -5,13 +5,14 @@
 
 namespace sim::effects {
 
-/// More dry friction in a joint, or less.
+/// Change of the dry friction of a joint.
 ///
 ///   τ_C' = max(0, τ_C + a)
 ///
 /// Source: Coulomb 1785.
 struct JointCoulomb {
-  static constexpr About about{"joint_coulomb", Stage::joint, Seat::joint, "slow motion both ways"};
+  static constexpr About about{"joint_coulomb", Stage::joint, Seat::joint,
+                               "slow motion in both directions"};
 
   double extra_Nm = 0;  // a
 

@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// The joint's stops stand closer.
+/// The joint's stops are inside the nominal range.
 ///
 ///   min' = min + a,   max' = max − b
 ///
-/// Source: tolerance of printed joints.
+/// Source: manufacturing tolerance of printed joints.
 struct JointEarlyStop {
   static constexpr About about{"joint_early_stop", Stage::joint, Seat::joint,
-                               "the joint's whole range, into its stops"};
+                               "the whole range of the joint, into its stops"};
 
   double from_min_rad = 0, from_max_rad = 0;  // a, b
 

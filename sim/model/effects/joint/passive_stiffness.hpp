@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// Cables, covers or ligaments hold a joint like a spring.
+/// A spring torque on a joint, caused by cables, covers or ligaments.
 ///
 ///   τ = −k (q − q₀)
 ///
 /// Source: Hatze 1997 for human joints; here linear.
 struct JointPassiveStiffness {
   static constexpr About about{"joint_passive_stiffness", Stage::joint, Seat::joint,
-                               "the joint's whole range, slowly"};
+                               "the whole range of the joint, slowly"};
 
   double stiffness_Nm_per_rad = 0;  // k
   double rest_rad = 0;              // q₀

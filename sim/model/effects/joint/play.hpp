@@ -5,10 +5,9 @@
 
 namespace sim::effects {
 
-/// The shaft that the joint's sensor sees is loose on the bone: it follows when the play is used
-/// up.
+/// Play between the shaft of the joint's sensor and the bone.
 ///
-///   |q_shaft − q| ≤ b/2, else it is taken along
+///   |q_shaft − q| ≤ b/2, otherwise the bone moves the shaft
 ///
 /// Source: play operator, Krasnosel'skii, Pokrovskii, Systems with Hysteresis, 1989.
 struct JointPlay {
@@ -17,11 +16,11 @@ struct JointPlay {
   double width_rad = 0;  // b
 
   void visit(auto& v) { v("width_rad", width_rad, Bounds{0, 0.3}); }
-  double bearing_rad(double angle_rad, Memory& memory) const {
+  double sensor_shaft_rad(double angle_rad, Memory& memory) const {
     double& shaft_rad = memory[0];
     return shaft_rad = std::clamp(shaft_rad, angle_rad - width_rad / 2, angle_rad + width_rad / 2);
   }
-  double looseness_rad() const { return width_rad; }
+  double play_rad() const { return width_rad; }
 };
 
 }  // namespace sim::effects

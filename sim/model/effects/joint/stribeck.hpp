@@ -5,15 +5,15 @@
 
 namespace sim::effects {
 
-/// Dry friction in a joint that is greater near rest.
+/// Additional dry friction of a joint near zero speed.
 ///
 ///   τ_C' = τ_C + a exp(−(ω/ω_s)²)
 ///
-/// A smaller ω_s than allowed is not told from sticking, which leaves a resting joint any torque.
+/// An ω_s below the bound cannot be distinguished from sticking, where the torque is undetermined.
 /// Source: Stribeck 1902; Armstrong-Hélouvry 1991.
 struct JointStribeck {
   static constexpr About about{"joint_stribeck", Stage::joint, Seat::joint,
-                               "slow reversals, down to standing still"};
+                               "slow reversals, down to standstill"};
 
   double extra_Nm = 0;           // a
   double speed_rad_per_s = 0.2;  // ω_s

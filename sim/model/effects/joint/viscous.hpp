@@ -5,11 +5,11 @@
 
 namespace sim::effects {
 
-/// More friction in a joint that grows with speed, or less.
+/// Change of the viscous friction of a joint.
 ///
 ///   µ' = max(0, µ + a)
 ///
-/// Source: Stokes 1851, of lubricated bearings.
+/// Source: Stokes 1851, for lubricated bearings.
 struct JointViscous {
   static constexpr About about{"joint_viscous", Stage::joint, Seat::joint, "several speeds"};
 

@@ -5,15 +5,15 @@
 
 namespace sim::effects {
 
-/// The rotor's teeth are drawn to the magnets: a torque that comes and goes with its angle.
+/// Cogging torque: the magnets attract the rotor's teeth with a torque that is periodic in its angle.
 ///
-///   τ = a sin n N θ + b cos n N θ          against winding up, on the motor's shaft
+///   τ = a sin n N θ + b cos n N θ          positive against winding up, on the motor's shaft
 ///
-/// As its mean over what is turned in a step.
+/// The mean over the rotation in a step is applied.
 /// Source: Hanselman, Brushless Permanent Magnet Motor Design, 2006, ch. 7.
 struct MotorCogging {
   static constexpr About about{"motor_cogging", Stage::motor, Seat::actuator,
-                               "very slow turning under a steady load"};
+                               "very slow turning under a constant load"};
 
   double sine_Nm = 0, cosine_Nm = 0;  // a, b; on the motor's shaft
   double periods_per_turn = 12;       // n, of the motor's shaft

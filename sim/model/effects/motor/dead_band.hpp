@@ -6,14 +6,14 @@
 
 namespace sim::effects {
 
-/// The bridge and the brushes take a voltage before any current flows.
+/// Voltage drop of bridge and brushes: no current flows below V₀.
 ///
 ///   V' = sgn(V) max(0, |V| − V₀)
 ///
 /// Source: brush drop, Krause et al., Analysis of Electric Machinery, 2013, ch. 2.
 struct MotorDeadBand {
   static constexpr About about{"motor_dead_band", Stage::motor, Seat::actuator,
-                               "small voltages of either sign"};
+                               "small voltages of both signs"};
 
   double volts = 0;  // V₀
 

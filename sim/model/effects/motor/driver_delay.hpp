@@ -7,25 +7,25 @@
 
 namespace sim::effects {
 
-/// The motor's driver applies a voltage later than its controller reports it.
+/// Delay between the voltage that the controller reports and the voltage that the driver applies.
 ///
-///   V'(t) = V(t − T)            its mean over a step
+///   V'(t) = V(t − T)            applied as the mean over a step
 ///
-/// Up to three changes of the voltage wait, so the bound is three periods of a controller at 500 Hz. Ignores: with a
-/// faster controller a fourth change may come earlier; the oldest acts then.
+/// At most three voltage changes are pending, so the bound is three periods of a controller at 500 Hz.
+/// Ignores: with a faster controller a fourth change may occur earlier; the oldest then acts at once.
 /// Source: dead time and PWM update delay, Holtz, Proc. IEEE 82, 1994.
 struct MotorDriverDelay {
   static constexpr About about{"motor_driver_delay", Stage::motor, Seat::actuator,
-                               "voltages that change from row to row"};
+                               "a voltage that changes from row to row"};
 
   double delay_s = 0;  // T
 
   void visit(auto& v) { v("delay_s", delay_s, Bounds{0, 0.006}); }
 
   double driver_delay_s() const { return delay_s; }
-  double late_voltage_V(double applied_V, const ChainSample& s, Memory& memory) const {
-    Waiting w(memory);
-    if (!w.begun()) w.begin(applied_V);
+  double delayed_voltage_V(double applied_V, const ChainSample& s, Memory& memory) const {
+    Pending w(memory);
+    if (!w.started()) w.start(applied_V);
     for (std::size_t n = 0; n < w.count(); ++n) w.age_s(n) += s.dt_s;
     if (applied_V != w.newest_V()) w.add(applied_V, s.dt_s);
     double mean_V = w.acting_V(), before_V = mean_V;
@@ -36,36 +36,36 @@ struct MotorDriverDelay {
       before_V = w.volts(n);
       done += share == 1;
     }
-    while (done-- > 0) w.act();
+    while (done-- > 0) w.apply_oldest();
     return mean_V;
   }
 
  private:
-  /// Changes of the voltage that do not act yet, the oldest first: how old they are at the end of a step.
-  class Waiting {
+  /// Pending voltage changes, the oldest first, with their age at the end of a step.
+  class Pending {
    public:
-    static constexpr std::size_t most = 3;
+    static constexpr std::size_t max_pending = 3;
 
-    explicit Waiting(Memory& memory) : m_(memory) {}
-    bool begun() const { return m_[1] > 0; }
-    void begin(double volts) { m_[0] = volts, m_[1] = 1; }
+    explicit Pending(Memory& memory) : m_(memory) {}
+    bool started() const { return m_[1] > 0; }
+    void start(double volts) { m_[0] = volts, m_[1] = 1; }
     std::size_t count() const { return static_cast<std::size_t>(m_[1]) - 1; }
     double acting_V() const { return m_[0]; }
     double& volts(std::size_t n) { return m_[2 + 2 * n]; }
     double& age_s(std::size_t n) { return m_[3 + 2 * n]; }
     double newest_V() { return count() > 0 ? volts(count() - 1) : m_[0]; }
     void add(double volts_V, double age) {
-      if (count() == most) act();
+      if (count() == max_pending) apply_oldest();
       volts(count()) = volts_V, age_s(count()) = age, m_[1] += 1;
     }
-    /// The oldest acts from now on.
-    void act() {
+    /// Makes the oldest change the acting voltage.
+    void apply_oldest() {
       m_[0] = m_[2], m_[1] -= 1;
-      std::ranges::copy(std::span(m_).subspan(4, 2 * (most - 1)), m_.begin() + 2);
+      std::ranges::copy(std::span(m_).subspan(4, 2 * (max_pending - 1)), m_.begin() + 2);
     }
 
    private:
-    Memory& m_;  // acting voltage, 1 + count, then volts and age of each
+    Memory& m_;  // acting voltage, 1 + count, then voltage and age of each change
   };
 };
 

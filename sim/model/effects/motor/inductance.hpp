@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// The winding's inductance is another one.
+/// Change of the winding's inductance.
 ///
 ///   L' = (1 + a) L
 ///
 /// Source: paper, eq. 3.
 struct MotorInductance {
   static constexpr About about{"motor_inductance", Stage::motor, Seat::actuator,
-                               "steps of voltage, current sampled within L/R"};
+                               "voltage steps, with the current sampled within L/R"};
 
   double relative = 0;  // a
 

@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// The circuit's resistance is another one: winding, brushes, leads.
+/// Change of the circuit's resistance: winding, brushes, leads.
 ///
 ///   R' = (1 + a) R
 ///
-/// Source: data sheets give ±10 % and more.
+/// Source: data sheets state tolerances of ±10 % and more.
 struct MotorResistance {
   static constexpr About about{"motor_resistance", Stage::motor, Seat::actuator,
-                               "high current and high speed, apart"};
+                               "high current and high speed, at different times"};
 
   double relative = 0;  // a
 

@@ -3,11 +3,11 @@
 
 namespace sim::effects {
 
-/// The supply gives way under the current that the bridge draws from it, d i.
+/// The supply voltage drops with the current d i that the bridge draws.
 ///
 ///   V' = d (V_s − R_s d i) = V − d² R_s i,   d = V / V_s:   R' = R + d² R_s
 ///
-/// Each actuator's own lead; what the others draw is left out.
+/// Models the lead of each actuator; ignores the current of other actuators.
 /// Source: Thévenin's equivalent of a supply behind an averaged H-bridge.
 struct SupplySag {
   static constexpr About about{"motor_supply_sag", Stage::motor, Seat::actuator,

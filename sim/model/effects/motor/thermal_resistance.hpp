@@ -5,11 +5,11 @@
 
 namespace sim::effects {
 
-/// The winding warms up, and its resistance rises.
+/// The winding's resistance increases with its temperature.
 ///
 ///   R' = R (1 + α ΔT),   d ΔT/dt = (R' ⟨i²⟩ R_th − ΔT) / T_th,   α = 0.00393 1/K (copper)
 ///
-/// The magnet's own loss with temperature is left out.
+/// Ignores the temperature dependence of the magnet.
 /// Source: maxon motor data sheets, thermal data; IEC 60034-1 for α.
 struct MotorThermalResistance {
   static constexpr About about{"motor_thermal_resistance", Stage::motor, Seat::actuator,

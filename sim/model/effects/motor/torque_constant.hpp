@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// The magnet is weaker or stronger: torque and back-EMF change together.
+/// A weaker or stronger magnet: torque constant and back-EMF constant change by the same factor.
 ///
 ///   K_T' = (1 + a) K_T,   K_E' = (1 + a) K_E
 ///
 /// Source: paper, eq. 3; magnets lose about 0.2 %/K (NdFeB data sheets).
 struct MotorTorqueConstant {
   static constexpr About about{"motor_torque_constant", Stage::motor, Seat::actuator,
-                               "high speed, and known loads"};
+                               "high speed and known loads"};
 
   double relative = 0;  // a
 

@@ -6,14 +6,14 @@
 
 namespace sim::effects {
 
-/// The far end is fixed to the bone elsewhere: farther from the bone's joint by d.
+/// The attachment of the tendon's distal end is shifted by d, away from the bone's joint.
 ///
 ///   p' = p (1 + d / |p|)
 ///
 /// Source: paper, 4.4 (attachment points are calibrated).
 struct RoutingAttachmentShift {
   static constexpr About about{"routing_attachment_shift", Stage::routing, Seat::actuator,
-                               "the joint's whole range"};
+                               "the whole range of the joint"};
 
   double outwards_m = 0;  // d
 

@@ -5,16 +5,17 @@
 
 namespace sim::effects {
 
-/// The line rubs on what it is led around: the spindle feels more than the far end while it winds
-/// up, less while it lets out.
+/// Friction of the line on guides and pulleys: the tension at the spindle is larger than at the distal
+/// end while winding up, and smaller while unwinding.
 ///
-///   F_motor = F exp((µ φ + p) tanh(v / v₀))    φ the path's total bend, v the line's speed
+///   F_motor = F exp((µ φ + p) tanh(v / v₀))    φ total bend of the path, v line speed
 ///
-/// p: µφ of a post on its way that robot.xml does not show. v₀ smooths sgn(v): below it the line creeps where a real one would stick.
+/// p: µφ of a post in the path that robot.xml does not contain. v₀ smooths sgn(v): below v₀ the line
+/// creeps, whereas a real line would stick.
 /// Source: Euler 1769; Eytelwein 1808; Kaneko et al. 1991 for tendons.
 struct RoutingCapstan {
   static constexpr About about{"routing_capstan", Stage::routing, Seat::actuator,
-                               "motion both ways under load, at several bends"};
+                               "motion in both directions under load, at several bend angles"};
 
   double friction = 0;               // µ
   double post = 0;                   // p
@@ -26,8 +27,8 @@ struct RoutingCapstan {
     v.shape("slip_speed_m_per_s", slip_speed_m_per_s, Bounds{1e-5, 0.05});
   }
   double motor_side_N(double far_N, const ChainSample& s) const {
-    const double way = std::tanh(s.line_speed_m_per_s / slip_speed_m_per_s);
-    return far_N * std::exp((friction * s.wrap_rad + post) * way);
+    const double direction = std::tanh(s.line_speed_m_per_s / slip_speed_m_per_s);
+    return far_N * std::exp((friction * s.wrap_rad + post) * direction);
   }
 };
 

@@ -3,15 +3,15 @@
 
 namespace sim::effects {
 
-/// The tendon's moment arms are others, and change with posture otherwise than drawn.
+/// Change of the tendon's moment arms and of their dependence on posture.
 ///
 ///   l' = l + a l + c l²/2,   l = L − L₀          ∂L'/∂q = (1 + a + c l) ∂L/∂q
 ///
 /// Source: Pandy, moment arms from length over angle, Exerc. Sport Sci. Rev. 27, 1999; the form is
-/// ours.
+/// chosen.
 struct RoutingMomentArm {
   static constexpr About about{"routing_moment_arm", Stage::routing, Seat::actuator,
-                               "the joint's whole range"};
+                               "the whole range of the joint"};
 
   double relative = 0;        // a
   double relative_per_m = 0;  // c

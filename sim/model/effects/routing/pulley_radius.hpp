@@ -6,16 +6,16 @@
 
 namespace sim::effects {
 
-/// The pulleys are thicker or thinner, and the guides close beside them move with their rims.
+/// Change of the radius of the pulleys; guides close to a pulley move with its rim.
 ///
 ///   r_P' = (1 + a) r_P
 ///
-/// A guide is a neighbour in the path within 1.1 r_P of the centre, on the pulley's body or on one
-/// whose joint sits in that centre.
+/// A guide is a neighbouring path point within 1.1 r_P of the centre, on the pulley's body or on a body
+/// whose joint is at that centre.
 /// Source: paper, 4.1 (wrapping around spheres).
 struct RoutingPulleyRadius {
   static constexpr About about{"routing_pulley_radius", Stage::routing, Seat::actuator,
-                               "the joint's whole range"};
+                               "the whole range of the joint"};
 
   double relative = 0;  // a
 

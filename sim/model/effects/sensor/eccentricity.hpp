@@ -6,19 +6,19 @@
 
 namespace sim::effects {
 
-/// The disc of an angle sensor does not turn about its centre. Seen from the disc, the head runs on
-/// a circle about c, the axis, as a share of the head's distance from it:
+/// The disc of an angle sensor does not turn about its centre. In the disc's frame the reading head
+/// moves on a circle about the axis c, given relative to the distance between head and axis:
 ///
-///   said = −arg(e^{−i n θ} − c)/n + const, 0 at θ = 0      c = a + i b
-///        ≈ θ + (a sin n θ + b cos n θ − b)/n               n: turns of the disc a turn of θ
+///   reading = −arg(e^{−i n θ} − c)/n + const, 0 at θ = 0      c = a + i b
+///        ≈ θ + (a sin n θ + b cos n θ − b)/n               n: turns of the disc per turn of θ
 ///
 /// Source: plane geometry of one reading head; data sheets of encoders give the approximation.
 template <Sense kind>
 struct SensorEccentricity {
   static constexpr Sense sense = kind;
   static constexpr About about{
-      word_of<kind>("sensor_shaft_eccentricity", "", "", "sensor_joint_eccentricity"),
-      Stage::sensor, seat_of<kind>, "slow motion over a turn of the disc"};
+      by_sensor<kind>("sensor_shaft_eccentricity", "", "", "sensor_joint_eccentricity"),
+      Stage::sensor, seat_of<kind>, "slow motion over a full turn of the disc"};
 
   double sine_rad = 0, cosine_rad = 0;  // a, b
 
@@ -30,18 +30,18 @@ struct SensorEccentricity {
     const double n = s.turns_per_turn;
     return value + (ahead_rad(n * value) - ahead_rad(0)) / n;
   }
-  double undo(double said, const SensorSample& s, Memory&) const {
+  double undo(double reading, const SensorSample& s, Memory&) const {
     const double n = s.turns_per_turn;
-    return said - (behind_rad(n * said + ahead_rad(0)) - ahead_rad(0)) / n;
+    return reading - (behind_rad(n * reading + ahead_rad(0)) - ahead_rad(0)) / n;
   }
 
  private:
   std::complex<double> centre() const { return {sine_rad, cosine_rad}; }
-  /// How far the disc is ahead of its axis at this angle of the axis.
+  /// Angle of the disc minus angle of the axis, for this angle of the axis.
   double ahead_rad(double angle) const {
     return -std::arg(1.0 - centre() * std::polar(1.0, angle));
   }
-  /// The same at this angle of the disc: where its ray from c meets the head's circle.
+  /// The same for this angle of the disc, from the intersection of its ray with the head's circle.
   double behind_rad(double disc) const {
     const auto off = centre() * std::polar(1.0, disc);
     const double along = std::sqrt(1 - off.imag() * off.imag()) - off.real();

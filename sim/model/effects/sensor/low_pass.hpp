@@ -5,37 +5,37 @@
 
 namespace sim::effects {
 
-/// A sensor's amplifier is slow.
+/// First-order lag of a sensor's amplifier.
 ///
-///   T d said/dt = value − said
+///   T d reading/dt = value − reading
 ///
 /// Source: JCGM 200:2012 (VIM), 4.23, step response time; first order.
 template <Sense kind>
 struct SensorLowPass {
   static constexpr Sense sense = kind;
-  static constexpr About about{word_of<kind>("sensor_shaft_low_pass", "sensor_current_low_pass",
-                                             "sensor_tension_low_pass", "sensor_joint_low_pass"),
+  static constexpr About about{by_sensor<kind>("sensor_shaft_low_pass", "sensor_current_low_pass",
+                                               "sensor_tension_low_pass", "sensor_joint_low_pass"),
                                Stage::sensor, seat_of<kind>, "fast changes"};
 
   double time_constant_s = 0;  // T
 
   void visit(auto& v) { v("time_constant_s", time_constant_s, Bounds{0, 0.2}); }
-  /// Exact for a value that changes evenly between two readings.
+  /// Exact for a value that changes linearly between two readings.
   double read(double value, const SensorSample& s, Memory& memory) const {
-    double &said = memory[0], &last = memory[1], &began = memory[2];
-    if (began == 0) said = last = value, began = 1;
+    double &reading = memory[0], &last = memory[1], &began = memory[2];
+    if (began == 0) reading = last = value, began = 1;
     if (time_constant_s > 0 && s.dt_s > 0) {
       const double left = std::exp(-s.dt_s / time_constant_s);
       const double behind_s = time_constant_s * (1 - left) / s.dt_s;
-      said = left * said + value - left * last - behind_s * (value - last);
+      reading = left * reading + value - left * last - behind_s * (value - last);
     } else {
-      said = value;
+      reading = value;
     }
     last = value;
-    return said;
+    return reading;
   }
-  double undo(double said, const SensorSample& s, Memory&) const {
-    return said + time_constant_s * s.said_rate;
+  double undo(double reading, const SensorSample& s, Memory&) const {
+    return reading + time_constant_s * s.reading_rate;
   }
   double averaged(const SensorSample& s) const {
     return -std::expm1(-2 * time_constant_s / s.dt_s);

@@ -5,10 +5,10 @@
 
 namespace sim::effects {
 
-/// One of four words, by the kind of sensor.
+/// Selects one of four values by the kind of sensor.
 template <Sense sense>
-constexpr auto word_of(const auto& shaft, const auto& current, const auto& tension,
-                       const auto& joint) {
+constexpr auto by_sensor(const auto& shaft, const auto& current, const auto& tension,
+                         const auto& joint) {
   if constexpr (sense == Sense::shaft) return shaft;
   else if constexpr (sense == Sense::current) return current;
   else if constexpr (sense == Sense::tension) return tension;

@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// The robot does not stand upright: gravity comes from elsewhere.
+/// The base is tilted, so the direction of gravity changes.
 ///
-///   g' = R_x(−α) R_y(−β) g,   α, β: the base turned about x and y
+///   g' = R_x(−α) R_y(−β) g,   α, β: rotation of the base about x and y
 ///
-/// Source: a floor is seldom level to a degree.
+/// Source: floors are seldom level to within one degree.
 struct BaseTilt {
   static constexpr About about{"skeleton_base_tilt", Stage::skeleton, Seat::robot,
-                               "still postures over the whole range"};
+                               "static postures over the whole range"};
 
   double about_x_rad = 0, about_y_rad = 0;  // α, β
 
@@ -30,7 +30,7 @@ struct BaseTilt {
   }
 
  private:
-  /// The plane vector (a, b) by an angle from a to b.
+  /// Rotates the plane vector (a, b) by an angle from a to b.
   static void turn(double& a, double& b, double angle) {
     const double c = std::cos(angle), s = std::sin(angle), old = a;
     a = c * old - s * b, b = s * old + c * b;

@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// A body's centre of mass lies elsewhere: farther from its joint, or nearer.
+/// A body's centre of mass is shifted by d, away from its joint.
 ///
 ///   c' = c + d c/|c|
 ///
-/// Source: CAD leaves out cables, screws and glue.
+/// Source: CAD models omit cables, screws and glue.
 struct SkeletonCom {
   static constexpr About about{"skeleton_com", Stage::skeleton, Seat::body,
-                               "still postures and fast motion"};
+                               "static postures and fast motion"};
 
   double outwards_m = 0;  // d
 

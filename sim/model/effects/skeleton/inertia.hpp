@@ -3,11 +3,11 @@
 
 namespace sim::effects {
 
-/// A body's mass is spread otherwise about its centre.
+/// Change of a body's inertia about its centre of mass.
 ///
 ///   I' = (1 + a) I
 ///
-/// Source: CAD leaves out cables, screws and glue.
+/// Source: CAD models omit cables, screws and glue.
 struct SkeletonInertia {
   static constexpr About about{"skeleton_inertia", Stage::skeleton, Seat::body, "fast reversals"};
 

@@ -8,16 +8,16 @@
 
 namespace sim::effects {
 
-/// A bone bends: its outer half hangs on the inner one by a spring at the centre of mass, about the
-/// joint's axis.
+/// Bending of a bone: a spring hinge at the centre of mass, parallel to the joint's axis, connects the
+/// outer half to the inner half.
 ///
-///   halves of m/2 and I/4, centres at c ± d c/|c|,  d = √(I/2m):  together m, c and I;
+///   halves of m/2 and I/4, centres at c ± d c/|c|,  d = √(I/2m):  in total m, c and I;
 ///   τ = −k δ − D ω_δ
 ///
-/// I: the mean of the body's principal inertias across its length, taken as I_xx. Tendons and
-/// pulleys stay with the inner half, and so do bones that hang on this one; a spring stiffer than
-/// 1000 Nm/rad is taken as rigid; a bone bends in one place, once, and one on a ball joint not at
-/// all. Source: De Luca, Siciliano, 1991 (one assumed mode).
+/// I: the mean of the body's principal inertias transverse to its length, taken as I_xx. Tendons,
+/// pulleys and child bones stay attached to the inner half. A spring stiffer than 1000 Nm/rad is
+/// treated as rigid. A bone bends at one point only; the effect does not apply to bones on ball joints.
+/// Source: De Luca, Siciliano, 1991 (one assumed mode).
 struct LinkFlexibility {
   static constexpr About about{"skeleton_link_flexibility", Stage::skeleton, Seat::body,
                                "steps and fast reversals"};

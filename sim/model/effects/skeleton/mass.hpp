@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// A body is heavier or lighter, its mass spread as before.
+/// Change of a body's mass, with the same mass distribution.
 ///
 ///   m' = (1 + a) m,   I' = (1 + a) I
 ///
-/// Source: printed parts are not solid; cables and screws are not drawn.
+/// Source: printed parts are not solid; CAD models omit cables and screws.
 struct SkeletonMass {
   static constexpr About about{"skeleton_mass", Stage::skeleton, Seat::body,
-                               "still postures and fast motion"};
+                               "static postures and fast motion"};
 
   double relative = 0;  // a
 

@@ -5,14 +5,14 @@
 
 namespace sim::effects {
 
-/// A body carries a weight, on the line from its joint through its centre of mass.
+/// An additional point mass on a body, on the line from its joint through its centre of mass.
 ///
-///   m' = m + m_p,  c' = (m c + m_p p)/m',  I' about c' by Steiner's theorem;  p = d c/|c|
+///   m' = m + m_p,  c' = (m c + m_p p)/m',  I' about c' by the parallel axis theorem;  p = d c/|c|
 ///
 /// Source: paper, Fig. 7b (a grasped mass).
 struct SkeletonPayload {
   static constexpr About about{"skeleton_payload", Stage::skeleton, Seat::body,
-                               "still postures and fast motion"};
+                               "static postures and fast motion"};
 
   double mass_kg = 0;        // m_p
   double distance_m = 0.25;  // d
@@ -27,7 +27,7 @@ struct SkeletonPayload {
     if (far == 0 || body.mass_kg + mass_kg == 0) return;
     const double reduced = body.mass_kg * mass_kg / (body.mass_kg + mass_kg);
     const double share = mass_kg / (body.mass_kg + mass_kg);
-    double s[3];  // from the old centre to the weight
+    double s[3];  // from the old centre of mass to the payload
     for (std::size_t i = 0; i < 3; ++i) s[i] = c[i] * (distance_m / far - 1);
     const double square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
     for (std::size_t i = 0; i < 3; ++i) {

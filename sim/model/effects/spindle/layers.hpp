@@ -5,15 +5,15 @@
 
 namespace sim::effects {
 
-/// The line lies on itself: the radius grows with what is wound up.
+/// The line is wound in layers: the radius grows with the wound length.
 ///
 ///   r(θ) = r + g θ,   L_K = L_K0 − r θ − g θ²/2
 ///
-/// Smoothly, not layer by layer. Below a fifth of r it stays there.
-/// Source: ours; the radius of Archimedes’ spiral.
+/// The growth is continuous, not layer by layer. The radius does not fall below r/5.
+/// Source: chosen; the radius of an Archimedean spiral.
 struct SpindleLayers {
   static constexpr About about{"spindle_layers", Stage::spindle, Seat::actuator,
-                               "much line wound up and let out"};
+                               "winding and unwinding over a long line length"};
 
   double growth_m_per_rad = 0;  // g
 

@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// The spindle is thicker or thinner.
+/// Change of the spindle radius.
 ///
 ///   r' = (1 + a) r
 ///
 /// Source: paper, eq. 2.
 struct SpindleRadius {
   static constexpr About about{"spindle_radius", Stage::spindle, Seat::actuator,
-                               "much line wound up and let out"};
+                               "winding and unwinding over a long line length"};
 
   double relative = 0;  // a
 

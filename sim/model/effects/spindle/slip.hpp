@@ -5,15 +5,15 @@
 
 namespace sim::effects {
 
-/// The line creeps on the spindle as it is wound and unwound under load, and what has crept is
-/// gone.
+/// The line creeps on the spindle as it is wound and unwound under load, which permanently changes its
+/// free length.
 ///
-///   dl = s F |dw|,   w the line on the spindle;   L_K' = L_K + l
+///   dl = s F |dw|,   w the line length on the spindle;   L_K' = L_K + l
 ///
-/// Source: ours, after the creep of belts (Johnson, Contact Mechanics, 1985, ch. 8).
+/// Source: chosen, after the creep of belts (Johnson, Contact Mechanics, 1985, ch. 8).
 struct SpindleSlip {
   static constexpr About about{"spindle_slip", Stage::spindle, Seat::actuator,
-                               "many windings to and fro under load"};
+                               "repeated winding and unwinding under load"};
 
   double per_N = 0;  // s
 

@@ -5,7 +5,7 @@
 
 namespace sim::effects {
 
-/// The tendon's damper is stronger or weaker.
+/// Change of the tendon's damping.
 ///
 ///   D' = max(0, D + a)
 ///

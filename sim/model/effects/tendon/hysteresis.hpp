@@ -1,19 +1,19 @@
 #pragma once
 #include <cmath>
 
-#include "sim/model/effects/drawn.hpp"
+#include "sim/model/effects/taut_stretch.hpp"
 
 namespace sim::effects {
 
-/// The braid's fibres rub: the pull lags behind the stretch however slow it is.
+/// Friction between the fibres of the braid: rate-independent hysteresis of tension over stretch.
 ///
 ///   F = f(x) + F_h z,   dz = (dx/x_h) (1 − [z dx > 0] |z|)
 ///
-/// x: as far as it is drawn out. Bouc–Wen with n = 1, β = γ; exact for a step dx.
+/// x: stretch, 0 if slack. Bouc–Wen with n = 1, β = γ; exact for a step dx.
 /// Source: Bouc 1967; Wen, J. Eng. Mech. 102, 1976.
 struct TendonHysteresis {
   static constexpr About about{"tendon_hysteresis", Stage::tendon, Seat::actuator,
-                               "slow stretching and letting go, by several amounts"};
+                               "slow loading and unloading with several amplitudes"};
 
   double force_N = 0;     // F_h
   double width_m = 5e-4;  // x_h
@@ -24,17 +24,17 @@ struct TendonHysteresis {
   }
   Sloped pull(const ChainSample& s, Memory& memory) const {
     double &z = memory[0], &last_m = memory[1], &began = memory[2];
-    const double x_m = drawn_m(s);
+    const double x_m = taut_stretch_m(s);
     if (began == 0) last_m = x_m, began = 1;
-    double left = (x_m - last_m) / width_m;
+    double remaining = (x_m - last_m) / width_m;
     last_m = x_m;
-    if (z * left < 0) {  // relaxing, as far as z = 0
-      const double relaxed = std::copysign(std::fmin(std::abs(left), std::abs(z)), left);
-      z += relaxed, left -= relaxed;
+    if (z * remaining < 0) {  // unloading until z = 0
+      const double relaxed = std::copysign(std::fmin(std::abs(remaining), std::abs(z)), remaining);
+      z += relaxed, remaining -= relaxed;
     }
-    if (left != 0) {
-      const double way = std::copysign(1.0, left);
-      z = way - (way - z) * std::exp(-std::abs(left));
+    if (remaining != 0) {
+      const double direction = std::copysign(1.0, remaining);
+      z = direction - (direction - z) * std::exp(-std::abs(remaining));
     }
     return {force_N * z, force_N / width_m * (1 - std::abs(z))};
   }

@@ -3,7 +3,7 @@
 
 namespace sim::effects {
 
-/// The line was knotted too short or too long: as if the path were longer by l.
+/// The line is too short (l > 0) or too long: equivalent to a path that is longer by l.
 ///
 ///   Δx' = Δx + l
 ///

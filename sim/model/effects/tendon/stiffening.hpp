@@ -3,14 +3,14 @@
 
 namespace sim::effects {
 
-/// The spring stiffens as it is drawn out.
+/// The spring stiffens with stretch.
 ///
 ///   F = κ x + (κ₃ + a) x³
 ///
 /// Source: Potkonjak et al., puller-follower control of compliant antagonists, 2011.
 struct TendonStiffening {
   static constexpr About about{"tendon_stiffening", Stage::tendon, Seat::actuator,
-                               "tensions from small to great"};
+                               "tensions from low to high"};
 
   double cubic_N_per_m3 = 0;  // a
 

@@ -3,7 +3,7 @@
 
 namespace sim::effects {
 
-/// The spring is stiffer or softer.
+/// Change of the spring's stiffness.
 ///
 ///   κ' = (1 + a) κ,   κ₃' = (1 + a) κ₃
 ///

@@ -1,4 +1,4 @@
-// Reads a recording of ours with Foxglove's packages, and lets us read one of theirs.
+// Reads our recording with Foxglove's packages, and their recording with our reader.
 //   node check.mjs FIXTURE_PROGRAM FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";

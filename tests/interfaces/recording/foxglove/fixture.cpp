@@ -10,8 +10,8 @@
 #include "tests/interfaces/recording/dds_capture.hpp"
 #include "tests/interfaces/recording/example_messages.hpp"
 
-// fixture write FILE.mcap FILE.jsonl   records an example of every topic, and what we decode of it
-// fixture read FILE.mcap               prints what we read of a file, one line a message
+// fixture write FILE.mcap FILE.jsonl   records an example of every topic, and writes its decoded text
+// fixture read FILE.mcap               prints the contents of a file, one line per message
 
 namespace {
 

@@ -25,7 +25,7 @@ const std::string robot_file = rigs::config("hinge_rig/robot.xml");
 
 }  // namespace
 
-TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds") {
+TEST_CASE("blind cases are made, diagnosed and scored; a changed truth file is rejected") {
   const Folder folder;
   const std::string cases = folder.path / "cases", truth = folder.path / "sealed/truth.json";
   std::ostringstream out, remarks;
@@ -51,38 +51,40 @@ TEST_CASE("cases are made, diagnosed without their truth, scored; the seal holds
   fs::remove(cases + "/case_0002/diagnosis.json");
   out.str("");
   CHECK(launch::gap::blind_score(cases, truth, out) == 5);
-  CHECK_THAT(out.str(), Catch::Contains("1 of 2 cases not diagnosed: erp gap blind run "));
+  CHECK_THAT(out.str(), Catch::Contains("1 of 2 cases not diagnosed; run erp gap blind run "));
 
   CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks),
-                    Catch::Contains("holds cases already"));
+                    Catch::Contains("already contains cases"));
   std::ofstream(truth, std::ios::app) << " ";
   CHECK_THROWS_WITH(launch::gap::blind_score(cases, truth, out), Catch::Contains("hash"));
 }
 
-TEST_CASE("no cases of a robot that cannot have them, and none that would cost or tell a truth") {
+TEST_CASE(
+    "blind make rejects a robot without actuators or with effects, an existing truth file, and a "
+    "truth file inside the folder of the cases") {
   const Folder folder;
   std::ostringstream out, remarks;
   launch::gap::BlindMakeOptions make{
       .robot = robot_file, .out = folder.path / "cases", .truth = folder.path / "cases/truth.json"};
-  const auto refused = [&](const char* why) {
+  const auto rejected = [&](const char* why) {
     CHECK_THROWS_WITH(launch::gap::blind_make(make, out, remarks), Catch::Contains(why));
     CHECK_FALSE(fs::exists(folder.path / "cases"));
   };
-  refused("lies among the cases");
+  rejected("is in the folder of the cases");
   make.truth = folder.path / "truth.json";
   std::ofstream(make.truth) << "[]";
-  refused("seals other cases");
+  rejected("belongs to other cases");
   make.truth = folder.path / "another.json";
   make.robot = rigs::config("drive/robot.xml");
-  refused("has no actuator");
-  erp::Robot rubs = erp::read_robot(robot_file);
-  rubs.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
-  make.robot = folder.path / "rubs.xml";
-  std::ofstream(make.robot) << erp::write_robot(rubs);
-  refused("has effects");
+  rejected("has no actuator");
+  erp::Robot with_effect = erp::read_robot(robot_file);
+  with_effect.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
+  make.robot = folder.path / "with_effect.xml";
+  std::ofstream(make.robot) << erp::write_robot(with_effect);
+  rejected("has effects");
 }
 
-TEST_CASE("a robot that begins beyond its stops is recorded") {
+TEST_CASE("a robot whose initial pose is beyond its stops is recorded") {
   const Folder folder;
   std::string robot = erp::write_robot(erp::read_robot(robot_file));
   const std::string wide = R"(min_rad="-1.2" max_rad="1.6")";
@@ -99,8 +101,8 @@ TEST_CASE("a robot that begins beyond its stops is recorded") {
   CHECK(fs::exists(folder.path / "cases/case_0001/1.csv"));
 }
 
-/// Seals those truths beside the diagnoses of a folder, and scores them.
-std::string set_points_of(const Folder& folder, const nlohmann::json& truths) {
+/// Writes the truth file of a folder of diagnoses, and returns the printed score.
+std::string score_of(const Folder& folder, const nlohmann::json& truths) {
   const std::string truth = folder.path / "truth.json";
   std::ofstream(truth) << truths.dump();
   std::ofstream(folder.path / "cases.json")
@@ -110,7 +112,8 @@ std::string set_points_of(const Folder& folder, const nlohmann::json& truths) {
   return out.str();
 }
 
-TEST_CASE("pairs: both found, and F1 of all that was named") {
+TEST_CASE(
+    "score of pairs: share of cases with both effects found, and F1 of all reported effects") {
   const Folder folder;
   const auto effect = [](const char* type) {
     return nlohmann::json{{"type", type}, {"on", "flexor"}, {"supported", true}};
@@ -122,8 +125,8 @@ TEST_CASE("pairs: both found, and F1 of all that was named") {
                           {"parameters", nlohmann::json::object()}};
   };
   nlohmann::json truths;
-  const auto diagnosed = [&](const char* name, const nlohmann::json& effects,
-                             const nlohmann::json& confusable) {
+  const auto add_case = [&](const char* name, const nlohmann::json& effects,
+                            const nlohmann::json& confusable) {
     truths.push_back({{"case", name}, {"kind", "pair"}, {"hidden", {hidden("a"), hidden("b")}}});
     fs::create_directories(folder.path / name);
     std::ofstream(folder.path / name / "diagnosis.json")
@@ -133,19 +136,20 @@ TEST_CASE("pairs: both found, and F1 of all that was named") {
                           {"confusable", confusable}};
   };
   const auto none = nlohmann::json::array();
-  diagnosed("both", {effect("a"), effect("b")}, none);
-  diagnosed("one_of_three", {effect("a"), effect("c"), effect("d")}, none);
-  auto one = effect("a"), other = effect("twin_of_b"), same = effect("b");
+  add_case("both", {effect("a"), effect("b")}, none);
+  add_case("one_of_three", {effect("a"), effect("c"), effect("d")}, none);
+  auto one = effect("a"), other = effect("equivalent_of_b"), same = effect("b");
   other["set"] = same["set"] = 1;
-  diagnosed("by_its_twin", {one, other}, {other, same});
-  const std::string score = set_points_of(folder, truths);
+  add_case("by_equivalent", {one, other}, {other, same});
+  const std::string score = score_of(folder, truths);
   INFO(score);
   CHECK_THAT(score, Catch::Contains("(2 of 3)"));
-  CHECK_THAT(score, Catch::Contains("0.805"));  // of means 7/9 and 5/6
+  CHECK_THAT(score, Catch::Contains("0.805"));  // of mean precision 7/9 and mean recall 5/6
   CHECK_THAT(score, Catch::Contains("one_of_three: a on flexor + b on flexor | supported"));
 }
 
-TEST_CASE("many numbers off: those that can be seen are named, and few others") {
+TEST_CASE(
+    "score of many deviating constants: share of visible errors reported, share of false reports") {
   const Folder folder;
   const auto number = [](const char* name, double value) {
     return nlohmann::json{{"on", "flexor"}, {"name", name}, {"value", value}};
@@ -163,8 +167,8 @@ TEST_CASE("many numbers off: those that can be seen are named, and few others") 
                                {"kind", "many"},
                                {"hidden", nlohmann::json::array()},
                                {"numbers",
-                                {number("named", 1.05), number("missed", 1.06),
-                                 number("too_little_to_see", 1.02), number("exact", 1)}}}};
+                                {number("reported", 1.05), number("missed", 1.06),
+                                 number("too_small_to_see", 1.02), number("exact", 1)}}}};
   fs::create_directories(folder.path / "one");
   std::ofstream(folder.path / "one/diagnosis.json") << nlohmann::json{
       {"verdict", "supported"},
@@ -172,18 +176,18 @@ TEST_CASE("many numbers off: those that can be seen are named, and few others") 
       {"effects", nlohmann::json::array()},
       {"gap", {{"closed", 0.99}, {"free_running", {{"before", 9}, {"floor", 1}, {"closed", 0.8}}}}},
       {"constants",
-       {constant("named", 1.05, 0.01, true), constant("missed", 1.01, 0.01, false),
-        constant("too_little_to_see", 1.01, 0.02, false), constant("exact", 1.04, 0.01, true)}}};
+       {constant("reported", 1.05, 0.01, true), constant("missed", 1.01, 0.01, false),
+        constant("too_small_to_see", 1.01, 0.02, false), constant("exact", 1.04, 0.01, true)}}};
   fs::copy(robot_file, folder.path / "robot.xml");
-  const std::string score = set_points_of(folder, truths);
+  const std::string score = score_of(folder, truths);
   INFO(score);
-  CHECK_THAT(score, Catch::Contains("named, of errors seen          50.0 %  (1 of 2)") &&
-                        Catch::Contains("falsely, of those named        50.0 %  (1 of 2)") &&
-                        Catch::Contains("90 % of the free run            0.0 %  (0 of 1)") &&
-                        Catch::Contains("interval holds the number      50.0 %  (2 of 4)"));
+  CHECK_THAT(score, Catch::Contains("visible errors reported        50.0 %  (1 of 2)") &&
+                        Catch::Contains("false among reported errors    50.0 %  (1 of 2)") &&
+                        Catch::Contains("90 % closed in free run         0.0 %  (0 of 1)") &&
+                        Catch::Contains("interval contains constant     50.0 %  (2 of 4)"));
 }
 
-TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored by its own rows") {
+TEST_CASE("a robot whose constants all deviate by 3 % is drawn, diagnosed and scored") {
   const Folder folder;
   const std::string cases = folder.path / "cases", truth = folder.path / "truth.json";
   std::ostringstream out, remarks;
@@ -197,23 +201,23 @@ TEST_CASE("a robot whose numbers are all a little off: drawn, sealed, and scored
   REQUIRE(launch::gap::blind_make(make, out, remarks) == 0);
   const auto hidden = nlohmann::json::parse(std::ifstream(truth));
   CHECK(hidden[0]["hidden"].empty());
-  double most = 0;
-  int seen = 0;
+  double largest = 0;
+  int motors = 0;
   for (const auto& number : hidden[0]["numbers"])
     if (number["name"] == "resistance_ohm") {
       const double off = number["value"].get<double>() / 0.516 - 1;
       CHECK(off != 0);
-      ++seen;
-      most = std::max(most, std::abs(off));
+      ++motors;
+      largest = std::max(largest, std::abs(off));
     }
-  CHECK(seen == 2);  // of two motors
-  CHECK(most < 0.15);
+  CHECK(motors == 2);
+  CHECK(largest < 0.15);
   REQUIRE(launch::gap::blind_run({cases, 2, true}, out, remarks) == 0);
   out.str("");
   REQUIRE(launch::gap::blind_score(cases, truth, out) == 0);
   CHECK_THAT(out.str(), Catch::Contains("null, as built") &&
                             Catch::Contains("explained by constants alone  100.0 %") &&
-                            Catch::Contains("90 % of the free run          100.0 %"));
+                            Catch::Contains("90 % closed in free run       100.0 %"));
   const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
   CHECK_FALSE(d["constants"].empty());
   CHECK_FALSE(d["where"].empty());

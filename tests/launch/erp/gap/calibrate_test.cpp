@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A recording of the rig as modelled, and the model with tolerances.
+/// A recording of the rig without a gap, and the model with tolerances.
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("erp_calibrate_" + std::to_string(::getpid()));
   Folder() { fs::create_directories(path); }
@@ -43,7 +43,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// What `erp gap …` prints, run by so many processes of mpirun with one thread each.
+/// Output of `erp gap …`, run by mpirun with this number of processes, one thread each.
 std::string printed(int processes, const std::string& verb, const fs::path& folder) {
   const std::string file = folder / ("printed_" + std::to_string(processes));
   const std::string run =
@@ -71,7 +71,8 @@ std::string calibrated(const std::string& robot, const std::string& recording) {
 
 }  // namespace
 
-TEST_CASE("a number with a tolerance of 0 is not estimated; written robots keep tolerances") {
+TEST_CASE(
+    "a constant with a tolerance of 0 is not estimated; a written robot keeps its tolerances") {
   const Folder folder;
   const auto recording = folder.recorded();
   const auto exact = calibrated(folder.model_with(tolerance("mass", 0)), recording);
@@ -84,8 +85,7 @@ TEST_CASE("a number with a tolerance of 0 is not estimated; written robots keep 
   CHECK(again.tolerances[0].relative == 0.1);
 }
 
-TEST_CASE(
-    "a calibrated robot is read and held against recordings again, each motor with its own type") {
+TEST_CASE("a calibrated robot.xml has one motor type per actuator and can be calibrated again") {
   const Folder folder;
   const auto recording = folder.recorded();
   const std::string built = folder.path / "built.xml";
@@ -102,8 +102,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a folder that cannot be made is refused before the recordings are read; one that can is "
-    "made") {
+    "an output folder that cannot be created is rejected before the recordings are read; a missing "
+    "one is created") {
   const Folder folder;
   std::ofstream(folder.path / "file") << "no folder";
   std::ostringstream out, remarks;
@@ -118,7 +118,7 @@ TEST_CASE(
   CHECK(fs::exists(folder.path / "new" / "built.xml"));
 }
 
-TEST_CASE("a tolerance of no number is refused before the recordings are read") {
+TEST_CASE("a tolerance of an unknown constant is rejected before the recordings are read") {
   const Folder folder;
   CHECK_THROWS_WITH(
       calibrated(folder.model_with(tolerance("weight", 0.1)), folder.path / "no_such.csv"),
@@ -126,7 +126,7 @@ TEST_CASE("a tolerance of no number is refused before the recordings are read") 
 }
 
 TEST_CASE(
-    "under mpirun, two processes calibrate and diagnose as one does, and the first alone prints") {
+    "calibrate and diagnose print the same output under mpirun with one and with two processes") {
   const Folder folder;
   erp::Robot built = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   built.effects = {sim::effects::written({"flexor", sim::effects::GearboxViscous{0.02}})};

@@ -10,12 +10,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Told {
+struct Result {
   int code;
   std::string text;
 };
 
-Told diagnosed(const RecordedRig& folder, launch::gap::DiagnoseOptions how) {
+Result diagnosed(const RecordedRig& folder, launch::gap::DiagnoseOptions how) {
   if (how.robot.empty()) how.robot = rig_file;
   how.out = folder.path / "found";
   std::ostringstream out, remarks;
@@ -25,28 +25,28 @@ Told diagnosed(const RecordedRig& folder, launch::gap::DiagnoseOptions how) {
 
 }  // namespace
 
-TEST_CASE("a model that is put together from parts is mended as one file") {
+TEST_CASE("the corrected model of a robot.xml that includes other files is written as one file") {
   const RecordedRig folder;
-  const std::string model = rigs::config("ecce4/robot.xml"), mended = folder.path / "robot.xml";
+  const std::string model = rigs::config("ecce4/robot.xml"), corrected = folder.path / "robot.xml";
   erp::Robot robot = erp::read_robot(model);
-  const erp::Effect rubs{
+  const erp::Effect friction{
       {}, "gearbox_coulomb", robot.actuators[0].name, {{{}, "extra_Nm", "0.03"}}};
-  robot.effects.push_back(rubs);
-  launch::gap::write_mended(mended, model, robot, {rubs});
-  CHECK(erp::write_robot(erp::read_robot(mended)) == erp::write_robot(robot));
+  robot.effects.push_back(friction);
+  launch::gap::write_corrected(corrected, model, robot, {friction});
+  CHECK(erp::write_robot(erp::read_robot(corrected)) == erp::write_robot(robot));
 }
 
-TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is explained") {
+TEST_CASE("the exit code reports the verdict; robot.xml is written if the gap is explained") {
   const RecordedRig folder;
   const auto plain = folder.recorded("plain.csv", false, 1);
-  const auto rubs = folder.recorded("rubs.csv", true, 1),
+  const auto friction = folder.recorded("friction.csv", true, 1),
              again = folder.recorded("again.csv", true, 2);
 
-  const Told explained = diagnosed(folder, {.recordings = {rubs, again}});
+  const Result explained = diagnosed(folder, {.recordings = {friction, again}});
   INFO(explained.text);
   CHECK(explained.code == 0);
   CHECK_THAT(explained.text, Catch::Contains("free run"));
-  CHECK_THAT(explained.text, !Catch::Contains("the free run"));
+  CHECK_THAT(explained.text, !Catch::Contains("free-run error"));
   const erp::Robot with = erp::read_robot(folder.found("robot.xml"));
   REQUIRE(with.effects.size() == 1);
   CHECK(with.effects[0].type == "gearbox_coulomb");
@@ -55,58 +55,60 @@ TEST_CASE("the exit code says the verdict, and robot.xml is there if the gap is 
   CHECK(diagnosed(folder, {.recordings = {plain}}).code == 3);
   CHECK_FALSE(fs::exists(folder.found("robot.xml")));
 
-  const Told withheld =
-      diagnosed(folder, {.recordings = {rubs, again},
+  const Result withheld =
+      diagnosed(folder, {.recordings = {friction, again},
                          .withhold = {"gearbox_coulomb", "gearbox_asymmetric", "gearbox_stribeck",
                                       "gearbox_ageing_stiction", "gearbox_position_dependent",
                                       "gearbox_load_dependent", "motor_cogging", "motor_dead_band"},
                          .free_run = false});
   INFO(withheld.text);
   CHECK(withheld.code == 4);
-  CHECK_THAT(withheld.text, Catch::Contains("left over   gearbox of extensor") &&
+  CHECK_THAT(withheld.text, Catch::Contains("unexplained gearbox of extensor") &&
                                 Catch::Contains("withheld    gearbox_coulomb, ") &&
                                 Catch::Contains("next        erp gap plan --robot "));
 
-  CHECK(diagnosed(folder, {.train = {rubs}, .held_out = {plain}}).code == 5);
+  CHECK(diagnosed(folder, {.train = {friction}, .held_out = {plain}}).code == 5);
 
-  const Told all_train = diagnosed(folder, {.recordings = {rubs, again}, .train = {rubs, again}});
+  const Result all_train =
+      diagnosed(folder, {.recordings = {friction, again}, .train = {friction, again}});
   CHECK(all_train.code == 5);
-  CHECK_THAT(all_train.text,
-             Catch::Contains("no recording is held out") && !Catch::Contains("one recording only"));
+  CHECK_THAT(all_train.text, Catch::Contains("no recording is held out") &&
+                                 !Catch::Contains("there is only one recording"));
 }
 
-TEST_CASE("spindles that are all wrong alike are not taken for the sensor of the joint they move") {
+TEST_CASE("spindle radii of all actuators wrong by -25 % are identified, not a joint sensor gain") {
   const RecordedRig folder;
   erp::Robot robot = erp::read_robot(rig_file);
   for (erp::Actuator& actuator : robot.actuators) actuator.spindle.radius_m /= 0.75;
   const std::string model = folder.path / "thick.xml";
   std::ofstream(model) << erp::write_robot(robot);
-  const Told told = diagnosed(folder, {.robot = model,
-                                       .recordings = {folder.recorded("one.csv", false, 1, 12)},
-                                       .free_run = false});
-  INFO(told.text);
-  CHECK(told.code == 0);
-  CHECK_THAT(told.text,
-             Catch::Contains("which       spindle_radius on flexor  relative = -0.25") &&
-                 Catch::Contains("which       spindle_radius on extensor  relative = -0.25") &&
+  const Result result = diagnosed(folder, {.robot = model,
+                                           .recordings = {folder.recorded("one.csv", false, 1, 12)},
+                                           .free_run = false});
+  INFO(result.text);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.text,
+             Catch::Contains("cause       spindle_radius on flexor  relative = -0.25") &&
+                 Catch::Contains("cause       spindle_radius on extensor  relative = -0.25") &&
                  Catch::Contains("on the rest of the recording"));
 }
 
-TEST_CASE("one recording too short to be split supports nothing, and says what it looks like") {
+TEST_CASE("one recording that is too short to be split: not identifiable, candidates are printed") {
   const RecordedRig folder;
-  const Told told = diagnosed(folder, {.recordings = {folder.recorded("short.csv", true, 1, 1.6)}});
-  INFO(told.text);
-  CHECK(told.code == 5);
-  CHECK_THAT(told.text, Catch::Contains("perhaps     gearbox_") &&
-                            Catch::Contains("it was not split") &&
-                            Catch::Contains("on the data it was found on"));
+  const Result result =
+      diagnosed(folder, {.recordings = {folder.recorded("short.csv", true, 1, 1.6)}});
+  INFO(result.text);
+  CHECK(result.code == 5);
+  CHECK_THAT(result.text, Catch::Contains("candidate   gearbox_") &&
+                              Catch::Contains("it was not split") &&
+                              Catch::Contains("on the training data"));
   CHECK_FALSE(fs::exists(folder.found("robot.xml")));
-  CHECK_THAT(folder.read("report.html"), Catch::Contains("judged by the recording that it was") &&
-                                             Catch::Contains("<p>Perhaps:</p>") &&
+  CHECK_THAT(folder.read("report.html"), Catch::Contains("no other recording to validate it") &&
+                                             Catch::Contains("<p>Candidates:</p>") &&
                                              !Catch::Contains("held-out recordings"));
 }
 
-TEST_CASE("what wants mending is said once for all recordings, and no experiment is proposed") {
+TEST_CASE("a fault of several recordings is printed once, and no experiment is proposed") {
   const RecordedRig folder;
   std::vector<std::string> files;
   for (std::uint64_t seed : {1, 2}) {
@@ -114,15 +116,16 @@ TEST_CASE("what wants mending is said once for all recordings, and no experiment
     scale_column(file, "extensor.voltage_V", -1);
     files.push_back(file);
   }
-  const Told told = diagnosed(folder, {.recordings = files, .free_run = false});
-  INFO(told.text);
-  CHECK_THAT(told.text, Catch::Contains("mend first  " + files[0] + ", " + files[1] +
-                                        ": extensor.voltage_V: its sign") &&
-                            Catch::Contains("of recordings to be mended first") &&
-                            !Catch::Contains("next        erp gap plan"));
+  const Result result = diagnosed(folder, {.recordings = files, .free_run = false});
+  INFO(result.text);
+  CHECK_THAT(result.text, Catch::Contains("fix the recording first: " + files[0] + ", " + files[1] +
+                                          ": extensor.voltage_V has the opposite sign") &&
+                              Catch::Contains("unreliable until the recordings are fixed") &&
+                              !Catch::Contains("next        erp gap plan"));
 }
 
-TEST_CASE("no gap beside a column to be mended is not identifiable, not \"no gap\"") {
+TEST_CASE(
+    "without a gap but with a suspicious column the verdict is not_identifiable, not no_gap") {
   const RecordedRig folder;
   std::vector<std::string> files;
   for (std::uint64_t seed : {1, 2}) {
@@ -130,14 +133,14 @@ TEST_CASE("no gap beside a column to be mended is not identifiable, not \"no gap
     scale_column(file, "flexor.current_A", 1000);
     files.push_back(file);
   }
-  const Told told = diagnosed(folder, {.recordings = files, .free_run = false});
-  INFO(told.text);
-  CHECK(told.code == 5);
-  CHECK_THAT(told.text,
-             Catch::Contains("verdict     not_identifiable") && Catch::Contains("mend first  "));
+  const Result result = diagnosed(folder, {.recordings = files, .free_run = false});
+  INFO(result.text);
+  CHECK(result.code == 5);
+  CHECK_THAT(result.text, Catch::Contains("verdict     not_identifiable") &&
+                              Catch::Contains("fix the recording first: "));
 }
 
-TEST_CASE("the page lists the constants of a robot as built, those that are off first") {
+TEST_CASE("the report lists the estimated constants, those that deviate from robot.xml first") {
   sim::diagnosis::Diagnosis d;
   d.verdict = sim::diagnosis::Verdict::supported;
   const erp::Robot robot = erp::read_robot(rig_file);
@@ -153,11 +156,11 @@ TEST_CASE("the page lists the constants of a robot as built, those that are off 
   REQUIRE(all != page.npos);
   CHECK(page.find("resistance_ohm") < all);
   CHECK(page.find("mass_kg") > all);
-  CHECK_THAT(page, Catch::Contains("constants within their tolerances, none far off") &&
+  CHECK_THAT(page, Catch::Contains("several constants together, each within its tolerance") &&
                        Catch::Contains("0.515 … 0.525") && Catch::Contains("not determined"));
 }
 
-TEST_CASE("a folder that cannot be made is refused first; a diagnosis that fails leaves none") {
+TEST_CASE("an output folder that cannot be created is rejected; a failed diagnosis creates none") {
   const RecordedRig folder;
   const auto one = folder.recorded("one.csv", false, 1);
   std::ostringstream out, remarks;
@@ -169,14 +172,15 @@ TEST_CASE("a folder that cannot be made is refused first; a diagnosis that fails
   CHECK_FALSE(fs::exists(folder.path / "new"));
 }
 
-TEST_CASE("the report shows where, which and how far, and needs no other file") {
+TEST_CASE("the report shows location, candidate effects and gap closure, and needs no other file") {
   const RecordedRig folder;
   diagnosed(folder,
             {.recordings = {folder.recorded("1.csv", true, 1), folder.recorded("2.csv", true, 2)}});
   const std::string report = folder.read("report.html");
-  for (const char* part : {"<h2>Where</h2>", "<h2>Which</h2>", "% closed (", "Signatures",
-                           "<h2>The simulator let run freely</h2>", "<h2>The worst moments</h2>",
-                           "gearbox_coulomb on extensor", "1.csv", "2.csv"})
+  for (const char* part :
+       {"<h2>Location of the gap</h2>", "<h2>Candidate effects</h2>", "% closed (", "Signatures",
+        "<h2>Free-run simulation</h2>", "<h2>Largest residuals</h2>", "gearbox_coulomb on extensor",
+        "1.csv", "2.csv"})
     CHECK_THAT(report, Catch::Contains(part));
   CHECK_THAT(report, !Catch::Contains("href=") && !Catch::Contains("src=") &&
                          !Catch::Contains("nan") && !Catch::Contains("inf"));
@@ -196,31 +200,31 @@ TEST_CASE("the report shows where, which and how far, and needs no other file") 
   }
 }
 
-TEST_CASE("what cannot be asked of recordings is refused, with the name that is wrong") {
+TEST_CASE("an unknown effect type, a recording given twice or in both lists is rejected by name") {
   const RecordedRig folder;
   const auto one = folder.recorded("one.csv", false, 1), two = folder.recorded("two.csv", false, 2);
   CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one}, .withhold = {"no_such_effect"}}),
                     Catch::Contains("no_such_effect") && Catch::Contains("erp model effects"));
   CHECK_THROWS_WITH(diagnosed(folder, {.train = {one, two}, .held_out = {two}}),
-                    Catch::Contains("two.csv") && Catch::Contains("both in"));
+                    Catch::Contains("two.csv") && Catch::Contains("in both"));
   CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one}, .held_out = {one}}),
-                    Catch::Contains("leave some to train on"));
+                    Catch::Contains("leave at least one for training"));
   CHECK_THROWS_WITH(diagnosed(folder, {.recordings = {one, two, one}}),
-                    Catch::Contains("one.csv") && Catch::Contains("named twice"));
+                    Catch::Contains("one.csv") && Catch::Contains("given twice"));
 }
 
-TEST_CASE("a model in the folder of a diagnosis is neither written over nor removed") {
+TEST_CASE("a robot.xml that erp gap diagnose did not write is neither overwritten nor removed") {
   const RecordedRig folder;
   const auto plain = folder.recorded("plain.csv", false, 1);
   fs::create_directories(folder.path / "found");
   const std::string mine = folder.found("robot.xml");
   fs::copy_file(rig_file, mine);
   launch::gap::DiagnoseOptions how{.recordings = {plain}};
-  CHECK_THROWS_WITH(diagnosed(folder, how), Catch::Contains("that no diagnosis wrote"));
+  CHECK_THROWS_WITH(diagnosed(folder, how), Catch::Contains("that erp gap diagnose did not write"));
   std::ostringstream out, remarks;
   how.robot = mine, how.out = folder.path / "found";
   CHECK_THROWS_WITH(launch::gap::diagnose(how, out, remarks),
-                    Catch::Contains("is the model itself"));
+                    Catch::Contains("is the model given by --robot"));
   CHECK(folder.read("robot.xml") == [&] {
     std::ifstream in(rig_file);
     return std::string(std::istreambuf_iterator<char>(in), {});

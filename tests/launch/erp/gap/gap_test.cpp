@@ -28,17 +28,17 @@ std::string recorded(const std::string& name, const std::vector<erp::Effect>& ef
   return file;
 }
 
-std::string said_of(const std::vector<std::string>& files) {
+std::string output_of(const std::vector<std::string>& files) {
   std::ostringstream out, remarks;
   CHECK(launch::gap::where(robot_file, files, out, remarks) == 0);
   CHECK(remarks.str().empty());
   return out.str();
 }
 
-void check_sound(const erp::Robot& robot, const sim::closed_loop::SetPoints& score) {
-  const auto table = sim::closed_loop::predict_run(robot, score);
-  std::vector<std::string> mended;
-  auto episode = sim::residuals::lay_out(table, robot, "run", mended);
+void check_no_faults(const erp::Robot& robot, const sim::closed_loop::SetPoints& set_points) {
+  const auto table = sim::closed_loop::predict_run(robot, set_points);
+  std::vector<std::string> corrections;
+  auto episode = sim::residuals::lay_out(table, robot, "run", corrections);
   CHECK(sim::checks::table_checks(table, robot, "run") == std::vector<std::string>{});
   CHECK(sim::checks::column_checks(episode, robot) == std::vector<std::string>{});
   CHECK_FALSE(sim::diagnosis::localize(robot, std::vector{episode}).empty());
@@ -46,91 +46,91 @@ void check_sound(const erp::Robot& robot, const sim::closed_loop::SetPoints& sco
   CHECK(sim::checks::column_checks(episode, robot) == std::vector<std::string>{});
 }
 
-/// Each to and fro at its own pace.
+/// Sinusoidal lengths of 2 mm amplitude, a different frequency for each actuator.
 sim::closed_loop::SetPoints every_line_by_2_mm(const erp::Robot& robot, double seconds) {
-  sim::closed_loop::SetPoints score(static_cast<std::size_t>(500 * seconds));
-  for (std::size_t k = 0; k < score.size(); ++k)
+  sim::closed_loop::SetPoints set_points(static_cast<std::size_t>(500 * seconds));
+  for (std::size_t k = 0; k < set_points.size(); ++k)
     for (std::size_t a = 0; a < robot.actuators.size(); ++a)
-      score[k].push_back(
+      set_points[k].push_back(
           {erp::Mode::length, 0.002 * std::sin(0.002 * double(k) * (4 + 0.1 * double(a)))});
-  return score;
+  return set_points;
 }
 
 }  // namespace
 
-TEST_CASE("recordings of the robot as modelled show no gap, an effect shows its stage") {
+TEST_CASE("no effect: no gap; Coulomb friction of a gearbox: a gap at that gearbox") {
   const auto plain = recorded("erp_gap_plain.csv", {});
-  const auto rubs = recorded("erp_gap_rubs.csv",
-                             {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}});
-  CHECK_THAT(said_of({plain}), Catch::Contains("no gap"));
-  CHECK_THAT(said_of({rubs}), Catch::Contains("the gap is in: gearbox of extensor\n"));
-  std::filesystem::remove(plain), std::filesystem::remove(rubs);
+  const auto friction = recorded("erp_gap_friction.csv",
+                                 {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}});
+  CHECK_THAT(output_of({plain}), Catch::Contains("no gap"));
+  CHECK_THAT(output_of({friction}), Catch::Contains("the gap is in: gearbox of extensor\n"));
+  std::filesystem::remove(plain), std::filesystem::remove(friction);
 }
 
-TEST_CASE("a stage without its signals is named, not passed over") {
+TEST_CASE("stages whose signals are missing are listed as not evaluated") {
   const auto file = recorded("erp_gap_less.csv", {});
   recording::Table table = recording::read_table(file);
   std::erase_if(table.columns, [](const auto& c) { return c.name == "flexor.shaft_rad"; });
   std::ofstream out(file);
   recording::write_csv(table, out);
   out.close();
-  CHECK_THAT(said_of({file}),
+  CHECK_THAT(output_of({file}),
              Catch::Contains("motor of flexor, gearbox of flexor, tendon of flexor") &&
-                 Catch::Contains("no gap in the others"));
+                 Catch::Contains("no gap in the other stages"));
   std::filesystem::remove(file);
 }
 
-TEST_CASE("where nothing can be judged, the exit code says so as well") {
+TEST_CASE("without a stage to evaluate, the exit code is 5") {
   const auto file = recorded("erp_gap_nothing.csv", {});
   recording::Table table = recording::read_table(file);
   for (auto& column : table.columns) column.values.resize(15);  // shorter than any window
   std::ofstream out(file);
   recording::write_csv(table, out);
   out.close();
-  std::ostringstream said, remarks;
-  CHECK(launch::gap::where(robot_file, {file}, said, remarks) == 5);
-  CHECK_THAT(said.str(), Catch::Contains("nothing could be judged"));
+  std::ostringstream printed, remarks;
+  CHECK(launch::gap::where(robot_file, {file}, printed, remarks) == 5);
+  CHECK_THAT(printed.str(), Catch::Contains("no stage could be evaluated"));
   std::filesystem::remove(file);
 }
 
-TEST_CASE("a recording of any prototype as modelled can be judged, and nothing is odd about it") {
+TEST_CASE("simulated recordings of all prototypes are evaluated and have no suspicious column") {
   for (const char* name : {"hinge_rig", "twin_joint", "arm", "seven_dof"}) {
     const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
     for (int kind = 0; kind < sim::excitation_kinds; ++kind) {
-      INFO(name << ", " << sim::excitation_word(robot, kind));
-      check_sound(robot, sim::closed_loop::set_points_of(sim::excitation(robot, kind, 4, 1)));
+      INFO(name << ", " << sim::excitation_name(robot, kind));
+      check_no_faults(robot, sim::closed_loop::set_points_of(sim::excitation(robot, kind, 4, 1)));
     }
   }
   for (const char* name : {"ecce1", "ecce2", "ecce3", "ecce4"}) {
     INFO(name);
     const erp::Robot robot = erp::read_robot(rigs::config(std::string(name) + "/robot.xml"));
-    check_sound(robot, every_line_by_2_mm(robot, 3));
+    check_no_faults(robot, every_line_by_2_mm(robot, 3));
   }
 }
 
-TEST_CASE("what the sensors of a robot cannot tell apart is told without a recording") {
+TEST_CASE("erp gap twins lists indistinguishable effects without a recording") {
   std::ostringstream out, remarks, less;
   launch::gap::IndistinguishableOptions options{.robot = robot_file, .seconds = 4};
-  CHECK(launch::gap::twins(options, out, remarks) == 0);
+  CHECK(launch::gap::list_indistinguishable(options, out, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("routing_pulley_radius on flexor"));
   options.without = {"tension"};
-  CHECK(launch::gap::twins(options, less, remarks) == 0);
+  CHECK(launch::gap::list_indistinguishable(options, less, remarks) == 0);
   CHECK_THAT(out.str(), Catch::Contains("tendon_kite_line"));
-  CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // does not show
+  CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // not visible without tension
 }
 
-TEST_CASE("what several effects do together for one is told, and of what types is checked") {
+TEST_CASE("erp gap twins --together 2 lists sums of two effects; an unknown type is rejected") {
   std::ostringstream out, remarks;
   launch::gap::IndistinguishableOptions options{.robot = robot_file, .seconds = 4, .together = 2};
-  CHECK(launch::gap::twins(options, out, remarks) == 0);
+  CHECK(launch::gap::list_indistinguishable(options, out, remarks) == 0);
   CHECK_THAT(out.str(),
              Catch::Matches("[^]*sensor_joint_offset on elbow [^\n]* on [^\n]* \\+ [^]*"));
   options.withhold = {"sensor_joint_ofset"};
-  CHECK_THROWS_WITH(launch::gap::twins(options, out, remarks),
+  CHECK_THROWS_WITH(launch::gap::list_indistinguishable(options, out, remarks),
                     Catch::Contains("did you mean \"sensor_joint_offset\""));
 }
 
-TEST_CASE("a recording in which nothing changes is refused: place, what it holds, and what to do") {
+TEST_CASE("a recording in which no signal changes is rejected with file, cause and remedy") {
   const auto file = recorded("erp_gap_dead.csv", {});
   recording::Table table = recording::read_table(file);
   for (auto& column : table.columns)
@@ -139,8 +139,8 @@ TEST_CASE("a recording in which nothing changes is refused: place, what it holds
   std::ofstream out(file);
   recording::write_csv(table, out);
   out.close();
-  std::ostringstream said, remarks;
-  CHECK_THROWS_WITH(launch::gap::where(robot_file, {file}, said, remarks),
-                    Catch::Contains("nothing changes in it") && Catch::Contains("while it moves"));
+  std::ostringstream printed, remarks;
+  CHECK_THROWS_WITH(launch::gap::where(robot_file, {file}, printed, remarks),
+                    Catch::Contains("no signal changes") && Catch::Contains("while it moves"));
   std::filesystem::remove(file);
 }

@@ -14,19 +14,18 @@ namespace fs = std::filesystem;
 
 struct Planned {
   int code;
-  std::string said;
+  std::string text;
 };
 
-/// What is planned after a diagnosis that could not tell two effects apart, of which it is sure
-/// beside `sure`.
+/// The plan for a diagnosis with the equivalent effects `one` and `other` and the identified effect `identified`.
 Planned plan(const fs::path& folder, const std::string& one, const std::string& other,
-             const std::string& sure = "",
+             const std::string& identified = "",
              const std::string& robot = rigs::config("hinge_rig/robot.xml")) {
   fs::create_directories(folder);
   std::ofstream(folder / "diagnosis.json")
       << R"({"robot": "hinge_rig", "verdict": "supported", "effects": [)" << one << ", " << other
-      << (sure.empty() ? "" : ", ") << sure << R"(], "confusable": [)" << one << ", " << other
-      << "]}";
+      << (identified.empty() ? "" : ", ") << identified << R"(], "confusable": [)" << one << ", "
+      << other << "]}";
   std::ostringstream out, remarks;
   const int code = launch::gap::plan({.robot = robot,
                                       .diagnosis = (folder / "diagnosis.json").string(),
@@ -50,21 +49,23 @@ struct Folder {
 
 }  // namespace
 
-TEST_CASE("two frictions are split by a motion, which is written as a graph to launch") {
+TEST_CASE(
+    "Coulomb and viscous friction are distinguished by a motion, which is written as a graph") {
   const Folder folder;
   const Planned planned = plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
                                effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02));
-  INFO(planned.said);
+  INFO(planned.text);
   REQUIRE(planned.code == 0);
   const auto graph = erp::read_graph((folder.path / "next/graph.xml").string());
   CHECK(graph.components.size() == 2);
   const auto table = recording::read_table((folder.path / "next/trajectory.csv").string());
   CHECK(table.find("time_s")->values.back() == Approx(4).margin(0.1));
   CHECK(table.find("extensor.reference") != nullptr);
-  CHECK_THAT(planned.said, Catch::Contains("erp launch"));
+  CHECK_THAT(planned.text, Catch::Contains("erp launch"));
 }
 
-TEST_CASE("of two sets that cannot be told apart one is split, and the other is said to be left") {
+TEST_CASE(
+    "of two sets of equivalent effects, the first is planned for and the second is reported") {
   const Folder folder;
   const auto of_set = [](const std::string& effect, int set) {
     return effect.substr(0, effect.size() - 1) + R"(, "set": )" + std::to_string(set) + "}";
@@ -72,24 +73,24 @@ TEST_CASE("of two sets that cannot be told apart one is split, and the other is 
   const Planned planned = plan(folder.path, of_set(effect("gearbox_coulomb", "extra_Nm", 0.05), 0),
                                of_set(effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02), 0) +
                                    ", " + of_set(effect("motor_resistance", "relative", 0.2), 1));
-  INFO(planned.said);
+  INFO(planned.text);
   CHECK(planned.code == 0);
-  CHECK_THAT(planned.said, Catch::Contains("1 more set cannot be told apart"));
+  CHECK_THAT(planned.text, Catch::Contains("1 more set of equivalent effects"));
 }
 
-TEST_CASE("what else is known of the robot is in it when the next motion is rehearsed") {
+TEST_CASE("identified effects are part of the robot that simulates the candidates") {
   const Folder folder;
   const auto coulomb = effect("gearbox_coulomb", "extra_Nm", 0.05),
              viscous = effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02);
   const Planned alone = plan(folder.path, coulomb, viscous);
-  const Planned beside =
+  const Planned with_resistance =
       plan(folder.path, coulomb, viscous, effect("motor_resistance", "relative", 0.3));
-  REQUIRE(beside.code == 0);
-  CHECK_THAT(beside.said, !Catch::Contains("motor_resistance"));  // not to be split
-  CHECK(beside.said != alone.said);                               // but felt
+  REQUIRE(with_resistance.code == 0);
+  CHECK_THAT(with_resistance.text, !Catch::Contains("motor_resistance"));  // not a suspect
+  CHECK(with_resistance.text != alone.text);                               // but it acts
 }
 
-TEST_CASE("planned on the robot.xml of the diagnosis, no effect acts twice") {
+TEST_CASE("a plan with the corrected robot.xml equals the plan with the diagnosed robot.xml") {
   const Folder folder;
   const auto coulomb = effect("gearbox_coulomb", "extra_Nm", 0.05),
              viscous = effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02),
@@ -103,62 +104,64 @@ TEST_CASE("planned on the robot.xml of the diagnosis, no effect acts twice") {
   const Planned described = plan(folder.path, coulomb, viscous, resistance);
   const Planned found = plan(folder.path, coulomb, viscous, resistance, file);
   REQUIRE(described.code == 0);
-  CHECK(found.said == described.said);
+  CHECK(found.text == described.text);
 }
 
-TEST_CASE("twins are split by no motion: which they are is said, and no graph is left") {
+TEST_CASE(
+    "indistinguishable effects: exit code 5, both are named, and an earlier graph is removed") {
   const Folder folder;
   fs::create_directories(folder.path / "next");
   std::ofstream(folder.path / "next/graph.xml") << "<!-- By erp gap plan. -->";
   const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
                                effect("sensor_shaft_offset", "offset_rad", -0.0889));
-  INFO(planned.said);
+  INFO(planned.text);
   CHECK(planned.code == 5);
-  CHECK_THAT(planned.said, Catch::Contains("tells tendon_length_offset on flexor from "
-                                           "sensor_shaft_offset on flexor: that needs"));
+  CHECK_THAT(planned.text, Catch::Contains("distinguishes tendon_length_offset on flexor from "
+                                           "sensor_shaft_offset on flexor; this needs"));
   CHECK_FALSE(fs::exists(folder.path / "next/graph.xml"));
 }
 
-TEST_CASE("a graph that no plan wrote is not written over") {
+TEST_CASE("a graph.xml that erp gap plan did not write is not overwritten") {
   const Folder folder;
   fs::create_directories(folder.path / "next");
   std::ofstream(folder.path / "next/graph.xml") << "<graph/>";
   CHECK_THROWS_WITH(plan(folder.path, effect("gearbox_coulomb", "extra_Nm", 0.05),
                          effect("gearbox_viscous", "extra_Nm_s_per_rad", 0.02)),
-                    Catch::Contains("holds a graph.xml that no plan wrote"));
+                    Catch::Contains("contains a graph.xml that erp gap plan did not write"));
   CHECK(fs::exists(folder.path / "next/graph.xml"));
 }
 
-TEST_CASE("beside twins, what can be split is") {
+TEST_CASE("an effect indistinguishable from the first is dropped; the others are planned for") {
   const Folder folder;
   const Planned planned = plan(folder.path, effect("tendon_length_offset", "length_m", 0.0004),
                                effect("sensor_shaft_offset", "offset_rad", -0.0889) + ", " +
                                    effect("gearbox_coulomb", "extra_Nm", 0.05));
-  INFO(planned.said);
+  INFO(planned.text);
   CHECK(planned.code == 0);
-  CHECK_THAT(planned.said, Catch::Contains("from sensor_shaft_offset on flexor: that needs") &&
-                               Catch::Contains("to split    tendon_length_offset on flexor, "
+  CHECK_THAT(planned.text, Catch::Contains("from sensor_shaft_offset on flexor; this needs") &&
+                               Catch::Contains("suspects    tendon_length_offset on flexor, "
                                                "gearbox_coulomb on flexor"));
   CHECK(fs::exists(folder.path / "next/graph.xml"));
 }
 
-TEST_CASE("a diagnosis of another robot is refused with the place that this one has not") {
+TEST_CASE("a diagnosis with a part that the robot lacks is rejected by name") {
   const Folder folder;
   auto other = effect("gearbox_coulomb", "extra_Nm", 0.05);
   other.replace(other.find("flexor"), 6, "biceps");
   CHECK_THROWS_WITH(plan(folder.path, other, other),
                     Catch::Contains("gearbox_coulomb on biceps") &&
-                        Catch::Contains("give the robot that was diagnosed"));
+                        Catch::Contains("pass the robot that was diagnosed"));
 }
 
-TEST_CASE("what is no diagnosis is refused with what it lacks") {
+TEST_CASE("a file that is not a diagnosis.json is rejected with the missing field") {
   const Folder folder;
   CHECK_THROWS_WITH(plan(folder.path, R"({"type": "gearbox_coulomb", "on": "flexor"})", "{}"),
-                    Catch::Contains("diagnosis.json: is no diagnosis.json") &&
+                    Catch::Contains("diagnosis.json: is not a diagnosis.json") &&
                         Catch::Contains("'type' not found"));
 }
 
-TEST_CASE("a plan is for the robot that was diagnosed, though another has places of these names") {
+TEST_CASE(
+    "a diagnosis of another robot is rejected, even if the robot has parts of the same names") {
   const Folder folder;
   fs::create_directories(folder.path);
   std::ofstream(folder.path / "diagnosis.json")
@@ -172,7 +175,7 @@ TEST_CASE("a plan is for the robot that was diagnosed, though another has places
                     Catch::Contains("hinge_rig") && Catch::Contains("\"arm\""));
 }
 
-TEST_CASE("a plan without a diagnosis says which file it misses") {
+TEST_CASE("a missing diagnosis.json is rejected with its file name") {
   const Folder folder;
   std::ostringstream out, remarks;
   CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("hinge_rig/robot.xml"),
@@ -182,7 +185,7 @@ TEST_CASE("a plan without a diagnosis says which file it misses") {
                     Catch::Contains("diagnosis.json"));
 }
 
-TEST_CASE("a plan into a file is refused before anything is rehearsed, and the file stays") {
+TEST_CASE("an output path that is a file is rejected, and the file is not changed") {
   const Folder folder;
   fs::create_directories(folder.path);
   std::ofstream(folder.path / "next") << "mine";

@@ -11,7 +11,7 @@
 
 inline const std::string rig_file = rigs::config("hinge_rig/robot.xml");
 
-/// A folder of recordings of the rig, as it is modelled and with a gearbox that rubs.
+/// A folder of recordings of the rig, without a gap or with Coulomb friction in a gearbox.
 struct RecordedRig {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("erp_rig_" + std::to_string(::getpid()));
@@ -23,10 +23,10 @@ struct RecordedRig {
     std::ifstream in(found(file));
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  std::string recorded(const std::string& name, bool rubs, std::uint64_t seed,
+  std::string recorded(const std::string& name, bool friction, std::uint64_t seed,
                        double seconds = 5) const {
     erp::Robot robot = erp::read_robot(rig_file);
-    if (rubs) robot.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
+    if (friction) robot.effects = {{{}, "gearbox_coulomb", "extensor", {{{}, "extra_Nm", "0.03"}}}};
     rig_recording::Plan plan{.seconds = seconds, .seed = seed};
     plan.swing_Hz += 0.1 * double(seed);
     std::ofstream out(path / name);
@@ -35,7 +35,7 @@ struct RecordedRig {
   }
 };
 
-/// Multiplies a column of a recording.
+/// Multiplies a column of a recording by a factor.
 inline void scale_column(const std::string& file, const std::string& name, double by) {
   recording::Table table = recording::read_table(file);
   for (auto& column : table.columns)

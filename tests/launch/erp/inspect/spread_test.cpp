@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE("a quantile is a value that was measured, whatever the order they came in") {
+TEST_CASE("a quantile is one of the added values, independent of their order") {
   launch::Spread spread;
   for (const double value : {5.0, 1.0, 3.0, 2.0, 4.0}) spread.add(value);
   CHECK(spread.quantile(0) == 1.0);
@@ -14,7 +14,7 @@ TEST_CASE("a quantile is a value that was measured, whatever the order they came
   CHECK(spread.count() == 6);
 }
 
-TEST_CASE("the spread of nothing is zero") {
+TEST_CASE("a quantile without values is 0") {
   launch::Spread spread;
   CHECK(spread.quantile(0.5) == 0.0);
 }

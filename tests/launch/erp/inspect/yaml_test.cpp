@@ -17,7 +17,7 @@ Structure structure(std::vector<std::string> names) {
 
 }  // namespace
 
-TEST_CASE("a message is a line a field, and its samples a list") {
+TEST_CASE("a message has one line per field, and its samples are a list") {
   const auto sample = structure({"name", "tension_N"});
   const auto frame = structure({"robot", "sequence", "gains", "actuators"});
   const Members flexor{&sample, {Value{std::string("flexor")}, Value{2.5}}};
@@ -37,27 +37,29 @@ TEST_CASE("a message is a line a field, and its samples a list") {
         "    tension_N: -1\n");
 }
 
-TEST_CASE("a small number of ours has its word beside it, one of others has none") {
-  auto ours = structure({"mode", "valid", "mode_of_others"});
-  auto theirs = ours;
-  ours.name = "erp/msg/ActuatorSample", theirs.name = "other/msg/ActuatorSample";
+TEST_CASE(
+    "an enumeration value of an erp message has its name as comment, of another package not") {
+  auto erp_type = structure({"mode", "valid", "unknown_field"});
+  auto other_type = erp_type;
+  erp_type.name = "erp/msg/ActuatorSample", other_type.name = "other/msg/ActuatorSample";
   const Values numbers{Value{std::uint64_t{4}}, Value{std::uint64_t{6}}, Value{std::uint64_t{4}}};
-  CHECK(launch::to_yaml({&ours, numbers}) ==
-        "mode: 4  # force\nvalid: 6  # current shaft\nmode_of_others: 4\n");
-  CHECK(launch::to_yaml({&theirs, numbers}) == "mode: 4\nvalid: 6\nmode_of_others: 4\n");
-  ours.name = "erp/msg/JointSample";
-  CHECK(launch::to_yaml({&ours, {Value{std::uint64_t{9}}, Value{std::uint64_t{1}}, numbers[2]}}) ==
-        "mode: 9\nvalid: 1  # angle\nmode_of_others: 4\n");
+  CHECK(launch::to_yaml({&erp_type, numbers}) ==
+        "mode: 4  # force\nvalid: 6  # current shaft\nunknown_field: 4\n");
+  CHECK(launch::to_yaml({&other_type, numbers}) == "mode: 4\nvalid: 6\nunknown_field: 4\n");
+  erp_type.name = "erp/msg/JointSample";
+  CHECK(launch::to_yaml(
+            {&erp_type, {Value{std::uint64_t{9}}, Value{std::uint64_t{1}}, numbers[2]}}) ==
+        "mode: 9\nvalid: 1  # angle\nunknown_field: 4\n");
 }
 
-TEST_CASE("an empty sequence and a nested structure keep their shape") {
+TEST_CASE("an empty sequence is [], and a nested structure is indented") {
   const auto inner = structure({"x"});
   const auto outer = structure({"list", "inner"});
   const Members message{&outer, {Value{Values{}}, Value{Members{&inner, {Value{true}}}}}};
   CHECK(launch::to_yaml(message) == "list: []\ninner:\n  x: true\n");
 }
 
-TEST_CASE("text that YAML would read as something else is quoted") {
+TEST_CASE("text that YAML would read as another type is quoted") {
   const auto type = structure({"text"});
   const auto yaml = [&](const char* text) {
     return launch::to_yaml({&type, {Value{std::string(text)}}});

@@ -18,19 +18,19 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator(in), {}};
 }
 
-/// A folder with a recording of the arm's still poses, and what a calibration leaves there.
-struct Desk {
+/// A folder with a recording of the arm at rest, for the results of a calibration.
+struct Fixture {
   fs::path path = fs::temp_directory_path() / "erp_calibrate_test";
   std::ostringstream out, remarks;
 
-  Desk() {
+  Fixture() {
     fs::remove_all(path);
     fs::create_directories(path);
     const auto arm = arm_poses::arm();
     std::ofstream csv(path / "still.csv");
     recording::write_csv(arm_poses::recorded(arm, arm_poses::held(arm, 8)), csv);
   }
-  ~Desk() { fs::remove_all(path); }
+  ~Fixture() { fs::remove_all(path); }
 
   std::string file(const char* name) const { return (path / name).string(); }
   launch::PoseFiles poses() const { return {{file("still.csv")}, {}}; }
@@ -48,93 +48,96 @@ struct Desk {
             .choice = rigs::config("arm/calibration.xml"),
             .poses = poses(),
             .how = {},
-            .course = {.folder = file(folder), .rounds = rounds}};
+            .training = {.folder = file(folder), .rounds = rounds}};
   }
 };
 
 }  // namespace
 
-TEST_CASE("a model made wrong is brought nearer, and what is written is a robot that simulates") {
-  Desk desk;
-  desk.perturb();
-  CHECK_THAT(desk.out.str(), Catch::Contains("perturbed"));
-  auto options = desk.options("found", 40);
+TEST_CASE(
+    "calibration reduces the error of a perturbed model below a tenth, and writes a valid robot") {
+  Fixture fixture;
+  fixture.perturb();
+  CHECK_THAT(fixture.out.str(), Catch::Contains("perturbed"));
+  auto options = fixture.options("found", 40);
   options.how.strategy = sim::calibration::Strategy::newton;
-  REQUIRE(launch::calibrate_run(options, desk.out, desk.remarks) == 0);
-  CHECK_THAT(desk.out.str(), Catch::Contains("identified") && Catch::Contains("shoulder, checked"));
-  CHECK(text_of(desk.path / "found/parameters.csv").starts_with("parameter,changed,unit,left\n"));
-  CHECK(fs::file_size(desk.path / "found/curve.svg") > 1000);
+  REQUIRE(launch::calibrate_run(options, fixture.out, fixture.remarks) == 0);
+  CHECK_THAT(fixture.out.str(),
+             Catch::Contains("identified") && Catch::Contains("shoulder, checked"));
+  CHECK(
+      text_of(fixture.path / "found/parameters.csv").starts_with("parameter,changed,unit,left\n"));
+  CHECK(fs::file_size(fixture.path / "found/curve.svg") > 1000);
 
   const auto errors = [&](const std::string& robot) {
-    const auto poses = desk.poses();
+    const auto poses = fixture.poses();
     const auto arm = erp::read_robot(robot);
     const sim::calibration::Parameters none(arm, {});
     return pose_errors(none.start(), sim::calibration::still_poses(
                                          recording::read_table(poses.learn.front()), arm))
         .mean_of_all_rad;
   };
-  CHECK(errors(desk.file("found/robot.xml")) < 0.1 * errors(desk.file("off.xml")));
+  CHECK(errors(fixture.file("found/robot.xml")) < 0.1 * errors(fixture.file("off.xml")));
 }
 
-TEST_CASE("interrupted, a calibration says how to go on, and goes on to the same robot") {
-  Desk desk;
-  desk.perturb();
-  REQUIRE(launch::calibrate_run(desk.options("whole", 3), desk.out, desk.remarks) == 0);
-  auto options = desk.options("parts", 3);
-  options.course.interrupted = [] { return true; };
-  CHECK(launch::calibrate_run(options, desk.out, desk.remarks) == 1);
-  CHECK_THAT(desk.remarks.str(),
+TEST_CASE("an interrupted calibration prints how to continue, and resumes to the same robot") {
+  Fixture fixture;
+  fixture.perturb();
+  REQUIRE(launch::calibrate_run(fixture.options("whole", 3), fixture.out, fixture.remarks) == 0);
+  auto options = fixture.options("parts", 3);
+  options.training.interrupted = [] { return true; };
+  CHECK(launch::calibrate_run(options, fixture.out, fixture.remarks) == 1);
+  CHECK_THAT(fixture.remarks.str(),
              Catch::Contains("after round 1 of 3") && Catch::Contains("--resume"));
-  options.course.interrupted = [] { return false; };
-  options.course.resume = true;
-  CHECK(launch::calibrate_run(options, desk.out, desk.remarks) == 0);
+  options.training.interrupted = [] { return false; };
+  options.training.resume = true;
+  CHECK(launch::calibrate_run(options, fixture.out, fixture.remarks) == 0);
   for (const char* file : {"robot.xml", "curve.csv", "state.xml"})
-    CHECK(text_of(desk.path / "parts" / file) == text_of(desk.path / "whole" / file));
+    CHECK(text_of(fixture.path / "parts" / file) == text_of(fixture.path / "whole" / file));
 }
 
-TEST_CASE("under mpirun, two processes find what one finds") {
-  Desk desk;
-  desk.perturb();
-  REQUIRE(launch::calibrate_run(desk.options("one", 3), desk.out, desk.remarks) == 0);
+TEST_CASE("two processes under mpirun give the result of one") {
+  Fixture fixture;
+  fixture.perturb();
+  REQUIRE(launch::calibrate_run(fixture.options("one", 3), fixture.out, fixture.remarks) == 0);
   const std::string run =
       "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 60 mpirun --oversubscribe "
       "-n 2 " ERP_BIN_DIR "/erp calibrate run --robot " +
-      desk.file("off.xml") + " --vary " + rigs::config("arm/calibration.xml") + " --real " +
-      desk.file("still.csv") + " --generations 3 --threads 1 --out " + desk.file("two") + " > " +
-      desk.file("said") + " 2>&1";
+      fixture.file("off.xml") + " --vary " + rigs::config("arm/calibration.xml") + " --real " +
+      fixture.file("still.csv") + " --generations 3 --threads 1 --out " + fixture.file("two") +
+      " > " + fixture.file("output") + " 2>&1";
   const int code = std::system(run.c_str());
-  INFO(text_of(desk.path / "said"));
+  INFO(text_of(fixture.path / "output"));
   REQUIRE(code == 0);
-  CHECK(text_of(desk.path / "two/state.xml") == text_of(desk.path / "one/state.xml"));
-  CHECK(text_of(desk.path / "two/robot.xml") == text_of(desk.path / "one/robot.xml"));
-  const std::string said = text_of(desk.path / "said");
-  CHECK(said.find("identified") == said.rfind("identified: "));  // the first one speaks alone
+  CHECK(text_of(fixture.path / "two/state.xml") == text_of(fixture.path / "one/state.xml"));
+  CHECK(text_of(fixture.path / "two/robot.xml") == text_of(fixture.path / "one/robot.xml"));
+  const std::string output = text_of(fixture.path / "output");
+  CHECK(output.find("identified") ==
+        output.rfind("identified: "));  // only the first process prints
 }
 
-TEST_CASE(
-    "what cannot be is said: a joint that there is not, a recording that never stands still") {
-  Desk desk;
+TEST_CASE("an unknown joint and a recording without rest are refused by name") {
+  Fixture fixture;
   CHECK_THROWS_WITH(launch::calibrate_perturb({.robot = rigs::config("arm/robot.xml"),
                                                .choice = rigs::config("arm/calibration.xml"),
-                                               .out = desk.file("off.xml"),
-                                               .poses = desk.poses(),
+                                               .out = fixture.file("off.xml"),
+                                               .poses = fixture.poses(),
                                                .off_deg = {{"knee", 20}}},
-                                              desk.out),
+                                              fixture.out),
                     Catch::Contains("no joint \"knee\""));
-  auto moving = recording::read_table(desk.file("still.csv"));
+  auto moving = recording::read_table(fixture.file("still.csv"));
   for (std::size_t k = 0; k < moving.rows(); ++k)
     moving.columns.back().values[k] = 0.1 + 0.01 * double(k);
-  std::ofstream(desk.path / "moving.csv") << [&] {
+  std::ofstream(fixture.path / "moving.csv") << [&] {
     std::ostringstream text;
     recording::write_csv(moving, text);
     return text.str();
   }();
   CHECK_THROWS_WITH(launch::calibrate_check(rigs::config("arm/robot.xml"),
-                                            {{desk.file("moving.csv")}, {}}, desk.out),
-                    Catch::Contains("moving.csv") && Catch::Contains("never stands still"));
+                                            {{fixture.file("moving.csv")}, {}}, fixture.out),
+                    Catch::Contains("moving.csv") && Catch::Contains("never at rest"));
 }
 
-TEST_CASE("a tour holds each pose and midway between neighbours, as long as asked") {
+TEST_CASE("a tour holds each pose and the midway poses for the given time") {
   std::ostringstream out;
   REQUIRE(launch::calibrate_tour({rigs::config("arm/lengths.csv"), 3, 1}, out) == 0);
   const auto tour = recording::parse_csv("tour", out.str());

@@ -13,32 +13,32 @@ namespace {
 const std::string arm = ERP_SOURCE_DIR "/configs/arm/robot.xml";
 }
 
-TEST_CASE("a robot in figures") {
-  std::ostringstream words, json;
-  CHECK(launch::model_info(arm, false, words) == 0);
+TEST_CASE("info prints the properties of the arm as text and as JSON") {
+  std::ostringstream text, json;
+  CHECK(launch::model_info(arm, false, text) == 0);
   CHECK(launch::model_info(arm, true, json) == 0);
-  CHECK_THAT(words.str(), Catch::Contains("degrees of freedom  4\n") &&
-                              Catch::Contains("mass                2.95 kg\n"));
+  CHECK_THAT(text.str(), Catch::Contains("degrees of freedom  4\n") &&
+                             Catch::Contains("mass                2.95 kg\n"));
   CHECK_THAT(json.str(), Catch::Contains("\"muscles\": 11") && Catch::EndsWith("}\n"));
 }
 
-TEST_CASE("the effects that a robot is simulated with are told") {
+TEST_CASE("info lists the effects of robot.xml") {
   const auto file = (fs::temp_directory_path() / ("erp_info_" + std::to_string(getpid()))).string();
   std::ofstream(file)
       << "<robot name=\"arm\"><include file=\"" << arm
       << "\"/><effect type=\"joint_coulomb\" on=\"elbow\" extra_Nm=\"0.1\"/></robot>";
-  std::ostringstream words;
-  CHECK(launch::model_info(file, false, words) == 0);
+  std::ostringstream text;
+  CHECK(launch::model_info(file, false, text) == 0);
   fs::remove(file);
-  CHECK_THAT(words.str(), Catch::EndsWith("effect              joint_coulomb on elbow\n"));
+  CHECK_THAT(text.str(), Catch::EndsWith("effect              joint_coulomb on elbow\n"));
 }
 
-TEST_CASE("an ending that names no format is refused with those that do") {
+TEST_CASE("an unknown file name extension is rejected with the known ones") {
   CHECK_THROWS_WITH(launch::model_export(arm, "arm.obj"), Catch::Contains(".mjcf.xml"));
   CHECK_THROWS_AS(launch::model_export(arm, "/no/such/folder/arm.mjcf.xml"), std::invalid_argument);
 }
 
-TEST_CASE("the pretensions that balance a robot are a part it can include") {
+TEST_CASE("balance prints pretensions that robot.xml can include") {
   std::ostringstream part;
   CHECK(launch::model_balance(arm, 5, 10, part) == 0);
   const fs::path folder = fs::temp_directory_path() / ("erp_model_" + std::to_string(getpid()));
@@ -49,7 +49,7 @@ TEST_CASE("the pretensions that balance a robot are a part it can include") {
   const erp::Robot was = erp::read_robot(arm), now = erp::read_robot(folder / "robot.xml");
   for (std::size_t k = 0; k < was.actuators.size(); ++k) {
     CAPTURE(was.actuators[k].name);
-    // those of the arm were found the same way, and rounded
+    // the arm has pretensions of the same computation, rounded
     CHECK(now.actuators[k].tendon.pretension_N ==
           Approx(was.actuators[k].tendon.pretension_N).margin(0.06));
   }
@@ -57,7 +57,7 @@ TEST_CASE("the pretensions that balance a robot are a part it can include") {
   fs::remove_all(folder);
 }
 
-TEST_CASE("a robot's picture shows every muscle by its name") {
+TEST_CASE("the picture of a robot has the name of every muscle") {
   const fs::path file = fs::temp_directory_path() / ("erp_" + std::to_string(getpid()) + ".svg");
   CHECK(launch::model_export(arm, file) == 0);
   std::stringstream picture;

@@ -30,12 +30,12 @@ std::string text_of(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a snake_case name gives a PascalCase class") {
+TEST_CASE("class_name converts snake_case to PascalCase") {
   CHECK(launch::class_name("tension_hold") == "TensionHold");
   CHECK(launch::class_name("p2_loop") == "P2Loop");
 }
 
-TEST_CASE("a new controller is a whole project with every name filled in") {
+TEST_CASE("new_controller writes a complete project without placeholders") {
   const Folder folder;
   const auto files = launch::new_controller("tension_hold", folder.path / "mine");
   for (const char* file : {"CMakeLists.txt", "tension_hold.hpp", "main.cpp", "tension_hold.xml",
@@ -50,14 +50,14 @@ TEST_CASE("a new controller is a whole project with every name filled in") {
              Contains("\"tension_hold.hpp\"") && Contains("node::run<TensionHold>(argc, argv)"));
 }
 
-TEST_CASE("what a user has to write is at most thirty lines") {
+TEST_CASE("the controller file has at most thirty lines") {
   const Folder folder;
   launch::new_controller("tension_hold", folder.path);
   const auto text = text_of(folder.path / "tension_hold.hpp");
   CHECK(std::count(text.begin(), text.end(), '\n') <= 30);
 }
 
-TEST_CASE("a name that would not work is refused with the reason, and nothing is written") {
+TEST_CASE("an invalid name is rejected with the reason, and no file is written") {
   const Folder folder;
   const fs::path target = folder.path / "mine";
   for (const char* name : {"", "MyController", "my-controller", "2fast", "a__b", "end_", "../x"})
@@ -68,7 +68,7 @@ TEST_CASE("a name that would not work is refused with the reason, and nothing is
   CHECK_FALSE(fs::exists(target));
 }
 
-TEST_CASE("a folder with something in it is left alone") {
+TEST_CASE("a folder that is not empty is rejected and not changed") {
   const Folder folder;
   std::ofstream(folder.path / "precious") << "mine";
   CHECK_THROWS_WITH(launch::new_controller("tension_hold", folder.path),

@@ -1,5 +1,6 @@
-// A component for the launcher's tests. Built as `sim`, which makes time and ends by itself, and as
-// `plant`, `logger` and `worker`, which only listen. It misbehaves when told to.
+// A component for the tests of the launcher. Built as `sim`, which publishes the clock and ends the
+// run, and as `plant`, `logger` and `worker`, which subscribe to the clock. The parameter `fault`
+// makes it fail.
 #include <unistd.h>
 
 #include <csignal>
@@ -13,7 +14,7 @@ enum class Fault { none, crash, refuse, hang };
 struct Params {
   Fault fault = Fault::none;
   int crash_after_steps = 0;
-  std::string file, attach, bus;  // what the launcher tells a logger and a device
+  std::string file, attach, bus;  // parameters that the launcher sets for a logger and a device
   void visit(auto& v) {
     v("fault", fault);
     v("crash_after_steps", crash_after_steps);
@@ -28,8 +29,8 @@ class Component {
   Component(const Params& params, const erp::Robot&, node::Node& node)
       : params_(params), node_(node) {
     if (params.fault == Fault::refuse) throw std::invalid_argument("fault must be none");
-    if (params.fault == Fault::crash) throw std::runtime_error("crashing as told");
-    if (node.options().type == "sim") make_time();
+    if (params.fault == Fault::crash) throw std::runtime_error("crash requested by fault=crash");
+    if (node.options().type == "sim") publish_clock();
     else node.subscribe<erp::Clock>([this](const erp::Clock& clock) { step(clock.stamp_ns); });
     node.on_activate([this] { report_active(); });
     node.on_deactivate([this] {
@@ -40,7 +41,7 @@ class Component {
  private:
   static constexpr std::int64_t period_ns = 10'000'000;
 
-  void make_time() {
+  void publish_clock() {
     clock_out_ = &node_.advertise<erp::Clock>();
     node_.every(period_ns, [this] {
       clock_.stamp_ns += period_ns;

@@ -1,4 +1,4 @@
-// `erp launch` as a person meets it: real processes, a bus of its own.
+// `erp launch` with real processes on a DDS domain of its own.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// A graph of test components in a folder of its own, on a domain of its own.
+/// A graph of test components with its own folder and DDS domain.
 struct Graph {
   fs::path folder;
 
@@ -38,14 +38,14 @@ struct Graph {
   }
   ~Graph() { fs::remove_all(folder); }
 
-  launch::Process start(std::vector<std::string> words) const {
+  launch::Process start(std::vector<std::string> arguments) const {
     std::vector<std::string> argv{ERP_BIN_DIR "/erp", "launch", (folder / "graph.xml").string(),
                                   "--out", (folder / "run").string()};
-    argv.insert(argv.end(), words.begin(), words.end());
+    argv.insert(argv.end(), arguments.begin(), arguments.end());
     return launch::Process(argv, (folder / "screen").string());
   }
-  int run(std::vector<std::string> words) const {
-    auto process = start(std::move(words));
+  int run(std::vector<std::string> arguments) const {
+    auto process = start(std::move(arguments));
     return wait_for(process);
   }
   static int wait_for(launch::Process& process) {
@@ -64,7 +64,7 @@ struct Graph {
     };
     while (count() < times) usleep(2000);
   }
-  /// The pids of every process that has this graph's folder on its command line.
+  /// The pids of all processes with the folder of this graph on their command line.
   std::vector<pid_t> processes() const {
     std::vector<pid_t> found;
     for (const auto& entry : fs::directory_iterator("/proc")) {
@@ -92,7 +92,7 @@ std::size_t at(const std::string& text, const std::string& part) {
   return text.find(part);
 }
 
-/// The stamp of the line `[stamp] [info] active: …` in a component's log.
+/// The time stamp of the line `[stamp] [info] active: …` in the log of a component.
 std::string time_of_activation(const std::string& log) {
   const auto line = log.rfind('\n', at(log, "] active:")) + 1;
   return log.substr(line, log.find(']', line) - line);
@@ -100,7 +100,7 @@ std::string time_of_activation(const std::string& log) {
 
 }  // namespace
 
-TEST_CASE("a graph starts in order, runs as long as it was told, and leaves nothing behind") {
+TEST_CASE("a graph activates its components in order, runs for --for, and leaves no process") {
   const Graph graph(R"(<component name="worker"/><component name="logger"/>)");
   CHECK(graph.run({"--lockstep", "--for", "300ms"}) == 0);
   std::string before;
@@ -119,7 +119,7 @@ TEST_CASE("a graph starts in order, runs as long as it was told, and leaves noth
     CHECK(fs::exists(graph.folder / "run" / name));
 }
 
-TEST_CASE("in real time a run lasts as long as it was told, though the device was restarted") {
+TEST_CASE("in real time a run lasts for --for although its device was restarted") {
   const Graph graph;
   auto launcher = graph.start({"--for", "2s"});
   graph.wait_for_line("all components are active");
@@ -130,7 +130,8 @@ TEST_CASE("in real time a run lasts as long as it was told, though the device wa
   CHECK(graph.processes().empty());
 }
 
-TEST_CASE("mistaken settings are all said before anything starts, with exit code 2") {
+TEST_CASE(
+    "invalid settings of all components are reported before any process starts, with exit code 2") {
   const Graph graph(R"(<component name="worker"/><component name="logger"/>)");
   CHECK(graph.run({"--set", "worker.fault=yes", "--set", "sim.speed=2"}) == 2);
   const auto screen = graph.screen();
@@ -149,7 +150,7 @@ TEST_CASE("Ctrl-C stops a graph in order with exit code 0") {
   CHECK(graph.processes().empty());
 }
 
-TEST_CASE("a killed component comes back and the graph goes on") {
+TEST_CASE("a killed component is restarted and the graph continues") {
   const Graph graph;
   auto launcher = graph.start({});
   graph.wait_for_line("all components are active");
@@ -162,15 +163,17 @@ TEST_CASE("a killed component comes back and the graph goes on") {
   CHECK_THAT(graph.screen(), Contains("killed by signal 9 (Killed), restart 1 of 5"));
 }
 
-TEST_CASE("a component that keeps crashing ends the graph with exit code 1 and shows its log") {
+TEST_CASE(
+    "a component that crashes repeatedly ends the graph with exit code 1, and its log is printed") {
   const Graph graph;
   CHECK(graph.run({"--set", "worker.fault=crash"}) == 1);
-  CHECK_THAT(graph.screen(),
-             Contains("given up after 5 restarts") && Contains("| worker: crashing as told"));
+  CHECK_THAT(graph.screen(), Contains("given up after 5 restarts") &&
+                                 Contains("| worker: crash requested by fault=crash"));
   CHECK(graph.processes().empty());
 }
 
-TEST_CASE("a component that refuses its parameters ends the graph with exit code 2 at once") {
+TEST_CASE(
+    "a component that rejects its parameters ends the graph with exit code 2 without a restart") {
   const Graph graph;
   CHECK(graph.run({"--set", "worker.fault=refuse"}) == 2);
   CHECK_THAT(graph.screen(), Contains("fault must be none") && !Contains("restart 1"));
@@ -178,17 +181,17 @@ TEST_CASE("a component that refuses its parameters ends the graph with exit code
   CHECK_THAT(graph.screen(), Contains("fault"));
 }
 
-TEST_CASE("nothing survives a launcher that is killed") {
+TEST_CASE("no process survives a killed launcher") {
   const Graph graph;
   auto launcher = graph.start({});
   graph.wait_for_line("all components are active");
-  // Not through Process::send, which would reach the group: the launcher alone.
+  // kill() reaches the launcher only; Process::send would reach its group.
   kill(launcher.pid(), SIGKILL);
   while (!graph.processes().empty()) usleep(2000);
   SUCCEED();
 }
 
-TEST_CASE("a second Ctrl-C kills a component that hangs") {
+TEST_CASE("a second Ctrl-C kills a component that does not stop") {
   const Graph graph;
   auto launcher = graph.start({"--set", "worker.fault=hang"});
   graph.wait_for_line("all components are active");
@@ -199,7 +202,7 @@ TEST_CASE("a second Ctrl-C kills a component that hangs") {
   CHECK(graph.processes().empty());
 }
 
-TEST_CASE("a graph is refused while another one drives the same robot on the same bus") {
+TEST_CASE("a second graph for the same robot on the same bus is rejected with exit code 2") {
   const Graph graph;
   auto first = graph.start({});
   graph.wait_for_line("all components are active");
@@ -208,14 +211,14 @@ TEST_CASE("a graph is refused while another one drives the same robot on the sam
                          (graph.folder / "screen2").string());
   CHECK(Graph::wait_for(second) == 2);
   CHECK_THAT(text_of(graph.folder / "screen2"), Contains("ERP_DOMAIN"));
-  CHECK_THAT(text_of(graph.folder / "screen2"), !Contains("processes"));  // none was started
-  CHECK_THAT(graph.screen(), !Contains("already"));  // nor is the first one blamed
+  CHECK_THAT(text_of(graph.folder / "screen2"), !Contains("processes"));  // no process was started
+  CHECK_THAT(graph.screen(), !Contains("already"));  // the first graph reports no conflict
   CHECK_FALSE(first.poll());
   kill(first.pid(), SIGINT);
   CHECK(Graph::wait_for(first) == 0);
 }
 
-TEST_CASE("bad input is refused with exit code 2 before anything starts") {
+TEST_CASE("bad input is rejected with exit code 2 before any process starts") {
   const Graph graph;
   CHECK(graph.run({"--device", "cam"}) == 2);
   CHECK_THAT(graph.screen(), Contains("sim, can or replay:FILE"));
@@ -225,14 +228,14 @@ TEST_CASE("bad input is refused with exit code 2 before anything starts") {
   CHECK_FALSE(fs::exists(graph.folder / "run"));
 }
 
-TEST_CASE("a launch whose components are not ready in time is given up, in order") {
+TEST_CASE("a launch whose components are not ready within --patience is stopped in order") {
   const Graph graph;
   CHECK(graph.run({"--patience", "1ms"}) == 1);
   CHECK_THAT(graph.screen(), Contains("not ready after 0.0 s: ") && Contains("worker"));
   CHECK(graph.processes().empty());
 }
 
-TEST_CASE("a patience that is no time is refused before anything is made") {
+TEST_CASE("a --patience that is not a duration is rejected before the run folder is created") {
   const Graph graph;
   CHECK(graph.run({"--patience", "soon"}) == 2);
   CHECK_THAT(graph.screen(), Contains("\"soon\" is not a duration"));

@@ -22,10 +22,11 @@ erp::Graph rig() {
   return graph;
 }
 
-std::string beside(const std::string& type) { return "/bin/" + type; }
+std::string in_bin(const std::string& type) { return "/bin/" + type; }
 
-launch::Plan plan_of(const erp::Graph& graph, const launch::Wishes& wishes = {{}, "/run", {}}) {
-  return launch::make_plan(graph, wishes, beside);
+launch::Plan plan_of(const erp::Graph& graph,
+                     const launch::RunOptions& options = {{}, "/run", {}}) {
+  return launch::make_plan(graph, options, in_bin);
 }
 
 Strings names(const launch::Plan& plan) {
@@ -45,12 +46,12 @@ Strings values(const launch::Plan& plan, const std::string& name, const std::str
 
 }  // namespace
 
-TEST_CASE("logger, plant, controllers, device: so they become active") {
+TEST_CASE("processes are in the order logger, plant, controllers, device") {
   CHECK(names(plan_of(rig())) == Strings{"logger", "plant", "force_control", "sim"});
 }
 
-TEST_CASE("one word swaps the device") {
-  unsetenv("ERP_DOMAIN");  // a domain of the reader's own would move the port
+TEST_CASE("--device exchanges the device processes") {
+  unsetenv("ERP_DOMAIN");  // a domain in the environment would change the port
   auto graph = rig();
   launch::choose_device(graph, "can");
   CHECK(names(plan_of(graph)) == Strings{"logger", "plant", "force_control", "sim", "gateway"});
@@ -65,7 +66,7 @@ TEST_CASE("one word swaps the device") {
   CHECK(values(plan_of(graph), "replay", "--set") == Strings{"file=/tmp/a b.mcap"});
 }
 
-TEST_CASE("every component is told its name, robot, config and time, and waits to be activated") {
+TEST_CASE("the command line of each component has name, robot, config, time and --managed") {
   auto graph = rig();
   graph.time = erp::Time::lockstep;
   const auto plan = plan_of(graph);
@@ -81,7 +82,7 @@ TEST_CASE("every component is told its name, robot, config and time, and waits t
   CHECK(values(plan, "plant", "--config").empty());
 }
 
-TEST_CASE("in lockstep the duration goes to the device alone, for its ticks end the run") {
+TEST_CASE("in lockstep only the device gets --duration") {
   auto graph = rig();
   graph.duration_s = 0.5;
   graph.time = erp::Time::lockstep;
@@ -91,13 +92,13 @@ TEST_CASE("in lockstep the duration goes to the device alone, for its ticks end 
   CHECK(plan.processes.back().role == launch::Role::device);
 }
 
-TEST_CASE("in real time nobody is told the duration: the launcher's clock ends the run") {
+TEST_CASE("in real time no component gets --duration") {
   auto graph = rig();
   graph.duration_s = 0.5;
   CHECK(values(plan_of(graph), "sim", "--duration").empty());
 }
 
-TEST_CASE("a line for the plant or the simulator configures it and does not start a second one") {
+TEST_CASE("a line for plant or simulator configures it and adds no second process") {
   auto graph = rig();
   erp::GraphComponent plant, sim;
   plant.name = "plant", plant.config = "/r/plant.xml", plant.restart = erp::Restart::never;
@@ -110,55 +111,55 @@ TEST_CASE("a line for the plant or the simulator configures it and does not star
   CHECK(plan.processes[1].restart == erp::Restart::never);
 }
 
-TEST_CASE("a plant that nobody configured always comes back") {
+TEST_CASE("a plant without a line in the graph has restart=always") {
   CHECK(plan_of(rig()).processes[1].restart == erp::Restart::always);
 }
 
-TEST_CASE("the logger writes into the run's folder unless told otherwise") {
-  launch::Wishes wishes{{}, "/run", {"/r/robot.xml", "/r/graph.xml"}};
-  CHECK(values(plan_of(rig(), wishes), "logger", "--set") ==
+TEST_CASE("the logger writes into the run folder unless --set logger.file gives a path") {
+  launch::RunOptions options{{}, "/run", {"/r/robot.xml", "/r/graph.xml"}};
+  CHECK(values(plan_of(rig(), options), "logger", "--set") ==
         Strings{"file=/run/rig.mcap", "attach=/r/robot.xml:/r/graph.xml"});
-  CHECK(plan_of(rig(), wishes).recording == "/run/rig.mcap");
+  CHECK(plan_of(rig(), options).recording == "/run/rig.mcap");
 
-  wishes.settings = {launch::parse_setting("logger.file=/tmp/mine=1.mcap")};
-  CHECK(values(plan_of(rig(), wishes), "logger", "--set") ==
+  options.settings = {launch::parse_setting("logger.file=/tmp/mine=1.mcap")};
+  CHECK(values(plan_of(rig(), options), "logger", "--set") ==
         Strings{"attach=/r/robot.xml:/r/graph.xml", "file=/tmp/mine=1.mcap"});
-  CHECK(plan_of(rig(), wishes).recording == "/tmp/mine=1.mcap");
+  CHECK(plan_of(rig(), options).recording == "/tmp/mine=1.mcap");
 }
 
-TEST_CASE("a setting reaches its component and no other") {
-  launch::Wishes wishes{{launch::parse_setting("force_control.gain=2")}, "/run", {}};
-  const auto plan = plan_of(rig(), wishes);
+TEST_CASE("a setting is passed to its component only") {
+  launch::RunOptions options{{launch::parse_setting("force_control.gain=2")}, "/run", {}};
+  const auto plan = plan_of(rig(), options);
   CHECK(values(plan, "force_control", "--set") == Strings{"gain=2"});
   CHECK(values(plan, "plant", "--set").empty());
 }
 
-TEST_CASE("a setting for an unknown component names the nearest one") {
-  launch::Wishes wishes{{launch::parse_setting("force_contol.gain=2")}, "/run", {}};
-  CHECK_THROWS_WITH(plan_of(rig(), wishes), Contains("did you mean \"force_control\"?"));
+TEST_CASE("a setting of an unknown component is rejected with the most similar name") {
+  launch::RunOptions options{{launch::parse_setting("force_contol.gain=2")}, "/run", {}};
+  CHECK_THROWS_WITH(plan_of(rig(), options), Contains("did you mean \"force_control\"?"));
 }
 
-TEST_CASE("a setting that is none is refused with what was expected") {
+TEST_CASE("a setting that does not read component.key=value is rejected with the expected form") {
   for (const char* text : {"", "gain", "gain=2", ".gain=2", "a.=2", "a=b.c"}) {
     INFO(text);
     CHECK_THROWS_WITH(launch::parse_setting(text), Contains("expected component.key=value"));
   }
 }
 
-TEST_CASE("a component without a program is refused before anything starts") {
+TEST_CASE("a component without a program is rejected with the search path") {
   CHECK_THROWS_WITH(
       launch::make_plan(rig(), {{}, "/run", {}},
                         [](const std::string& type) { return type == "sim" ? "" : "/bin/x"; }),
       Contains("component \"sim\"") && Contains("$ERP_COMPONENT_PATH"));
 }
 
-TEST_CASE("a real robot cannot run in lockstep") {
+TEST_CASE("lockstep with hardware is rejected") {
   auto graph = rig();
   graph.device = erp::Device::can, graph.hardware = true, graph.time = erp::Time::lockstep;
   CHECK_THROWS_WITH(plan_of(graph), Contains("lockstep"));
 }
 
-TEST_CASE("an unknown device is refused with the known ones") {
+TEST_CASE("an unknown device is rejected with the known ones") {
   auto graph = rig();
   for (const char* text : {"", "cam", "replay", "replay:"}) {
     INFO(text);

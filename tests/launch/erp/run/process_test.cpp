@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own for a test's logs.
+/// A temporary folder for the logs of a test.
 struct Folder {
   fs::path path;
   Folder() {
@@ -46,7 +46,7 @@ Ending wait_for(Process& process) {
   return process.poll().value();
 }
 
-/// Waits until a script has written a word to its log.
+/// Waits until a script has written a line to its log.
 std::string wait_for_line(const Folder& folder) {
   for (;;) {
     const auto text = folder.read();
@@ -57,7 +57,7 @@ std::string wait_for_line(const Folder& folder) {
 
 bool exists(pid_t pid) { return kill(pid, 0) == 0; }
 
-/// True once the process is gone or a zombie of init's.
+/// Waits until the process has ended or is a zombie of init.
 void wait_until_gone(pid_t pid) {
   for (;;) {
     std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
@@ -69,7 +69,7 @@ void wait_until_gone(pid_t pid) {
 
 }  // namespace
 
-TEST_CASE("a process's exit code and output come back") {
+TEST_CASE("exit code and output of a process are returned") {
   Folder folder;
   auto process = shell("echo out; echo err >&2; exit 3", folder);
   const auto ending = wait_for(process);
@@ -79,7 +79,7 @@ TEST_CASE("a process's exit code and output come back") {
   CHECK(folder.read() == "out\nerr\n");
 }
 
-TEST_CASE("a running process has no ending yet, an ended one keeps it") {
+TEST_CASE("poll returns nothing for a running process and the same ending after its end") {
   Folder folder;
   auto process = shell("exec sleep 1000", folder);
   CHECK_FALSE(process.poll());
@@ -88,12 +88,12 @@ TEST_CASE("a running process has no ending yet, an ended one keeps it") {
   CHECK(process.poll()->signal == SIGTERM);
 }
 
-TEST_CASE("a process's ending reads as a sentence") {
+TEST_CASE("the text of an ending has exit code or signal name") {
   CHECK(launch::to_string(Ending{1, 0}) == "exit code 1");
   CHECK(launch::to_string(Ending{0, SIGKILL}) == "killed by signal 9 (Killed)");
 }
 
-TEST_CASE("a program that is not there is an error at the start, with its name, and no zombie") {
+TEST_CASE("starting a program that does not exist throws with its name and leaves no zombie") {
   Folder folder;
   CHECK_THROWS_WITH(Process({"/nowhere/at_all"}, folder.log()),
                     Catch::Matchers::Contains("/nowhere/at_all"));
@@ -101,18 +101,18 @@ TEST_CASE("a program that is not there is an error at the start, with its name, 
   CHECK(errno == ECHILD);
 }
 
-TEST_CASE("a log that cannot be written is an error at the start") {
+TEST_CASE("starting with a log that cannot be written throws") {
   CHECK_THROWS_AS(Process({"/bin/true"}, "/nowhere/log"), std::system_error);
 }
 
-TEST_CASE("a process that ended is not a zombie once it was polled") {
+TEST_CASE("a process that has ended is not a zombie after poll") {
   Folder folder;
   auto process = shell("exit 0", folder);
   wait_for(process);
   CHECK_FALSE(exists(process.pid()));
 }
 
-TEST_CASE("letting go of a process ends it, and its children with it") {
+TEST_CASE("destroying a Process kills the program and its children") {
   Folder folder;
   pid_t parent = 0, child = 0;
   {
@@ -124,7 +124,7 @@ TEST_CASE("letting go of a process ends it, and its children with it") {
   wait_until_gone(child);
 }
 
-TEST_CASE("what an ended process leaves behind in its group is killed") {
+TEST_CASE("children of a process are killed when it ends") {
   Folder folder;
   auto process = shell("sleep 1000 & echo $!", folder);
   const pid_t child = std::stoi(wait_for_line(folder));
@@ -132,16 +132,16 @@ TEST_CASE("what an ended process leaves behind in its group is killed") {
   wait_until_gone(child);
 }
 
-TEST_CASE("a process inherits no descriptor but its log, even one opened without care") {
+TEST_CASE("a process inherits no descriptor except its log, even one opened without O_CLOEXEC") {
   Folder folder;
-  const int careless = open("/dev/null", O_RDONLY);
+  const int without_cloexec = open("/dev/null", O_RDONLY);
   auto process = shell("ls /proc/self/fd | wc -l", folder);
   wait_for(process);
-  close(careless);
-  CHECK(std::stoi(folder.read()) == 4);  // 0, 1, 2 and the folder that ls reads
+  close(without_cloexec);
+  CHECK(std::stoi(folder.read()) == 4);  // 0, 1, 2 and the folder opened by ls
 }
 
-TEST_CASE("a process gets its signals although the launcher blocks them") {
+TEST_CASE("a process receives signals that the launcher blocks") {
   sigset_t set, before;
   sigemptyset(&set);
   sigaddset(&set, SIGTERM);
@@ -153,7 +153,7 @@ TEST_CASE("a process gets its signals although the launcher blocks them") {
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-TEST_CASE("nothing survives a killed launcher") {
+TEST_CASE("a process does not survive a killed launcher") {
   Folder folder;
   const pid_t launcher = fork();
   if (launcher == 0) {
@@ -166,7 +166,7 @@ TEST_CASE("nothing survives a killed launcher") {
   wait_until_gone(child);
 }
 
-TEST_CASE("a second start appends to the log") {
+TEST_CASE("a second process appends to the log") {
   Folder folder;
   for (int i = 0; i < 2; ++i) {
     auto process = shell("echo again", folder);

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder with one executable `my_component`, and what $ERP_COMPONENT_PATH was before.
+/// A folder with one executable `my_component`. Unsets $ERP_COMPONENT_PATH at the end.
 struct Programs {
   fs::path path;
   Programs() {
@@ -29,7 +29,7 @@ struct Programs {
 
 }  // namespace
 
-TEST_CASE("a component's program is found in ERP_COMPONENT_PATH") {
+TEST_CASE("find_program finds an executable in ERP_COMPONENT_PATH") {
   const Programs programs;
   CHECK(launch::find_program("my_component", ".").empty());
   setenv("ERP_COMPONENT_PATH", ("/nowhere:" + programs.path.string()).c_str(), 1);
@@ -37,13 +37,13 @@ TEST_CASE("a component's program is found in ERP_COMPONENT_PATH") {
   CHECK(launch::find_program("not_executable", ".").empty());
 }
 
-TEST_CASE("a type with a slash is a path beside the graph") {
+TEST_CASE("a type with a slash is a path relative to the graph") {
   const Programs programs;
   CHECK(launch::find_program("./my_component", programs.path) == programs.path / "my_component");
   CHECK(launch::find_program("./other", programs.path).empty());
 }
 
-TEST_CASE("programs beside erp come before those of PATH") {
+TEST_CASE("programs in the folder of erp precede those of PATH") {
   CHECK(launch::find_program("launch_test", ".") == launch::own_folder() + "/launch_test");
   CHECK_FALSE(launch::find_program("sh", ".").empty());
 }

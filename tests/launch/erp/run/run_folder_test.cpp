@@ -12,15 +12,15 @@ using Strings = std::vector<std::string>;
 
 namespace {
 
-/// A current folder of its own for a test.
-struct Inside {
+/// A temporary folder as current folder.
+struct TemporaryCurrentFolder {
   fs::path before = fs::current_path(), path;
-  Inside() {
+  TemporaryCurrentFolder() {
     std::string name = (fs::temp_directory_path() / "erp_folder_XXXXXX").string();
     path = mkdtemp(name.data());
     fs::current_path(path);
   }
-  ~Inside() {
+  ~TemporaryCurrentFolder() {
     fs::current_path(before);
     fs::remove_all(path);
   }
@@ -30,37 +30,37 @@ constexpr std::int64_t new_year_ns = 1'735'689'600'000'000'000;  // 2025-01-01T0
 
 }  // namespace
 
-TEST_CASE("a run's folder is named after its graph and the time it began") {
-  const Inside here;
+TEST_CASE("the run folder has the names of graph and start time") {
+  const TemporaryCurrentFolder here;
   CHECK(launch::make_run_folder("", "rig", new_year_ns) ==
         fs::canonical(here.path) / "erp_runs/rig/2025-01-01T00-00-00Z");
 }
 
-TEST_CASE("two runs in one second do not share a folder") {
-  const Inside here;
+TEST_CASE("two runs in the same second have different folders") {
+  const TemporaryCurrentFolder here;
   launch::make_run_folder("", "rig", new_year_ns);
   CHECK(fs::path(launch::make_run_folder("", "rig", new_year_ns)).filename() ==
         "2025-01-01T00-00-00Z-2");
 }
 
-TEST_CASE("a folder that cannot be made is refused with the way out") {
-  const Inside here;
+TEST_CASE("a folder that cannot be created is rejected with the option --out") {
+  const TemporaryCurrentFolder here;
   std::ofstream("file") << "";
   CHECK_THROWS_WITH(launch::make_run_folder("file/run", "rig", 0),
                     Catch::Matchers::Contains("--out DIR"));
 }
 
-TEST_CASE("a folder has one run at a time") {
-  const Inside folder;
+TEST_CASE("a folder locked by a run is rejected") {
+  const TemporaryCurrentFolder folder;
   {
-    const launch::FolderClaim claim(folder.path.string());
-    CHECK_THROWS_WITH(launch::FolderClaim(folder.path.string()), Catch::Contains("another run"));
+    const launch::FolderLock lock(folder.path.string());
+    CHECK_THROWS_WITH(launch::FolderLock(folder.path.string()), Catch::Contains("another run"));
   }
-  CHECK_NOTHROW(launch::FolderClaim(folder.path.string()));
+  CHECK_NOTHROW(launch::FolderLock(folder.path.string()));
 }
 
-TEST_CASE("the end of a log is its last lines, or all of a short one") {
-  const Inside here;
+TEST_CASE("last_lines returns the last lines of a file, or all of a short file") {
+  const TemporaryCurrentFolder here;
   std::ofstream("log") << "a\nb\nc\n";
   CHECK(launch::last_lines("log", 2) == Strings{"b", "c"});
   CHECK(launch::last_lines("log", 9) == Strings{"a", "b", "c"});

@@ -11,7 +11,7 @@
 
 namespace {
 
-/// A file in memory's stead, that is no terminal.
+/// A temporary file, which is not a terminal.
 struct Capture {
   std::FILE* file = std::tmpfile();
   ~Capture() { std::fclose(file); }
@@ -29,14 +29,14 @@ launch::Status status(const std::string& plant, const std::string& sim) {
 
 }  // namespace
 
-TEST_CASE("without a terminal only changes are written, as plain lines") {
+TEST_CASE("without a terminal, changes are written as plain lines") {
   const Capture capture;
   launch::Screen screen(capture.file);
   CHECK_FALSE(screen.is_terminal());
   screen.show(status("starting", "starting"));
   screen.show(status("starting", "starting"));
   screen.show(status("active", "starting"));
-  screen.say(1.5, "done");
+  screen.print(1.5, "done");
   CHECK(capture.text() ==
         "    0.00  plant: starting\n"
         "    0.00  sim: starting\n"
@@ -44,7 +44,7 @@ TEST_CASE("without a terminal only changes are written, as plain lines") {
         "    1.50  done\n");
 }
 
-TEST_CASE("on a terminal the last table stays, and what is printed after it too") {
+TEST_CASE("on a terminal the last table and the lines printed after it stay") {
   int master = -1, slave = -1;
   REQUIRE(openpty(&master, &slave, nullptr, nullptr, nullptr) == 0);
   std::FILE* terminal = fdopen(slave, "w");
@@ -56,13 +56,13 @@ TEST_CASE("on a terminal the last table stays, and what is printed after it too"
   }
   std::fprintf(terminal, "the summary\n");
   std::fflush(terminal);
-  std::string text;  // a terminal may hand it over in parts
+  std::string text;  // a terminal may return the text in parts
   for (pollfd ready{master, POLLIN, 0};
        text.find("the summary") == text.npos && poll(&ready, 1, 2000) > 0;) {
-    char said[4096];
-    const auto length = read(master, said, sizeof said);
+    char part[4096];
+    const auto length = read(master, part, sizeof part);
     if (length <= 0) break;
-    text.append(said, static_cast<std::size_t>(length));
+    text.append(part, static_cast<std::size_t>(length));
   }
   std::fclose(terminal), close(master);
   const auto last_erased = text.rfind("\033[J"), summary = text.find("the summary");

@@ -5,7 +5,7 @@
 
 #include "launch/erp/run/supervisor.hpp"
 
-/// What the supervisor's tests share: a graph on paper, without processes or clock.
+/// Fixture of the supervisor tests: a graph without processes or clock.
 using erp::Lifecycle;
 using launch::Action;
 using launch::Ending;
@@ -14,7 +14,7 @@ using launch::Stage;
 using Strings = std::vector<std::string>;
 inline constexpr std::int64_t ms = 1'000'000, s = 1000 * ms;
 
-/// A graph of three on paper: logger 0, plant 1, device 2.
+/// A graph of three members: logger 0, plant 1, device 2.
 struct Run {
   launch::Supervisor supervisor;
   std::int64_t now_ns = 1 * s;
@@ -24,8 +24,8 @@ struct Run {
     supervisor.start(now_ns);
   }
 
-  /// What the supervisor wants done, as "verb name", words left out.
-  Strings wanted() {
+  /// The actions of the supervisor as "verb name", without printed text.
+  Strings actions() {
     static const Strings names{"logger", "plant", "sim"};
     Strings list;
     for (const auto& action : supervisor.take_actions()) {
@@ -41,24 +41,24 @@ struct Run {
     now_ns += duration_ns;
     supervisor.tick(now_ns);
   }
-  void hear(std::size_t member, Lifecycle lifecycle, std::uint32_t peers = 3,
-            std::uint32_t links = 4) {
-    supervisor.heard(member, {lifecycle, peers, links}, now_ns);
+  void heartbeat(std::size_t member, Lifecycle lifecycle, std::uint32_t peers = 3,
+                 std::uint32_t links = 4) {
+    supervisor.on_heartbeat(member, {lifecycle, peers, links}, now_ns);
   }
   void end(std::size_t member, Ending ending = {}) {
-    supervisor.ended(member, ending, now_ns);
+    supervisor.on_exit(member, ending, now_ns);
     supervisor.tick(now_ns);
   }
   void all(Lifecycle lifecycle) {
-    for (std::size_t i = 0; i < 3; ++i) hear(i, lifecycle);
+    for (std::size_t i = 0; i < 3; ++i) heartbeat(i, lifecycle);
   }
-  /// Through the whole start.
+  /// Completes the start.
   void get_running() {
     all(Lifecycle::inactive);
     wait(300 * ms);
     all(Lifecycle::active);
     wait(1 * ms);
-    wanted();
+    actions();
     REQUIRE(supervisor.stage() == Stage::running);
   }
 };

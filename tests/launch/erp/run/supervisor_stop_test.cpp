@@ -2,44 +2,46 @@
 
 #include "tests/launch/erp/run/supervisor_run.hpp"
 
-TEST_CASE("when the device has ended by itself the run is over and ends in reverse order") {
+TEST_CASE("when the device exits with 0 the run stops in reverse order") {
   Run run;
   run.get_running();
   run.end(2);
-  CHECK(run.wanted() == Strings{"terminate plant"});
+  CHECK(run.actions() == Strings{"terminate plant"});
   run.wait(10 * ms);
-  CHECK(run.wanted().empty());
+  CHECK(run.actions().empty());
   run.end(1);
-  CHECK(run.wanted() == Strings{"terminate logger"});
+  CHECK(run.actions() == Strings{"terminate logger"});
   run.end(0);
   CHECK(run.supervisor.done());
   CHECK(run.supervisor.exit_code() == 0);
 }
 
-TEST_CASE("an ordered stop begins with the device and waits for each") {
+TEST_CASE("a stop terminates the device first and waits for each member") {
   Run run;
   run.get_running();
   run.supervisor.stop("interrupted", 0, run.now_ns);
-  CHECK(run.wanted() == Strings{"terminate sim"});
+  CHECK(run.actions() == Strings{"terminate sim"});
   run.end(2, {0, SIGTERM});
-  CHECK(run.wanted() == Strings{"terminate plant"});
+  CHECK(run.actions() == Strings{"terminate plant"});
   run.end(1);
   run.end(0);
   CHECK(run.supervisor.done());
   CHECK(run.supervisor.exit_code() == 0);
 }
 
-TEST_CASE("a stop goes on once a component has said its last word, and ends when all are gone") {
+TEST_CASE(
+    "a stop continues when a component reports finalized, and is done when all processes have "
+    "ended") {
   Run run;
   run.get_running();
   run.supervisor.stop("interrupted", 0, run.now_ns);
-  CHECK(run.wanted() == Strings{"terminate sim"});
-  run.hear(2, Lifecycle::finalized);
+  CHECK(run.actions() == Strings{"terminate sim"});
+  run.heartbeat(2, Lifecycle::finalized);
   run.wait(1 * ms);
-  CHECK(run.wanted() == Strings{"terminate plant"});
-  run.hear(1, Lifecycle::finalized);
+  CHECK(run.actions() == Strings{"terminate plant"});
+  run.heartbeat(1, Lifecycle::finalized);
   run.wait(1 * ms);
-  CHECK(run.wanted() == Strings{"terminate logger"});
+  CHECK(run.actions() == Strings{"terminate logger"});
   run.end(0);
   CHECK_FALSE(run.supervisor.done());
   run.end(1);
@@ -47,47 +49,47 @@ TEST_CASE("a stop goes on once a component has said its last word, and ends when
   CHECK(run.supervisor.done());
 }
 
-TEST_CASE("a component that does not end after its last word is killed too") {
+TEST_CASE("a component that does not end after finalized is killed") {
   Run run;
   run.get_running();
   run.supervisor.stop("interrupted", 0, run.now_ns);
-  run.hear(2, Lifecycle::finalized);
-  run.wanted();
+  run.heartbeat(2, Lifecycle::finalized);
+  run.actions();
   run.wait(5 * s);
-  CHECK(run.wanted() == Strings{"kill sim", "terminate plant"});
+  CHECK(run.actions() == Strings{"kill sim", "terminate plant"});
 }
 
-TEST_CASE("a component that does not stop is killed after a grace time, and the run has failed") {
+TEST_CASE("a component that does not stop within 5 s is killed, and the exit code is 1") {
   Run run;
   run.get_running();
   run.supervisor.stop("interrupted", 0, run.now_ns);
   run.wait(4900 * ms);
-  CHECK(run.wanted() == Strings{"terminate sim"});
+  CHECK(run.actions() == Strings{"terminate sim"});
   run.wait(200 * ms);
-  CHECK(run.wanted() == Strings{"kill sim"});
+  CHECK(run.actions() == Strings{"kill sim"});
   run.end(2, {0, SIGKILL});
   run.end(1);
   run.end(0);
   CHECK(run.supervisor.exit_code() == 1);
 }
 
-TEST_CASE("a second interruption kills everything at once") {
+TEST_CASE("kill_now kills all processes at once") {
   Run run;
   run.get_running();
   run.supervisor.stop("interrupted", 0, run.now_ns);
-  run.wanted();
+  run.actions();
   run.supervisor.kill_now();
-  CHECK(run.wanted() == Strings{"kill logger", "kill plant", "kill sim"});
+  CHECK(run.actions() == Strings{"kill logger", "kill plant", "kill sim"});
   for (std::size_t i = 0; i < 3; ++i) run.end(i, {0, SIGKILL});
   CHECK(run.supervisor.done());
   CHECK(run.supervisor.exit_code() == 1);
 }
 
-TEST_CASE("stopping ends a component that was waiting to be restarted") {
+TEST_CASE("a stop cancels the pending restart of a component") {
   Run run;
   run.get_running();
   run.end(2, {1, 0});
   run.supervisor.stop("interrupted", 0, run.now_ns);
   run.wait(10 * s);
-  CHECK(run.wanted() == Strings{"terminate plant", "kill plant"});
+  CHECK(run.actions() == Strings{"terminate plant", "kill plant"});
 }

@@ -14,7 +14,7 @@ namespace {
 
 MatrixXd one(double value) { return MatrixXd::Constant(1, 1, value); }
 
-MatrixXd drawn(std::mt19937& random, int rows, int columns) {
+MatrixXd random_matrix(std::mt19937& random, int rows, int columns) {
   std::normal_distribution<double> normal;
   return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
@@ -28,7 +28,7 @@ sim::Musculoskeletal model_of(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the Riccati equation of one state has its closed form") {
+TEST_CASE("the Riccati equation of one state has the closed-form solution") {
   // 2 a x − g x² + q = 0, the root at which a − g x < 0
   for (const double a : {-3.0, 0.0, 2.0}) {
     const double g = 0.5, q = 4;
@@ -37,11 +37,11 @@ TEST_CASE("the Riccati equation of one state has its closed form") {
   }
 }
 
-TEST_CASE("solutions of random Riccati equations stabilise and leave nothing") {
+TEST_CASE("solutions of random Riccati equations stabilise and have zero residual") {
   std::mt19937 random(1);
   for (const int n : {2, 7, 40}) {
-    const MatrixXd a = drawn(random, n, n), b = drawn(random, n, n / 2 + 1),
-                   c = drawn(random, n / 2 + 1, n);
+    const MatrixXd a = random_matrix(random, n, n), b = random_matrix(random, n, n / 2 + 1),
+                   c = random_matrix(random, n / 2 + 1, n);
     const MatrixXd g = b * b.transpose(), q = c.transpose() * c, x = riccati(a, g, q);
     CHECK((a.transpose() * x + x * a - x * g * x + q).norm() < 1e-8 * (1 + x.norm()));
     const auto poles = Eigen::EigenSolver<MatrixXd>(a - g * x, false).eigenvalues().real().eval();
@@ -49,17 +49,17 @@ TEST_CASE("solutions of random Riccati equations stabilise and leave nothing") {
   }
 }
 
-TEST_CASE("what nothing reaches cannot be stabilised, and that is said") {
+TEST_CASE("an uncontrollable unstable mode is rejected with std::domain_error") {
   CHECK_THROWS_AS(riccati(one(1), one(0), one(1)), std::domain_error);
 }
 
-TEST_CASE("a double integrator's greatest margin is 1/sqrt(4 + 2 sqrt 2)") {
+TEST_CASE("the largest margin of a double integrator is 1/sqrt(4 + 2 sqrt 2)") {
   const RobustLoop loop = stabilised(double_integrator());
   CHECK(loop.greatest_margin == Approx(1 / std::sqrt(4 + 2 * std::sqrt(2.0))).epsilon(1e-9));
   CHECK(loop.margin == Approx(loop.greatest_margin / 1.1));
 }
 
-TEST_CASE("the controller gives the margin it promises, measured over frequency") {
+TEST_CASE("the margin measured over frequency equals the margin of the design") {
   const StateSpace plant = double_integrator();
   const RobustLoop loop = stabilised(plant, 1.05);
   CHECK(slowest_pole_per_s(closed(plant, loop.controller)) < 0);
@@ -68,7 +68,8 @@ TEST_CASE("the controller gives the margin it promises, measured over frequency"
   CHECK(measured <= loop.greatest_margin * (1 + 1e-6));
 }
 
-TEST_CASE("a sampled system answers as the continuous one, slow against its period") {
+TEST_CASE(
+    "for slow signals the response of a sampled system equals that of the continuous system") {
   const StateSpace lag = in_series(first_order(0, 5, 5), first_order(1, 2, 3));
   const double period_s = 0.002, w = 4;
   Sampled sampled(lag, period_s);
@@ -76,13 +77,13 @@ TEST_CASE("a sampled system answers as the continuous one, slow against its peri
   for (int k = 0; k < 5000; ++k) {
     const double y = sampled.step(Eigen::VectorXd::Constant(1, std::sin(w * k * period_s)))[0];
     const auto g = response(lag, w)(0, 0);
-    const double wanted = std::abs(g) * std::sin(w * k * period_s + std::arg(g));
-    if (k > 3000) worst = std::max(worst, std::abs(y - wanted));
+    const double expected = std::abs(g) * std::sin(w * k * period_s + std::arg(g));
+    if (k > 3000) worst = std::max(worst, std::abs(y - expected));
   }
   CHECK(worst < 1e-4);
 }
 
-TEST_CASE("loops around the joints of robots cross where they should and keep a margin") {
+TEST_CASE("joint loops of robots have the designed crossover and a margin") {
   for (const std::string name : {"hinge_rig", "twin_joint", "seven_dof"}) {
     INFO(name);
     auto model = model_of(name);
@@ -99,7 +100,7 @@ TEST_CASE("loops around the joints of robots cross where they should and keep a 
   }
 }
 
-TEST_CASE("a plant that is far from the model loses the margin") {
+TEST_CASE("a plant that differs strongly from the model has no margin") {
   auto model = model_of("twin_joint");
   JointLoops loops = joint_loops(model, {});
   loops.plant = hinge_plant(model, {.delay_s = 0.2});
@@ -107,7 +108,7 @@ TEST_CASE("a plant that is far from the model loses the margin") {
   CHECK(check.slowest_per_s > 0);
 }
 
-TEST_CASE("a robot with a ball joint is refused") {
+TEST_CASE("a robot with a ball joint is rejected") {
   auto model = model_of("arm");
-  CHECK_THROWS_WITH(joint_loops(model, {}), Catch::Contains("no hinge"));
+  CHECK_THROWS_WITH(joint_loops(model, {}), Catch::Contains("is not a hinge"));
 }

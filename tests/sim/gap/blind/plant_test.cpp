@@ -21,8 +21,7 @@ HiddenEffects no_effects(const erp::Robot& robot) {
 }  // namespace
 
 TEST_CASE(
-    "without hidden effects the blind plant moves as the simulator does, by another integrator and "
-    "friction") {
+    "without hidden effects the blind plant agrees with the simulator within 0.01 rad and 1 N") {
   const erp::Robot robot = hinge_rig();
   Plant plant(robot, no_effects(robot));
   sim::World world(robot);
@@ -55,7 +54,7 @@ TEST_CASE("every tendon of every robot starts at its pretension") {
   }
 }
 
-TEST_CASE("a quirk changes what it is named for") {
+TEST_CASE("friction of one chain slows that chain only") {
   const erp::Robot robot = hinge_rig();
   const auto shaft_after = [&](const HiddenEffects& hidden_effects) {
     Plant plant(robot, hidden_effects);
@@ -64,14 +63,14 @@ TEST_CASE("a quirk changes what it is named for") {
     return plant.shaft_rad(0);
   };
   const double nominal = shaft_after(no_effects(robot));
-  HiddenEffects rubs = no_effects(robot), torn = no_effects(robot);
-  rubs.chains[0].dry_Nm = 1;
-  torn.chains[1].dry_Nm = 1;
-  CHECK(shaft_after(rubs) < 0.95 * nominal);
-  CHECK(shaft_after(torn) == Approx(nominal).epsilon(0.01));
+  HiddenEffects with_friction = no_effects(robot), other = no_effects(robot);
+  with_friction.chains[0].dry_Nm = 1;
+  other.chains[1].dry_Nm = 1;
+  CHECK(shaft_after(with_friction) < 0.95 * nominal);
+  CHECK(shaft_after(other) == Approx(nominal).epsilon(0.01));
 }
 
-TEST_CASE("a seed draws the same case again, another seed another") {
+TEST_CASE("a seed always draws the same case, other seeds draw others") {
   const erp::Robot robot = hinge_rig();
   const auto one = draw_case(robot, Kind::pair, 7), same = draw_case(robot, Kind::pair, 7);
   REQUIRE(one.hidden.size() == 2);
@@ -84,7 +83,7 @@ TEST_CASE("a seed draws the same case again, another seed another") {
   CHECK_THROWS_AS(kind_of("singles"), std::invalid_argument);
 }
 
-TEST_CASE("many: eight to twelve numbers of a robot are 2 to 10 % off, all others as described") {
+TEST_CASE("kind many: 8 to 12 constants deviate by 2 to 10 %, all others are as described") {
   const erp::Robot robot = hinge_rig();
   HiddenEffects unchanged = no_effects(robot);
   const AsBuilt exact = as_built(robot, 0, 1, unchanged);
@@ -95,7 +94,8 @@ TEST_CASE("many: eight to twelve numbers of a robot are 2 to 10 % off, all other
     int off = 0;
     for (std::size_t k = 0; k < exact.drawn.size(); ++k) {
       const double error = std::abs(built.drawn[k].value / exact.drawn[k].value - 1);
-      if (error < 1e-12 || exact.drawn[k].name == "torque_Nm_per_A") continue;  // K_T goes with K_E
+      if (error < 1e-12 || exact.drawn[k].name == "torque_Nm_per_A")
+        continue;  // K_T shares its factor with K_E
       ++off;
       CHECK(error >= 0.02 * (1 - 1e-9));
       CHECK(error <= 0.10 * (1 + 1e-9));
@@ -107,7 +107,7 @@ TEST_CASE("many: eight to twelve numbers of a robot are 2 to 10 % off, all other
   CHECK(std::ranges::min(counts) < std::ranges::max(counts));
 }
 
-TEST_CASE("what no reading shows is drawn anew: friction of a guide on a line that runs straight") {
+TEST_CASE("an effect that is not visible in any reading is drawn again") {
   const erp::Robot robot = hinge_rig();
   const Visibility shows(robot);
   HiddenEffects nothing = no_effects(robot), sag = nothing, heavy = nothing;
@@ -116,18 +116,18 @@ TEST_CASE("what no reading shows is drawn anew: friction of a guide on a line th
   CHECK_FALSE(shows(nothing));
   CHECK_FALSE(shows(sag));
   CHECK(shows(heavy));
-  int asked = 0;
-  const auto third = [&](const HiddenEffects&) { return ++asked == 3; };
+  int calls = 0;
+  const auto third = [&](const HiddenEffects&) { return ++calls == 3; };
   const Case drawn = draw_case(robot, Kind::single, 7, {}, third);
   CHECK(drawn.drawn_anew == 2);
   CHECK(drawn.hidden.size() == 1);
 }
 
-TEST_CASE("a joint is as strong as its tendons pull on their levers") {
-  CHECK(strength_Nm(hinge_rig(), 0) == Approx(2 * 150 * 0.025 / 2).epsilon(0.01));
+TEST_CASE("the joint load of the elbow is half the sum of tension limits times levers") {
+  CHECK(joint_load_Nm(hinge_rig(), 0) == Approx(2 * 150 * 0.025 / 2).epsilon(0.01));
 }
 
-TEST_CASE("a disc off its centre reads the angle of the ray from it to the head") {
+TEST_CASE("an eccentric disc reads the angle of the ray from its centre to the head") {
   erp::Robot robot = hinge_rig();
   const auto angles = [&](double sine) {
     Case blind = draw_case(robot, Kind::null, 1);
@@ -142,5 +142,5 @@ TEST_CASE("a disc off its centre reads the angle of the ray from it to the head"
     const double ray = q + std::atan2(0.2 * std::sin(q), 1 - 0.2 * std::cos(q));
     worst_rad = std::fmax(worst_rad, std::abs(off[k] - ray));
   }
-  CHECK(worst_rad < 0.004);  // noise, and steps of both
+  CHECK(worst_rad < 0.004);  // noise and quantization of both readings
 }

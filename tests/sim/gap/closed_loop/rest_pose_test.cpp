@@ -5,7 +5,7 @@
 #include "sim/control/equilibrium.hpp"
 #include "tests/sim/learning/calibration/arm_poses.hpp"
 
-TEST_CASE("wound to some angles, the arm comes to stand in the simulator where statics has it") {
+TEST_CASE("the simulated rest pose of the arm agrees with its static equilibrium within 0.01 rad") {
   const erp::Robot arm = arm_poses::arm();
   std::vector<std::vector<double>> shafts_rad;
   for (const auto& still : arm_poses::held(arm, 4)) shafts_rad.push_back(still.shaft_rad);
@@ -21,7 +21,7 @@ TEST_CASE("wound to some angles, the arm comes to stand in the simulator where s
   }
 }
 
-TEST_CASE("what does not come to rest in time is said") {
+TEST_CASE("a pose that is not reached in time is reported as not at rest") {
   const erp::Robot arm = arm_poses::arm();
   const std::vector<std::vector<double>> shafts_rad{std::vector<double>(11, 3.0)};
   const auto rest_poses = sim::closed_loop::rest_poses(arm, shafts_rad, {.most_s = 0.5});

@@ -9,8 +9,8 @@ namespace effects = sim::effects;
 
 namespace {
 
-/// An effect with such values of its fitted parameters, each within ±half.
-IdentifiedEffect sized(const char* type, std::vector<double> values, double half) {
+/// An effect with these values of its fitted parameters, and intervals of ±half.
+IdentifiedEffect with_values(const char* type, std::vector<double> values, double half) {
   IdentifiedEffect n = identified(effects::Placed{"flexor", *effects::neutral(type)});
   REQUIRE(n.values.size() == values.size());
   n.values = std::move(values);
@@ -21,30 +21,33 @@ IdentifiedEffect sized(const char* type, std::vector<double> values, double half
 
 }  // namespace
 
-TEST_CASE("an effect is undetermined if its intervals hold a robot without it") {
-  CHECK(undetermined(sized("tendon_stiffness", {0.2}, 0.1)).empty());
-  CHECK_THAT(undetermined(sized("tendon_stiffness", {0.2}, 0.3)), Catch::Contains("neutral value"));
-  CHECK(undetermined(sized("motor_cogging", {0.002, 0}, 0.001)).empty());  // one phase alone
-  CHECK_THAT(undetermined(sized("motor_cogging", {0.002, 0}, 0.003)),
+TEST_CASE(
+    "an effect is undetermined if the intervals of all parameters contain their neutral values") {
+  CHECK(undetermined(with_values("tendon_stiffness", {0.2}, 0.1)).empty());
+  CHECK_THAT(undetermined(with_values("tendon_stiffness", {0.2}, 0.3)),
+             Catch::Contains("neutral value"));
+  CHECK(undetermined(with_values("motor_cogging", {0.002, 0}, 0.001))
+            .empty());  // one of two parameters is neutral
+  CHECK_THAT(undetermined(with_values("motor_cogging", {0.002, 0}, 0.003)),
              Catch::Contains("neutral value"));
 }
 
-TEST_CASE("an alternative with a value at a bound is dropped, a size or a shape") {
-  std::vector<IdentifiedEffect> answer{sized("gearbox_coulomb", {0.03}, 0.001)};
-  IdentifiedEffect ageing = sized("gearbox_ageing_stiction", {0.03, 1, 0.1}, 0.001);
+TEST_CASE("alternatives with a size or a form parameter at a bound are dropped") {
+  std::vector<IdentifiedEffect> answer{with_values("gearbox_coulomb", {0.03}, 0.001)};
+  IdentifiedEffect ageing = with_values("gearbox_ageing_stiction", {0.03, 1, 0.1}, 0.001);
   answer[0].alternatives = {ageing, ageing, ageing};
-  answer[0].alternatives[0].values[1] = ageing.bounds[1].low;  // sticks at once
+  answer[0].alternatives[0].values[1] = ageing.bounds[1].low;  // stiction without delay
   answer[0].alternatives[2].values[0] = ageing.bounds[0].high;
   drop_alternatives_at_bounds(answer);
   REQUIRE(answer[0].alternatives.size() == 1);
   CHECK(answer[0].alternatives[0].values == ageing.values);
 }
 
-TEST_CASE("an effect whose value is at a bound is undetermined") {
-  IdentifiedEffect n = sized("tendon_kite_line", {1e-4}, 1e-5);
+TEST_CASE("an effect with a value at a bound is undetermined") {
+  IdentifiedEffect n = with_values("tendon_kite_line", {1e-4}, 1e-5);
   CHECK(undetermined(n).empty());
   n.values[0] = n.bounds[0].high;
   CHECK_THAT(undetermined(n), Catch::Contains("at its bound"));
-  n.values[0] = 0, n.intervals[0] = {0, 1e-6};  // a bound that is neutral: holds neutral
+  n.values[0] = 0, n.intervals[0] = {0, 1e-6};  // a neutral bound: the interval contains it
   CHECK_THAT(undetermined(n), Catch::Contains("neutral value"));
 }

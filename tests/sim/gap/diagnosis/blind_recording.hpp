@@ -3,7 +3,7 @@
 #include "sim/gap/residuals/episode.hpp"
 #include "tests/sim/rigs.hpp"
 
-/// Recordings of hinge_rig, or another robot, of the blind cases' own physics, with given quirks.
+/// Recordings of hinge_rig or another robot, simulated by the blind plant with given hidden effects.
 namespace blind_recording {
 
 inline erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }

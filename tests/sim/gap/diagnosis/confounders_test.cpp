@@ -10,7 +10,7 @@ using namespace sim::diagnosis;
 
 namespace {
 
-Evaluator rig_trials() {
+Evaluator rig_evaluator() {
   const erp::Robot rig = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   return {rig, {rig_recording::record(rig, rig, {.seconds = 20})}};
 }
@@ -23,28 +23,31 @@ std::vector<Indistinguishable> of_type(std::vector<Indistinguishable> all,
   return all;
 }
 
-std::vector<std::string> names_of(const Indistinguishable& twin) {
+std::vector<std::string> names_of(const Indistinguishable& pair) {
   std::vector<std::string> names;
-  for (const auto& other : twin.others) names.push_back(sim::effects::name_of(other));
+  for (const auto& other : pair.others) names.push_back(sim::effects::name_of(other));
   return names;
 }
 
 }  // namespace
 
-TEST_CASE("a shaft told too long is a stronger motor on a wider spindle, and neither alone") {
-  const Evaluator evaluator = rig_trials();
+TEST_CASE(
+    "a gain error of the shaft sensor equals a torque constant and a spindle radius together, but "
+    "neither alone") {
+  const Evaluator evaluator = rig_evaluator();
   CHECK(of_type(confounders(evaluator, {.share = 0.06, .most = 1}), "sensor_shaft_gain").empty());
   const auto two = of_type(confounders(evaluator, {.share = 0.06, .most = 2}), "sensor_shaft_gain");
   REQUIRE(two.size() == 2);  // flexor and extensor
-  for (const Indistinguishable& twin : two) {
-    CHECK_THAT(names_of(twin), Catch::UnorderedEquals(std::vector<std::string>{
-                                   "motor_torque_constant on " + twin.hidden.on,
-                                   "spindle_radius on " + twin.hidden.on}));
+  for (const Indistinguishable& pair : two) {
+    CHECK_THAT(names_of(pair), Catch::UnorderedEquals(std::vector<std::string>{
+                                   "motor_torque_constant on " + pair.hidden.on,
+                                   "spindle_radius on " + pair.hidden.on}));
   }
 }
 
-TEST_CASE("what is likest alone is let go where two others leave less") {
-  const Evaluator evaluator = rig_trials();  // an angle that drifts is likest one that is off
+TEST_CASE("the effect most similar alone is replaced if two others reproduce the change better") {
+  const Evaluator evaluator =
+      rig_evaluator();  // alone, an offset is most similar to a drift of the angle
   const auto found =
       of_type(confounders(evaluator, {.share = 0.05, .most = 2}), "sensor_joint_drift");
   REQUIRE(found.size() == 1);
@@ -52,23 +55,24 @@ TEST_CASE("what is likest alone is let go where two others leave less") {
                                      "spindle_slip on flexor", "spindle_slip on extensor"}));
 }
 
-TEST_CASE("a twin needs no other beside it, and leaves what it leaves alone") {
-  const Evaluator evaluator = rig_trials();
+TEST_CASE(
+    "an effect with an indistinguishable one has that one as confounder, with the same remainder") {
+  const Evaluator evaluator = rig_evaluator();
   const auto pairs = of_type(indistinguishable_effects(evaluator, 0.1), "gearbox_shaft_compliance");
   const auto few = of_type(confounders(evaluator, {}), "gearbox_shaft_compliance");
   REQUIRE(few.size() == 2);  // flexor and extensor
-  for (const Indistinguishable& twin : few) {
-    REQUIRE(twin.others.size() == 1);
+  for (const Indistinguishable& pair : few) {
+    REQUIRE(pair.others.size() == 1);
     const auto least = std::ranges::min_element(pairs, {}, [&](const Indistinguishable& t) {
-      return t.hidden.on == twin.hidden.on ? t.left : t.shows;
+      return t.hidden.on == pair.hidden.on ? t.remaining : t.magnitude;
     });
-    CHECK(twin.left == Approx(least->left).epsilon(1e-3).margin(1e-4));
-    CHECK(twin.shows == Approx(least->shows));
+    CHECK(pair.remaining == Approx(least->remaining).epsilon(1e-3).margin(1e-4));
+    CHECK(pair.magnitude == Approx(least->magnitude));
   }
 }
 
-TEST_CASE("no effect stands for another of its own type") {
-  const Evaluator evaluator = rig_trials();
+TEST_CASE("an effect is no confounder of another of its own type") {
+  const Evaluator evaluator = rig_evaluator();
   std::vector<std::string> types;
   for (const auto& effect : sim::effects::library())
     types.emplace_back(sim::effects::about(effect).type);
@@ -79,12 +83,12 @@ TEST_CASE("no effect stands for another of its own type") {
   }
 }
 
-TEST_CASE("types withheld neither hide nor stand for another") {
-  const Evaluator evaluator = rig_trials();
+TEST_CASE("withheld types are neither listed nor confounders") {
+  const Evaluator evaluator = rig_evaluator();
   const ConfounderOptions options{.withhold = {"tendon_kite_line"}};
-  for (const Indistinguishable& twin : confounders(evaluator, options)) {
-    CHECK(sim::effects::about(twin.hidden.effect).type != "tendon_kite_line");
-    for (const auto& other : twin.others)
+  for (const Indistinguishable& pair : confounders(evaluator, options)) {
+    CHECK(sim::effects::about(pair.hidden.effect).type != "tendon_kite_line");
+    for (const auto& other : pair.others)
       CHECK(sim::effects::about(other.effect).type != "tendon_kite_line");
   }
 }

@@ -23,14 +23,17 @@ double value_of(const IdentifiedEffect& n, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("two physics of the nominal rig agree: nothing hidden, no gap") {
+TEST_CASE("nothing hidden: the verdict is no gap") {
   const Diagnosis d = diagnose(hinge_rig(), episodes(nothing_hidden()));
   CHECK(d.verdict == Verdict::no_gap);
   CHECK(d.where.empty());
   CHECK(d.answer.empty());
 }
 
-TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings held out") {
+TEST_CASE(
+    "viscous friction of 0.02 N m s/rad in a gearbox is identified within its interval and closes "
+    "90 % "
+    "of the gap") {
   auto blind = nothing_hidden();
   blind.hidden_effects.chains[1].viscous = 0.02;  // extensor
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
@@ -55,7 +58,8 @@ TEST_CASE("a hidden effect is named, sized, and closes the gap on recordings hel
 }
 
 TEST_CASE(
-    "an inertia that multiplies noisy accelerations is not too small, and its interval holds") {
+    "an inertia of a shank of +250 % is identified within its interval despite noisy "
+    "accelerations") {
   const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
   auto blind = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
   blind.hidden_effects.bodies["shank"].inertia = 2.5;
@@ -68,7 +72,7 @@ TEST_CASE(
   CHECK(d.answer[0].intervals[0].high > 2.5);
 }
 
-TEST_CASE("a loose sensor of a joint is named: where it rests, the tendons tell of the bone") {
+TEST_CASE("play of 0.03 rad in a joint sensor is identified within 5 %") {
   auto blind = nothing_hidden();
   blind.hidden_effects.joints[0].loose_rad = 0.03;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
@@ -78,7 +82,7 @@ TEST_CASE("a loose sensor of a joint is named: where it rests, the tendons tell 
   CHECK(d.overall.closed > 0.9);
 }
 
-TEST_CASE("withheld, it is none of the known, at its place") {
+TEST_CASE("a withheld effect: the verdict is none of the known, at the right stage") {
   auto blind = nothing_hidden();
   blind.hidden_effects.chains[0].dead_V = 0.4;  // flexor
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind), {.withhold = {"motor_dead_band"}});
@@ -89,7 +93,9 @@ TEST_CASE("withheld, it is none of the known, at its place") {
   CHECK(d.unexplained[0].shape.has_value());
 }
 
-TEST_CASE("a law of another shape is not known, however much of it an effect closes") {
+TEST_CASE(
+    "quadratic drag: the verdict is none of the known, although viscous friction closes 90 % of "
+    "the gap") {
   auto blind = nothing_hidden();
   blind.hidden_effects.joints[0].drag = 0.12;  // grows with the square of the speed
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 12, 4));
@@ -102,9 +108,9 @@ TEST_CASE("a law of another shape is not known, however much of it an effect clo
   CHECK(d.unexplained[0].shape->variable == "joint speed");
 }
 
-TEST_CASE("two effects at once are both named") {
+TEST_CASE("a motor resistance and a joint friction at once are both identified") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[0].ohm = 0.3;
+  blind.hidden_effects.chains[0].resistance = 0.3;
   blind.hidden_effects.joints[0].viscous = 0.15;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   CHECK(d.verdict == Verdict::supported);
@@ -112,21 +118,21 @@ TEST_CASE("two effects at once are both named") {
   for (const IdentifiedEffect& n : d.answer) types.push_back(n.type + " " + n.on);
   CHECK(std::ranges::count(types, "motor_resistance flexor") == 1);
   CHECK(std::ranges::count(types, "joint_viscous elbow") == 1);
-  double shapley_values = 0;
+  double sum = 0;
   for (const IdentifiedEffect& n : d.answer) {
     CHECK(n.supported);
     CHECK(n.gain > 0.05);
-    shapley_values += n.gain;
+    sum += n.gain;
   }
-  CHECK(shapley_values == Approx(1).margin(0.03));  // together they close all
-  CHECK(std::abs(d.interaction) < 0.1);             // and each its own stage
+  CHECK(sum == Approx(1).margin(0.03));
+  CHECK(std::abs(d.interaction) < 0.1);  // the effects act on different stages
 }
 
-TEST_CASE("the same effect on every muscle of a leg is named on each") {
+TEST_CASE("a dead band on every muscle of a leg is identified on each") {
   const erp::Robot leg = erp::read_robot(rigs::config("leg/robot.xml"));
   auto blind = sim::blind::draw_case(leg, sim::blind::Kind::null, 1);
   for (auto& chain : blind.hidden_effects.chains) chain.dead_V = 0.4;
-  std::vector<std::string> withheld;  // to be quick
+  std::vector<std::string> withheld;  // to shorten the test
   for (const auto& effect : sim::effects::library())
     if (sim::effects::about(effect).stage != sim::effects::Stage::motor)
       withheld.emplace_back(sim::effects::about(effect).type);
@@ -137,21 +143,24 @@ TEST_CASE("the same effect on every muscle of a leg is named on each") {
   const Selection selection = select(problem, evaluator, stages);
   CHECK(selection.explained());
   CHECK(selection.answer.size() == leg.actuators.size());
-  CHECK(selection.answer.size() > problem.options.most_effects);  // of one after another
+  CHECK(selection.answer.size() >
+        problem.options.most_effects);  // more than forward selection can find
   for (const IdentifiedEffect& n : selection.answer) CHECK(n.type == "motor_dead_band");
 }
 
-TEST_CASE("the shares of two effects on one stage add up, and what they share is interaction") {
+TEST_CASE(
+    "two effects on one stage: their gains sum to 1, and their overlap is a negative interaction") {
   auto blind = nothing_hidden();
   blind.hidden_effects.chains[1].dry_Nm = 0.06;
   blind.hidden_effects.chains[1].viscous = 0.006;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 2);
   CHECK(d.answer[0].gain + d.answer[1].gain == Approx(1).margin(0.03));
-  CHECK(d.interaction < -0.1);  // both drag alike: alone, each takes a part of the other's
+  CHECK(d.interaction <
+        -0.1);  // both are friction: each alone removes part of the other's residual
 }
 
-TEST_CASE("of what was not told, the interval is all that is allowed") {
+TEST_CASE("an infinite standard error: the interval equals the bounds") {
   Ranked ranked{.fit = {{"flexor", *sim::effects::neutral("gearbox_viscous")}, 0, {}, {}}};
   ranked.fit.sigmas = {std::numeric_limits<double>::infinity()};
   const IdentifiedEffect n = identified(ranked, 0);
@@ -159,9 +168,9 @@ TEST_CASE("of what was not told, the interval is all that is allowed") {
   CHECK(n.intervals.at(0).high == n.bounds.at(0).high);
 }
 
-TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
+TEST_CASE("a length offset and a shaft offset are reported as indistinguishable") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[0].knot_m = 4e-4;
+  blind.hidden_effects.chains[0].length_offset_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 1);
   REQUIRE(d.answer[0].alternatives.size() == 1);
@@ -169,10 +178,10 @@ TEST_CASE("what sensors cannot tell apart is a set, not a guess") {
   CHECK(d.answer[0].type == "tendon_length_offset");
 }
 
-TEST_CASE("of two effects, what stands for one is not given to the other") {
+TEST_CASE("two effects: an alternative of one is not listed for the other") {
   auto blind = nothing_hidden();
-  blind.hidden_effects.chains[0].ohm = 0.3;
-  blind.hidden_effects.chains[1].knot_m = 4e-4;
+  blind.hidden_effects.chains[0].resistance = 0.3;
+  blind.hidden_effects.chains[1].length_offset_m = 4e-4;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind));
   REQUIRE(d.answer.size() == 2);
   const auto offset = std::ranges::find(d.answer, "tendon_length_offset", &IdentifiedEffect::type);
@@ -192,28 +201,30 @@ TEST_CASE("of two effects, what stands for one is not given to the other") {
   CHECK(whole == Approx(1));
 }
 
-TEST_CASE("late, jittering and lost commands are told apart by their ages") {
+TEST_CASE("delay, jitter and loss of commands are identified by the ages of commands") {
   auto blind = nothing_hidden();
-  const auto told = [&] { return diagnose(hinge_rig(), episodes(blind, 4)).answer.at(0); };
-  SECTION("late") {
+  const auto identified_effect = [&] {
+    return diagnose(hinge_rig(), episodes(blind, 4)).answer.at(0);
+  };
+  SECTION("delay of 13 ms") {
     blind.hidden_effects.command_delay_s = 0.013;
-    const IdentifiedEffect n = told();
+    const IdentifiedEffect n = identified_effect();
     CHECK(n.type == "bus_command_delay");
     CHECK(value_of(n, "delay_s") == Approx(0.013).margin(0.0012));
   }
-  SECTION("jitter") {
+  SECTION("jitter of 20 ms") {
     blind.hidden_effects.jitter_s = 0.02;
-    const IdentifiedEffect n = told();
+    const IdentifiedEffect n = identified_effect();
     CHECK(n.type == "bus_jitter");
     CHECK(value_of(n, "spread_s") == Approx(0.02).margin(0.002));
   }
-  SECTION("lost") {
+  SECTION("loss of 40 %") {
     blind.hidden_effects.loss = 0.4;
-    const IdentifiedEffect n = told();
+    const IdentifiedEffect n = identified_effect();
     CHECK(n.type == "bus_frame_loss");
     CHECK(value_of(n, "probability") == Approx(0.4).margin(0.03));
   }
-  SECTION("late as no effect has it: the bus all the same") {
+  SECTION("ages that no allowed effect explains: the gap is attributed to the bus") {
     blind.hidden_effects.loss = 0.4;
     DiagnoseOptions options;
     options.withhold = {"bus_frame_loss"};
@@ -225,7 +236,7 @@ TEST_CASE("late, jittering and lost commands are told apart by their ages") {
   }
 }
 
-TEST_CASE("a gap that only the training recordings show is not identifiable") {
+TEST_CASE("a gap in the training recordings alone: the verdict is not identifiable") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 6, 2);
   blind.hidden_effects.chains[1].viscous = 0.02;
@@ -236,7 +247,7 @@ TEST_CASE("a gap that only the training recordings show is not identifiable") {
   REQUIRE_FALSE(d.warnings.empty());
 }
 
-TEST_CASE("what the recordings leave unjudged is said") {
+TEST_CASE("recordings without current: a warning names the motors that are not evaluated") {
   auto all = episodes(nothing_hidden());
   for (Episode& e : all)
     for (ActuatorSignals& s : e.actuators) s.current_A.clear();
@@ -246,8 +257,8 @@ TEST_CASE("what the recordings leave unjudged is said") {
   CHECK_THAT(d.warnings[0], Catch::Contains("motor of flexor, motor of extensor"));
 }
 
-TEST_CASE("where nothing can be judged there is no word of no gap") {
+TEST_CASE("a recording of 0.1 s: the verdict is not identifiable, with a warning") {
   const Diagnosis d = diagnose(hinge_rig(), episodes(nothing_hidden(), 0.1, 1));
   CHECK(d.verdict == Verdict::not_identifiable);
-  CHECK_THAT(d.warnings.back(), Catch::Contains("nothing could be judged"));
+  CHECK_THAT(d.warnings.back(), Catch::Contains("no stage could be evaluated"));
 }

@@ -32,8 +32,8 @@ erp::Robot slide(erp::DriveControl control) {
   return robot;
 }
 
-/// A mass pushed by gain · u, held for 1 ms, along a sum of sines by a proportional controller;
-/// friction is a steep tanh, and the integrator's step a twentieth of the row's.
+/// A mass with force gain · u, held for 1 ms, under a proportional controller that follows a sum of sines.
+/// Friction is a steep tanh; the integrator's step is a twentieth of the row period.
 recording::Table recorded(const Friction& f, double seconds, double pace) {
   constexpr double mass = 40, gain = 30, row_s = 1e-3;
   recording::Table table;
@@ -42,20 +42,20 @@ recording::Table recorded(const Friction& f, double seconds, double pace) {
   double x = 0, v = 0;
   for (int k = 0; k < static_cast<int>(seconds / row_s); ++k) {
     const double t = k * row_s,
-                 wanted = 0.05 * std::sin(pace * t) + 0.02 * std::sin(2.7 * pace * t);
-    const double said = 1e-6 * std::round(x / 1e-6), u = 400 * (wanted - said) - 30 * v;
+                 desired = 0.05 * std::sin(pace * t) + 0.02 * std::sin(2.7 * pace * t);
+    const double reading = 1e-6 * std::round(x / 1e-6), u = 400 * (desired - reading) - 30 * v;
     table.columns[0].values.push_back(t), table.columns[1].values.push_back(u);
-    table.columns[2].values.push_back(said);
+    table.columns[2].values.push_back(reading);
     for (int n = 0; n < 20; ++n) {
-      const double rub =
+      const double friction =
           f.viscous * v + (f.coulomb + (v > 0 ? f.more_forwards : 0)) * std::tanh(v / 1e-4);
-      v += (gain * u - rub) / mass * row_s / 20, x += v * row_s / 20;
+      v += (gain * u - friction) / mass * row_s / 20, x += v * row_s / 20;
     }
   }
   return table;
 }
 
-/// A motor under current, a gearbox, a shaft that twists, a load; both ends measured.
+/// A current-controlled motor, a gearbox, a compliant shaft and a load; both ends are measured.
 struct Bench {
   double gear_dry_Nm = 0, load_dry_Nm = 0, softer = 0, play_rad = 0;
 };
@@ -88,8 +88,8 @@ recording::Table recorded(const Bench& b, double seconds, double pace) {
     table.columns.push_back({name, {}});
   double x = 0, v = 0, q = 0, w = 0, carried = 0;
   for (int k = 0; k < static_cast<int>(seconds / row_s); ++k) {
-    const double t = k * row_s, wanted = std::sin(pace * t) + 0.4 * std::sin(2.7 * pace * t);
-    const double u = 3 * (wanted - x) - 0.3 * v;
+    const double t = k * row_s, desired = std::sin(pace * t) + 0.4 * std::sin(2.7 * pace * t);
+    const double u = 3 * (desired - x) - 0.3 * v;
     const double row[] = {t, u, x + 2e-5 * noise(random), q + 2e-5 * noise(random),
                           carried + 0.01 * noise(random)};
     for (std::size_t c = 0; c < 5; ++c) table.columns[c].values.push_back(row[c]);
@@ -128,7 +128,8 @@ std::set<std::string> types_of(const Diagnosis& d) {
 
 }  // namespace
 
-TEST_CASE("a slide without friction has no gap, with friction it is named and sized") {
+TEST_CASE(
+    "a slide: no gap without friction; viscous and Coulomb friction are identified within 3 %") {
   const auto runs = [](const Friction& f) {
     return std::vector{recorded(f, 8, 3), recorded(f, 8, 4), recorded(f, 8, 5)};
   };
@@ -142,7 +143,9 @@ TEST_CASE("a slide without friction has no gap, with friction it is named and si
   CHECK(d.channels[0].after < 0.02 * d.channels[0].driven_by);
 }
 
-TEST_CASE("friction that differs both ways is the gearbox's; no current was measured to be off") {
+TEST_CASE(
+    "asymmetric friction is attributed to the gearbox, not to a current sensor that the drive "
+    "lacks") {
   const Friction f{80, 12, 6};
   const Diagnosis d = diagnosed(slide(erp::DriveControl::force),
                                 {recorded(f, 8, 3), recorded(f, 8, 4), recorded(f, 8, 5)});
@@ -152,7 +155,7 @@ TEST_CASE("friction that differs both ways is the gearbox's; no current was meas
   for (const IdentifiedEffect& n : d.ranked) CHECK_FALSE(n.type.starts_with("sensor_current"));
 }
 
-TEST_CASE("a control by current drives its motor's torque, by voltage its winding") {
+TEST_CASE("current control sets the current of the chain, voltage control its voltage") {
   erp::Robot robot = slide(erp::DriveControl::current);
   erp::MotorType motor;
   motor.name = "m", motor.resistance_ohm = 1, motor.inductance_H = 1e-3;
@@ -174,7 +177,10 @@ TEST_CASE("a control by current drives its motor's torque, by voltage its windin
   CHECK_FALSE(by_voltage.current_around);
 }
 
-TEST_CASE("with both ends measured, friction of the gearbox, of the load and the shaft between") {
+TEST_CASE(
+    "both ends measured: gearbox friction, load friction, stiffness and backlash are identified "
+    "within "
+    "5 %") {
   const auto found = [](const Bench& bench) {
     return diagnosed(two_ends(),
                      {recorded(bench, 8, 3), recorded(bench, 8, 4), recorded(bench, 8, 5)});
@@ -192,10 +198,10 @@ TEST_CASE("with both ends measured, friction of the gearbox, of the load and the
   sole({.play_rad = 0.02}, "gearbox_backlash", 0.02);
 }
 
-TEST_CASE("EMPS, real: viscous and dry friction, then that they are not the same both ways") {
+TEST_CASE("EMPS recordings: viscous, Coulomb and asymmetric friction are identified") {
   const char* data = std::getenv("ERP_DATA_DIR");
   if (!data || !std::filesystem::exists(std::string(data) + "/emps")) {
-    WARN("ERP_DATA_DIR/emps is not there: tests/README.md says where to get it");
+    WARN("ERP_DATA_DIR/emps is missing: tests/README.md lists its source");
     return;
   }
   std::vector<recording::Table> tables;
@@ -209,11 +215,13 @@ TEST_CASE("EMPS, real: viscous and dry friction, then that they are not the same
   CHECK(d.channels[0].after < 0.036 * d.channels[0].driven_by);
 }
 
-TEST_CASE("a clean drive's friction is found as it is, with a constant load beside it") {
+TEST_CASE(
+    "friction of a drive without noise is identified within 2 %, with and without a constant "
+    "load") {
   for (const double load_Nm : {0.0, 3e-4}) {
     INFO("load " << load_Nm << " Nm");
     const Diagnosis d =
-        diagnosed(light_drive::description(), light_drive::swung({.load_Nm = load_Nm}));
+        diagnosed(light_drive::description(), light_drive::of_sines({.load_Nm = load_Nm}));
     CHECK(d.verdict == Verdict::supported);
     CHECK(value_of(d, "gearbox_coulomb") == Approx(3e-3).epsilon(0.02));
     CHECK(value_of(d, "gearbox_viscous") == Approx(3e-5).epsilon(0.02));
@@ -222,7 +230,7 @@ TEST_CASE("a clean drive's friction is found as it is, with a constant load besi
   }
 }
 
-TEST_CASE("friction is found from one steady speed in each recording") {
+TEST_CASE("friction is identified within 2 % from six recordings of one steady speed each") {
   const Diagnosis d =
       diagnosed(light_drive::description(),
                 light_drive::at_steady_speeds({}, {.seconds = 4, .noise_rad = 1e-5}));
@@ -232,7 +240,7 @@ TEST_CASE("friction is found from one steady speed in each recording") {
   CHECK(value_of(d, "gearbox_viscous") == Approx(3e-5).epsilon(0.02));
 }
 
-TEST_CASE("a disturbance is not explained by a motor with less torque") {
+TEST_CASE("a random torque does not cause an error of the torque constant") {
   const light_drive::Light light{.load_Nm = 3e-4, .disturbance_Nm = 3e-4};
   const Diagnosis d = diagnosed(
       light_drive::description(),
@@ -240,19 +248,20 @@ TEST_CASE("a disturbance is not explained by a motor with less torque") {
   CHECK(d.verdict == Verdict::supported);
   CHECK(types_of(d) ==
         std::set<std::string>{"gearbox_asymmetric", "gearbox_coulomb", "gearbox_viscous"});
-  const std::map<std::string, double> is{{"gearbox_asymmetric", light.load_Nm},
-                                         {"gearbox_coulomb", light.coulomb_Nm},
-                                         {"gearbox_viscous", light.viscous_Nm_s}};
+  const std::map<std::string, double> truth{{"gearbox_asymmetric", light.load_Nm},
+                                            {"gearbox_coulomb", light.coulomb_Nm},
+                                            {"gearbox_viscous", light.viscous_Nm_s}};
   for (const auto& n : d.answer) {
     INFO(n.type << " " << n.values[0]);
-    CHECK(n.intervals[0].low < is.at(n.type));
-    CHECK(n.intervals[0].high > is.at(n.type));
+    CHECK(n.intervals[0].low < truth.at(n.type));
+    CHECK(n.intervals[0].high > truth.at(n.type));
   }
 }
 
-TEST_CASE("friction of a drive whose shaft turns back within few rows is left undetermined") {
+TEST_CASE(
+    "rows of 20 ms: friction of a drive whose shaft reverses within few rows is not identifiable") {
   const Diagnosis d =
-      diagnosed(light_drive::description(), light_drive::swung({}, {.period_s = 0.02}));
+      diagnosed(light_drive::description(), light_drive::of_sines({}, {.period_s = 0.02}));
   CHECK(d.verdict == Verdict::not_identifiable);
   CHECK(std::ranges::any_of(
       d.warnings, [](const std::string& w) { return w.find("turned back") != std::string::npos; }));

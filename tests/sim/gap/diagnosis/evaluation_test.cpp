@@ -31,38 +31,40 @@ std::vector<Episode> recordings(bool with_angle) {
   return all;
 }
 
-/// Of two effects the second is changed: what only its reach recomputes, and what everything does.
-void check_alike(const Evaluator& evaluator, const std::string& first, const std::string& second) {
+/// Changes the second of two effects: incremental and full evaluation must agree.
+void check_incremental(const Evaluator& evaluator, const std::string& first,
+                       const std::string& second) {
   INFO(second << " beside " << first);
   const std::vector<std::size_t> all{0};
   const std::vector<effects::Placed> before{placed(first), placed(second)};
   const std::vector<effects::Placed> after{before[0], larger(before[1])};
-  const auto quick =
+  const auto incremental =
       evaluator.whitened(evaluator.changed(evaluator.with(before, all), 1, after[1], all), 0);
   const auto whole = evaluator.whitened(evaluator.with(after, all), 0);
-  REQUIRE(quick.size() == whole.size());
+  REQUIRE(incremental.size() == whole.size());
   double most = 0;
   for (std::size_t k = 0; k < whole.size(); ++k) {
-    REQUIRE(std::isnan(quick[k]) == std::isnan(whole[k]));
-    if (!std::isnan(whole[k])) most = std::max(most, std::abs(quick[k] - whole[k]));
+    REQUIRE(std::isnan(incremental[k]) == std::isnan(whole[k]));
+    if (!std::isnan(whole[k])) most = std::max(most, std::abs(incremental[k] - whole[k]));
   }
   CHECK(most < 1e-9);
 }
 
 }  // namespace
 
-TEST_CASE("to change one of two effects recomputes all that depends on it") {
+TEST_CASE("a change of one of two effects recomputes every residual that depends on it") {
   const bool with_angle = GENERATE(true, false);
   INFO((with_angle ? "with" : "without") << " the joint's angle");
   const Evaluator evaluator(hinge_rig(), recordings(with_angle));
   for (const char* first : {"gearbox_viscous", "tendon_stiffness", "spindle_radius"})
     for (const char* second : {"motor_resistance", "tendon_stiffness", "routing_pulley_radius",
                                "sensor_tension_gain", "joint_viscous", "skeleton_mass"})
-      if (std::string(first) != second) check_alike(evaluator, first, second);
+      if (std::string(first) != second) check_incremental(evaluator, first, second);
 }
 
-TEST_CASE("what a loose sensor says changes with what tells it") {
+TEST_CASE(
+    "with play in a joint sensor, residuals change with the effects that determine its angle") {
   const Evaluator evaluator(hinge_rig(), recordings(true));
   for (const char* second : {"tendon_stiffness", "sensor_shaft_offset", "skeleton_mass"})
-    check_alike(evaluator, "joint_play", second);
+    check_incremental(evaluator, "joint_play", second);
 }

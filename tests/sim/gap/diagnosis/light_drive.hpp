@@ -6,17 +6,16 @@
 #include "interfaces/recording/table.hpp"
 #include "interfaces/robot/robot.hpp"
 
-/// A light motor under current with friction that sticks, and recordings of it that no code of the
-/// product makes.
+/// A light current-controlled motor with stiction, and recordings simulated without code of the product.
 namespace light_drive {
 
 struct Light {
   double coulomb_Nm = 3e-3, viscous_Nm_s = 3e-5;
-  double load_Nm = 0;         ///< a torque that always pulls
-  double disturbance_Nm = 0;  ///< standard deviation of a torque that no law explains
+  double load_Nm = 0;         ///< constant torque
+  double disturbance_Nm = 0;  ///< standard deviation of a random torque
 };
 
-/// How it is recorded.
+/// Properties of a recording.
 struct Rows {
   double period_s = 2e-3, seconds = 8;
   double noise_rad = 0;  ///< of the position
@@ -25,7 +24,7 @@ struct Rows {
 
 constexpr double torque_Nm_per_A = 0.05, inertia_kg_m2 = 2.2e-6;
 
-/// Its description, without friction.
+/// Description of the drive, without friction.
 inline erp::Robot description() {
   erp::MotorType motor;
   motor.name = "m", motor.resistance_ohm = 1, motor.inductance_H = 1e-4;
@@ -42,8 +41,8 @@ inline erp::Robot description() {
   return robot;
 }
 
-/// `current(t, ω)` in A, worked out at a row and held until the next.
-recording::Table turned(const Light& light, const Rows& rows, auto current) {
+/// Simulates the drive with `current(t, ω)` in A, held between rows.
+recording::Table simulated(const Light& light, const Rows& rows, auto current) {
   constexpr double step_s = 2e-5, correlated_s = 0.05;
   const int steps = int(std::lround(rows.period_s / step_s));
   std::mt19937_64 random(rows.seed);
@@ -63,8 +62,8 @@ recording::Table turned(const Light& light, const Rows& rows, auto current) {
       const double pushed = torque_Nm_per_A * amperes - light.load_Nm -
                             light.disturbance_Nm * disturbance - light.viscous_Nm_s * speed;
       if (speed == 0 && std::abs(pushed) <= light.coulomb_Nm) continue;
-      const int way = speed > 0 || (speed == 0 && pushed > 0) ? 1 : -1;
-      double next = speed + (pushed - way * light.coulomb_Nm) / inertia_kg_m2 * step_s;
+      const int sign = speed > 0 || (speed == 0 && pushed > 0) ? 1 : -1;
+      double next = speed + (pushed - sign * light.coulomb_Nm) / inertia_kg_m2 * step_s;
       if (speed * next < 0) next = 0;
       angle += (speed + next) / 2 * step_s, speed = next;
     }
@@ -73,10 +72,10 @@ recording::Table turned(const Light& light, const Rows& rows, auto current) {
 }
 
 /// Four recordings of sums of sines.
-inline std::vector<recording::Table> swung(const Light& light, Rows rows = {}) {
+inline std::vector<recording::Table> of_sines(const Light& light, Rows rows = {}) {
   std::vector<recording::Table> tables;
   for (int n = 0; n < 4; ++n, ++rows.seed)
-    tables.push_back(turned(light, rows, [&](double t, double) {
+    tables.push_back(simulated(light, rows, [&](double t, double) {
       double sum = 0;
       for (int h = 1; h < 9; ++h) sum += std::sin(6.283 * (0.2 + 0.19 * h * h) * t + n * h + h * h);
       return 0.06 * sum;
@@ -84,14 +83,14 @@ inline std::vector<recording::Table> swung(const Light& light, Rows rows = {}) {
   return tables;
 }
 
-/// Six recordings, each of one steady speed, by a controller of speed.
+/// Six recordings of one steady speed each, under a speed controller.
 inline std::vector<recording::Table> at_steady_speeds(const Light& light, Rows rows = {}) {
   std::vector<recording::Table> tables;
-  for (const double wanted : {5.0, -10.0, 20.0, -40.0, 80.0, -160.0}) {
+  for (const double desired : {5.0, -10.0, 20.0, -40.0, 80.0, -160.0}) {
     double sum = 0;
-    tables.push_back(turned(light, rows, [&](double, double speed) {
-      sum += (wanted - speed) * rows.period_s;
-      return 2e-4 * (wanted - speed) + 4e-3 * sum + std::copysign(0.06, wanted);
+    tables.push_back(simulated(light, rows, [&](double, double speed) {
+      sum += (desired - speed) * rows.period_s;
+      return 2e-4 * (desired - speed) + 4e-3 * sum + std::copysign(0.06, desired);
     }));
     ++rows.seed;
   }

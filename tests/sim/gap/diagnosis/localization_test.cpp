@@ -26,18 +26,19 @@ std::vector<Episode> recordings(const std::vector<effects::Placed>& placed) {
 
 }  // namespace
 
-TEST_CASE("the floor that the sensors' specification gives is what is left without effects") {
+TEST_CASE(
+    "without effects the residual of each stage equals its noise floor from the data sheets") {
   for (const StageGap& gap : localize(hinge_rig(), recordings({}))) {
     INFO(effects::word(gap.stage) << " " << gap.on << ": rms " << gap.rms << " " << gap.unit
                                   << ", floor " << gap.floor);
     CHECK(gap.rms < 1.35 * gap.floor);
-    // the floor of a tendon allows for a tension half a period late, which these are not
+    // the floor of a tendon assumes a tension half a period late; here it is not late
     CHECK(gap.rms > (gap.stage == effects::Stage::tendon ? 0.4 : 0.7) * gap.floor);
     CHECK_FALSE(gap.open);
   }
 }
 
-TEST_CASE("a small effect is found at its stage and place, with an interval that excludes noise") {
+TEST_CASE("a small effect opens only its own stage, with an interval above the noise") {
   const std::vector<std::pair<effects::Placed, std::string>> cases{
       {{"extensor", effects::MotorDeadBand{0.05}}, "motor extensor"},
       {{"flexor", effects::GearboxCoulomb{0.02}}, "gearbox flexor"},
@@ -56,7 +57,7 @@ TEST_CASE("a small effect is found at its stage and place, with an interval that
   }
 }
 
-TEST_CASE("without the columns of any stage it is said what is missing") {
+TEST_CASE("without the columns of any stage the error names the missing columns") {
   auto episodes = recordings({});
   for (Episode& e : episodes)
     for (auto& a : e.actuators) a.shaft_rad.clear(), a.tension_N.clear();

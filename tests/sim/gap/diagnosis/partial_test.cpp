@@ -27,8 +27,8 @@ void check_closed(const std::vector<Episode>& episodes) {
   }
 }
 
-std::vector<std::string> suspected(const std::vector<effects::Placed>& hidden,
-                                   const std::vector<std::string>& withhold = {}) {
+std::vector<std::string> isolated(const std::vector<effects::Placed>& hidden,
+                                  const std::vector<std::string>& withhold = {}) {
   const erp::Robot robot = hinge_rig();
   Problem problem{robot, {recorded(hidden)}, {.withhold = withhold}, {{0}, {0}}};
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ std::vector<std::string> suspected(const std::vector<effects::Placed>& hidden,
 
 }  // namespace
 
-TEST_CASE("what one recording lacks is left out of all, and told") {
+TEST_CASE("signals that one recording lacks are left out of all, with a remark") {
   std::vector<Episode> episodes{recorded({}), recorded({}, 8)};
   episodes[0].name = "monday.csv", episodes[1].name = "tuesday.csv";
   episodes[1].actuators[0].tension_N.clear();
@@ -54,7 +54,7 @@ TEST_CASE("what one recording lacks is left out of all, and told") {
   check_closed(episodes);
 }
 
-TEST_CASE("a joint that was not measured is where its tendons say") {
+TEST_CASE("an unmeasured joint angle is estimated from tendons within 0.003 rad") {
   Episode episode = recorded({});
   const Signal truth = episode.joints[0].angle_rad;
   episode.joints[0].angle_rad.clear();
@@ -67,7 +67,8 @@ TEST_CASE("a joint that was not measured is where its tendons say") {
 }
 
 TEST_CASE(
-    "without joint angles a spindle's radius still opens the tendons' stages, slack tells none") {
+    "without joint angles a wrong spindle radius opens the tendon stage; slack tendons give no "
+    "angle") {
   Episode episode = recorded({{"extensor", effects::SpindleRadius{0.1}}});
   episode.joints[0].angle_rad.clear();
   const Episode all[] = {episode};
@@ -78,19 +79,19 @@ TEST_CASE(
   CHECK(std::isnan(joints->signals[0].angle_rad[1000]));
 }
 
-TEST_CASE("a current that was not measured is the motor's law's, and leaves no gap of its own") {
+TEST_CASE("an unmeasured current is computed from the motor's law and causes no gap") {
   Episode episode = recorded({});
   for (auto& a : episode.actuators) a.current_A.clear();
   check_closed({episode});
 }
 
-TEST_CASE("a gap is the fault of what could leave it there and nowhere else") {
+TEST_CASE("isolation lists the part with the effect, and no part that would open other stages") {
   using Names = std::vector<std::string>;
-  const Names rough = suspected({{"flexor", effects::GearboxCoulomb{0.1}}});
+  const Names rough = isolated({{"flexor", effects::GearboxCoulomb{0.1}}});
   CHECK(std::ranges::count(rough, "gearbox flexor") == 1);
-  for (const char* not_it : {"gearbox extensor", "tendon flexor", "spindle flexor", "joint elbow"})
-    CHECK(std::ranges::count(rough, not_it) == 0);
-  const Names stiff = suspected({{"elbow", effects::JointViscous{0.2}}});
+  for (const char* other : {"gearbox extensor", "tendon flexor", "spindle flexor", "joint elbow"})
+    CHECK(std::ranges::count(rough, other) == 0);
+  const Names stiff = isolated({{"elbow", effects::JointViscous{0.2}}});
   CHECK(std::ranges::count(stiff, "joint elbow") == 1);
   for (const std::string& name : stiff) {
     INFO(name);
@@ -98,12 +99,12 @@ TEST_CASE("a gap is the fault of what could leave it there and nowhere else") {
   }
 }
 
-TEST_CASE("parts are suspected for effects that are known, not for those withheld") {
+TEST_CASE("isolation ignores withheld effects") {
   std::vector<std::string> of_joints;
   for (const auto& effect : effects::library())
     if (effects::about(effect).stage == effects::Stage::joint)
       of_joints.emplace_back(effects::about(effect).type);
-  for (const std::string& name : suspected({{"elbow", effects::JointViscous{0.2}}}, of_joints)) {
+  for (const std::string& name : isolated({{"elbow", effects::JointViscous{0.2}}}, of_joints)) {
     INFO(name);
     CHECK_FALSE(name.starts_with("joint"));
   }

@@ -14,7 +14,7 @@ using blind_recording::hinge_rig;
 using blind_recording::nothing_hidden;
 using sim::residuals::Signal;
 
-TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
+TEST_CASE("a quantization step of 0.2 A is detected in the readings and explains the gap") {
   auto blind = nothing_hidden();
   CHECK(coarse_sensors(episodes(blind, 3, 1), hinge_rig()).empty());
   blind.hidden_effects.chains[1].current.step = 0.2;
@@ -28,7 +28,7 @@ TEST_CASE("steps coarser than the data sheet's are seen in the readings") {
   CHECK(d.answer.size() == 1);
 }
 
-TEST_CASE("a sensor with coarse steps is named beside constants that are all a little off") {
+TEST_CASE("a quantization step is identified although all constants deviate by 2 %") {
   auto blind = nothing_hidden();
   blind.hidden_effects.chains[1].tension.step = 0.83;
   blind.built = sim::blind::as_built(hinge_rig(), 0.02, 43, blind.hidden_effects);
@@ -39,36 +39,36 @@ TEST_CASE("a sensor with coarse steps is named beside constants that are all a l
   CHECK_FALSE(d.constants.empty());
 }
 
-TEST_CASE("a few readings anywhere are on no lattice, as many on one are") {
+TEST_CASE("random readings have no step; multiples of 7 have a step of 7") {
   std::mt19937_64 random(1);
   for (const unsigned count : {14, 20, 40, 200})
     for (int k = 0; k < 50; ++k) {
-      Signal anywhere, on_one;
-      for (unsigned n = 0; n < 4 * count; ++n) on_one.push_back(7.0 * double(random() % count));
-      for (unsigned n = 0; n < count; ++n) anywhere.push_back(double(random() % (30 * count)));
-      const Signal* readings[] = {&anywhere};
+      Signal scattered, on_steps;
+      for (unsigned n = 0; n < 4 * count; ++n) on_steps.push_back(7.0 * double(random() % count));
+      for (unsigned n = 0; n < count; ++n) scattered.push_back(double(random() % (30 * count)));
+      const Signal* readings[] = {&scattered};
       CHECK(quantization_step(readings, 1) < 1.8);
-      readings[0] = &on_one;
+      readings[0] = &on_steps;
       CHECK(quantization_step(readings, 1) == Approx(7).margin(0.1));
     }
 }
 
-TEST_CASE("a motion at one steady speed here and another there is on no lattice") {
-  Signal said;
+TEST_CASE("readings at several steady speeds have no step") {
+  Signal readings_of_shaft;
   double at = 0, counts_per_row = 0;
   for (int k = 0; k < 1800; ++k) {
     const double steady = k < 1000 ? 108.1 : k < 1400 ? 131.7 : 75.3;
     counts_per_row += std::clamp(steady - counts_per_row, -0.6, 0.6);
-    said.push_back(std::round(at += counts_per_row));
+    readings_of_shaft.push_back(std::round(at += counts_per_row));
   }
-  const Signal* readings[] = {&said};
+  const Signal* readings[] = {&readings_of_shaft};
   CHECK(quantization_step(readings, 1) < 1.8);
 }
 
-TEST_CASE("where nothing can be judged, readings that look coarse explain nothing") {
+TEST_CASE("a recording too short to evaluate: coarse readings do not make the verdict supported") {
   auto blind = nothing_hidden();
   blind.hidden_effects.chains[1].current.step = 0.03;
-  const auto short_ones = episodes(blind, 0.3, 1);
-  REQUIRE_FALSE(coarse_sensors(short_ones, hinge_rig()).empty());
-  CHECK(diagnose(hinge_rig(), short_ones).verdict == Verdict::not_identifiable);
+  const auto short_recordings = episodes(blind, 0.3, 1);
+  REQUIRE_FALSE(coarse_sensors(short_recordings, hinge_rig()).empty());
+  CHECK(diagnose(hinge_rig(), short_recordings).verdict == Verdict::not_identifiable);
 }

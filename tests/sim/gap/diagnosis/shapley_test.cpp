@@ -17,7 +17,7 @@ Placed placed(const char* type, const char* on, double value) {
   return p;
 }
 
-/// Seven things wrong with the rig, most of them at stages of their own.
+/// Seven effects on the rig, most of them on different stages.
 std::vector<Placed> seven() {
   return {placed("motor_resistance", "flexor", 0.3),  placed("motor_resistance", "extensor", 0.3),
           placed("gearbox_viscous", "flexor", 0.02),  placed("gearbox_viscous", "extensor", 0.02),
@@ -27,7 +27,7 @@ std::vector<Placed> seven() {
 
 }  // namespace
 
-TEST_CASE("shares of many effects add up to what they close, and are those of few") {
+TEST_CASE("Shapley values of seven effects sum to 1; those of six agree with the exact formula") {
   const erp::Robot nominal = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   erp::Robot real = nominal;
   for (const Placed& p : seven()) real.effects.push_back(sim::effects::written(p));

@@ -14,19 +14,19 @@ using blind_recording::nothing_hidden;
 
 namespace {
 
-/// Three recordings, of which those at `shows` are of a gearbox that drags.
-std::vector<Episode> dragging(const std::vector<std::size_t>& shows) {
+/// Three recordings; those at `shows` have extra friction in a gearbox.
+std::vector<Episode> with_friction(const std::vector<std::size_t>& shows) {
   auto blind = nothing_hidden();
   auto all = episodes(blind);
   blind.hidden_effects.chains[1].viscous = 0.02;
-  const auto drags = episodes(blind);
-  for (const std::size_t k : shows) all[k] = drags[k];
+  const auto friction = episodes(blind);
+  for (const std::size_t k : shows) all[k] = friction[k];
   return all;
 }
 
 }  // namespace
 
-TEST_CASE("held out is a whole recording, the one farthest off") {
+TEST_CASE("the recording with signals outside the range of the others is held out") {
   auto all = episodes(nothing_hidden(), 3, 3);
   for (double& n : all[1].actuators[0].tension_N) n += 800;
   const Sets sets = split(all);
@@ -34,24 +34,24 @@ TEST_CASE("held out is a whole recording, the one farthest off") {
   CHECK(sets.train == std::vector<std::size_t>{0, 2});
 }
 
-TEST_CASE("of two recordings that show the gap, one teaches and one judges") {
-  for (const std::size_t silent : {0u, 1u, 2u}) {
+TEST_CASE("two recordings show the gap: one is used for training, one is held out") {
+  for (const std::size_t without_gap : {0u, 1u, 2u}) {
     std::vector<std::size_t> shows{0, 1, 2};
-    shows.erase(shows.begin() + std::ptrdiff_t(silent));
-    const Evaluator plain(hinge_rig(), dragging(shows));
+    shows.erase(shows.begin() + std::ptrdiff_t(without_gap));
+    const Evaluator plain(hinge_rig(), with_friction(shows));
     Sets given;
-    given.held_out = {silent};
+    given.held_out = {without_gap};
     given.train = shows;
     const Sets sets = hold_out_visible(given, plain, {});
     REQUIRE(sets.held_out.size() == 1);
-    CHECK(sets.held_out[0] != silent);
+    CHECK(sets.held_out[0] != without_gap);
     CHECK(sets.train.size() == 2);
     CHECK(cuts(sets, plain, {}).empty());
   }
 }
 
-TEST_CASE("a recording cut in two has each of its windows once") {
-  auto all = dragging({0, 1, 2});
+TEST_CASE("the parts of a split recording contain each of its windows once") {
+  auto all = with_friction({0, 1, 2});
   Sets sets{{0, 1}, {2}};
   const std::size_t whole = Evaluator(hinge_rig(), all).bare().of_episode[0].rows.size();
   const std::size_t row = all[0].rows / 3;
@@ -67,7 +67,8 @@ TEST_CASE("a recording cut in two has each of its windows once") {
 }
 
 TEST_CASE(
-    "a stop that one recording meets: that teaches by its first part and judges by the rest") {
+    "an early stop in one recording: the recording is split and the stop identified within 0.02 "
+    "rad") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 20);
   blind.hidden_effects.joints[0].min_in_rad = 0.6;
@@ -77,7 +78,7 @@ TEST_CASE(
   REQUIRE(d.answer.size() == 1);
   CHECK(d.answer[0].type == "joint_early_stop");
   CHECK(d.answer[0].values[0] == Approx(0.6).margin(0.02));
-  CHECK(d.answer[0].values[1] == 0);  // nothing was met on the other side
+  CHECK(d.answer[0].values[1] == 0);  // the other stop was not reached
   CHECK(std::ranges::count(d.train, "recording 1") == 1);
   CHECK(std::ranges::count(d.held_out, "recording 1") == 1);
   CHECK(d.recordings.size() == 3);
@@ -89,14 +90,15 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a stop that the recording held out alone meets is found beside constants that are a little "
-    "off") {
+    "an early stop in the held-out recording alone is identified although constants deviate by 2 "
+    "to "
+    "4 %") {
   auto blind = nothing_hidden();
   auto all = episodes(blind, 20);
   const std::size_t met = split(all).held_out[0];
   blind.hidden_effects.joints[0].min_in_rad = 0.6;
   all[met] = episodes(blind, 20)[met];
-  erp::Robot described = hinge_rig();  // of which the recordings' robot differs
+  erp::Robot described = hinge_rig();  // differs from the robot of the recordings
   described.motor_types[0].resistance_ohm *= 1.03;
   for (erp::Body& body : described.skeletons[0].bodies) body.mass_kg *= 1.04;
   for (const std::size_t a : {0, 1}) {
@@ -116,7 +118,7 @@ TEST_CASE(
   CHECK(std::ranges::count(d.held_out, name) == 1);
 }
 
-TEST_CASE("what a sensor smoothed comes back with its noise, which is no gap") {
+TEST_CASE("a low-pass of a joint sensor is identified; the amplified noise is no gap") {
   auto blind = nothing_hidden();
   blind.hidden_effects.joints[0].angle.lag_s = 0.025;
   const Diagnosis d = diagnose(hinge_rig(), episodes(blind, 10));

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "interfaces/xml/errors.hpp"
-#include "sim/model/effects/library.hpp"
 #include "sim/gap/estimation/far_off.hpp"
 #include "sim/gap/residuals/stages.hpp"
+#include "sim/model/effects/library.hpp"
 #include "tests/sim/gap/diagnosis/blind_recording.hpp"
 
 using namespace sim::estimation;
@@ -27,7 +27,7 @@ erp::Tolerance absolute(const char* of, double by) {
   return given;
 }
 
-/// In the number's unit; none if it is no constant.
+/// The tolerance in the number's unit; empty if it is no constant.
 std::optional<double> tolerance_of(const erp::Robot& robot, const char* on, const char* name) {
   for (const Constant& c : constants_of(robot))
     if (c.on == on && c.name == name) return c.tolerance;
@@ -45,7 +45,7 @@ std::string message_of(const erp::Tolerance& given) {
   return "";
 }
 
-/// Σ over stages of |r' − r|²/|r|², windows that both judge.
+/// Σ over stages of |r' − r|²/|r|², in windows that both judge.
 double difference(const sim::residuals::Explanation& a, const sim::residuals::Explanation& b) {
   double sum = 0;
   for (std::size_t s = 0; s < a.residuals.size(); ++s) {
@@ -62,7 +62,7 @@ double difference(const sim::residuals::Explanation& a, const sim::residuals::Ex
 
 }  // namespace
 
-TEST_CASE("a constant that is off is the effect of the library that stands for it") {
+TEST_CASE("a change of a constant gives the residuals of the effect that represents it") {
   const erp::Robot robot = hinge_rig();
   const auto episode = blind_recording::episodes(blind_recording::nothing_hidden(), 6, 1)[0];
   const auto explain = [&](const erp::Robot& r) {
@@ -79,14 +79,14 @@ TEST_CASE("a constant that is off is the effect of the library that stands for i
     with_effect.effects.push_back(sim::effects::written(as_effect(c, {k, x[k], 0}).effect));
     const auto by_constant = explain(with_constants(robot, constants, x));
     const double change = difference(nominal, by_constant);
-    // A rotor's friction passes through the efficiency of the gearbox, that of the effect does not.
+    // The efficiency of the gearbox acts on a rotor's friction, but not on that of the effect.
     const bool before_gearbox =
         c.name == "rotor_coulomb_Nm" || c.name == "rotor_viscous_Nm_s_per_rad";
     CHECK(difference(by_constant, explain(with_effect)) < (before_gearbox ? 0.15 : 1e-6) * change);
   }
 }
 
-TEST_CASE("a tolerance of robot.xml replaces the default, of one part or of all") {
+TEST_CASE("a tolerance of robot.xml replaces the default for one part or for all") {
   erp::Robot robot = hinge_rig();
   robot.tolerances = {relative("resistance_ohm", "", 0.1),
                       relative("resistance_ohm", "flexor", 0.2), absolute("line_zero_m", 0.002)};
@@ -97,21 +97,22 @@ TEST_CASE("a tolerance of robot.xml replaces the default, of one part or of all"
         tolerance_of(hinge_rig(), "flexor", "radius_m"));
 }
 
-TEST_CASE("a number whose tolerance is 0 is not estimated") {
+TEST_CASE("a number with tolerance 0 is not estimated") {
   erp::Robot robot = hinge_rig();
   robot.tolerances = {relative("mass", "forearm", 0)};
   CHECK_FALSE(tolerance_of(robot, "forearm", "mass"));
   CHECK(tolerance_of(hinge_rig(), "forearm", "mass"));
 }
 
-TEST_CASE("a tolerance of a number that is not estimated is refused, with the numbers there are") {
+TEST_CASE("a tolerance of an unknown number is rejected with the nearest name") {
   CHECK(message_of(relative("resistance", "", 0.1)).find("did you mean \"resistance_ohm\"?") !=
         std::string::npos);
   CHECK(message_of(relative("resistance_ohm", "elbow", 0.1)).find("of elbow") != std::string::npos);
-  CHECK(message_of(relative("line_zero_m", "", 0.1)).find("give absolute") != std::string::npos);
+  CHECK(message_of(relative("line_zero_m", "", 0.1)).find("set absolute instead") !=
+        std::string::npos);
 }
 
-TEST_CASE("a motor's torque and back-EMF constant move together") {
+TEST_CASE("a torque constant 4 % larger sets a back-EMF constant 4 % larger") {
   const erp::Robot robot = hinge_rig();
   const auto all = constants_of(robot);
   std::vector<double> x(all.size());
@@ -126,7 +127,7 @@ TEST_CASE("a motor's torque and back-EMF constant move together") {
                              [](const Constant& c) { return c.name == "back_emf_V_s_per_rad"; }));
 }
 
-TEST_CASE("a constant stays within what the effect that stands for it can hold") {
+TEST_CASE("the value of a constant stays within the bounds of its effect") {
   const erp::Robot robot = hinge_rig();
   const auto all = constants_of(robot);
   for (const double x : {-1e4, 1e4})
@@ -135,7 +136,7 @@ TEST_CASE("a constant stays within what the effect that stands for it can hold")
 }
 
 TEST_CASE(
-    "steps in a stiffness add to what it gives, and stay positive; steps in other numbers add") {
+    "steps of a stiffness add to its reciprocal and keep it positive; steps of other numbers add") {
   for (const Constant& c : constants_of(hinge_rig())) {
     if (c.on != "flexor") continue;
     if (c.name == "stiffness_N_per_m") {

@@ -13,8 +13,8 @@ using blind_recording::hinge_rig;
 
 namespace {
 
-/// Recordings, laid out for the nominal rig, of a rig with other numbers and what is hidden in it; recorded by
-/// the blind cases' own physics.
+/// Recordings of a rig with other constants and hidden effects, simulated with the equations of the blind cases and
+/// arranged for the nominal rig.
 std::vector<sim::residuals::Episode> recordings_of(
     const erp::Robot& built, double seconds = 10,
     const sim::blind::Case& hidden = blind_recording::nothing_hidden()) {
@@ -49,7 +49,7 @@ void check_within(const AsBuilt& built, const std::string& on, const std::string
   CHECK(std::abs(value_of(built, on, name) - truth) < half);
 }
 
-/// Of all motors: torque and back-EMF constant.
+/// Scales torque and back-EMF constant of all motors.
 void change_magnet(erp::Robot& robot, double factor) {
   erp::MotorType& motor = robot.motor_types[0];
   motor.torque_Nm_per_A *= factor, motor.back_emf_V_s_per_rad *= factor;
@@ -57,7 +57,8 @@ void change_magnet(erp::Robot& robot, double factor) {
 
 }  // namespace
 
-TEST_CASE("constants that are 3 to 7 % off are found together, and leave each stage at its noise") {
+TEST_CASE(
+    "constants 3 to 6 % off are estimated within their intervals and leave noise at each stage") {
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.06;
   built.motor_types[0].rotor_inertia_kg_m2 *= 1.05;
@@ -69,7 +70,7 @@ TEST_CASE("constants that are 3 to 7 % off are found together, and leave each st
     check_within(found, on, "resistance_ohm", 1.06 * 0.516);
     check_within(found, on, "rotor_inertia_kg_m2", 1.05 * 14.5e-7);
     check_within(found, on, "torque_Nm_per_A", 11.5e-3);
-    // A larger spindle under a larger moment arm, with a softer spring, looks nearly the same.
+    // A larger spindle with a larger moment arm and a softer spring gives nearly the same residuals.
     CHECK(value_of(found, on, "radius_m") / value_of(found, on, "moment_arm") ==
           Approx(1.03 * 0.0045).epsilon(0.005));
   }
@@ -78,7 +79,7 @@ TEST_CASE("constants that are 3 to 7 % off are found together, and leave each st
   CHECK(found.beyond.empty());
 }
 
-TEST_CASE("the robot of a calibration holds the numbers that were found") {
+TEST_CASE("the robot of a calibration has the estimated stiffness, 30 % above the nominal one") {
   erp::Robot built = hinge_rig();
   for (erp::Actuator& a : built.actuators) a.tendon.stiffness_N_per_m *= 1.3;
   const auto recordings = recordings_of(built);
@@ -90,19 +91,18 @@ TEST_CASE("the robot of a calibration holds the numbers that were found") {
   CHECK(found.robot.actuators[0].tendon.stiffness_N_per_m == Approx(7800).epsilon(0.03));
 }
 
-TEST_CASE(
-    "what recordings say only of several constants together is left as open as their tolerances") {
+TEST_CASE("a constant that recordings determine only jointly with others keeps its tolerance") {
   const auto recordings = recordings_of(hinge_rig());
   const AsBuilt found = calibrated(hinge_rig(), recordings);
   for (const char* on : {"flexor", "extensor"}) {
-    // All torques, forces and masses 1 % larger: the same motion.
+    // With all torques, forces and masses 1 % larger the motion is the same.
     const std::size_t k = index_of(found, on, "current_gain");
     CHECK(found.estimate.sigma(k) > 0.3);
     CHECK(std::abs(found.estimate.point.x[k]) < 1);
   }
 }
 
-TEST_CASE("a gearbox's friction of many times its nominal one is that constant, far off") {
+TEST_CASE("a viscous friction 100 times its nominal value is identified as that constant") {
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.02, built.actuators[0].spindle.radius_m *= 0.99;
   auto blind = blind_recording::nothing_hidden();
@@ -116,7 +116,7 @@ TEST_CASE("a gearbox's friction of many times its nominal one is that constant, 
   check_within(found, "flexor", "gear_viscous_Nm_s_per_rad", 0.0505);
 }
 
-TEST_CASE("a forearm far too light is found, its centre of mass nearer instead is an alternative") {
+TEST_CASE("a forearm 40 % too light is identified, a nearer centre of mass is the alternative") {
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.02, change_magnet(built, 0.99);
   built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
@@ -132,7 +132,7 @@ TEST_CASE("a forearm far too light is found, its centre of mass nearer instead i
   CHECK(sim::effects::name_of(found.instead[0][0].effect) == "skeleton_com on forearm");
 }
 
-TEST_CASE("an effect is found beside constants that are all a little off") {
+TEST_CASE("tendon creep is identified with constants 2 to 3 % off") {
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.03, change_magnet(built, 0.98);
   built.actuators[0].spindle.radius_m *= 1.02, built.actuators[1].tendon.stiffness_N_per_m *= 0.97;
@@ -146,7 +146,7 @@ TEST_CASE("an effect is found beside constants that are all a little off") {
   CHECK(sim::effects::name_of(found.estimate.point.effects[0]) == "tendon_creep on extensor");
 }
 
-TEST_CASE("a joint sensor's gain is found though both moment arms could nearly stand for it") {
+TEST_CASE("a joint sensor's gain is identified although both moment arms could nearly replace it") {
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.02, change_magnet(built, 0.99);
   built.actuators[0].spindle.radius_m *= 0.99, built.actuators[1].tendon.stiffness_N_per_m *= 1.05;
@@ -160,8 +160,7 @@ TEST_CASE("a joint sensor's gain is found though both moment arms could nearly s
   CHECK(found.beyond.empty());
 }
 
-TEST_CASE(
-    "a joint's play, a sensor's lag and a line that gives are found beside constants 2 % off") {
+TEST_CASE("joint play, a sensor's lag and a compliant line are identified with constants 2 % off") {
   struct Hidden {
     const char* name;
     std::function<void(sim::blind::HiddenEffects&)> hide;
@@ -184,7 +183,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a robot as described but for one effect is explained by that effect alone") {
+TEST_CASE("tendon stiffness on a robot otherwise as described is identified alone") {
   auto blind = blind_recording::nothing_hidden();
   blind.hidden_effects.chains[0].spring = 0.2;  // flexor
   const auto recordings = recordings_of(hinge_rig(), 10, blind);
@@ -207,8 +206,7 @@ TEST_CASE("a constant of a withheld type is not estimated") {
   CHECK(found.estimate.point.effects.empty());
 }
 
-TEST_CASE(
-    "an estimate that goes on where another ended, with other steps, ends at the same numbers") {
+TEST_CASE("an estimate that continues another one converges to the same numbers") {
   erp::Robot built = hinge_rig();
   built.motor_types[0].resistance_ohm *= 1.06;
   for (erp::Actuator& a : built.actuators) a.tendon.stiffness_N_per_m *= 0.95;
@@ -227,7 +225,7 @@ TEST_CASE(
     CHECK(ended.point.x[k] == Approx(whole.point.x[k]).margin(0.3));
 }
 
-TEST_CASE("effects that change none of the stages that keep more than noise are not tried") {
+TEST_CASE("with only the flexor motor open, the screen returns only effects that change it") {
   using sim::effects::Stage;
   const auto recordings = recordings_of(hinge_rig(), 5);
   const erp::Robot nominal = hinge_rig();
@@ -252,7 +250,7 @@ TEST_CASE("effects that change none of the stages that keep more than noise are 
   }
 }
 
-TEST_CASE("the first third of recordings shows how much a robot raises each noise floor") {
+TEST_CASE("the noise floors of the first third of recordings rise like those of the whole ones") {
   const erp::Robot nominal = hinge_rig();
   erp::Robot other = nominal;
   other.motor_types[0].resistance_ohm *= 3;

@@ -7,7 +7,7 @@ using namespace sim::estimation;
 
 namespace {
 
-/// Two factors of a robot without a name, nominal 1, tolerance 0.02, no less than 0.05.
+/// Two constants with nominal value 1, tolerance 0.02 and lower bound 0.05.
 Uncertain two_factors() {
   Uncertain u;
   for (const char* type : {"routing_moment_arm", "spindle_radius"}) {
@@ -19,14 +19,14 @@ Uncertain two_factors() {
   return u;
 }
 
-/// The same, four.
+/// Four such constants.
 Uncertain four_factors() {
   Uncertain u = two_factors();
   u.constants.insert(u.constants.end(), u.constants.begin(), u.constants.begin() + 2);
   return u;
 }
 
-/// A row: what is measured of x, with a deviation of 1.
+/// A measurement of x with standard deviation 1.
 struct Row {
   double of_first, of_second, measured;
 };
@@ -50,7 +50,7 @@ TEST_CASE(
     "a ratio of two constants 6 tolerances off is reported as one of them, the other as "
     "alternative") {
   const FarOff found = far_off(two_factors(), at_nominal({{20, -20, 20 * 6}}));
-  REQUIRE(found.all.size() == 1);  // not three tolerances of each
+  REQUIRE(found.all.size() == 1);  // not both by three tolerances
   CHECK(std::abs(found.all[0].x) == Approx(6).epsilon(0.1));
   REQUIRE(found.instead[0].size() == 1);
   CHECK(found.instead[0][0].constant == 1 - found.all[0].constant);
@@ -72,7 +72,7 @@ TEST_CASE(
   CHECK(far_off(two_factors(), at_nominal({{20, 0, 20 * -40}})).all.size() == 1);
 }
 
-TEST_CASE("a constant goes again where those that joined after it explain the same") {
+TEST_CASE("a constant is removed if those added after it explain the same") {
   Eigen::Matrix4d rows;
   rows << -2, 1, 1, 2, -2, 2, 2, 0, 1, 0, 2, 1, 0, -1, -1, 2;
   rows *= 20;
@@ -85,8 +85,7 @@ TEST_CASE("a constant goes again where those that joined after it explain the sa
   for (const Deviation& d : found.all) CHECK(d.constant < 2);
 }
 
-TEST_CASE(
-    "a constant is worth its place among those far off from 1.9 tolerances on, a zero from 4.4") {
+TEST_CASE("a constant may be far off from 1.9 tolerances on, a zero from 4.4") {
   Constant c{};
   CHECK_FALSE(is_worth_far(c, -1.8));
   CHECK(is_worth_far(c, -1.95));

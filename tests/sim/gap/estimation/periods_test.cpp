@@ -23,7 +23,7 @@ std::vector<double> found(const sim::blind::Case& hidden, const char* type) {
 
 }  // namespace
 
-TEST_CASE("the periods of a friction that depends on position are those of its residual") {
+TEST_CASE("the periods of a position-dependent friction are found from the residual") {
   sim::blind::Case hidden = blind_recording::nothing_hidden();
   auto& chain = hidden.hidden_effects.chains[0];
   chain.dry_Nm = 0.06, chain.turn_sine_Nm = 0.04, chain.turn_periods = 5;
@@ -32,14 +32,14 @@ TEST_CASE("the periods of a friction that depends on position are those of its r
   CHECK(std::ranges::count(periods, 5) == 1);
 }
 
-TEST_CASE("the periods of a cogging are those of its residual") {
+TEST_CASE("the periods of a cogging are found from the residual") {
   sim::blind::Case hidden = blind_recording::nothing_hidden();
-  hidden.hidden_effects.chains[0].cog_sine_Nm = 2e-3;  // 12 of the motor's shaft
+  hidden.hidden_effects.chains[0].cog_sine_Nm = 2e-3;  // 12 per turn of the motor shaft
   const auto periods = found(hidden, "motor_cogging");
   REQUIRE(periods.size() == 3);
   CHECK(periods[0] == 12);
 }
 
-TEST_CASE("an effect that counts no periods has none") {
+TEST_CASE("an effect without periods gives an empty list") {
   CHECK(found(blind_recording::nothing_hidden(), "gearbox_stribeck").empty());
 }

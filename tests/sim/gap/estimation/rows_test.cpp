@@ -30,9 +30,9 @@ TEST_CASE("a recording whose voltage holds until its row has no lag") {
   CHECK(row_timing(recordings()).rows == 0);
 }
 
-TEST_CASE("a voltage that holds from its row is found, and moved with mode and reference") {
+TEST_CASE("a voltage that holds from its row is detected, and shifted with mode and reference") {
   auto all = recordings();
-  const auto as_it_was = all;
+  const auto original = all;
   for (Episode& e : all)
     for (auto& s : e.actuators)
       make_early(s.voltage_V, 1), make_early(s.reference, 1), make_early(s.mode, 1);
@@ -41,12 +41,12 @@ TEST_CASE("a voltage that holds from its row is found, and moved with mode and r
   std::vector<std::string> remarks;
   undo(timing, all, remarks);
   CHECK(remarks.size() == 1);
-  CHECK(all[0].actuators[0].voltage_V[100] == as_it_was[0].actuators[0].voltage_V[100]);
-  CHECK(all[0].actuators[0].reference[100] == as_it_was[0].actuators[0].reference[100]);
+  CHECK(all[0].actuators[0].voltage_V[100] == original[0].actuators[0].voltage_V[100]);
+  CHECK(all[0].actuators[0].reference[100] == original[0].actuators[0].reference[100]);
   CHECK(all[0].voltage_late_s == 0);
 }
 
-TEST_CASE("a voltage that acts 8 ms late is a delay of 8 ms") {
+TEST_CASE("a voltage shifted by four rows is detected as a delay of 8 ms") {
   auto all = recordings();
   for (Episode& e : all)
     for (auto& s : e.actuators) make_early(s.voltage_V, 4);
@@ -57,19 +57,19 @@ TEST_CASE("a voltage that acts 8 ms late is a delay of 8 ms") {
   CHECK(all[0].voltage_late_s == Approx(0.008));
 }
 
-TEST_CASE("a driver of one motor that is late is no lag of rows") {
+TEST_CASE("a driver delay of 1.3 ms at one motor is no lag of rows") {
   sim::blind::Case late = blind_recording::nothing_hidden();
   late.hidden_effects.chains[0].driver_late_s = 0.0013;
   CHECK(row_timing(blind_recording::episodes(late, 5, 2)).rows == 0);
 }
 
-TEST_CASE("one actuator that lags alone is no lag of rows") {
+TEST_CASE("a lag of three rows at one actuator is no lag of rows") {
   auto all = recordings();
   for (Episode& e : all) make_early(e.actuators[0].voltage_V, 3);
   CHECK(row_timing(all).rows == 0);
 }
 
-TEST_CASE("rows at which a driver holds its current limit are left out, and others stay") {
+TEST_CASE("voltage and current at a current limit become NaN, tension does not") {
   auto all = recordings();
   auto& s = all[0].actuators[0];
   for (std::size_t k = 1000; k < 1050; ++k) s.current_A[k] = 3.99, s.voltage_V[k] = 11.5;
@@ -83,7 +83,7 @@ TEST_CASE("rows at which a driver holds its current limit are left out, and othe
   CHECK_FALSE(std::isnan(s.tension_N[1020]));
 }
 
-TEST_CASE("a voltage above the supply is the supply's, a reading at the end of its range none") {
+TEST_CASE("a voltage above the supply is clipped, a tension at the end of its range becomes NaN") {
   auto all = recordings();
   auto& s = all[0].actuators[1];
   s.voltage_V[500] = -20, s.tension_N[600] = 250;
@@ -96,7 +96,7 @@ TEST_CASE("a voltage above the supply is the supply's, a reading at the end of i
 
 namespace {
 
-/// Every `each`-th row and those after it are the row before.
+/// Repeats the previous row in `burst` rows from every `each`-th row on.
 void lose_reports(Episode& e, std::size_t each, std::size_t burst) {
   const auto repeat = [&](Signal& signal) {
     for (std::size_t k = each; k < signal.size(); ++k)
@@ -107,7 +107,7 @@ void lose_reports(Episode& e, std::size_t each, std::size_t burst) {
   for (auto& j : e.joints) repeat(j.angle_rad);
 }
 
-/// Samples every row up to `most_s` after its stamp.
+/// Samples every row up to `most_s` after its time stamp.
 void sample_late(Episode& e, double most_s) {
   std::vector<double> late_s(e.rows);
   std::uint32_t state = 1;
@@ -116,9 +116,9 @@ void sample_late(Episode& e, double most_s) {
     t = most_s * double(state >> 8) / double(1 << 24);
   }
   const auto sample = [&](Signal& signal) {
-    const Signal was = signal;
-    for (std::size_t k = 0; k + 1 < was.size(); ++k)
-      signal[k] += (was[k + 1] - was[k]) * late_s[k] / e.period_s;
+    const Signal exact = signal;
+    for (std::size_t k = 0; k + 1 < exact.size(); ++k)
+      signal[k] += (exact[k + 1] - exact[k]) * late_s[k] / e.period_s;
   };
   for (auto& s : e.actuators) sample(s.current_A), sample(s.shaft_rad), sample(s.tension_N);
   for (auto& j : e.joints) sample(j.angle_rad);
@@ -126,16 +126,17 @@ void sample_late(Episode& e, double most_s) {
 
 }  // namespace
 
-TEST_CASE("a sound recording has neither repeated rows nor jitter, nor has a robot at rest") {
+TEST_CASE(
+    "an intact recording has no repeated rows and no jitter, a robot at rest no repeated rows") {
   auto all = recordings();
   CHECK(repeated_rows(all).share == 0);
   CHECK(row_jitter_s(all) == 0);
   Episode still = all[0];
-  lose_reports(still, 1, 1);  // every row as the first
+  lose_reports(still, 1, 1);  // every row equals the first
   CHECK(repeated_rows(std::span(&still, 1)).share == 0);
 }
 
-TEST_CASE("reports that repeat the last one are lost ones: filled in or forgotten, and reported") {
+TEST_CASE("four lost reports of forty are reported; angles are interpolated, voltages become NaN") {
   auto all = recordings();
   const auto truth = all;
   for (Episode& e : all) lose_reports(e, 40, 4);
@@ -146,14 +147,14 @@ TEST_CASE("reports that repeat the last one are lost ones: filled in or forgotte
   CHECK(remarks[0].find("reports were lost") != std::string::npos);
   CHECK(all[0].repeated_share == Approx(0.1).epsilon(0.1));
   const std::size_t lost = 1001;  // 1000 … 1003
-  const auto &is = all[0].actuators[0], &was = truth[0].actuators[0];
-  CHECK(std::isnan(is.voltage_V[lost]));
-  CHECK(std::isnan(is.current_A[lost]));
-  CHECK(is.shaft_rad[lost] == Approx(was.shaft_rad[lost]).margin(0.02));
-  CHECK(is.shaft_rad[lost] != is.shaft_rad[lost - 1]);
+  const auto &repaired = all[0].actuators[0], &exact = truth[0].actuators[0];
+  CHECK(std::isnan(repaired.voltage_V[lost]));
+  CHECK(std::isnan(repaired.current_A[lost]));
+  CHECK(repaired.shaft_rad[lost] == Approx(exact.shaft_rad[lost]).margin(0.02));
+  CHECK(repaired.shaft_rad[lost] != repaired.shaft_rad[lost - 1]);
 }
 
-TEST_CASE("rows taken up to 1.5 ms late by all sensors are jitter, of one sensor noise") {
+TEST_CASE("rows sampled up to 1.5 ms late are jitter in all sensors, noise in one") {
   auto all = recordings();
   for (Episode& e : all) sample_late(e, 0.0015);
   CHECK(row_jitter_s(all) == Approx(0.0015).epsilon(0.15));

@@ -17,7 +17,7 @@ sim::effects::Placed on_flexor(const char* type) {
 
 }  // namespace
 
-TEST_CASE("an effect whose estimate may be neutral is dropped where the others explain") {
+TEST_CASE("an effect whose interval contains its neutral value is dropped if the others explain") {
   auto blind = blind_recording::nothing_hidden();
   blind.hidden_effects.chains[0].viscous = 0.02;  // flexor
   const auto recordings = blind_recording::episodes(blind, 8);
@@ -34,7 +34,7 @@ TEST_CASE("an effect whose estimate may be neutral is dropped where the others e
   REQUIRE(one.train.point.effects.size() == 1);
   CHECK(sim::effects::name_of(one.train.point.effects[0]) == "gearbox_viscous on flexor");
 
-  // Of a wrong effect alone a stage keeps more than noise: it is not for this function to drop it.
+  // A wrong effect alone leaves a stage with more than noise, so this function does not drop it.
   const Found wrong = search.with({on_flexor("gearbox_asymmetric")});
   CHECK(search.without_doubtful(wrong).train.point.effects.size() == 1);
 }

@@ -12,7 +12,7 @@ namespace {
 
 Placed neutral(const char* type) { return {"flexor", *sim::effects::neutral(type)}; }
 
-/// z of so many rows that changes by `slopes`, one a size of the effect.
+/// z as a linear function of the effect's sizes with these slopes.
 ChangedBy linear(std::vector<double> slopes) {
   return [slopes](const Placed& placed) {
     sim::effects::AnyEffect effect = placed.effect;
@@ -27,7 +27,7 @@ ChangedBy linear(std::vector<double> slopes) {
 
 }  // namespace
 
-TEST_CASE("a cogging is looked at with the periods that its residual has, else with its own") {
+TEST_CASE("a cogging is tried with the periods of its residual, without them with its own") {
   const auto shapes = shaped(neutral("motor_cogging"), {7, 31});
   REQUIRE(shapes.size() == 2);
   CHECK(std::get<sim::effects::MotorCogging>(shapes[1].effect).periods_per_turn == 31);
@@ -35,20 +35,20 @@ TEST_CASE("a cogging is looked at with the periods that its residual has, else w
   CHECK(shaped(neutral("motor_cogging"), {}).size() == 1);
 }
 
-TEST_CASE("a law with a speed is looked at with each of a grid") {
-  CHECK(shaped(neutral("gearbox_stribeck"), {}).size() == 8);  // and its own
+TEST_CASE("a law with a speed is tried with seven values and its own") {
+  CHECK(shaped(neutral("gearbox_stribeck"), {}).size() == 8);  // 7 grid values and its own
 }
 
-TEST_CASE("an effect without a shape is looked at as it is") {
+TEST_CASE("an effect without a shape parameter is tried once") {
   CHECK(shaped(neutral("tendon_stiffness"), {}).size() == 1);
 }
 
-TEST_CASE("a size is nudged until z changes by a small part of its noise, however steep") {
+TEST_CASE("the perturbation of a size changes z by a small part of its noise for any slope") {
   for (const double slope : {0.3, 30.0, 3000.0}) {
     const Placed shape = neutral("gearbox_coulomb");
     const auto sizes = sizes_of(shape);
     auto by = first_perturbations(shape, sizes);
-    const Directions all = sensitivities(shape, sizes, by, linear({slope}));
+    const Sensitivities all = sensitivities(shape, sizes, by, linear({slope}));
     const double rms = all.d.col(0).norm() / 2;
     CHECK(rms > 0.0007);
     CHECK(rms < 0.0121);
@@ -56,30 +56,30 @@ TEST_CASE("a size is nudged until z changes by a small part of its noise, howeve
   }
 }
 
-TEST_CASE("a second size of the same kind is nudged by itself where the first shows nothing") {
+TEST_CASE("a second size of the same kind is perturbed although the first changes nothing") {
   const Placed shape = neutral("routing_capstan");  // around the path's bends, and around a post
   const auto sizes = sizes_of(shape);
   auto by = first_perturbations(shape, sizes);
   const auto tried = by[0];
-  const Directions all = sensitivities(shape, sizes, by, linear({0, 50}));
+  const Sensitivities all = sensitivities(shape, sizes, by, linear({0, 50}));
   CHECK(by[0] == tried);
   CHECK(all.d.col(0).norm() == 0);
   CHECK(all.d(1, 1) == Approx(50 * all.perturbation[1]));
   CHECK(all.d.col(1).norm() / 2 > 0.0007);
 }
 
-TEST_CASE("what larger sizes change is tried of laws with one size from 0 on") {
+TEST_CASE("secants exist only for nonlinear laws with one size from 0 on") {
   const auto count = [](const char* type) {
     const Placed shape = neutral(type);
     return secants(shape, sizes_of(shape), linear({1, 1})).size();
   };
   CHECK(count("tendon_kite_line") == 2);
-  CHECK(count("tendon_stiffness") == 0);  // either way
+  CHECK(count("tendon_stiffness") == 0);  // both signs
   CHECK(count("skeleton_link_flexibility") == 0);
   CHECK(count("tendon_creep") == 0);  // shaped by its time constant, linear in its stiffness
 }
 
-TEST_CASE("a window that jumps is left out of what a tiny step changes") {
+TEST_CASE("a window that jumps does not count in the change by a tiny step") {
   Eigen::VectorXd before = Eigen::VectorXd::Zero(1000), after = before;
   for (Eigen::Index k = 0; k < 1000; ++k)
     before[k] = std::sin(0.1 * double(k)), after[k] = before[k] + 1e-3 * std::cos(double(k));

@@ -8,7 +8,7 @@
 
 using namespace sim::estimation;
 
-TEST_CASE("a simulated robot calibrates to the constants that it was simulated with") {
+TEST_CASE("calibration of a simulated robot gives the constants of the simulation") {
   const erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   std::vector<sim::residuals::Episode> recordings;
   for (const std::uint64_t seed : {1, 2})

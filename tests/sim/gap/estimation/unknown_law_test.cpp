@@ -7,7 +7,7 @@ using namespace sim::estimation;
 
 namespace {
 
-/// The rig as described, but for what is hidden, as one finds it without effects of some types.
+/// The answer for a rig with hidden effects, without the withheld types.
 AsBuilt found_of(const sim::blind::Case& hidden, const std::vector<std::string>& withhold = {}) {
   const auto recordings = blind_recording::episodes(hidden, 10);
   const std::span<const sim::residuals::Episode> each(recordings);
@@ -19,8 +19,7 @@ AsBuilt found_of(const sim::blind::Case& hidden, const std::vector<std::string>&
 }  // namespace
 
 TEST_CASE(
-    "a stiffness that may not be named is an unknown law, not three constants that make up for "
-    "it") {
+    "a stiffness whose effect is withheld is an unknown law, not three constants that replace it") {
   auto blind = blind_recording::nothing_hidden();
   blind.hidden_effects.chains[1].spring = 0.3;  // extensor
   const AsBuilt found = found_of(blind, {"tendon_stiffness", "tendon_creep"});
@@ -28,7 +27,7 @@ TEST_CASE(
   CHECK(found.beyond.empty());
 }
 
-TEST_CASE("two causes at one place are named, and are no unknown law") {
+TEST_CASE("two causes at one place are identified, not as an unknown law") {
   auto blind = blind_recording::nothing_hidden();
   blind.hidden_effects.chains[1].rotor = 0.66;  // extensor
   blind.hidden_effects.chains[1].turn_sine_Nm = 0.049,

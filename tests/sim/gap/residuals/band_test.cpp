@@ -14,7 +14,7 @@ constexpr int draws = 200000;
 
 double beyond(double value, double band) { return std::max(0.0, std::abs(value) - band); }
 
-/// What lies beyond a band, of values anywhere in it and noise N(0, 1).
+/// Samples of a uniform value in a band plus noise N(0, 1).
 std::vector<double> drawn(double band) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> within(-band, band);
@@ -26,22 +26,23 @@ std::vector<double> drawn(double band) {
 
 }  // namespace
 
-TEST_CASE("the noise beyond a band is that of many draws") {
+TEST_CASE("the formula of the noise beyond a band agrees with 200000 samples") {
   for (const double band : {0.01, 0.3, 1.0, 4.0}) {
     double square = 0;
     for (const double value : drawn(band)) square += std::pow(beyond(value, band), 2);
-    CHECK(left_of_noise(band) == Approx(square / draws).epsilon(0.03));
+    CHECK(noise_beyond(band) == Approx(square / draws).epsilon(0.03));
   }
-  CHECK(left_of_noise(0) == 1);
-  CHECK(left_of_noise(std::numeric_limits<double>::infinity()) == 0);
+  CHECK(noise_beyond(0) == 1);
+  CHECK(noise_beyond(std::numeric_limits<double>::infinity()) == 0);
 }
 
-TEST_CASE("a wider band than there is gains nothing") {
+TEST_CASE("a wider band than the true one does not lower the normalized residual") {
   const auto mean_square = [](const std::vector<double>& values, double band) {
     double square = 0;
     for (const double value : values) {
-      const Residual r{sim::effects::Stage::joint, "", "Nm", {2 * beyond(value, band)}, 0, {2 * band}};
-      square += std::pow(in_noise(r, 0, 2), 2);
+      const Residual r{sim::effects::Stage::joint, "", "Nm",
+                       {2 * beyond(value, band)},  0,  {2 * band}};
+      square += std::pow(normalized(r, 0, 2), 2);
     }
     return square / draws;
   };
@@ -50,11 +51,11 @@ TEST_CASE("a wider band than there is gains nothing") {
   CHECK(mean_square(noise, 0.4) == Approx(1).epsilon(0.03));
   double hidden_free = 0;
   for (const double value : noise) hidden_free += std::pow(beyond(value, 0.4), 2) / draws;
-  CHECK(hidden_free < 0.7);  // what a band would gain if the noise in it were not counted
+  CHECK(hidden_free < 0.7);  // if the hidden noise were not added
 }
 
-TEST_CASE("a window without a band counts as it is") {
+TEST_CASE("without a band the normalized residual is r/σ") {
   const Residual r{sim::effects::Stage::joint, "", "Nm", {-6, 0}, 0, {0, 1}};
-  CHECK(in_noise(r, 0, 2) == -3);
-  CHECK(in_noise(r, 1, 2) > 0);
+  CHECK(normalized(r, 0, 2) == -3);
+  CHECK(normalized(r, 1, 2) > 0);
 }

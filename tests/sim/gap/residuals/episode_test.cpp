@@ -24,10 +24,10 @@ erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xm
 
 }  // namespace
 
-TEST_CASE("rows that repeat are dropped, rows that are missing are left open or bridged") {
+TEST_CASE("repeated rows are dropped, two missing rows interpolated, twenty left as NaN") {
   recording::Table table = sine(1000);
   for (auto& column : table.columns) {
-    column.values.insert(column.values.begin() + 101, column.values[100]);  // one twice
+    column.values.insert(column.values.begin() + 101, column.values[100]);  // repeated row
     column.values.erase(column.values.begin() + 301, column.values.begin() + 303);
     column.values.erase(column.values.begin() + 500, column.values.begin() + 520);
   }
@@ -42,14 +42,14 @@ TEST_CASE("rows that repeat are dropped, rows that are missing are left open or 
   CHECK(episode.actuators[0].current_A.empty());
   CHECK(episode.actuators[1].shaft_rad.empty());
   REQUIRE(remarks.size() == 2);
-  CHECK(remarks[0] == "run.csv: 1 row repeats a time: dropped");
+  CHECK(remarks[0] == "run.csv: 1 row repeats a time; dropped");
   CHECK(remarks[1] == "run.csv: 22 rows are missing");
 }
 
-TEST_CASE("a time that is not in seconds is refused, with what to divide it by") {
-  for (const auto& [in_a_second, unit] : {std::pair{1e3, "milliseconds: divide by 1000"},
-                                          {1e6, "microseconds: divide by 1000000"},
-                                          {1e9, "nanoseconds: divide by 1000000000"}}) {
+TEST_CASE("a time in ms, µs or ns is rejected with the divisor to use") {
+  for (const auto& [in_a_second, unit] : {std::pair{1e3, "milliseconds, divide them by 1000"},
+                                          {1e6, "microseconds, divide them by 1000000"},
+                                          {1e9, "nanoseconds, divide them by 1000000000"}}) {
     recording::Table table = sine(100);
     for (double& time : table.columns[0].values) time *= in_a_second;
     std::vector<std::string> remarks;
@@ -58,7 +58,7 @@ TEST_CASE("a time that is not in seconds is refused, with what to divide it by")
   }
 }
 
-TEST_CASE("a quaternion changes its sign nowhere, and short gaps in it are bridged") {
+TEST_CASE("sign flips of a quaternion are removed, and its short gaps interpolated") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const auto joints = robot.joints();
   const auto ball =
@@ -84,7 +84,7 @@ TEST_CASE("a quaternion changes its sign nowhere, and short gaps in it are bridg
 }
 
 TEST_CASE(
-    "ticks of the device count where stamps come early and late; without them it is refused") {
+    "jittered times are rejected without numbered frames and replaced by the ticks with them") {
   recording::Table table = sine(1000);
   Signal ticks;
   for (std::size_t k = 0; k < 1000; ++k) {
@@ -101,10 +101,10 @@ TEST_CASE(
   CHECK(remarks.empty());
 }
 
-TEST_CASE("rows that come a little early and late lose none and repeat none") {
+TEST_CASE("a jitter of a third of a period neither drops nor repeats a row") {
   recording::Table table = sine(4000);
   for (std::size_t k = 0; k < 4000; ++k)
-    table.columns[0].values[k] += 7e-4 * std::sin(double(k * k));  // of a period, a third
+    table.columns[0].values[k] += 7e-4 * std::sin(double(k * k));  // a third of a period
   std::vector<std::string> remarks;
   const Episode episode = lay_out(table, hinge_rig(), "run.csv", remarks);
   CHECK(remarks.empty());
@@ -112,7 +112,7 @@ TEST_CASE("rows that come a little early and late lose none and repeat none") {
   CHECK(episode.actuators[0].shaft_rad == table.columns[1].values);
 }
 
-TEST_CASE("a sample far off its neighbours is dropped, a voltage that leaps is not") {
+TEST_CASE("an outlier of a shaft angle is dropped, a jump of a voltage is not") {
   recording::Table table = sine(1000);
   table.columns[1].values[400] += 3;
   std::vector<std::string> remarks;
@@ -123,7 +123,7 @@ TEST_CASE("a sample far off its neighbours is dropped, a voltage that leaps is n
   CHECK(remarks[0] == "run.csv: flexor.shaft_rad: 1 outlier dropped");
 }
 
-TEST_CASE("rows that mostly repeat a time, as rounded ones do, are refused with a word why") {
+TEST_CASE("times of which most are repeated are rejected with the reason") {
   recording::Table table = sine(1000);
   for (double& t : table.columns[0].values) t = std::round(100 * t) / 100;
   std::vector<std::string> remarks;
@@ -131,7 +131,7 @@ TEST_CASE("rows that mostly repeat a time, as rounded ones do, are refused with 
                     Catch::Contains("run.csv: time_s: most rows have the time of the row before"));
 }
 
-TEST_CASE("recordings of other machines, and cut ones, are refused with a word why") {
+TEST_CASE("columns of another robot and a gap of minutes are rejected with the reason") {
   std::vector<std::string> remarks;
   recording::Table other{
       {{"time_s", sine(100).columns[0].values}, {"knee.current_A", Signal(100)}}};
@@ -142,7 +142,7 @@ TEST_CASE("recordings of other machines, and cut ones, are refused with a word w
   CHECK_THROWS_WITH(lay_out(gap, hinge_rig(), "x", remarks), Catch::Contains("no rows for"));
 }
 
-TEST_CASE("under a window parabolas have their mean, rate and acceleration") {
+TEST_CASE("a window gives the mean, rate and acceleration of a parabola exactly") {
   const Bump bump(0.03, 0.002);
   Signal x;
   for (int k = 0; k < 40; ++k) x.push_back(3 + 2 * (0.002 * k) + 5 * (0.002 * k) * (0.002 * k));

@@ -21,10 +21,10 @@ struct Seen {
   double current_A[3], angle_rad[3];
 };
 
-/// The motor from 1.3 A and 2 rad/s on, in steps of 20 ns (midpoint rule). Of three voltages the first is that
-/// before, which acts until the driver is no longer late.
+/// The motor from 1.3 A and 2 rad/s, integrated in steps of 20 ns (midpoint rule). The first of three voltages is the
+/// previous one, which acts during the delay of the driver.
 Seen run(const erp::MotorType& m, const double (&all)[3], double load_Nm, double late_s) {
-  const double n = m.gear_ratio, inertia = turned_inertia_kg_m2(m), dt = 2e-8;
+  const double n = m.gear_ratio, inertia = shaft_inertia_kg_m2(m), dt = 2e-8;
   double i = 1.3, w = 2, angle = 0;
   const auto rates = [&](double v, double amps, double speed) {
     return std::pair{
@@ -46,7 +46,8 @@ Seen run(const erp::MotorType& m, const double (&all)[3], double load_Nm, double
 
 }  // namespace
 
-TEST_CASE("currents and voltages tell the shaft's turn, currents and turns the load, exactly") {
+TEST_CASE(
+    "currents and voltages give the travel of the shaft, currents and travel the load, exactly") {
   const double inductance_H = GENERATE(57.3e-7, 57.3e-6, 722e-6, 1.8e-3), load_Nm = 2.7;
   const double late_s = GENERATE(0.0, 3e-4, 1.5e-3);
   CAPTURE(inductance_H, late_s);
@@ -68,7 +69,7 @@ TEST_CASE("currents and voltages tell the shaft's turn, currents and turns the l
         Approx(load_Nm).epsilon(1e-5));
 }
 
-TEST_CASE("the weights of one quantity sum to one") {
+TEST_CASE("the weights of each quantity sum to one") {
   const double inductance_H = GENERATE(1e-6, 57.3e-6, 1.8e-3);
   const auto two = two_periods(motor(inductance_H), period_s);
   CHECK(two.volts[0] == 0);
@@ -79,15 +80,15 @@ TEST_CASE("the weights of one quantity sum to one") {
   CHECK(two.drives[0] + two.drives[1] + two.drives[2] == Approx(1));
 }
 
-TEST_CASE("of a current that hardly changes within a period the mean over both drives the shaft") {
-  const auto two = two_periods(motor(1), period_s);  // under a triangle: a line between samples
+TEST_CASE("a winding of 1 H gives the weights of a triangular window") {
+  const auto two = two_periods(motor(1), period_s);  // current linear between samples
   CHECK(two.drives[0] == Approx(1. / 6).epsilon(0.01));
   CHECK(two.drives[1] == Approx(4. / 6).epsilon(0.01));
-  CHECK(two.inertia_kg_m2 == Approx(turned_inertia_kg_m2(motor(1))).epsilon(0.01));
+  CHECK(two.inertia_kg_m2 == Approx(shaft_inertia_kg_m2(motor(1))).epsilon(0.01));
 }
 
-TEST_CASE("a force without a winding has its weights as well") {
-  erp::MotorType force{};  // as of a drive whose force is given
+TEST_CASE("a force control averages the force of two periods with equal weights") {
+  erp::MotorType force{};  // as for a drive with force control
   force.resistance_ohm = 1, force.inductance_H = 1e-6, force.torque_Nm_per_A = 3;
   force.gear_ratio = force.gear_efficiency = 1, force.rotor_inertia_kg_m2 = 90;
   const auto two = two_periods(force, period_s);
@@ -96,10 +97,10 @@ TEST_CASE("a force without a winding has its weights as well") {
   CHECK(two.drives[2] == Approx(0.5).epsilon(2e-3));
 }
 
-TEST_CASE("a winding that warms has weights of its own") {
+TEST_CASE("a warm winding has the weights of its resistance") {
   auto warm = motor(722e-6);
-  TwoPeriodsAt at(warm, period_s);
-  CHECK(at.ohm(0.516).volts == two_periods(warm, period_s).volts);
+  TwoPeriodsAt two(warm, period_s);
+  CHECK(two.at(0.516).volts == two_periods(warm, period_s).volts);
   warm.resistance_ohm = 0.6;
-  CHECK(at.ohm(0.6).volts == two_periods(warm, period_s).volts);
+  CHECK(two.at(0.6).volts == two_periods(warm, period_s).volts);
 }

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <random>
 
+#include "sim/gap/residuals/chain_residuals.hpp"
 #include "sim/model/actuator/motor.hpp"
 #include "sim/model/actuator/noise.hpp"
 #include "sim/model/actuator/sensors.hpp"
-#include "sim/gap/residuals/chain_residuals.hpp"
 #include "tests/sim/rigs.hpp"
 
 using namespace sim::residuals;
@@ -15,8 +15,8 @@ namespace {
 constexpr double period_s = 0.002, pull_N = 10;
 constexpr int rows = 2000;
 
-/// A value for some rows, then another: what a lossy bus makes of a smooth command.
-Signal leaping(double low, double high, int count) {
+/// Random steps, as of a smooth command over a bus that loses frames.
+Signal random_steps(double low, double high, int count) {
   std::mt19937_64 random(1);
   Signal x;
   while (int(x.size()) < count) {
@@ -33,16 +33,16 @@ double rms(const std::vector<double>& x) {
   return std::sqrt(square / double(x.size()));
 }
 
-/// A motor under leaping voltages and an even pull; currents at the rows, or means around them.
-ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, bool around) {
+/// A motor with voltage steps and a constant tension; currents at the rows, or means averaged them.
+ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, bool averaged) {
   constexpr int parts = 40;
   const sim::Motor motor(robot.motor_of(actuator), actuator.spindle.radius_m, period_s / parts);
   ActuatorSignals s;
-  s.voltage_V = leaping(5, 11, rows), s.tension_N = Signal(rows, pull_N);
-  s.current_around = around;
+  s.voltage_V = random_steps(5, 11, rows), s.tension_N = Signal(rows, pull_N);
+  s.current_around = averaged;
   sim::MotorState state;
   Signal mean_A;
-  for (const double volts : s.voltage_V) {  // row k: volts, and what there is after them
+  for (const double volts : s.voltage_V) {  // row k: the voltage, and the state at its end
     mean_A.push_back(0);
     for (int p = 0; p < parts; ++p) {
       const double before_A = state.current_A;
@@ -51,12 +51,12 @@ ActuatorSignals driven(const erp::Robot& robot, const erp::Actuator& actuator, b
     }
     s.current_A.push_back(state.current_A), s.shaft_rad.push_back(state.shaft_rad);
   }
-  if (around)
+  if (averaged)
     for (std::size_t k = 0; k + 1 < rows; ++k) s.current_A[k] = (mean_A[k] + mean_A[k + 1]) / 2;
   return s;
 }
 
-/// As its sensors might have said it another time.
+/// Adds noise and quantization of the sensors.
 ActuatorSignals noisy(const erp::Robot& robot, const erp::Actuator& actuator, ActuatorSignals s) {
   const erp::SensorType& sensors = robot.sensors_of(actuator);
   const sim::SensorScale scale(robot.motor_of(actuator), sensors);
@@ -68,7 +68,7 @@ ActuatorSignals noisy(const erp::Robot& robot, const erp::Actuator& actuator, Ac
   return s;
 }
 
-/// Of the motor, of the gearbox.
+/// The residuals of motor and gearbox.
 std::vector<Residual> stages_of(const erp::Robot& robot, const erp::Actuator& actuator,
                                 const ActuatorSignals& s) {
   const erp::MotorType& type = robot.motor_of(actuator);
@@ -76,42 +76,42 @@ std::vector<Residual> stages_of(const erp::Robot& robot, const erp::Actuator& ac
   const ChainTrace t = trace({type, actuator, {}, 0}, s, no_path, period_s, 0.006);
   std::vector<std::size_t> middles;
   for (std::size_t k = 100; k + 100 < rows; k += 10) middles.push_back(k);
-  const Episode episode{"leaping", period_s, rows, {}, {}};
+  const Episode episode{"random_steps", period_s, rows, {}, {}};
   return chain_residuals(t, actuator, type, episode, Bump(0.03, period_s), middles);
 }
 
 }  // namespace
 
 TEST_CASE(
-    "under a window a motion whose acceleration leaps from sample to sample comes out exactly") {
-  const Signal held = leaping(-300, 300, 101);
-  Signal speed{2}, x{1}, around{0};
+    "a window gives the mean acceleration of a motion with random acceleration steps exactly") {
+  const Signal held = random_steps(-300, 300, 101);
+  Signal speed{2}, x{1}, averaged{0};
   for (std::size_t k = 0; k + 1 < held.size(); ++k) {
     x.push_back(x[k] + period_s * (speed[k] + period_s / 2 * held[k]));
     speed.push_back(speed[k] + period_s * held[k]);
-    around.push_back((held[k] + held[k + 1]) / 2);
+    averaged.push_back((held[k] + held[k + 1]) / 2);
   }
   const Bump bump(0.03, period_s);
   for (const std::size_t k : {20u, 33u, 50u, 71u}) {
     INFO(k);
-    CHECK(bump.acceleration(x, k) == Approx(bump.mean(around, k)).epsilon(1e-9));
+    CHECK(bump.acceleration(x, k) == Approx(bump.mean(averaged, k)).epsilon(1e-9));
   }
 }
 
-TEST_CASE("a motor whose voltage leaps leaves less than the noise of its sensors") {
+TEST_CASE("voltage steps leave residuals of motor and gearbox below the sensor noise") {
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   const erp::Actuator& actuator = robot.actuators[0];
-  for (const bool around : {false, true}) {
-    const ActuatorSignals said = driven(robot, actuator, around);
-    const auto left = stages_of(robot, actuator, said);
-    const auto again = stages_of(robot, actuator, noisy(robot, actuator, said));
-    REQUIRE(left.size() == 2);
+  for (const bool averaged : {false, true}) {
+    const ActuatorSignals exact = driven(robot, actuator, averaged);
+    const auto residuals = stages_of(robot, actuator, exact);
+    const auto with_noise = stages_of(robot, actuator, noisy(robot, actuator, exact));
+    REQUIRE(residuals.size() == 2);
     for (std::size_t stage = 0; stage < 2; ++stage) {
       std::vector<double> noise;
-      for (std::size_t k = 0; k < left[stage].value.size(); ++k)
-        noise.push_back(again[stage].value[k] - left[stage].value[k]);
-      INFO((stage == 0 ? "motor" : "gearbox") << (around ? ", currents averaged" : ""));
-      CHECK(rms(left[stage].value) < 0.75 * rms(noise));
+      for (std::size_t k = 0; k < residuals[stage].value.size(); ++k)
+        noise.push_back(with_noise[stage].value[k] - residuals[stage].value[k]);
+      INFO((stage == 0 ? "motor" : "gearbox") << (averaged ? ", currents averaged" : ""));
+      CHECK(rms(residuals[stage].value) < 0.75 * rms(noise));
     }
   }
 }

@@ -11,7 +11,8 @@
 
 using namespace sim::residuals;
 
-TEST_CASE("a window in which a tension changes fast is in more doubt than one in which it rests") {
+TEST_CASE(
+    "a window with a fast tension has a higher noise floor than one with a constant tension") {
   const erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   const Episode episode = rig_recording::record(robot, robot, {.seconds = 4});
   Stages stages(robot);
@@ -33,7 +34,7 @@ TEST_CASE("a window in which a tension changes fast is in more doubt than one in
   CHECK(of_slowest == floor.rms);
 }
 
-TEST_CASE("the noise of a signal is told apart from its motion") {
+TEST_CASE("the noise of a moving signal is estimated from its third differences") {
   Signal slow;
   for (int k = 0; k < 2000; ++k) slow.push_back(std::sin(0.01 * k) + 0.01 * std::sin(37.0 * k * k));
   CHECK(noise_of(slow) == Approx(0.01 / std::numbers::sqrt2).epsilon(0.35));

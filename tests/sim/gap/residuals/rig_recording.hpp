@@ -6,7 +6,7 @@
 #include "sim/gap/residuals/episode.hpp"
 #include "tests/sim/world/limb.hpp"
 
-/// Recordings of hinge_rig, simulated: tensions or lines that swing, as a person would record them.
+/// Simulated recordings of hinge_rig with sinusoidal tensions.
 namespace rig_recording {
 
 struct Plan {
@@ -27,23 +27,23 @@ inline recording::Table table_of_run(const erp::Robot& robot, const Plan& plan) 
     const double t = 0.002 * k;
     const double swing = plan.swing_N * std::sin(turn * plan.swing_Hz * t) +
                          plan.ripple_N * std::sin(turn * plan.ripple_Hz * t);
-    const double wanted[] = {std::fmax(1.0, plan.both_N + swing),
-                             std::fmax(1.0, plan.both_N - swing)};
-    limb.command(ECU_REQUEST_FORCE, {1000 * wanted[0], 1000 * wanted[1]});
+    const double desired[] = {std::fmax(1.0, plan.both_N + swing),
+                              std::fmax(1.0, plan.both_N - swing)};
+    limb.command(ECU_REQUEST_FORCE, {1000 * desired[0], 1000 * desired[1]});
     limb.ecus.tick(limb.world);
     limb.ecus.fill(frame);
     std::size_t column = 0;
     const auto put = [&](double value) { table.columns[column++].values.push_back(value); };
     put(t);
     for (std::size_t a = 0; a < 2; ++a) {
-      const auto& said = frame.channels._buffer[a];
+      const auto& channel = frame.channels._buffer[a];
       const erp::MotorType& motor = robot.motor_of(robot.actuators[a]);
       const sim::SensorScale scale(motor, robot.sensors_of(robot.actuators[a]));
-      put(double(erp::Mode::force)), put(wanted[a]);
-      put(motor.supply_V * said.duty_counts / ECU_DUTY_MAX);
-      put(said.current_counts * scale.current_A_per_count);
-      put(said.encoder_counts * scale.shaft_rad_per_count);
-      put(said.tension_counts * scale.tension_N_per_count);
+      put(double(erp::Mode::force)), put(desired[a]);
+      put(motor.supply_V * channel.duty_counts / ECU_DUTY_MAX);
+      put(channel.current_counts * scale.current_A_per_count);
+      put(channel.encoder_counts * scale.shaft_rad_per_count);
+      put(channel.tension_counts * scale.tension_N_per_count);
     }
     put(frame.analogs._buffer[0].counts * turn / (1 << 14));
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "tests/sim/model/effects/magnitudes.hpp"
 #include "tests/sim/gap/residuals/rig_recording.hpp"
+#include "tests/sim/model/effects/magnitudes.hpp"
 #include "tests/sim/rigs.hpp"
 
 namespace effects = sim::effects;
@@ -35,8 +35,8 @@ std::map<std::string, double> rms(Stages stages, const Episode& episode) {
   return all;
 }
 
-/// As if nobody had listened for 20 ms in the middle.
-Episode with_a_hole(Episode episode) {
+/// The episode with 20 ms of missing samples in the middle.
+Episode with_a_gap(Episode episode) {
   const auto cut = [&](Signal& signal) {
     if (!signal.empty())
       std::fill_n(signal.begin() + std::ptrdiff_t(episode.rows / 2), 10, recording::not_taken);
@@ -47,15 +47,15 @@ Episode with_a_hole(Episode episode) {
   return episode;
 }
 
-/// An effect, and the stages at which the nominal robot's residual rises.
-struct Sign {
+/// An effect and the stages at which the nominal robot's residual rises.
+struct Signature {
   const char* type;
   std::vector<std::string> at;
 };
 
-// Not here: what this motion does not show (stiction, inductance, backlash, an attachment that lies
-// on its pulley), what cannot be undone (quantisation), and the bus.
-const std::vector<Sign> signs{
+// Not included: effects that this motion does not excite (stiction, inductance, backlash, an attachment that lies on
+// its pulley), effects that cannot be inverted (quantization), and the bus.
+const std::vector<Signature> signs{
     {"motor_resistance", {"motor flexor", "gearbox flexor"}},
     {"motor_torque_constant", {"motor flexor", "gearbox flexor"}},
     {"motor_dead_band", {"motor flexor"}},
@@ -96,10 +96,11 @@ const std::vector<Sign> signs{
 
 }  // namespace
 
-TEST_CASE("without effects each stage is left with the noise of its sensors") {
-  const auto left = rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
-  CHECK(left.size() == 7);
-  for (const auto& [stage, value] : left) {
+TEST_CASE("without effects the residual of each stage is the sensor noise") {
+  const auto residuals =
+      rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
+  CHECK(residuals.size() == 7);
+  for (const auto& [stage, value] : residuals) {
     INFO(stage);
     // V: 15 mA over 0.516 ohm; Nm: the same at the gearbox, and 0.5 mrad twice differentiated; N:
     // 0.05 N, and 0.5 mrad by 25 mm by 6000 N/m; all over some ten samples
@@ -112,7 +113,7 @@ TEST_CASE("without effects each stage is left with the noise of its sensors") {
   }
 }
 
-TEST_CASE("a winding whose current takes a period to settle is left with that noise as well") {
+TEST_CASE("a winding twelve times slower has the same residuals") {
   erp::Robot slow = hinge_rig();
   for (auto& motor : slow.motor_types) motor.inductance_H *= 12;
   const auto quick = rms(Stages(hinge_rig()), rig_recording::record(hinge_rig(), hinge_rig(), {}));
@@ -122,14 +123,14 @@ TEST_CASE("a winding whose current takes a period to settle is left with that no
   }
 }
 
-TEST_CASE("an effect shows at its own stages alone, and is gone where the robot has it") {
+TEST_CASE("an effect raises only the residuals of its stages, and none of the robot that has it") {
   const Episode plain = rig_recording::record(hinge_rig(), hinge_rig(), {});
   const auto floor = rms(Stages(hinge_rig()), plain);
-  for (const Sign& sign : signs) {
+  for (const Signature& sign : signs) {
     const erp::Robot real = with(sign.type);
     const Episode episode = rig_recording::record(hinge_rig(), real, {});
     const auto nominal = rms(Stages(hinge_rig()), episode), right = rms(Stages(real), episode);
-    const auto cut = rms(Stages(real), with_a_hole(episode));
+    const auto cut = rms(Stages(real), with_a_gap(episode));
     for (const auto& [stage, value] : nominal) {
       INFO(sign.type << " at " << stage << ": " << value / floor.at(stage) << ", with it "
                      << right.at(stage) / floor.at(stage) << " times the floor");
@@ -137,17 +138,17 @@ TEST_CASE("an effect shows at its own stages alone, and is gone where the robot 
       if (shows) CHECK(value > 1.3 * floor.at(stage));
       else CHECK(value < 1.25 * floor.at(stage));
       CHECK(right.at(stage) < 1.8 * floor.at(stage));
-      CHECK(cut.at(stage) < 2.1 * floor.at(stage));  // hysteresis after a hole starts anew
+      CHECK(cut.at(stage) < 2.1 * floor.at(stage));  // hysteresis restarts after a gap
     }
   }
 }
 
 namespace {
 
-/// What is left of the flexor's tendon with a spindle so many times as large.
-std::vector<double> left_of_flexor(const Episode& episode, double larger) {
+/// The residual of the flexor's tendon with a spindle radius scaled by `factor`.
+std::vector<double> flexor_residual(const Episode& episode, double factor) {
   erp::Robot robot = hinge_rig();
-  robot.actuators[0].spindle.radius_m *= larger;
+  robot.actuators[0].spindle.radius_m *= factor;
   Stages stages(robot);
   for (const Residual& r : stages.residuals(episode))
     if (r.stage == effects::Stage::tendon && r.on == "flexor") return r.value;
@@ -156,16 +157,17 @@ std::vector<double> left_of_flexor(const Episode& episode, double larger) {
 
 }  // namespace
 
-TEST_CASE("where a line comes taut its law changes evenly with the spindle's radius") {
+TEST_CASE("the residual of a tendon that becomes taut is a smooth function of the spindle radius") {
   const erp::Robot robot = hinge_rig();
   Episode episode = rig_recording::record(robot, robot, {.seconds = 6});
   const erp::Actuator& flexor = robot.actuators[0];
-  const double drawn_N = 20, slack_rad = drawn_N / flexor.tendon.stiffness_N_per_m / flexor.spindle.radius_m;
+  const double drawn_N = 20,
+               slack_rad = drawn_N / flexor.tendon.stiffness_N_per_m / flexor.spindle.radius_m;
   for (double& theta : episode.actuators[0].shaft_rad) theta -= slack_rad;
-  std::vector<double> before = left_of_flexor(episode, 1);
+  std::vector<double> before = flexor_residual(episode, 1);
   double usual = 0, most = 0;
   for (int k = 1; k <= 200; ++k) {
-    const std::vector<double> after = left_of_flexor(episode, 1 + 2e-6 * k);
+    const std::vector<double> after = flexor_residual(episode, 1 + 2e-6 * k);
     double step = 0;
     for (std::size_t n = 0; n < after.size(); ++n)
       if (!std::isnan(after[n] - before[n])) step = std::max(step, std::abs(after[n] - before[n]));
@@ -176,18 +178,18 @@ TEST_CASE("where a line comes taut its law changes evenly with the spindle's rad
   CHECK(most < 3 * usual);
 }
 
-TEST_CASE("without tension the spring stands in, without current the motor's law") {
+TEST_CASE("residuals without tension use the spring law, without current the motor law") {
   Episode episode = rig_recording::record(hinge_rig(), hinge_rig(), {});
   const auto all = rms(Stages(hinge_rig()), episode);
   for (auto& actuator : episode.actuators) actuator.tension_N.clear();
-  auto left = rms(Stages(hinge_rig()), episode);
-  CHECK(left.size() == 5);
-  CHECK(left.at("gearbox flexor") < 1.3 * all.at("gearbox flexor"));
-  CHECK(left.at("joint elbow") < 1.5 * all.at("joint elbow"));
+  auto residuals = rms(Stages(hinge_rig()), episode);
+  CHECK(residuals.size() == 5);
+  CHECK(residuals.at("gearbox flexor") < 1.3 * all.at("gearbox flexor"));
+  CHECK(residuals.at("joint elbow") < 1.5 * all.at("joint elbow"));
   for (auto& actuator : episode.actuators) actuator.current_A.clear();
-  left = rms(Stages(hinge_rig()), episode);
-  CHECK(left.size() == 3);
-  CHECK(left.at("gearbox flexor") < 0.022);
+  residuals = rms(Stages(hinge_rig()), episode);
+  CHECK(residuals.size() == 3);
+  CHECK(residuals.at("gearbox flexor") < 0.022);
   episode.joints[0].angle_rad.clear();
   CHECK(Stages(hinge_rig()).residuals(episode).empty());
 }

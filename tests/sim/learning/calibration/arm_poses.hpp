@@ -7,12 +7,12 @@
 #include "sim/learning/calibration/pose_set.hpp"
 #include "tests/sim/rigs.hpp"
 
-/// An arm that stands still.
+/// Poses of the arm at rest.
 namespace arm_poses {
 
 inline erp::Robot arm() { return erp::read_robot(rigs::config("arm/robot.xml")); }
 
-/// Poses that the robot holds, as statics has them.
+/// Poses that the robot holds, computed by statics.
 inline std::vector<sim::calibration::StillPose> held(const erp::Robot& robot, int count) {
   std::vector<sim::calibration::StillPose> poses;
   sim::PoseHolder holder(robot);
@@ -28,7 +28,7 @@ inline std::vector<sim::calibration::StillPose> held(const erp::Robot& robot, in
   return poses;
 }
 
-/// As a recording has them: each for a second.
+/// A recording of the poses, each for a second.
 inline recording::Table recorded(const erp::Robot& robot,
                                  const std::vector<sim::calibration::StillPose>& poses) {
   recording::Table table{{{"time_s", {}}}};

@@ -16,31 +16,31 @@ using arm_poses::arm, arm_poses::held;
 
 namespace {
 
-const char* const all_of_it =
+const char* const all_parameters =
     "<calibration><vary what=\"attachments\" spread=\"0.005\"/><vary what=\"length\" "
     "spread=\"0.005\"/><vary what=\"stiffness\" spread=\"0.2\"/><vary what=\"radius\" "
     "spread=\"0.05\"/></calibration>";
 
-/// An arm that is not quite as robot.xml has it, in eight poses.
+/// An arm that differs from robot.xml, in eight poses.
 Task task() {
-  Parameters parameters(arm(), xml::parse<Choice>(all_of_it, "choice"));
+  Parameters parameters(arm(), xml::parse<Choice>(all_parameters, "choice"));
   Eigen::VectorXd off(parameters.size());
-  std::mt19937 dice(5);
+  std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  for (double& x : off) x = normal(dice);
+  for (double& x : off) x = normal(random);
   erp::Robot real = parameters.robot_at(off);
   real.effects.clear();
   return {std::move(parameters), split(held(real, 8))};
 }
 
-std::unique_ptr<Calibration> learner(Strategy strategy, std::uint64_t seed = 1) {
+std::unique_ptr<Calibration> calibration_by(Strategy strategy, std::uint64_t seed = 1) {
   return make_calibration(task(), {.strategy = strategy, .seed = seed});
 }
 
 std::string folder_of(const std::string& name) {
   return (std::filesystem::temp_directory_path() / ("erp_calibration_" + name)).string();
 }
-/// Emptied.
+/// The folder, emptied.
 std::string folder(const std::string& name) {
   std::filesystem::remove_all(folder_of(name));
   return folder_of(name);
@@ -53,8 +53,8 @@ std::string text_of(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("nine numbers a muscle, and at zero the robot is as it was") {
-  const Parameters parameters(arm(), xml::parse<Choice>(all_of_it, "choice"));
+TEST_CASE("there are nine parameters per muscle, and zero gives the original robot") {
+  const Parameters parameters(arm(), xml::parse<Choice>(all_parameters, "choice"));
   CHECK(parameters.size() == 99);
   CHECK(erp::write_robot(parameters.robot_at(Eigen::VectorXd::Zero(99))) ==
         erp::write_robot(arm()));
@@ -65,54 +65,56 @@ TEST_CASE("nine numbers a muscle, and at zero the robot is as it was") {
       Catch::Contains("no actuator \"bicep\""));
 }
 
-TEST_CASE("the robot itself makes no error in its own poses") {
+TEST_CASE("the robot's own parameters have no error in its poses") {
   const auto poses = held(arm(), 6);
   const Candidate itself{arm(), {}};
   CHECK(pose_errors(itself, poses).mean_of_all_rad < 1e-5);
 }
 
-TEST_CASE("a calibration comes nearer, the same on one thread and two, killed and resumed") {
+TEST_CASE(
+    "a calibration reduces the error, identically on one thread, on two, and killed and resumed") {
   const auto strategy = GENERATE(Strategy::evolution, Strategy::cma, Strategy::newton);
-  const auto one = learner(strategy), two = learner(strategy), killed = learner(strategy);
+  const auto one = calibration_by(strategy), two = calibration_by(strategy),
+             killed = calibration_by(strategy);
   const double before = one->metrics()[0].value;
-  sim::training_loop::learn(*one, {.folder = folder("one"), .rounds = 4});
-  sim::training_loop::learn(*two, {.folder = folder("two"), .rounds = 4}, sim::Threads(2));
+  sim::training_loop::run(*one, {.folder = folder("one"), .rounds = 4});
+  sim::training_loop::run(*two, {.folder = folder("two"), .rounds = 4}, sim::Threads(2));
   CHECK(one->best() == two->best());
   CHECK(one->metrics()[0].value < before);
   const auto there = folder("killed");
-  sim::training_loop::learn(*killed, {.folder = there, .rounds = 4, .told = [](const auto& l) {
-                                  return l.rounds() < 2;
-                                }});
-  const auto after = learner(strategy);
-  CHECK_THROWS_WITH(sim::training_loop::learn(*after, {.folder = there, .rounds = 4}),
+  sim::training_loop::run(*killed, {.folder = there, .rounds = 4, .on_round = [](const auto& l) {
+                                      return l.rounds() < 2;
+                                    }});
+  const auto after = calibration_by(strategy);
+  CHECK_THROWS_WITH(sim::training_loop::run(*after, {.folder = there, .rounds = 4}),
                     Catch::Contains("resume it"));
-  sim::training_loop::learn(*after, {.folder = there, .rounds = 4, .resume = true});
+  sim::training_loop::run(*after, {.folder = there, .rounds = 4, .resume = true});
   CHECK(after->best() == one->best());
   CHECK(text_of(there + "/curve.csv") == text_of(folder_of("one") + "/curve.csv"));
   for (const char* name : {"one", "two", "killed"}) folder(name);
 }
 
-TEST_CASE("a search that was another is not gone on with") {
+TEST_CASE("a checkpoint of another seed or strategy is refused") {
   const auto there = folder("other");
-  sim::training_loop::learn(*learner(Strategy::evolution), {.folder = there, .rounds = 1});
-  CHECK_THROWS_WITH(sim::training_loop::learn(*learner(Strategy::evolution, 2),
-                                        {.folder = there, .rounds = 2, .resume = true}),
+  sim::training_loop::run(*calibration_by(Strategy::evolution), {.folder = there, .rounds = 1});
+  CHECK_THROWS_WITH(sim::training_loop::run(*calibration_by(Strategy::evolution, 2),
+                                            {.folder = there, .rounds = 2, .resume = true}),
                     Catch::Contains("another seed"));
-  CHECK_THROWS(sim::training_loop::learn(*learner(Strategy::newton),
-                                   {.folder = there, .rounds = 2, .resume = true}));
+  CHECK_THROWS(sim::training_loop::run(*calibration_by(Strategy::newton),
+                                       {.folder = there, .rounds = 2, .resume = true}));
   folder("other");
 }
 
-TEST_CASE("Gauss-Newton finds a robot whose poses are those recorded") {
-  const auto newton = learner(Strategy::newton);
+TEST_CASE("Gauss-Newton reduces the pose error below 5 %") {
+  const auto newton = calibration_by(Strategy::newton);
   const double before = newton->best_error_rad();
-  sim::training_loop::learn(*newton, {.folder = folder("newton"), .rounds = 20});
+  sim::training_loop::run(*newton, {.folder = folder("newton"), .rounds = 20});
   CHECK(newton->done());
   CHECK(newton->best_error_rad() < 0.05 * before);
   folder("newton");
 }
 
-TEST_CASE("how poses turn with parameters is what happens when one changes") {
+TEST_CASE("the derivative of poses by parameters equals the difference quotient") {
   const Task arm_task = task();
   const Eigen::VectorXd x = Eigen::VectorXd::Constant(99, 0.1);
   const Residuals found = turns(arm_task.parameters, x, arm_task.poses.learn, sim::Threads());
@@ -129,17 +131,17 @@ TEST_CASE("how poses turn with parameters is what happens when one changes") {
   }
 }
 
-TEST_CASE("what poses leave open: nothing of what turns them, all of what does not") {
+TEST_CASE("a parameter without influence on the poses keeps its whole uncertainty") {
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(2, 3);
   slope(0, 0) = 1, slope(1, 1) = 1e-4;
   const auto found = identified(slope, 1e-3);
   CHECK(found.combinations == 1);
-  CHECK(found.left[0] == Approx(1e-3).epsilon(1e-3));
-  CHECK(found.left[1] == Approx(1 / std::sqrt(1.01)));
-  CHECK(found.left[2] == Approx(1));
+  CHECK(found.remaining[0] == Approx(1e-3).epsilon(1e-3));
+  CHECK(found.remaining[1] == Approx(1 / std::sqrt(1.01)));
+  CHECK(found.remaining[2] == Approx(1));
 }
 
-TEST_CASE("a length that robot.xml has as an effect is where the search begins") {
+TEST_CASE("a tendon_length_offset of robot.xml is the start of the search") {
   erp::Robot robot = arm();
   robot.effects.push_back(
       sim::effects::written({"biceps", sim::effects::TendonLengthOffset{0.01}}));
@@ -148,13 +150,13 @@ TEST_CASE("a length that robot.xml has as an effect is where the search begins")
                                                  "spread=\"0.002\"/></calibration>",
                                                  "choice"));
   const Candidate there = parameters.at(Eigen::VectorXd::Constant(1, 2));
-  CHECK(there.longer_m[7] == Approx(0.014));
+  CHECK(there.length_offset_m[7] == Approx(0.014));
   CHECK(there.robot.effects.empty());
   CHECK(parameters.robot_at(Eigen::VectorXd::Zero(1)).effects.size() == 1);
 }
 
-TEST_CASE("a perturbed model is off by what was asked, joint by joint") {
-  const Parameters parameters(arm(), xml::parse<Choice>(all_of_it, "choice"));
+TEST_CASE("a perturbed model has the requested error at each joint") {
+  const Parameters parameters(arm(), xml::parse<Choice>(all_parameters, "choice"));
   const auto poses = held(arm(), 8);
   const std::array<double, 2> off_rad{0.3, 0.2};
   const auto x = perturbed(parameters, poses, off_rad, 3);
@@ -164,7 +166,7 @@ TEST_CASE("a perturbed model is off by what was asked, joint by joint") {
   CHECK(x != perturbed(parameters, poses, off_rad, 4));
 }
 
-TEST_CASE("a candidate with a point inside its pulley is worse than all that can be built") {
+TEST_CASE("a candidate with a point inside its pulley has a larger error than any valid one") {
   const Task of = task();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(of.parameters.size());
   const double at_first = error_rad(of, x);
@@ -172,11 +174,12 @@ TEST_CASE("a candidate with a point inside its pulley is worse than all that can
   for (std::size_t k = 0; k < list.size(); ++k)
     if (const auto name = of.parameters.name_of(list[k]);
         name == "triceps_long B x" || name == "triceps_long B z")
-      x[static_cast<Eigen::Index>(k)] = 0.018 / list[k].spread;  // its end, into the elbow's pulley
+      x[static_cast<Eigen::Index>(k)] =
+          0.018 / list[k].spread;  // moves its end into the elbow's pulley
   CHECK(error_rad(of, x) > 1e3 * at_first);
 }
 
-TEST_CASE("still poses of a recording are where nothing moved, each once, its mean") {
+TEST_CASE("two poses at rest in a recording are found, each as its mean") {
   const erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   recording::Table table{{{"time_s", {}},
                           {"flexor.shaft_rad", {}},

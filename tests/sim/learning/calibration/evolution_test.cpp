@@ -6,7 +6,7 @@ using namespace sim::calibration;
 
 namespace {
 
-/// Scales of 1 to 30: a strategy with one step size for all has a hard time.
+/// Scales of 1 to 30, difficult for a strategy with one common step size.
 double bowl(const Eigen::VectorXd& x) {
   double sum = 0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -27,7 +27,7 @@ double after(Evolution& evolution, int generations) {
 
 }  // namespace
 
-TEST_CASE("an evolution strategy comes down a badly scaled bowl") {
+TEST_CASE("an evolution strategy minimises a badly scaled quadratic to 1 %") {
   const Eigen::VectorXd first = Eigen::VectorXd::Zero(10);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Evolution evolution(first, {.seed = seed});
@@ -36,7 +36,7 @@ TEST_CASE("an evolution strategy comes down a badly scaled bowl") {
   }
 }
 
-TEST_CASE("from the same parents it goes on the same way, with another seed otherwise") {
+TEST_CASE("the same parents and seed give the same generations, another seed others") {
   const Eigen::VectorXd first = Eigen::VectorXd::Zero(4);
   Evolution whole(first, {.seed = 3}), other(first, {.seed = 4});
   after(whole, 10);
@@ -46,7 +46,7 @@ TEST_CASE("from the same parents it goes on the same way, with another seed othe
   CHECK(whole.parents().front().x != other.parents().front().x);
 }
 
-TEST_CASE("nobody leaves the bounds, and no parent outlives its generation") {
+TEST_CASE("offspring stay within the bounds, and parents do not survive their generation") {
   Evolution evolution(Eigen::VectorXd::Constant(3, 0.9), {.first_sigma = 5, .bound = 1});
   auto all = evolution.offspring();
   REQUIRE(all.size() == 36);

@@ -1,13 +1,13 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "sim/model/actuator/motor.hpp"
 #include "sim/control/pose_plan.hpp"
 #include "sim/learning/muscle_networks/babble.hpp"
-#include "sim/learning/muscle_networks/learnt_lengths.hpp"
+#include "sim/learning/muscle_networks/learned_lengths.hpp"
 #include "sim/learning/muscle_networks/length_learner.hpp"
 #include "sim/learning/muscle_networks/torque_error.hpp"
 #include "sim/learning/muscle_networks/workspace.hpp"
+#include "sim/model/actuator/motor.hpp"
 #include "sim/model/skeleton/joint_path.hpp"
 
 using namespace sim::muscle_networks;
@@ -17,8 +17,8 @@ namespace {
 
 erp::Robot arm() { return erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml"); }
 
-/// The arm somewhere: elbow over its range, shoulder turned by up to half a radian an axis.
-Joints somewhere(const erp::Robot& robot, std::mt19937& random) {
+/// A random posture of the arm: elbow over its range, shoulder turned by up to half a radian per axis.
+Joints random_posture(const erp::Robot& robot, std::mt19937& random) {
   std::uniform_real_distribution<double> within(-1, 1);
   Joints joints;
   for (const erp::Joint& joint : robot.joints()) {
@@ -41,7 +41,7 @@ LengthSamples samples(const erp::Robot& robot, int count, unsigned seed) {
   LengthSamples all;
   all.length_m.resize(model.length_m().size(), count);
   for (int k = 0; k < count; ++k) {
-    all.joints.push_back(somewhere(robot, random));
+    all.joints.push_back(random_posture(robot, random));
     model.place(all.joints.back());
     all.length_m.col(k) = model.length_m();
   }
@@ -50,7 +50,7 @@ LengthSamples samples(const erp::Robot& robot, int count, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("slopes of a posture's inputs are their difference quotients, a ball joint's too") {
+TEST_CASE("derivatives of posture inputs equal difference quotients, also for ball joints") {
   const erp::Robot robot = arm();
   const sim::Musculoskeletal model(robot);
   const PostureInputs inputs(model.tree().joints, model.skeleton());
@@ -59,7 +59,7 @@ TEST_CASE("slopes of a posture's inputs are their difference quotients, a ball j
   Eigen::MatrixXd slopes;
   constexpr double step = 1e-5;
   for (int k = 0; k < 20; ++k) {
-    const Joints joints = somewhere(robot, random);
+    const Joints joints = random_posture(robot, random);
     inputs.read(joints, x), inputs.slopes(x, slopes);
     for (std::size_t j = 0; j < joints.size(); ++j)
       for (int d = 0; d < sim::coordinates_of(joints[j].type); ++d) {
@@ -77,15 +77,14 @@ TEST_CASE("slopes of a posture's inputs are their difference quotients, a ball j
   }
 }
 
-TEST_CASE(
-    "a perceptron's gradient is its difference quotient, and a fit finds what made the data") {
+TEST_CASE("a perceptron's gradient equals its difference quotient, and a fit recovers its data") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> within(-1, 1);
-  Perceptron maker = Perceptron::drawn(3, 4, 5);
-  maker.output << 1, -0.5, 0.3, 0.8, 0.2;
+  Perceptron source = Perceptron::drawn(3, 4, 5);
+  source.output << 1, -0.5, 0.3, 0.8, 0.2;
   const Eigen::MatrixXd x = Eigen::MatrixXd::NullaryExpr(3, 400, [&] { return within(random); });
   Eigen::VectorXd y(400), slope;
-  for (int k = 0; k < 400; ++k) y[k] = maker.value(x.col(k));
+  for (int k = 0; k < 400; ++k) y[k] = source.value(x.col(k));
   Perceptron net = Perceptron::drawn(3, 6, 9);
   CHECK(fit(net, x, y, {.most_steps = 300, .decay = 1e-12}) < 1e-3);
   for (int k = 0; k < 10; ++k) {
@@ -96,13 +95,13 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("from samples all over a workspace torques are learnt to a few percent") {
+TEST_CASE("networks trained on 1500 samples give torques within 6 %") {
   const erp::Robot robot = arm();
   const LengthSamples learn_from = samples(robot, 1500, 3), check = samples(robot, 100, 4);
   LearnOptions options;
   options.units = 8, options.fit.most_steps = 60;
-  const LearntMuscles learnt = learn(robot, learn_from, options);
-  LearntLengths lengths(robot, learnt);
+  const LearnedMuscles learned = learn(robot, learn_from, options);
+  LearnedLengths lengths(robot, learned);
   const auto slope = torque_error(
       robot, check.joints, [&](auto q) -> auto& { return lengths.jacobian(q); });
   const auto quotient = torque_error(
@@ -112,7 +111,7 @@ TEST_CASE("from samples all over a workspace torques are learnt to a few percent
   CHECK(quotient.share == Approx(slope.share).margin(0.002));
 }
 
-TEST_CASE("learnt on line, torques come nearer sample by sample") {
+TEST_CASE("online learning reduces the torque error below 10 % in 3000 samples") {
   const erp::Robot robot = arm();
   const LengthSamples from = samples(robot, 3000, 5), check = samples(robot, 100, 6);
   const sim::Musculoskeletal model(robot);
@@ -120,7 +119,7 @@ TEST_CASE("learnt on line, torques come nearer sample by sample") {
                         {.weight_m = 0.01, .noise_m = 1e-5});  // no base, no noise
   std::vector<double> shares;
   for (int k = 0; k < 3000; ++k) {
-    learner.hear(from.joints[std::size_t(k)], from.length_m.col(k));
+    learner.add_sample(from.joints[std::size_t(k)], from.length_m.col(k));
     if (k == 200 || k == 2999)
       shares.push_back(
           torque_error(
@@ -130,18 +129,19 @@ TEST_CASE("learnt on line, torques come nearer sample by sample") {
   INFO(100 * shares[0] << " %, " << 100 * shares[1] << " %");
   CHECK(shares[1] < 0.1);
   CHECK(shares[1] < shares[0] / 2);
-  CHECK_FALSE(learner.hear(from.joints.back(), from.length_m.col(2999)));  // it has not moved
+  CHECK_FALSE(
+      learner.add_sample(from.joints.back(), from.length_m.col(2999)));  // same posture as before
 }
 
-TEST_CASE("what has been learnt of another robot, or too few samples, are refused") {
+TEST_CASE("networks of another robot and too few samples are refused") {
   const erp::Robot robot = arm();
   CHECK_THROWS_WITH(learn(robot, samples(robot, 20, 1)), Catch::Contains("too few"));
-  LearntMuscles other;
+  LearnedMuscles other;
   other.robot = "leg";
-  CHECK_THROWS_WITH(LearntLengths(robot, other), Catch::Contains("leg"));
+  CHECK_THROWS_WITH(LearnedLengths(robot, other), Catch::Contains("leg"));
 }
 
-TEST_CASE("babbling begins at the pretensions and keeps every tendon within its bounds") {
+TEST_CASE("babbling starts at the pretensions and keeps every tendon within its bounds") {
   const erp::Robot robot = arm();
   const auto table = babble(robot, {.duration_s = 20, .seed = 3});
   for (const erp::Actuator& actuator : robot.actuators) {
@@ -154,7 +154,7 @@ TEST_CASE("babbling begins at the pretensions and keeps every tendon within its 
   CHECK(table.rows() > 25);
 }
 
-TEST_CASE("a workspace holds only what the muscles can hold") {
+TEST_CASE("every posture of a workspace can be held by the muscles") {
   erp::Robot robot = arm();
   Workspace workspace(robot, {.seed = 5});
   sim::PoseHolder holder(robot);
@@ -166,10 +166,10 @@ TEST_CASE("a workspace holds only what the muscles can hold") {
   }
   for (auto& actuator : robot.actuators) actuator.max_tension_N = 12;
   Workspace none(robot, {.seed = 5});
-  CHECK_THROWS_WITH(none.draw(), Catch::Contains("can hold none"));
+  CHECK_THROWS_WITH(none.draw(), Catch::Contains("hold none"));
 }
 
-TEST_CASE("joint motion goes over the workspace no faster than motors wind") {
+TEST_CASE("joint motion covers the workspace within the motors' speed") {
   const erp::Robot robot = arm();
   const auto poses = sim::poses_of(joint_motion(robot, {.duration_s = 60}), robot);
   const sim::JointPath path(robot.joints(), poses, sim::Via::through);

@@ -3,7 +3,7 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/learning/sensorimotor/experiment.hpp"
 #include "sim/learning/sensorimotor/eye.hpp"
-#include "sim/learning/sensorimotor/learnt_file.hpp"
+#include "sim/learning/sensorimotor/learned_map_file.hpp"
 #include "sim/model/skeleton/skeleton_model.hpp"
 #include "tests/sim/rigs.hpp"
 
@@ -12,11 +12,11 @@ using Eigen::MatrixXd, Eigen::Vector2d, Eigen::Vector4d, Eigen::VectorXd;
 
 namespace {
 
-/// What is seen moves at once and in proportion: senses × muscles, a sense a newton.
+/// A linear robot without inertia: senses × muscles, in senses per newton.
 const MatrixXd linear =
     (MatrixXd(2, 4) << 0.01, 0.01, -0.01, -0.01, -0.01, 0.01, 0.01, -0.01).finished();
 
-/// A body without inertia, seen each 10 ms.
+/// Runs a session on a robot without inertia, observed each 10 ms.
 void play(Session& session, const MatrixXd& moves, double shift = 0) {
   for (double t = 0; !session.done(); t += 0.01) {
     const VectorXd seen = moves * session.motors_N(t) + Vector2d::Constant(shift);
@@ -25,36 +25,35 @@ void play(Session& session, const MatrixXd& moves, double shift = 0) {
 }
 
 Session twitched(std::uint64_t seed = 1) {
-  SessionOptions options{.tries = 0, .seed = seed};
-  Session session(options, Learnt(2, 4), {});
+  SessionOptions options{.trials = 0, .seed = seed};
+  Session session(options, LearnedMap(2, 4), {});
   play(session, linear);
   return session;
 }
 
 }  // namespace
 
-TEST_CASE(
-    "from twitches alone it is known which muscle moves what, and how much force that takes") {
-  const Learnt learnt = twitched().learnt();
-  const MatrixXd q = learnt.q();
+TEST_CASE("twitches give the direction of each muscle and the force per sense") {
+  const LearnedMap learned = twitched().learned();
+  const MatrixXd q = learned.q();
   for (Eigen::Index s = 0; s < 2; ++s) {
     CHECK(q.row(s).norm() == Approx(1));
-    for (Eigen::Index m = 0; m < 4; ++m)  // alike, however often each has twitched
+    for (Eigen::Index m = 0; m < 4; ++m)  // equal, independent of the number of twitches
       CHECK(q(s, m) == Approx(std::copysign(0.5, linear(s, m))).epsilon(0.01));
   }
-  // With α = 1 all of a goal that synergies can reach is reached, were nothing cut off.
-  const Vector2d k = learnt.force_per_sense_N();
+  // With α = 1 the goal is reached in the directions that Q spans, without clipping.
+  const Vector2d k = learned.force_per_sense_N();
   CHECK((linear.row(0) * q.row(0).transpose())(0) * k[0] == Approx(1).epsilon(1e-3));
-  CHECK(learnt.motors_N(Vector2d(0, 0), Vector2d(0.1, 0.1)).norm() == 0);
-  const VectorXd right = learnt.motors_N(Vector2d(1, 1), Vector2d(0.1, 0));
+  CHECK(learned.motors_N(Vector2d(0, 0), Vector2d(0.1, 0.1)).norm() == 0);
+  const VectorXd right = learned.motors_N(Vector2d(1, 1), Vector2d(0.1, 0));
   CHECK(right[0] > 0);
-  CHECK(right[2] == 0);  // it could only push
-  CHECK(twitched(2).learnt().hebb() != learnt.hebb());
+  CHECK(right[2] == 0);  // a muscle cannot push
+  CHECK(twitched(2).learned().hebb() != learned.hebb());
 }
 
-TEST_CASE("from try to try a goal is reached, the first try doing nothing") {
-  SessionOptions options{.twitches = 0, .tries = 30};
-  Session session(options, twitched().learnt(), {{Vector2d(0.2, -0.1), Vector2d(0, 0), {}}});
+TEST_CASE("a goal is reached within 30 trials, and the first trial does not move") {
+  SessionOptions options{.twitches = 0, .trials = 30};
+  Session session(options, twitched().learned(), {{Vector2d(0.2, -0.1), Vector2d(0, 0), {}}});
   play(session, linear, 0.05);
   const Goal& goal = session.goals().front();
   REQUIRE(goal.errors.size() == 30);
@@ -63,9 +62,9 @@ TEST_CASE("from try to try a goal is reached, the first try doing nothing") {
   CHECK(session.limited() == 0);
 }
 
-TEST_CASE("what asks for more than the most is held there and counted; unseen tries are repeated") {
-  SessionOptions options{.twitches = 0, .tries = 30, .most_N = 5};
-  Session weak(options, twitched().learnt(), {{Vector2d(0.5, 0), Vector2d(0, 0), {}}});
+TEST_CASE("trials above the force limit are scaled down and counted, unseen trials are repeated") {
+  SessionOptions options{.twitches = 0, .trials = 30, .most_N = 5};
+  Session weak(options, twitched().learned(), {{Vector2d(0.5, 0), Vector2d(0, 0), {}}});
   double most_N = 0;
   for (double t = 0; !weak.done(); t += 0.01) {
     weak.see(t, linear * weak.motors_N(t));
@@ -74,15 +73,15 @@ TEST_CASE("what asks for more than the most is held there and counted; unseen tr
   CHECK(most_N == Approx(5));
   CHECK(weak.limited() > 10);
 
-  options.tries = 1;
-  Session blind(options, twitched().learnt(), {{Vector2d(0.1, 0), Vector2d(0, 0), {}}});
-  for (double t = 0; t < 10; t += 0.01) blind.motors_N(t);
-  CHECK_FALSE(blind.done());
-  CHECK(blind.blind() == 6);
-  CHECK(blind.goals().front().errors.empty());
+  options.trials = 1;
+  Session unseen(options, twitched().learned(), {{Vector2d(0.1, 0), Vector2d(0, 0), {}}});
+  for (double t = 0; t < 10; t += 0.01) unseen.motors_N(t);
+  CHECK_FALSE(unseen.done());
+  CHECK(unseen.unseen() == 6);
+  CHECK(unseen.goals().front().errors.empty());
 }
 
-TEST_CASE("a camera that looks up from below sees the pendulum's end where it is") {
+TEST_CASE("a camera below the pendulum sees its end at the projected position") {
   const erp::Robot robot = erp::read_robot(rigs::config("pendulum/robot.xml"));
   const Eye eye(xml::read<sim::cameras::ViewConfig>(rigs::config("pendulum/view.xml")),
                 sim::RobotTree(robot));
@@ -101,19 +100,19 @@ TEST_CASE("a camera that looks up from below sees the pendulum's end where it is
   CHECK((seen(a, 0) - Vector2d(0, off)).norm() < 1e-12);
 }
 
-TEST_CASE("what was learnt reads back to the same bits, and not for another body") {
-  Session session({.twitches = 0, .tries = 2}, twitched().learnt(),
+TEST_CASE("a learned map survives writing and reading exactly, and is refused for another robot") {
+  Session session({.twitches = 0, .trials = 2}, twitched().learned(),
                   {{Vector2d(0.1, 0.1), Vector2d(0, 0), {}}});
   play(session, linear);
-  const auto text = xml::write(file_of(session.learnt(), session.goals()));
-  const auto file = xml::parse<LearntFile>(text, "learnt");
-  CHECK(learnt_of(file, 2, 4).hebb() == session.learnt().hebb());
+  const auto text = xml::write(file_of(session.learned(), session.goals()));
+  const auto file = xml::parse<LearnedMapFile>(text, "learnt");
+  CHECK(learned_map_of(file, 2, 4).hebb() == session.learned().hebb());
   CHECK(goals_of(file, 2).front().alpha == session.goals().front().alpha);
-  CHECK_THROWS_WITH(learnt_of(file, 2, 5), Catch::Contains("other muscles"));
-  CHECK_THROWS_WITH(learnt_of(file, 4, 4), Catch::Contains("2 senses, not 4"));
+  CHECK_THROWS_WITH(learned_map_of(file, 2, 5), Catch::Contains("other muscles"));
+  CHECK_THROWS_WITH(learned_map_of(file, 4, 4), Catch::Contains("2 senses, not 4"));
 }
 
-TEST_CASE("goals of a grid are equally far apart, and goals have as many senses as there are") {
+TEST_CASE("goals of a grid are equally spaced, and a wrong number of senses is refused") {
   const auto grid = xml::parse<Experiment>(
       "<sensorimotor view=\"v\"><grid columns=\"3\" rows=\"2\" half_width=\"0.3\" "
       "half_height=\"0.1\"/></sensorimotor>",
@@ -122,5 +121,5 @@ TEST_CASE("goals of a grid are equally far apart, and goals have as many senses 
   REQUIRE(goals.size() == 6);
   CHECK(goals[1].target == Vector2d(0, -0.1));
   CHECK(goals[5].target == Vector2d(0.3, 0.1));
-  CHECK_THROWS_WITH(goals_of(grid, 4), Catch::Contains("where there are 4"));
+  CHECK_THROWS_WITH(goals_of(grid, 4), Catch::Contains("the cameras give 4"));
 }

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "sim/learning/training_loop/dice.hpp"
 #include "sim/learning/synergy/bank_file.hpp"
+#include "sim/learning/training_loop/random_stream.hpp"
 #include "tests/sim/rigs.hpp"
 
 using namespace sim::synergy;
@@ -9,21 +9,21 @@ using Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 
 namespace {
 
-/// Five muscles lead the hand to `lead · w`.
-const MatrixXd lead =
+/// Five muscles; the hand is at `reach · w`.
+const MatrixXd reach =
     (MatrixXd(3, 5) << 1, 0, 0, 0.5, 0, 0, 1, 0, 0, 0.5, 0, 0, 1, 0.2, 0.2).finished();
 
 MotorPlan plan_of(const VectorXd& weights, double value = 1) {
-  return {weights, {}, lead * weights, value};
+  return {weights, {}, reach * weights, value};
 }
 
-/// All to one side of the origin.
+/// Plans that all lie to one side of the origin.
 Bank bank(int count) {
-  auto dice = sim::training_loop::dice(5);
+  auto random = sim::training_loop::random_stream(5);
   std::uniform_real_distribution<double> any(0, 0.1);
   std::vector<MotorPlan> plans;
   for (int k = 0; k < count; ++k)
-    plans.push_back(plan_of(VectorXd::NullaryExpr(5, [&] { return any(dice); })));
+    plans.push_back(plan_of(VectorXd::NullaryExpr(5, [&] { return any(random); })));
   return {{}, plans};
 }
 
@@ -36,11 +36,11 @@ HandPath along(const Vector3d& way_m, double time_s, double wait_s) {
 
 }  // namespace
 
-TEST_CASE("a blend leads to its target, though the plans near it lie to one side") {
+TEST_CASE("a blend reaches its target although the plans near it lie to one side") {
   const Bank stored = bank(60);
   for (const Vector3d& target : {Vector3d(0.08, 0.07, 0.09), Vector3d(0.03, 0.03, 0.03)}) {
     const Blend blend = stored.blend(target);
-    CHECK((lead * blend.plan.weights_m - target).norm() < 0.008);
+    CHECK((reach * blend.plan.weights_m - target).norm() < 0.008);
     double sum = 0;
     for (const double credit : blend.credits) sum += credit;
     CHECK(sum == Approx(1));
@@ -49,34 +49,34 @@ TEST_CASE("a blend leads to its target, though the plans near it lie to one side
   CHECK_THROWS_WITH(Bank().blend({0, 0, 0}), Catch::Contains("without plans"));
 }
 
-TEST_CASE("a blend does not lead far beyond the plans it is of") {
+TEST_CASE("a blend extrapolates at most lean_m beyond its plans") {
   const std::vector<MotorPlan> plans{plan_of(VectorXd::Unit(5, 0) * 0.1),
                                      plan_of(VectorXd::Unit(5, 0) * 0.2)};
   const double target_m = 0.4;
   const auto x_m = [&](double lean_m) {
     const Bank two({.lean_m = lean_m}, plans);
-    return (lead * two.blend({target_m, 0, 0}).plan.weights_m).x();
+    return (reach * two.blend({target_m, 0, 0}).plan.weights_m).x();
   };
   const double mean_m = x_m(0), freely_m = x_m(9);
   CHECK(freely_m > mean_m + 0.03);
   CHECK(x_m(0.05) - mean_m == Approx(0.05 / (target_m - mean_m) * (freely_m - mean_m)));
-  CHECK(x_m(0.3) == freely_m);  // nearer than that
+  CHECK(x_m(0.3) == freely_m);  // within lean_m
 }
 
-TEST_CASE("rewards are credited to those that contributed, and the valuable ones contribute more") {
+TEST_CASE("rewards are credited to contributors, and plans of larger value contribute more") {
   Bank two({.rate = 0.5},
            {plan_of(VectorXd::Constant(5, 0.1)), plan_of(VectorXd::Constant(5, 0.2))});
-  const Vector3d between = lead * VectorXd::Constant(5, 0.15);
+  const Vector3d between = reach * VectorXd::Constant(5, 0.15);
   CHECK(two.blend(between).credits[0] == Approx(0.5));
   two.credit({1, 0}, 0);
   CHECK(two.plans()[0].value == Approx(0.5));
   CHECK(two.plans()[1].value == 1);
   CHECK(two.blend(between).credits[0] == Approx(0.2));
-  two.credit({1, 1}, 1.5), two.credit({1, 0}, -1000);  // worth nothing at all
+  two.credit({1, 1}, 1.5), two.credit({1, 0}, -1000);  // values of zero
   CHECK(two.blend(between).plan.weights_m.allFinite());
 }
 
-TEST_CASE("of too many plans those go that lead where a better one does") {
+TEST_CASE("a full bank removes the less valuable of two plans for the same place") {
   std::vector<MotorPlan> plans{plan_of(VectorXd::Constant(5, 0.1), 1.2),
                                plan_of(VectorXd::Constant(5, 0.101), 0.9),
                                plan_of(VectorXd::Constant(5, 0.3), 0.1)};
@@ -84,28 +84,28 @@ TEST_CASE("of too many plans those go that lead where a better one does") {
   stored.trim();
   REQUIRE(stored.plans().size() == 2);
   CHECK(stored.plans()[0].value == 1.2);
-  CHECK(stored.plans()[1].value == 0.1);  // the only one that leads there
+  CHECK(stored.plans()[1].value == 0.1);  // the only plan for its place
   stored.cut(0);
   CHECK(stored.plans().size() == 1);
   CHECK(components(bank(60), 1.0) == 5);
   CHECK(components(Bank({}, {plans[0], plans[2]}), 0.99) == 1);
 }
 
-TEST_CASE("a plan varied is near the plan, and within bounds") {
-  auto dice = sim::training_loop::dice(1);
+TEST_CASE("a varied plan is near the plan and within bounds") {
+  auto random = sim::training_loop::random_stream(1);
   const MotorPlan plan = plan_of(VectorXd::Constant(5, 0.05));
-  const MotorPlan other = varied(plan, {}, dice);
+  const MotorPlan other = varied(plan, {}, random);
   CHECK(other.weights_m != plan.weights_m);
   CHECK((other.weights_m - plan.weights_m).cwiseAbs().maxCoeff() < 0.03);
   const MotorPlan wild =
-      varied(plan, {.weights = 0, .weights_m = 0, .rise = 50, .beyond = 50}, dice);
+      varied(plan, {.weights = 0, .weights_m = 0, .rise = 50, .beyond = 50}, random);
   CHECK(wild.weights_m == plan.weights_m);
   CHECK((wild.signal.rise_s == 0.3 || wild.signal.rise_s == 1.6));
   CHECK(std::abs(wild.signal.beyond) == 0.4);
 }
 
-TEST_CASE("lines are led back by paying out first what is wound up, then winding up the others") {
-  const WayBack way({.watch_s = 1, .way_s = 2, .still_s = 0.5}, 3, Eigen::Vector2d(-0.02, 0.01));
+TEST_CASE("on the return wound-up lines are paid out first, then the others are wound up") {
+  const ReturnPath way({.watch_s = 1, .way_s = 2, .still_s = 0.5}, 3, Eigen::Vector2d(-0.02, 0.01));
   CHECK(way.at(3) == Eigen::Vector2d(-0.02, 0.01));
   CHECK((way.at(3.5) - Eigen::Vector2d(-0.01, 0.01)).norm() < 1e-12);
   CHECK((way.at(4) - Eigen::Vector2d(0, 0.01)).norm() < 1e-12);
@@ -115,7 +115,7 @@ TEST_CASE("lines are led back by paying out first what is wound up, then winding
   CHECK(way.done(5.6));
 }
 
-TEST_CASE("a trial plays its signal, with noise in proportion to it, and leads lines back") {
+TEST_CASE("a trial plays its signal with proportional noise, then returns the lines") {
   const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0.25}, {0, 0, 0}};
   const TrialTimes times{.watch_s = 1, .way_s = 1, .still_s = 0.5};
   Trial quiet(plan, times, 0, 1), noisy(plan, times, 0.1, 1);
@@ -137,46 +137,46 @@ TEST_CASE("a trial plays its signal, with noise in proportion to it, and leads l
   CHECK(std::sqrt(squares / count) == Approx(0.1 * 0.04).epsilon(0.5));
   CHECK(quiet.end_s() == Approx(1.2));
   CHECK(quiet.path().at_m.front().x() == Approx(3).margin(0.003));
-  CHECK(quiet.path().at_m.size() == Approx(220).margin(2));  // nothing of the way back
+  CHECK(quiet.path().at_m.size() == Approx(220).margin(2));  // without the return
   CHECK(end == Approx(3 + 2.2 + 1.5).margin(0.01));
   CHECK(quiet.last_m().x() == Approx(end));
 }
 
-TEST_CASE("striking is touching; staying in the zone is rewarded beside") {
+TEST_CASE("an overlap is a strike, and time in the zone adds to the reward") {
   const BottleConfig bottle;  // touched at 0.0725 m
   const HandPath path = along({0.3, 0, 0}, 1, 1);
-  const Outcome there = judge(bottle, {0.3, 0, 0}, path, 1);
+  const Outcome there = evaluate(bottle, {0.3, 0, 0}, path, 1);
   CHECK(there.struck);
   CHECK(there.strike_s == Approx(0.66).margin(0.03));
   CHECK(there.strike_speed_m_per_s == Approx(0.47).margin(0.05));
   CHECK(there.stayed == 1);
   CHECK(there.reward == Approx(1.5));
-  const Outcome past = judge(bottle, {0.15, 0, 0}, path, 1);
+  const Outcome past = evaluate(bottle, {0.15, 0, 0}, path, 1);
   CHECK(past.struck);
-  CHECK(past.reward == Approx(1));  // it passed by
-  const Outcome beside = judge(bottle, {0.3, 0.1, 0}, path, 1);
-  CHECK(!beside.struck);
-  CHECK(beside.nearest_m == Approx(0.0275).margin(1e-6));
-  CHECK(beside.reward == Approx(0.5));
-  CHECK(judge(bottle, {0.3, 0, 0.13}, path, 1).struck);  // at its foot
-  CHECK(!judge(bottle, {0.3, 0, 0.15}, path, 1).struck);
-  CHECK(!judge(bottle, {0, 0, 0}, {}, 1).struck);
+  CHECK(past.reward == Approx(1));  // it did not stay
+  const Outcome missed = evaluate(bottle, {0.3, 0.1, 0}, path, 1);
+  CHECK(!missed.struck);
+  CHECK(missed.nearest_m == Approx(0.0275).margin(1e-6));
+  CHECK(missed.reward == Approx(0.5));
+  CHECK(evaluate(bottle, {0.3, 0, 0.13}, path, 1).struck);  // at its lower end
+  CHECK(!evaluate(bottle, {0.3, 0, 0.15}, path, 1).struck);
+  CHECK(!evaluate(bottle, {0, 0, 0}, {}, 1).struck);
 }
 
-TEST_CASE("the path with the least jerk has a relative jerk of one, and another one more") {
-  const HandPath least = along({0.2, 0.1, -0.3}, 2, 0);
-  CHECK(relative_jerk(least, 2) == Approx(1).epsilon(0.25));
-  HandPath swung = least;
-  for (std::size_t k = 0; k < swung.at_m.size(); ++k)
-    swung.at_m[k].y() += 0.02 * std::sin(0.1 * double(k));
-  CHECK(relative_jerk(swung, 2) > 5);
+TEST_CASE("the minimum-jerk path has a relative jerk of 1, an oscillating one more than 5") {
+  const HandPath smooth = along({0.2, 0.1, -0.3}, 2, 0);
+  CHECK(relative_jerk(smooth, 2) == Approx(1).epsilon(0.25));
+  HandPath oscillating = smooth;
+  for (std::size_t k = 0; k < oscillating.at_m.size(); ++k)
+    oscillating.at_m[k].y() += 0.02 * std::sin(0.1 * double(k));
+  CHECK(relative_jerk(oscillating, 2) > 5);
   CHECK((rest_of(along({1, 2, 3}, 1, 0.5)) - Vector3d(1, 2, 3)).norm() < 1e-9);
 }
 
 namespace {
 
-/// The hand goes 0.3 m, and so far back.
-Trial tried(double back) {
+/// A trial whose hand moves 0.3 m, and back by the share `back` of that.
+Trial trial_returning(double back) {
   const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0}, {0, 0, 0}};
   Trial trial(plan, {.watch_s = 1, .way_s = 1, .still_s = 0.5}, 0, 1);
   for (double t = 0; !trial.done(); t += 0.002) {
@@ -189,34 +189,34 @@ Trial tried(double back) {
 
 }  // namespace
 
-TEST_CASE(
-    "a plan is stored where it led, and trusted the less the farther that is from its target") {
+TEST_CASE("a plan is stored at the place it reached, with a value that decreases with its miss") {
   const BottleConfig bottle;
-  const Taught there = taught_by(tried(1), bottle, {0, 0, 0}, {0.3, 0, 0});
+  const TrialResult there = result_of(trial_returning(1), bottle, {0, 0, 0}, {0.3, 0, 0});
   REQUIRE(there.plan);
   CHECK((there.plan->at_m - Vector3d(0.3, 0, 0)).norm() < 1e-9);
   CHECK(there.plan->weights_m == VectorXd::Constant(2, 0.04));
   CHECK(there.plan->value == Approx(1.5));
   CHECK(there.credit == Approx(1.5));
-  const Taught beside = taught_by(tried(1), bottle, {0, 0, 0}, {0.3, 0.06, 0});
-  REQUIRE(beside.plan);
-  CHECK(beside.plan->at_m == there.plan->at_m);
-  CHECK(beside.plan->value == Approx(1.5 * std::exp(-0.5)));
+  const TrialResult missed = result_of(trial_returning(1), bottle, {0, 0, 0}, {0.3, 0.06, 0});
+  REQUIRE(missed.plan);
+  CHECK(missed.plan->at_m == there.plan->at_m);
+  CHECK(missed.plan->value == Approx(1.5 * std::exp(-0.5)));
 }
 
-TEST_CASE("a plan from which the hand does not come back is not stored, whatever it struck") {
-  const Taught lost = taught_by(tried(0.9), {}, {0, 0, 0}, {0.3, 0, 0});  // 30 mm off
+TEST_CASE("a plan from which the hand does not return is not stored even if it struck") {
+  const TrialResult lost =
+      result_of(trial_returning(0.9), {}, {0, 0, 0}, {0.3, 0, 0});  // 30 mm off
   CHECK(lost.outcome.struck);
   CHECK(lost.off_m == Approx(0.03));
   CHECK(!lost.came_back);
   CHECK(lost.credit == 0);
   CHECK(!lost.plan);
-  const Taught nearly = taught_by(tried(0.95), {}, {0, 0, 0}, {0.3, 0, 0});
+  const TrialResult nearly = result_of(trial_returning(0.95), {}, {0, 0, 0}, {0.3, 0, 0});
   CHECK(nearly.came_back);
   CHECK(nearly.plan);
 }
 
-TEST_CASE("a bank is written and read again; what does not fit is told with its place") {
+TEST_CASE("a bank survives writing and reading, and one that does not fit is refused") {
   BankFile file;
   file.hand.body = "hand";
   file.muscles.all = {{{}, "right_biceps"}};

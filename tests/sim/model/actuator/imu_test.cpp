@@ -18,19 +18,19 @@ erp::Imu unit() {
 
 }  // namespace
 
-TEST_CASE("at rest the unit reads the reaction to gravity in its own axes") {
+TEST_CASE("at rest the IMU reads minus gravity in its own axes") {
   BodyPose pose;
   pose.rotation = Eigen::AngleAxisd(0.5, Vec3::UnitX()).toRotationMatrix();
   ImuSensor sensor(unit(), gravity, 1);
   for (double t = 0; t < 0.01; t += 0.002) {
-    const ImuReading reading = sensor.look(t, pose, {});
+    const ImuReading reading = sensor.sample(t, pose, {});
     CHECK((reading.acceleration_m_per_s2 - pose.rotation.transpose() * Vec3(0, 0, 9.81)).norm() <
           1e-5);
     CHECK(reading.turning_rad_per_s.norm() < 1e-5);
   }
 }
 
-TEST_CASE("on a turning body it reads ω² r towards the axis") {
+TEST_CASE("on a rotating body the IMU reads ω² r towards the axis") {
   erp::Imu imu = unit();
   imu.at_m = {0.2, 0, 0};
   ImuSensor sensor(imu, Vec3::Zero(), 1);
@@ -39,30 +39,31 @@ TEST_CASE("on a turning body it reads ω² r towards the axis") {
   for (int k = 0; k < 1000; ++k) {
     BodyPose pose;
     pose.rotation = Eigen::AngleAxisd(omega * dt * k, Vec3::UnitZ()).toRotationMatrix();
-    reading = sensor.look(dt * k, pose, {Vec3(0, 0, omega), Vec3::Zero()});
+    reading = sensor.sample(dt * k, pose, {Vec3(0, 0, omega), Vec3::Zero()});
   }
   CHECK(reading.acceleration_m_per_s2.x() == Approx(-omega * omega * 0.2).epsilon(1e-3));
   CHECK(reading.turning_rad_per_s.z() == Approx(omega).epsilon(1e-5));
 }
 
-TEST_CASE("a falling unit feels nothing, and one beyond its range reads its range") {
+TEST_CASE("an IMU in free fall reads zero, and out of range it saturates") {
   ImuSensor sensor(unit(), gravity, 1);
-  sensor.look(0, {}, {});
-  CHECK(sensor.look(0.01, {}, {Vec3::Zero(), 0.01 * gravity}).acceleration_m_per_s2.norm() < 1e-5);
-  CHECK(sensor.look(0.02, {}, {Vec3(0, 0, 50), Vec3(9, 0, 0)}).acceleration_m_per_s2.x() == 40);
-  CHECK(sensor.look(0.03, {}, {Vec3(0, 0, 50), Vec3(9, 0, 0)}).turning_rad_per_s.z() == 20);
+  sensor.sample(0, {}, {});
+  CHECK(sensor.sample(0.01, {}, {Vec3::Zero(), 0.01 * gravity}).acceleration_m_per_s2.norm() <
+        1e-5);
+  CHECK(sensor.sample(0.02, {}, {Vec3(0, 0, 50), Vec3(9, 0, 0)}).acceleration_m_per_s2.x() == 40);
+  CHECK(sensor.sample(0.03, {}, {Vec3(0, 0, 50), Vec3(9, 0, 0)}).turning_rad_per_s.z() == 20);
 }
 
-TEST_CASE("noise is what the XML says, the same from the same seed") {
+TEST_CASE("noise has the standard deviation of the XML and is reproducible from the seed") {
   erp::Imu imu = unit();
   imu.acceleration_noise_m_per_s2 = 0.05, imu.turning_noise_rad_per_s = 0.01;
   ImuSensor one(imu, Vec3::Zero(), 7), again(imu, Vec3::Zero(), 7);
   double squares = 0;
-  constexpr int looks = 20000;
-  for (int k = 0; k < looks; ++k) {
-    const ImuReading reading = one.look(0.01 * k, {}, {});
-    REQUIRE(reading.acceleration_m_per_s2 == again.look(0.01 * k, {}, {}).acceleration_m_per_s2);
+  constexpr int samples = 20000;
+  for (int k = 0; k < samples; ++k) {
+    const ImuReading reading = one.sample(0.01 * k, {}, {});
+    REQUIRE(reading.acceleration_m_per_s2 == again.sample(0.01 * k, {}, {}).acceleration_m_per_s2);
     squares += reading.acceleration_m_per_s2.squaredNorm() / 3;
   }
-  CHECK(std::sqrt(squares / looks) == Approx(0.05).epsilon(0.02));
+  CHECK(std::sqrt(squares / samples) == Approx(0.05).epsilon(0.02));
 }

@@ -9,7 +9,7 @@ using sim::Motor, sim::MotorState;
 
 namespace {
 
-/// Powers in W at one instant; `gear` is what the mesh keeps: (T_in N − T_out) ω.
+/// Powers in W at one instant; `gear` is the power lost in the mesh: (T_in N − T_out) ω.
 struct Powers {
   double electrical, copper, friction, gear, line;
 };
@@ -39,13 +39,13 @@ double stored_J(const erp::MotorType& m, const MotorState& x) {
 
 }  // namespace
 
-TEST_CASE("the motor's energy adds up and nothing is gained, in all four quadrants") {
+TEST_CASE("the energy balance of the motor closes without gain in all four quadrants") {
   const erp::MotorType m = caliper();
   const Motor motor(m, spindle_radius_m);
   struct Quadrant {
     double speed, v, f;
   };
-  // winding driven, winding braked, let out driven, let out braked by the motor; then slack, short.
+  // winding driven, winding braked, unwinding driven, unwinding braked by the motor; then slack, short.
   const auto q = GENERATE(Quadrant{2, 8, 60}, Quadrant{6, -2, 60}, Quadrant{-2, -9, 60},
                           Quadrant{-6, 2, 90}, Quadrant{3, -6, 0}, Quadrant{-4, 0, 150});
   CAPTURE(q.speed, q.v, q.f);
@@ -66,15 +66,16 @@ TEST_CASE("the motor's energy adds up and nothing is gained, in all four quadran
     gear += kept_by_gear;
     x = end;
   }
-  const double left = electrical - copper - friction - gear - line - stored_J(m, x) + stored_before;
+  const double residual_J =
+      electrical - copper - friction - gear - line - stored_J(m, x) + stored_before;
   const double turned_over = std::abs(electrical) + copper + friction + gear + std::abs(line);
-  CHECK(std::abs(left) < 1e-6 * turned_over);
+  CHECK(std::abs(residual_J) < 1e-6 * turned_over);
 }
 
-TEST_CASE("a load that drives the motor delivers η of its power, not more") {
+TEST_CASE("a load that drives the motor delivers the fraction η of its power") {
   erp::MotorType m = rigs::without_friction(caliper());
   const Motor motor(m, spindle_radius_m);
-  // Short circuit, let out steadily: K_T i N / η = r F, electrical power R i² = η r F |ω|.
+  // Short circuit, unwinding at constant speed: K_T i N / η = r F, electrical power R i² = η r F |ω|.
   const MotorState x = step(motor, {}, 0.0, 100.0, 1.0);
   REQUIRE(x.speed_rad_per_s < 0);
   const double delivered = spindle_radius_m * 100 * -x.speed_rad_per_s;

@@ -11,7 +11,7 @@ using sim::Motor, sim::MotorState;
 
 namespace {
 
-/// eq. 3 as it stands in the paper, for a motor that drives (ω > 0), by Runge–Kutta.
+/// eq. 3 as in the paper, for a motor that drives the load (ω > 0), integrated by Runge–Kutta.
 MotorState runge_kutta(const erp::MotorType& m, MotorState x, double v, double f, double t) {
   const double n = m.gear_ratio, eta = m.gear_efficiency;
   const double j = m.rotor_inertia_kg_m2 * n * n * eta + m.gear_inertia_kg_m2;
@@ -52,14 +52,14 @@ MotorState in_pieces(const Motor& motor, MotorState x, double v, double f, doubl
 
 }  // namespace
 
-TEST_CASE("one long step of a driving motor is what eq. 3 integrates to") {
+TEST_CASE("one long step of a driving motor equals the numerical integration of eq. 3") {
   const Motor motor(caliper(), spindle_radius_m);
   const MotorState start{0.5, 1.0, 0.3};
   check_equal(step(motor, start, 9.0, 40.0, 0.02), runge_kutta(caliper(), start, 9.0, 40.0, 0.02),
               1e-10);
 }
 
-TEST_CASE("a motor with a large winding oscillates and is solved as exactly") {
+TEST_CASE("a motor with a large inductance oscillates and is solved exactly as well") {
   erp::MotorType slow = caliper();
   slow.inductance_H = 0.05;
   const Motor motor(slow, spindle_radius_m);
@@ -79,7 +79,7 @@ TEST_CASE("the unloaded motor turns at the published speed and holds the publish
   CHECK(held.speed_rad_per_s == Approx(0).margin(1e-9));
 }
 
-TEST_CASE("at rest against friction and load the speed is the root of eq. 3") {
+TEST_CASE("the steady speed under friction and load is the root of eq. 3") {
   const erp::MotorType m = caliper();
   const Motor motor(m, spindle_radius_m);
   // 0 = e N (K_T i − µ_M N ω − τ_CM) − µ_G ω − τ_CG − r F,  0 = V − R i − K_E N ω
@@ -89,16 +89,16 @@ TEST_CASE("at rest against friction and load the speed is the root of eq. 3") {
   CHECK(step(motor, {}, v, f, 2.0).speed_rad_per_s == Approx(drive / drag).epsilon(1e-12));
 }
 
-TEST_CASE("a shaft that sticks leaves only the winding: i = V/R (1 − e^(−Rt/L))") {
+TEST_CASE("with a sticking shaft the current is i = V/R (1 − e^(−Rt/L))") {
   const Motor motor(caliper(), spindle_radius_m);
-  const double v = 0.516 * 0.02, t = 5e-5;  // 0.02 A is inside the band
+  const double v = 0.516 * 0.02, t = 5e-5;  // 0.02 A is inside the friction band
   const MotorState x = step(motor, {}, v, 0.0, t);
   CHECK(x.current_A == Approx(0.02 * -std::expm1(-0.516 / 57.3e-6 * t)).epsilon(1e-12));
   CHECK(x.speed_rad_per_s == 0.0);
   CHECK(x.shaft_rad == 0.0);
 }
 
-TEST_CASE("the shaft sticks below the friction torque and turns above it, both ways") {
+TEST_CASE("the shaft sticks below the friction torque and turns above it, in both directions") {
   const Motor motor(caliper(), spindle_radius_m);
   const double n = 128, eta = 0.59, k = 11.5e-3, f = 30, r = spindle_radius_m;
   const double up_A = ((r * f + 5e-3) / (eta * n) + 0.3e-3) / k;
@@ -112,14 +112,14 @@ TEST_CASE("the shaft sticks below the friction torque and turns above it, both w
   CHECK(speed(down_A * 0.9999) < 0.0);
 }
 
-TEST_CASE("without current a shaft holds a load until it overcomes the gear backwards") {
+TEST_CASE("without current the shaft holds a load until the load back-drives the gear") {
   const Motor motor(caliper(), spindle_radius_m);
   const double holds_N = (5e-3 + 128 * 0.3e-3 / 0.59) / spindle_radius_m;
   CHECK(step(motor, {}, 0.0, holds_N * 0.999, 0.1).speed_rad_per_s == 0.0);
   CHECK(step(motor, {}, 0.0, holds_N * 1.001, 0.1).speed_rad_per_s < 0.0);
 }
 
-TEST_CASE("a resting shaft breaks away at the time its current reaches the friction torque") {
+TEST_CASE("a shaft at rest breaks away when the motor torque reaches the friction torque") {
   const Motor motor(caliper(), spindle_radius_m);
   const double up_A = (5e-3 / (0.59 * 128) + 0.3e-3) / 11.5e-3, end_A = 12 / 0.516;
   const double t = -57.3e-6 / 0.516 * std::log(1 - up_A / end_A);
@@ -128,7 +128,7 @@ TEST_CASE("a resting shaft breaks away at the time its current reaches the frict
   CHECK(step(motor, {}, 12.0, 0.0, t).current_A == Approx(up_A).epsilon(1e-9));
 }
 
-TEST_CASE("a step may be cut anywhere: stops, breakaways and reversals do not move") {
+TEST_CASE("subdivision of a step does not change stops, breakaways and reversals") {
   const Motor motor(caliper(), spindle_radius_m);
   struct Case {
     MotorState start;
@@ -136,11 +136,11 @@ TEST_CASE("a step may be cut anywhere: stops, breakaways and reversals do not mo
   };
   const std::vector<Case> cases{
       {{0, 2, 0}, -6, 20},      // brakes, stops, reverses, is back-driven
-      {{0, -3, 0}, 5, 60},      // let out, stops, winds up
-      {{0, 1, 0}, 0, 5},        // coasts into the stick
-      {{-20, 0.01, 0}, 12, 0},  // an electric transient turns it back and forth within a step
+      {{0, -3, 0}, 5, 60},      // unwinds, stops, winds up
+      {{0, 1, 0}, 0, 5},        // coasts and sticks
+      {{-20, 0.01, 0}, 12, 0},  // an electric transient reverses it twice within a step
       {{0, 0, 0}, 3, 30},       // breaks away
-      {{0, -1, 0}, 0, 1.2},     // the mesh torque changes sign on the way
+      {{0, -1, 0}, 0, 1.2},     // the mesh torque changes sign during the step
       {{0, 4, 0}, -1, 0},
   };
   for (const Case& c : cases) {
@@ -151,7 +151,7 @@ TEST_CASE("a step may be cut anywhere: stops, breakaways and reversals do not mo
   }
 }
 
-TEST_CASE("coasting ends in an exact standstill and stays there") {
+TEST_CASE("a coasting shaft comes to an exact standstill and stays at rest") {
   const Motor motor(caliper(), spindle_radius_m);
   MotorState x = in_pieces(motor, {0, 5, 0}, 0.0, 10.0, 0.2, 200);
   CHECK(x.speed_rad_per_s == 0.0);
@@ -160,24 +160,23 @@ TEST_CASE("coasting ends in an exact standstill and stays there") {
   CHECK(x.shaft_rad == shaft);
 }
 
-TEST_CASE("a motor without a stable equation is refused") {
+TEST_CASE("a motor with unstable equations is rejected") {
   erp::MotorType m = caliper();
   m.resistance_ohm = -1;
   CHECK_THROWS_AS(Motor(m, spindle_radius_m), std::invalid_argument);
   CHECK_THROWS_AS(Motor(caliper(), 0.0), std::invalid_argument);
 }
 
-TEST_CASE(
-    "a torque on the rotor asks for the current that balances it, whatever the gear's efficiency") {
+TEST_CASE("a torque on the rotor is balanced by the current τ/K_T at any gear efficiency") {
   const erp::MotorType type = caliper();
   const Motor motor(type, spindle_radius_m);
   const double rotor_Nm = 1e-3, current_A = rotor_Nm / type.torque_Nm_per_A;
   const auto edge_A = [&](double torque_Nm, int direction) {
-    double low = -5, high = 5;  // the current at which it starts to turn
+    double low = -5, high = 5;  // bracket of the current at which it starts to turn
     for (int n = 0; n < 60; ++n) {
       const double middle = (low + high) / 2;
-      const int way = motor.breakaway(middle, {.tension_N = 20, .rotor_Nm = torque_Nm});
-      (direction > 0 ? way > 0 : way >= 0) ? high = middle : low = middle;
+      const int sign = motor.breakaway(middle, {.tension_N = 20, .rotor_Nm = torque_Nm});
+      (direction > 0 ? sign > 0 : sign >= 0) ? high = middle : low = middle;
     }
     return low;
   };

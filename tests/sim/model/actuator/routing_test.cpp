@@ -25,7 +25,7 @@ erp::Tendon tendon(std::vector<std::variant<erp::Attach, erp::Pulley>> path) {
   return t;
 }
 
-/// Two joints, pulleys on different bodies, two of them in a row.
+/// Two joints, with pulleys on different bodies and two consecutive pulleys.
 Routing biarticular() {
   return Routing(tendon({attach("base", {0.02, 0.01, 0.2}), pulley("base", {0, 0, 0}, 0.03),
                          pulley("upper", {0.01, 0, -0.15}, 0.02), attach("upper", {0.03, 0, -0.2}),
@@ -33,7 +33,7 @@ Routing biarticular() {
                  bodies);
 }
 
-/// The same joints, over a cylinder, askew, and a sphere that the line goes around once more.
+/// The same joints, over an inclined cylinder and a sphere with one additional turn.
 Routing around_shafts() {
   erp::Pulley cylinder = pulley("base", {0.005, 0, 0}, 0.03);
   cylinder.shape = erp::PulleyShape::cylinder;
@@ -74,7 +74,7 @@ TEST_CASE("a quarter turn over a pulley: moment arm r, length linear in the angl
   for (double q = 0; q < 1.5; q += 0.1) CHECK(std::abs(length(q) - length(0) - 0.025 * q) < 1e-12);
 }
 
-TEST_CASE("the length's rate is what the moving bodies give, by central differences") {
+TEST_CASE("the length rate agrees with central differences of the length") {
   const Routing routing = GENERATE(biarticular(), around_shafts());
   std::mt19937 random(7);
   std::uniform_real_distribution<double> angle(-0.5, 0.5);
@@ -97,7 +97,7 @@ TEST_CASE("the length's rate is what the moving bodies give, by central differen
   }
 }
 
-TEST_CASE("the pulls on all bodies balance, pulleys included") {
+TEST_CASE("the pulls on all bodies sum to zero, pulleys included") {
   const Routing routing = GENERATE(biarticular(), around_shafts());
   Coordinates q;
   q << 0.3, -0.4, 0.2, 0.1, 0.5, -0.3;
@@ -114,7 +114,7 @@ TEST_CASE("the pulls on all bodies balance, pulleys included") {
   CHECK(moment.norm() < 1e-13);
 }
 
-TEST_CASE("a path over two pulleys is the shortest there is") {
+TEST_CASE("a path over two pulleys is the shortest path") {
   const Routing routing(
       tendon({attach("base", {0, 0.002, 0.2}), pulley("base", {0, 0, 0.05}, 0.03),
               pulley("base", {0.01, 0, -0.05}, 0.03), attach("base", {0, -0.002, -0.2})}),
@@ -123,7 +123,7 @@ TEST_CASE("a path over two pulleys is the shortest there is") {
   const PathShape shape = routing.solve(p);
   REQUIRE(shape.touches[1]);
   REQUIRE(shape.touches[2]);
-  // Tangents meet both spheres at right angles, the middle span among them.
+  // All spans, the middle one included, are tangent to the spheres.
   for (int k : {1, 2}) {
     const Vec3 center = shape.pulls[k].at_m;
     const Vec3 before = shape.exit_m[k - 1] - shape.entry_m[k];
@@ -133,7 +133,7 @@ TEST_CASE("a path over two pulleys is the shortest there is") {
   }
 }
 
-TEST_CASE("turns around a shaft are counted: 20 rad either way, moment arm r, and off it") {
+TEST_CASE("turns around a shaft are counted over ±20 rad with moment arm r, up to lift-off") {
   const bool cylinder = GENERATE(true, false);
   const double r = 0.025, arm = 0.026;
   erp::Pulley shaft = pulley("upper", {0, 0, 0}, r);
@@ -156,7 +156,7 @@ TEST_CASE("turns around a shaft are counted: 20 rad either way, moment arm r, an
   for (double q = 0; q < 20; q += 0.1) REQUIRE(is_linear_at(q));
   for (double q = 20; q > -20; q -= 0.1) REQUIRE(is_linear_at(q));
   double before_m = shape.length_m;
-  for (double q = -20; q > -28; q -= 0.1) {  // unwound: it lifts off, without a leap
+  for (double q = -20; q > -28; q -= 0.1) {  // unwound: it lifts off without a jump
     turn_to(q);
     REQUIRE(std::abs(shape.length_m - before_m) < 0.1 * (arm + 1e-3));
     before_m = shape.length_m;
@@ -164,7 +164,7 @@ TEST_CASE("turns around a shaft are counted: 20 rad either way, moment arm r, an
   CHECK_FALSE(shape.touches[1]);
 }
 
-TEST_CASE("a line around a cylinder is straight once it is unrolled") {
+TEST_CASE("a line around a cylinder is straight on the unrolled surface") {
   const double r = 0.03, rise = 0.1;
   erp::Pulley cylinder = pulley("base", {0, 0, 0}, r);
   cylinder.shape = erp::PulleyShape::cylinder;
@@ -184,10 +184,10 @@ TEST_CASE("a line around a cylinder is straight once it is unrolled") {
 }
 
 TEST_CASE("robots are checked for as many path elements as a routing holds") {
-  CHECK(sim::max_path_elements == erp::robot_check::most_path_elements);
+  CHECK(sim::max_path_elements == erp::robot_check::max_path_elements);
 }
 
-TEST_CASE("ends on one side of a shaft begin without a turn around it") {
+TEST_CASE("a path with both ends on one side of a shaft starts without a turn") {
   erp::Pulley shaft = pulley("base", {0, 0, 0}, 0.025);
   shaft.shape = erp::PulleyShape::cylinder;
   shaft.axis = {0, 1, 0};
@@ -198,7 +198,7 @@ TEST_CASE("ends on one side of a shaft begin without a turn around it") {
   CHECK(shape.length_m == Approx(std::hypot(0.2, 0.05)));
 }
 
-TEST_CASE("a path that makes no sense is refused") {
+TEST_CASE("an invalid path is rejected") {
   CHECK_THROWS_AS(Routing(tendon({attach("base", {})}), bodies), std::invalid_argument);
   CHECK_THROWS_AS(Routing(tendon({attach("base", {}), pulley("base", {}, 0.01)}), bodies),
                   std::invalid_argument);
@@ -209,7 +209,7 @@ TEST_CASE("a path that makes no sense is refused") {
       std::invalid_argument);
 }
 
-TEST_CASE("a point inside a pulley is refused at the start") {
+TEST_CASE("a point inside a pulley in the starting pose is rejected") {
   const Routing routing(tendon({attach("base", {0, 0, 0.01}), pulley("base", {0, 0, 0}, 0.03),
                                 attach("base", {0, 0, -0.2})}),
                         bodies);

@@ -27,7 +27,7 @@ TEST_CASE("one motor revolution is 2048 counts") {
   CHECK(sensors.read(-2 * std::numbers::pi, 0, 0).encoder == -2048 * 128);
 }
 
-TEST_CASE("current and tension come back within half a quantum") {
+TEST_CASE("current and tension are read within half a quantization step") {
   ActuatorSensors sensors(rigs::caliper(), ecu_12bit(), 1);
   const auto& scale = sensors.scale();
   CHECK(scale.current_A_per_count == Approx(16.0 / 4096));
@@ -40,7 +40,7 @@ TEST_CASE("current and tension come back within half a quantum") {
             0.5001 * scale.tension_N_per_count);
 }
 
-TEST_CASE("beyond its range a converter stays at its rail") {
+TEST_CASE("outside its range a converter saturates") {
   ActuatorSensors sensors(rigs::caliper(), ecu_12bit(), 1);
   CHECK(sensors.read(0, 100, 1000).current == 2047);
   CHECK(sensors.read(0, 100, 1000).tension == 4095);
@@ -48,7 +48,7 @@ TEST_CASE("beyond its range a converter stays at its rail") {
   CHECK(sensors.read(0, -100, -5).tension == 0);
 }
 
-TEST_CASE("the noise has the stated size and is the same from the same seed") {
+TEST_CASE("the noise has the specified standard deviation and is reproducible from the seed") {
   ActuatorSensors one(rigs::caliper(), ecu_12bit(0.015, 0.05), 42);
   ActuatorSensors same(rigs::caliper(), ecu_12bit(0.015, 0.05), 42);
   ActuatorSensors other(rigs::caliper(), ecu_12bit(0.015, 0.05), 43);
@@ -70,7 +70,9 @@ TEST_CASE("the noise has the stated size and is the same from the same seed") {
   CHECK(differ > samples / 2);
 }
 
-TEST_CASE("a ball joint's sensor reads one component of its rotation vector, to its ends") {
+TEST_CASE(
+    "the sensor of a ball joint reads one component of the rotation vector and saturates at its "
+    "limits") {
   const Eigen::Vector3d turn(0.3, -0.5, 0.2);
   const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
   const sim::JointReading ball{
@@ -84,7 +86,7 @@ TEST_CASE("a ball joint's sensor reads one component of its rotation vector, to 
         std::lround(-0.25 / (2 * std::numbers::pi) * 16384));
 }
 
-TEST_CASE("the potentiometer follows eq. 5 from its start to its ends") {
+TEST_CASE("the potentiometer follows eq. 5 from its start to its limits") {
   erp::Potentiometer type;
   type.bits = 12, type.range_rad = 20, type.start_rad = 8;
   sim::PotentiometerSensor sensor(type, 1);
@@ -96,7 +98,7 @@ TEST_CASE("the potentiometer follows eq. 5 from its start to its ends") {
   CHECK(sensor.read(-13) == 4095);
 }
 
-TEST_CASE("the joint sensor counts 14 bits a revolution, beyond one turn too") {
+TEST_CASE("the joint sensor has 14 bits per revolution, also beyond one turn") {
   erp::JointSensor type;
   type.bits_per_rev = 14;
   JointAngleSensor sensor(type, 1);

@@ -16,7 +16,7 @@ TendonLaw law(double pretension_N = 0) {
   return TendonLaw::at_rest(tendon, {{}, rigs::spindle_radius_m}, 0.3);
 }
 
-/// A mass hung on the tendon, the shaft held: m ẍ = m g − F, x downwards.
+/// A mass hanging on the tendon, with the shaft held: m ẍ = m g − F, x downwards.
 struct HungMass {
   double mass_kg, x_m = 0, v_m_per_s = 0;
   void run(const TendonLaw& tendon, double t_s, double dt_s = 1e-5) {
@@ -30,29 +30,29 @@ struct HungMass {
 
 }  // namespace
 
-TEST_CASE("the tendon pulls with its pretension at the start") {
+TEST_CASE("the initial tension is the pretension") {
   CHECK(law(7).tension_N(0.3, 0, 0, 0) == Approx(7));
 }
 
-TEST_CASE("winding up stretches the spring by the spindle's radius times the angle") {
+TEST_CASE("winding up stretches the tendon by the spindle radius times the angle") {
   CHECK(law().tension_N(0.3, 0, 1.0, 0) == Approx(6000 * 0.0045));
   CHECK(law().tension_N(0.3, 0, 1.0, 2.0) == Approx(6000 * 0.0045 + 20 * 0.0045 * 2));
   CHECK(law().line_m(1.0) == Approx(-0.0045));
 }
 
-TEST_CASE("a slack tendon never pushes and never pulls") {
+TEST_CASE("a slack tendon has zero tension") {
   CHECK(law().tension_N(0.29, 0, 0, 0) == 0.0);
   CHECK(law().tension_N(0.29, 5.0, 0, 0) == 0.0);
   CHECK(law().tension_N(0.3001, -5.0, 0, 0) == 0.0);
 }
 
-TEST_CASE("a hung mass rests at m g / κ") {
+TEST_CASE("a hanging mass is at rest at the stretch m g / κ") {
   HungMass mass{2.0};
   mass.run(law(), 8.0);
   CHECK(mass.x_m == Approx(2.0 * 9.81 / 6000).epsilon(1e-6));
 }
 
-TEST_CASE("a hung mass swings at √(κ/m − (D/2m)²) and dies at D/2m") {
+TEST_CASE("a hanging mass oscillates at √(κ/m − (D/2m)²) and decays at D/2m") {
   HungMass mass{2.0};
   mass.run(law(), 8.0);
   const double rest = mass.x_m, dt = 1e-5;
@@ -70,7 +70,9 @@ TEST_CASE("a hung mass swings at √(κ/m − (D/2m)²) and dies at D/2m") {
   CHECK(2 * std::numbers::pi * 20 / (last - first) == Approx(omega).epsilon(1e-4));
 }
 
-TEST_CASE("a spring that stiffens, on a line that gives: both ways agree, slopes are derivatives") {
+TEST_CASE(
+    "stretch_m and force_N of a stiffening spring on an elastic line are inverse, and the slope is "
+    "the derivative") {
   for (const double cubic : {0.0, 1e6, 3e8})
     for (const double compliance : {0.0, 1e-6, 1e-4}) {
       const sim::Spring spring{2000, cubic, compliance};
@@ -85,8 +87,7 @@ TEST_CASE("a spring that stiffens, on a line that gives: both ways agree, slopes
     }
 }
 
-TEST_CASE(
-    "springs in series share the stretch: of a plain spring and a line κ κ_line / (κ + κ_line)") {
+TEST_CASE("a linear spring in series with a line has the stiffness κ κ_line / (κ + κ_line)") {
   erp::Tendon tendon = rigs::hinge_tendon();
   tendon.line_stiffness_N_per_m = 3000;
   CHECK(sim::Spring::of(tendon).force_N(0.01) == Approx(0.01 * 6000 * 3000 / 9000));

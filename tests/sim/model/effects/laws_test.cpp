@@ -21,7 +21,7 @@ Sloped plain_line(const ChainSample& s) { return {s.radius_m * s.shaft_rad, s.ra
 
 }  // namespace
 
-TEST_CASE("backlash is crossed in slack and closed by a load") {
+TEST_CASE("backlash is crossed while the line is slack and closed by a load") {
   GearboxBacklash play;
   play.width_rad = 0.1, play.spindle_friction_Nm = 0.003;
   Memory memory{};
@@ -36,16 +36,16 @@ TEST_CASE("backlash is crossed in slack and closed by a load") {
   };
   CHECK(wound(1.0, 20) == Approx(0.005 * 1.0));    // on the flank
   CHECK(wound(0.96, 0) == Approx(0.005 * 1.0));    // the spindle stays
-  CHECK(wound(0.8, 0) == Approx(0.005 * 0.9));     // the other flank takes it along
-  CHECK(wound(0.85, 0) == Approx(0.005 * 0.9));    // back across the play
+  CHECK(wound(0.8, 0) == Approx(0.005 * 0.9));     // moved by the other flank
+  CHECK(wound(0.85, 0) == Approx(0.005 * 0.9));    // back across the backlash
   CHECK(wound(0.95, 0) == Approx(0.005 * 0.95));   // and wound up again
-  CHECK(wound(0.93, 20) == Approx(0.005 * 0.93));  // a load keeps it there
-  // across the play the line would pull 1.8 N: the spindle gives until its friction holds 0.6 N
+  CHECK(wound(0.93, 20) == Approx(0.005 * 0.93));  // a load holds it on the flank
+  // across the backlash the line would pull 1.8 N: the spindle turns until its friction holds 0.6 N
   CHECK(wound(0.83, 0) == Approx(0.005 * 0.93));
   CHECK(stretched(0.83, -2e-4) == Approx(0.005 * 0.83 + 3e-4));
 }
 
-TEST_CASE("layers: the line wound is the integral of the radius") {
+TEST_CASE("with layers the wound length is the integral of the radius") {
   SpindleLayers layers;
   layers.growth_m_per_rad = 1e-4;
   Memory memory{};
@@ -55,11 +55,12 @@ TEST_CASE("layers: the line wound is the integral of the radius") {
   const Sloped line = layers.wound(s, plain_line(s), memory);
   CHECK(line.value == Approx(sum));
   CHECK(line.slope == Approx(0.006));
-  layers.growth_m_per_rad = -1e-3;  // a fifth of the radius is left
+  layers.growth_m_per_rad = -1e-3;  // the radius is limited to a fifth
   CHECK(layers.wound(s, plain_line(s), memory).slope == Approx(0.001));
 }
 
-TEST_CASE("slip loses line in proportion to load and way, both ways, wherever it begins") {
+TEST_CASE(
+    "slip is proportional to load and distance in both directions, independent of the start") {
   SpindleSlip slip;
   slip.per_N = 1e-4;
   Memory memory{};
@@ -84,8 +85,8 @@ TEST_CASE("creep decays by 1/e in its time constant") {
 }
 
 TEST_CASE(
-    "creep and hysteresis go on from no stretch, however far the line hung slack; a shaft's do "
-    "not") {
+    "after slack, creep and hysteresis continue from zero stretch for a line, but not for a "
+    "shaft") {
   const auto pull_N = [](auto law, double together_m, bool pushes) {
     Memory memory{};
     ChainSample s = at(0);
@@ -103,7 +104,8 @@ TEST_CASE(
   check(TendonHysteresis{3, 5e-4});
 }
 
-TEST_CASE("hysteresis: a closed loop of stretch costs energy, whatever the steps") {
+TEST_CASE(
+    "a closed loop of stretch with hysteresis dissipates energy, independent of the step size") {
   const auto loop_J = [](int steps) {
     TendonHysteresis braid{3, 5e-4};
     Memory memory{};
@@ -119,33 +121,35 @@ TEST_CASE("hysteresis: a closed loop of stretch costs energy, whatever the steps
     return work;
   };
   const double fine = loop_J(20000);
-  CHECK(fine > 0.9 * 2 * 3 * 0.006 * 0.8);  // near ± F_h over the loop's two ways
+  CHECK(fine > 0.9 * 2 * 3 * 0.006 * 0.8);  // close to ± F_h on both branches of the loop
   CHECK(fine < 2 * 3 * 0.006);
   CHECK(loop_J(500) == Approx(fine).epsilon(0.05));
 }
 
-TEST_CASE("capstan: Euler's ratio, the greater pull at the end the line runs to") {
-  RoutingCapstan rubs;
-  rubs.friction = 0.2;
+TEST_CASE(
+    "capstan friction gives Euler's ratio, with the larger tension at the end towards which the "
+    "line moves") {
+  RoutingCapstan capstan;
+  capstan.friction = 0.2;
   ChainSample s = at(0, 10);
   s.wrap_rad = 2, s.line_speed_m_per_s = 0.1;
-  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(0.4)));
+  CHECK(capstan.motor_side_N(10, s) == Approx(10 * std::exp(0.4)));
   s.line_speed_m_per_s = -0.1;
-  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.4)));
-  rubs.post = 0.1;  // whatever the bend
-  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.5)));
+  CHECK(capstan.motor_side_N(10, s) == Approx(10 * std::exp(-0.4)));
+  capstan.post = 0.1;  // independent of the bend
+  CHECK(capstan.motor_side_N(10, s) == Approx(10 * std::exp(-0.5)));
   s.wrap_rad = 0;
-  CHECK(rubs.motor_side_N(10, s) == Approx(10 * std::exp(-0.1)));
+  CHECK(capstan.motor_side_N(10, s) == Approx(10 * std::exp(-0.1)));
 }
 
-TEST_CASE("a line that stretches gives less when much of it is wound up") {
+TEST_CASE("the compliance of the kite line decreases with the wound length") {
   constexpr double spring = 6000, c = 1e-4, stretch_m = 0.005, start_m = 0.3;
   const TendonKiteLine line{c};
   Memory memory{};
   for (const double length_m : {0.2, 0.3, 0.4}) {
     ChainSample s;
     s.path_m = length_m, s.path_change_m = length_m - start_m, s.stretch_m = stretch_m;
-    const double at_start = 1 / (1 / spring + c);  // change_actuator has made the spring that soft
+    const double at_start = 1 / (1 / spring + c);  // the softer spring of change_actuator
     s.stiffness_N_per_m = at_start;
     const double unstretched_m = length_m - stretch_m;
     const double exact_N = stretch_m / (1 / spring + c * unstretched_m / start_m);
@@ -153,7 +157,7 @@ TEST_CASE("a line that stretches gives less when much of it is wound up") {
   }
 }
 
-TEST_CASE("the winding's warmth: steady rise of resistance, and its time") {
+TEST_CASE("thermal resistance reaches the steady-state rise with the time constant") {
   MotorThermalResistance warm{10, 5};
   Memory memory{};
   ChainSample s = at(0);
@@ -164,7 +168,7 @@ TEST_CASE("the winding's warmth: steady rise of resistance, and its time") {
   CHECK(ohm == Approx(0.5 * (1 + 0.00393 * rise_K)));
 }
 
-TEST_CASE("a dead band takes its volts, a supply gives way") {
+TEST_CASE("a dead band reduces the voltage by V₀, and supply sag adds resistance") {
   const MotorDeadBand band{0.5};
   ChainSample s = at(0);
   Memory memory{};
@@ -176,16 +180,17 @@ TEST_CASE("a dead band takes its volts, a supply gives way") {
   CHECK(sag.resistance_ohm(0.4, s, memory) == Approx(0.4 + 0.25 * 0.5));
 }
 
-/// Voltages that a delayed driver applies, one a step of 1 ms.
+/// Voltages that a delayed driver applies, one per step of 1 ms.
 std::vector<double> applied_V(double delay_s, const std::vector<double>& commanded_V) {
   const MotorDriverDelay driver{delay_s};
   Memory memory{};
   std::vector<double> all;
-  for (const double v : commanded_V) all.push_back(driver.late_voltage_V(v, at(0), memory));
+  for (const double v : commanded_V) all.push_back(driver.delayed_voltage_V(v, at(0), memory));
   return all;
 }
 
-TEST_CASE("a driver delay shifts the voltage by whole steps and averages the rest of a step") {
+TEST_CASE(
+    "a driver delay shifts the voltage by whole steps and averages over the fraction of a step") {
   const std::vector<double> commanded_V{1, 1, 5, 5, 2, 2, 2, 7};
   CHECK(applied_V(0, commanded_V) == commanded_V);
   CHECK(applied_V(0.001, commanded_V) == std::vector<double>{1, 1, 1, 5, 5, 2, 2, 2});
@@ -195,12 +200,12 @@ TEST_CASE("a driver delay shifts the voltage by whole steps and averages the res
   CHECK(late[7] == Approx(2));
 }
 
-TEST_CASE("a delay longer than three changes of the voltage acts as the fourth comes") {
+TEST_CASE("with three pending voltage changes, a fourth change applies the oldest") {
   const auto late = applied_V(1, {1, 2, 3, 4, 5});
   CHECK(late == std::vector<double>{1, 1, 1, 1, 2});
 }
 
-TEST_CASE("stiction ages towards its extra friction in rest and is lost over a way") {
+TEST_CASE("stiction grows to its extra friction at rest and decreases over the slip distance") {
   const GearboxAgeingStiction stiction{0.2, 2, 0.1};
   Memory memory{};
   ChainSample s = at(0);
@@ -212,7 +217,7 @@ TEST_CASE("stiction ages towards its extra friction in rest and is lost over a w
   CHECK(stiction.aged_Nm(s, memory) == Approx(0.2 * std::exp(-1)).epsilon(0.02));
 }
 
-TEST_CASE("position-dependent friction repeats as often a turn as its periods") {
+TEST_CASE("position-dependent friction repeats periods_per_turn times per turn") {
   const GearboxPositionDependent friction{0.03, 0.04, 3};
   ChainSample s = at(0);
   CHECK(friction.friction_Nm(1, s) == Approx(0.04));
@@ -222,16 +227,16 @@ TEST_CASE("position-dependent friction repeats as often a turn as its periods") 
   CHECK(friction.friction_Nm(1, s) == Approx(0.03));
 }
 
-TEST_CASE("play in a bearing: the sensor's shaft is taken along at its edge") {
+TEST_CASE("with joint play the sensor's shaft follows at the edges of the play") {
   const JointPlay play{0.02};
   Memory memory{};
-  CHECK(play.bearing_rad(0.005, memory) == 0);
-  CHECK(play.bearing_rad(0.05, memory) == Approx(0.04));
-  CHECK(play.bearing_rad(0.035, memory) == Approx(0.04));
-  CHECK(play.bearing_rad(0.0, memory) == Approx(0.01));
+  CHECK(play.sensor_shaft_rad(0.005, memory) == 0);
+  CHECK(play.sensor_shaft_rad(0.05, memory) == Approx(0.04));
+  CHECK(play.sensor_shaft_rad(0.035, memory) == Approx(0.04));
+  CHECK(play.sensor_shaft_rad(0.0, memory) == Approx(0.01));
 }
 
-TEST_CASE("what a sensor's effect does, its inverse undoes") {
+TEST_CASE("undo of a sensor effect inverts read") {
   const auto round_trip = [](const auto& effect) {
     Memory there{}, back{};
     double worst = 0;
@@ -249,7 +254,7 @@ TEST_CASE("what a sensor's effect does, its inverse undoes") {
   CHECK(round_trip(SensorEccentricity<Sense::shaft>{0.2, 0.1}) < 1e-9);
 }
 
-TEST_CASE("what several effects of one sensor do is undone whatever their order") {
+TEST_CASE("undo inverts several effects on one sensor in any order") {
   const std::vector<AnyEffect> all{SensorOffset<Sense::joint>{0.1}, SensorGain<Sense::joint>{0.2},
                                    SensorDrift<Sense::joint>{0.01},
                                    SensorEccentricity<Sense::joint>{0.2, 0.1}};
@@ -263,8 +268,9 @@ TEST_CASE("what several effects of one sensor do is undone whatever their order"
     }
 }
 
-TEST_CASE("a slow sensor answers as its law does, and its rate undoes it") {
-  // of T ẏ + y = sin w t there is a closed form once the start has died away
+TEST_CASE(
+    "a low-pass sensor has the closed-form response, and undo inverts it from the reading rate") {
+  // T ẏ + y = sin w t has a closed-form solution after the transient
   constexpr double period_s = 0.002, time_constant_s = 0.02, w = 5;
   const SensorLowPass<Sense::tension> slow{time_constant_s};
   const double gain = 1 / std::hypot(1, w * time_constant_s), late = std::atan(w * time_constant_s);
@@ -272,22 +278,22 @@ TEST_CASE("a slow sensor answers as its law does, and its rate undoes it") {
   double worst = 0;
   for (int k = 0; k < 2000; ++k) {
     const double t = period_s * k;
-    const double said = slow.read(std::sin(w * t), {t, period_s, 128}, memory);
-    if (t > 1) worst = std::fmax(worst, std::abs(said - gain * std::sin(w * t - late)));
+    const double reading = slow.read(std::sin(w * t), {t, period_s, 128}, memory);
+    if (t > 1) worst = std::fmax(worst, std::abs(reading - gain * std::sin(w * t - late)));
     const double rate = gain * w * std::cos(w * t - late);
     if (t > 1)
       worst = std::fmax(
-          worst, std::abs(slow.undo(said, {t, period_s, 128, rate}, memory) - std::sin(w * t)));
+          worst, std::abs(slow.undo(reading, {t, period_s, 128, rate}, memory) - std::sin(w * t)));
   }
   CHECK(worst < 1e-4);
 }
 
-TEST_CASE("cogging is averaged over what is turned in a step") {
+TEST_CASE("cogging is averaged over the rotation in a step") {
   const MotorCogging teeth{1e-3, 0};
   ChainSample s;
   s.gear_ratio = 100, s.dt_s = 0.002, s.shaft_rad = 0.0013;
   const double still = teeth.rotor_Nm(s);
   CHECK(still == Approx(1e-3 * std::sin(1200 * 0.0013)));
-  s.speed_rad_per_s = 2.617993878;  // 1200 · ω · dt = 2π: all of a tooth
+  s.speed_rad_per_s = 2.617993878;  // 1200 · ω · dt = 2π: one full period
   CHECK(std::abs(teeth.rotor_Nm(s)) < 1e-9);
 }

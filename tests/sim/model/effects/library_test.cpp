@@ -13,7 +13,7 @@ namespace {
 
 erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
 
-std::string mistake(const erp::Effect& effect) {
+std::string error_of(const erp::Effect& effect) {
   erp::Robot robot = hinge_rig();
   robot.effects = {effect};
   try {
@@ -26,7 +26,7 @@ std::string mistake(const erp::Effect& effect) {
 
 }  // namespace
 
-TEST_CASE("types are told apart and begin with their stage") {
+TEST_CASE("types are unique and begin with their stage") {
   std::set<std::string> types;
   for (const auto& effect : effects::library()) {
     const effects::About& about = effects::about(effect);
@@ -38,7 +38,7 @@ TEST_CASE("types are told apart and begin with their stage") {
   CHECK(types.size() >= 45);
 }
 
-TEST_CASE("neutral values lie within their bounds, and something is to be fitted") {
+TEST_CASE("default values are within the bounds, and each effect has a fitted parameter") {
   for (auto effect : effects::library()) {
     INFO(effects::about(effect).type);
     int fitted = 0;
@@ -52,7 +52,7 @@ TEST_CASE("neutral values lie within their bounds, and something is to be fitted
   }
 }
 
-TEST_CASE("a neutral effect leaves a robot as it is") {
+TEST_CASE("an effect with default parameters does not change the robot") {
   const std::string plain = erp::write_robot(hinge_rig());
   for (const auto& effect : effects::library()) {
     erp::Robot robot = hinge_rig();
@@ -66,7 +66,7 @@ TEST_CASE("a neutral effect leaves a robot as it is") {
   }
 }
 
-TEST_CASE("what is written reads back to the same parameters") {
+TEST_CASE("written effects are read with the same parameters") {
   for (const auto& [type, values] : magnitudes::all()) {
     INFO(type);
     const auto effect = magnitudes::visible(type);
@@ -81,20 +81,20 @@ TEST_CASE("what is written reads back to the same parameters") {
   }
 }
 
-TEST_CASE("mistakes in effects are named with what would be right") {
-  CHECK_THAT(mistake({{}, "gearbox_backlahs", "flexor", {}}),
+TEST_CASE("errors in effects are reported with a suggestion") {
+  CHECK_THAT(error_of({{}, "gearbox_backlahs", "flexor", {}}),
              Catch::Contains("did you mean \"gearbox_backlash\""));
-  CHECK_THAT(mistake({{}, "gearbox_backlash", "elbow", {}}),
+  CHECK_THAT(error_of({{}, "gearbox_backlash", "elbow", {}}),
              Catch::Contains("names no actuator") && Catch::Contains("flexor"));
-  CHECK_THAT(mistake({{}, "gearbox_backlash", "flexor", {{{}, "with_rad", "0.1"}}}),
+  CHECK_THAT(error_of({{}, "gearbox_backlash", "flexor", {{{}, "with_rad", "0.1"}}}),
              Catch::Contains("did you mean \"width_rad\""));
-  CHECK_THAT(mistake({{}, "gearbox_backlash", "flexor", {{{}, "width_rad", "7"}}}),
+  CHECK_THAT(error_of({{}, "gearbox_backlash", "flexor", {{{}, "width_rad", "7"}}}),
              Catch::Contains("width_rad=\"7\""));
-  CHECK_THAT(mistake({{}, "gearbox_backlash", "flexor", {{{}, "width_rad", "much"}}}),
+  CHECK_THAT(error_of({{}, "gearbox_backlash", "flexor", {{{}, "width_rad", "much"}}}),
              Catch::Contains("width_rad=\"much\""));
 }
 
-TEST_CASE("the effect of one actuator's motor leaves the other's as it is") {
+TEST_CASE("an effect on the motor of one actuator does not change another actuator") {
   erp::Robot robot = hinge_rig();
   robot.effects = {{{}, "motor_resistance", "flexor", {{{}, "relative", "0.5"}}},
                    {{}, "motor_resistance", "flexor", {{{}, "relative", "0.5"}}}};
@@ -103,8 +103,7 @@ TEST_CASE("the effect of one actuator's motor leaves the other's as it is") {
   CHECK(changed.motor_of(changed.actuators[1]).resistance_ohm == 0.516);
 }
 
-TEST_CASE(
-    "a line that stretches softens the spring at once, and acts with the length of the path") {
+TEST_CASE("the kite line softens the spring, and also acts in each step with the path length") {
   erp::Robot robot = hinge_rig();
   robot.effects = {{{}, "tendon_kite_line", "flexor", {{{}, "compliance_m_per_N", "1e-4"}}}};
   const auto [changed, acting] = effects::equip(robot);
@@ -113,7 +112,7 @@ TEST_CASE(
   CHECK(effects::name_of(acting[0]) == "tendon_kite_line on flexor");
 }
 
-TEST_CASE("a payload moves mass, centre and inertia by Steiner's theorem") {
+TEST_CASE("a payload changes mass, centre of mass and inertia by the parallel axis theorem") {
   erp::Robot robot = hinge_rig();
   robot.effects = {{{}, "skeleton_payload", "forearm", {{{}, "mass_kg", "0.2"}}}};
   const erp::Body body = effects::equip(robot).robot.bodies()[1];
@@ -123,14 +122,15 @@ TEST_CASE("a payload moves mass, centre and inertia by Steiner's theorem") {
   CHECK(about_joint == Approx(0.01752 + 0.2 * 0.25 * 0.25));
 }
 
-TEST_CASE("a tilted base turns gravity, a bent link keeps mass, centre and inertia") {
+TEST_CASE(
+    "base tilt rotates gravity, and link flexibility keeps mass, centre of mass and inertia") {
   erp::Robot robot = hinge_rig();
   robot.effects = {
       {{}, "skeleton_base_tilt", "hinge_rig", {{{}, "about_y_rad", "0.1"}}},
       {{}, "skeleton_link_flexibility", "forearm", {{{}, "compliance_rad_per_Nm", "0.1"}}}};
   const auto [changed, acting] = effects::equip(robot);
   const auto g = changed.gravity_m_per_s2();
-  CHECK(g[0] == Approx(9.81 * std::sin(0.1)));  // the base turned about y, seen from the base
+  CHECK(g[0] == Approx(9.81 * std::sin(0.1)));  // in the frame of the base rotated about y
   CHECK(g[2] == Approx(-9.81 * std::cos(0.1)));
   REQUIRE(changed.bodies().size() == 3);
   const auto bodies = changed.bodies();
@@ -141,11 +141,11 @@ TEST_CASE("a tilted base turns gravity, a bent link keeps mass, centre and inert
   const double about_elbow = inner.inertia_kg_m2[1] + outer.inertia_kg_m2[1] +
                              0.4 * (inner.com_m[2] * inner.com_m[2] + outer_z * outer_z);
   CHECK(about_elbow == Approx(0.01752));
-  REQUIRE(acting.size() == 1);  // the spring between them
+  REQUIRE(acting.size() == 1);  // the spring between the halves
   CHECK(acting[0].on == "forearm_bend");
 }
 
-TEST_CASE("a bone made of solids bends as well") {
+TEST_CASE("link flexibility also applies to a bone made of solids") {
   erp::Robot arm = erp::read_robot(rigs::config("arm/robot.xml"));
   const std::size_t bodies = arm.bodies().size();
   arm.effects = {

@@ -5,7 +5,7 @@
 
 #include "sim/model/effects/library.hpp"
 
-/// What can be seen of each effect: parameters at which hinge_rig's recordings change.
+/// Parameters of each effect that visibly change hinge_rig's recordings.
 namespace magnitudes {
 
 inline const std::map<std::string, std::map<std::string, double>>& all() {
@@ -84,7 +84,7 @@ inline const std::map<std::string, std::map<std::string, double>>& all() {
   return values;
 }
 
-/// The neutral effect with its parameters set; std::out_of_range for a type that is not above.
+/// The effect with these parameters. Throws std::out_of_range for a type that is not listed above.
 inline sim::effects::AnyEffect visible(const std::string& type) {
   auto effect = sim::effects::neutral(type).value();
   for (const auto& [name, value] : all().at(type))
@@ -93,7 +93,7 @@ inline sim::effects::AnyEffect visible(const std::string& type) {
   return effect;
 }
 
-/// A place of its kind in hinge_rig.
+/// A suitable target of the effect in hinge_rig.
 inline std::string place_in_rig(const sim::effects::AnyEffect& effect) {
   switch (sim::effects::about(effect).seat) {
     case sim::effects::Seat::actuator:

@@ -34,8 +34,8 @@ sim::JointPath three_poses(sim::Via via = sim::Via::rest) {
           via};
 }
 
-/// Two poses in sequence the same: a halt on a way without halts.
-sim::JointPath with_a_halt() {
+/// Two consecutive equal poses: a stop in a trajectory with Via::through.
+sim::JointPath with_a_stop() {
   const auto p = pose(0.7, {0, 1, 1}, 0.9);
   return {joints(),
           {{0, pose(0, Vec3::UnitX(), 0.3)},
@@ -46,7 +46,7 @@ sim::JointPath with_a_halt() {
           sim::Via::through};
 }
 
-/// Velocity and acceleration at a time beside differences of where it is; at(t, motions).
+/// Compares velocity and acceleration at a time with difference quotients; call where(t, motions).
 void check_derivatives(const auto& where, double t) {
   std::vector<sim::JointMotion> before, at, after;
   constexpr double h = 1e-5;
@@ -62,7 +62,7 @@ void check_derivatives(const auto& where, double t) {
   }
 }
 
-/// ∫ jerk² dt of the elbow, by differences.
+/// ∫ jerk² dt of the elbow, from difference quotients.
 double elbow_jerk(const sim::JointPath& path) {
   constexpr double h = 1e-3;
   std::vector<sim::JointMotion> a, b;
@@ -77,7 +77,7 @@ double elbow_jerk(const sim::JointPath& path) {
 
 }  // namespace
 
-TEST_CASE("a way passes its poses at their times, at rest, and stays in the last") {
+TEST_CASE("a trajectory passes its poses at their times, at rest, and stays in the last pose") {
   const auto path = three_poses();
   std::vector<sim::JointMotion> at;
   for (const double t : {0.0, 1.0, 3.0, 4.0, 9.0}) {
@@ -91,39 +91,41 @@ TEST_CASE("a way passes its poses at their times, at rest, and stays in the last
   CHECK(path.end_s() == 4);
 }
 
-TEST_CASE("velocity and acceleration are the derivatives of where it is, ball joints included") {
+TEST_CASE("velocity and acceleration are the derivatives of the position, ball joints included") {
   const auto path = three_poses(GENERATE(sim::Via::rest, sim::Via::through));
   for (double t = 1.05; t < 3.95; t += 0.1)
     if (std::abs(t - 3) > 1e-4) check_derivatives([&](double s, auto& at) { path.at(s, at); }, t);
 }
 
-TEST_CASE("a robot that moves, somewhere else, is led onto the way without a jump") {
+TEST_CASE(
+    "CatchUp moves a robot from another position and velocity to the trajectory without a jump") {
   const auto path = three_poses(sim::Via::through);
   const auto elsewhere = pose(0.6, {0, 2, 1}, 0.9);
   std::vector<sim::JointReading> now{
       {erp::JointType::spherical, elsewhere[0], {0.4, -0.9, 0.7}, {}, {}},
       {erp::JointType::revolute, elsewhere[1], {-1.1}, {}, {}}};
-  std::vector<sim::JointMotion> led, wanted;
+  std::vector<sim::JointMotion> guided, desired;
   constexpr double begin_s = 1.7, takes_s = 0.8;
-  path.at(begin_s, led);
-  const sim::CatchUp catch_up(now, led, takes_s);
+  path.at(begin_s, guided);
+  const sim::CatchUp catch_up(now, guided, takes_s);
   const auto at = [&](double time_s, auto& motions) {
     path.at(time_s, motions), catch_up.add(time_s - begin_s, motions);
   };
-  at(begin_s, led);
+  at(begin_s, guided);
   for (std::size_t j = 0; j < 2; ++j) {
-    CHECK(vec(sim::way_between(now[j].type, led[j].now.position, now[j].position)).norm() < 1e-9);
-    CHECK((vec(led[j].now.velocity_rad_per_s) - vec(now[j].velocity_rad_per_s)).norm() < 1e-9);
+    CHECK(vec(sim::way_between(now[j].type, guided[j].now.position, now[j].position)).norm() <
+          1e-9);
+    CHECK((vec(guided[j].now.velocity_rad_per_s) - vec(now[j].velocity_rad_per_s)).norm() < 1e-9);
   }
   for (double t = begin_s + 0.05; t < begin_s + takes_s; t += 0.1) check_derivatives(at, t);
-  at(begin_s + takes_s - 1e-9, led), path.at(begin_s + takes_s - 1e-9, wanted);
-  CHECK(turn(led[0]).angularDistance(turn(wanted[0])) < 1e-8);
-  CHECK((vec(led[0].acceleration_rad_per_s2) - vec(wanted[0].acceleration_rad_per_s2)).norm() <
+  at(begin_s + takes_s - 1e-9, guided), path.at(begin_s + takes_s - 1e-9, desired);
+  CHECK(turn(guided[0]).angularDistance(turn(desired[0])) < 1e-8);
+  CHECK((vec(guided[0].acceleration_rad_per_s2) - vec(desired[0].acceleration_rad_per_s2)).norm() <
         1e-5);
-  CHECK(led[1].now.position[0] == Approx(wanted[1].now.position[0]));
+  CHECK(guided[1].now.position[0] == Approx(desired[1].now.position[0]));
 }
 
-TEST_CASE("through a pose it goes without a halt, speed and acceleration continuous") {
+TEST_CASE("with Via::through, velocity and acceleration are continuous in the poses") {
   const auto path = three_poses(sim::Via::through);
   std::vector<sim::JointMotion> before, after, there;
   constexpr double h = 1e-7;
@@ -147,24 +149,24 @@ TEST_CASE("through a pose it goes without a halt, speed and acceleration continu
   }
 }
 
-TEST_CASE("a pose twice in sequence is a halt on a way without halts") {
+TEST_CASE("two consecutive equal poses are a stop with Via::through") {
   std::vector<sim::JointMotion> at;
   for (const double t : {2.0, 2.5, 3.0}) {
-    with_a_halt().at(t, at);
+    with_a_stop().at(t, at);
     CHECK(at[1].now.position[0] == Approx(0.9));
     CHECK(vec(at[0].now.velocity_rad_per_s).norm() < 1e-9);
     CHECK(vec(at[1].acceleration_rad_per_s2).norm() < 1e-9);
   }
 }
 
-TEST_CASE("of all ways through a point it has the least jerk") {
+TEST_CASE("the trajectory through a point has minimum jerk") {
   const auto p = [](double elbow) { return pose(0, Vec3::UnitX(), elbow); };
   const sim::JointPath path(joints(), {{0, p(0)}, {1, p(1)}, {2, p(0)}}, sim::Via::through);
   std::vector<sim::JointMotion> at;
   path.at(1, at);
   CHECK(at[1].now.velocity_rad_per_s[0] == Approx(0).margin(1e-9));
   const double least = elbow_jerk(path);
-  // The same poses, and one more that the way does not pass by itself: it cannot do with less.
+  // An additional pose that is not on the trajectory must increase the jerk.
   path.at(0.5, at);
   for (const double off : {-0.02, 0.02}) {
     const sim::JointPath other(
@@ -178,7 +180,7 @@ TEST_CASE("of all ways through a point it has the least jerk") {
   CHECK(elbow_jerk(same) == Approx(least).epsilon(0.01));
 }
 
-TEST_CASE("a ball joint takes the shorter way round") {
+TEST_CASE("a ball joint rotates by the smaller angle") {
   const auto far = pose(3.0, Vec3::UnitZ(), 0)[0], back = pose(-3.0, Vec3::UnitZ(), 0)[0];
   const Vec3 way = vec(sim::way_between(erp::JointType::spherical, far, back));
   CHECK(way.z() == Approx(2 * std::numbers::pi - 6));
@@ -186,7 +188,7 @@ TEST_CASE("a ball joint takes the shorter way round") {
   CHECK(vec(sim::way_between(erp::JointType::spherical, there, back)).norm() < 1e-12);
 }
 
-TEST_CASE("times that do not rise are refused, with the row") {
+TEST_CASE("times that do not increase are rejected with the row") {
   const auto p = pose(0, Vec3::UnitX(), 0);
   CHECK_THROWS_WITH((sim::JointPath{joints(), {{0, p}, {1, p}, {1, p}}}), Catch::Contains("row 3"));
   CHECK_THROWS_AS((sim::JointPath{joints(), {}}), std::invalid_argument);

@@ -4,11 +4,11 @@
 #include <catch2/catch.hpp>
 
 #include "sim/world/bullet_skeleton.hpp"
+#include "tests/sim/random_robots.hpp"
 #include "tests/sim/skeletons.hpp"
-#include "tests/sim/thicket.hpp"
 
 using namespace sim;
-using rigs::Draw, rigs::posture, rigs::thicket;
+using rigs::Draw, rigs::posture, rigs::random_trees;
 
 namespace {
 
@@ -20,10 +20,10 @@ Eigen::VectorXd random_vector(int n, Draw& draw) {
 
 }  // namespace
 
-TEST_CASE("inverse and forward dynamics undo each other") {
+TEST_CASE("forward dynamics is the inverse of inverse dynamics") {
   Draw draw(1);
   for (int i = 0; i < 20; ++i) {
-    const RobotTree tree(thicket(draw));
+    const RobotTree tree(random_trees(draw));
     SkeletonModel model(tree, down);
     model.place(posture(tree.joints, draw));
     const Eigen::VectorXd a = random_vector(model.coordinates(), draw);
@@ -33,10 +33,10 @@ TEST_CASE("inverse and forward dynamics undo each other") {
   }
 }
 
-TEST_CASE("inertia and acceleration agree with Bullet's to 1e-9") {
+TEST_CASE("inertia and acceleration agree with Bullet to 1e-9") {
   Draw draw(2);
   for (int i = 0; i < 20; ++i) {
-    const RobotTree tree(thicket(draw));
+    const RobotTree tree(random_trees(draw));
     SkeletonModel model(tree, down);
     BulletSkeleton bullet(tree, down, {});
     const auto joints = posture(tree.joints, draw);
@@ -60,9 +60,9 @@ TEST_CASE("inertia and acceleration agree with Bullet's to 1e-9") {
   }
 }
 
-TEST_CASE("the torques of a force are its power over the joints' speeds") {
+TEST_CASE("the torques of a force have the same power as the force") {
   Draw draw(3);
-  const RobotTree tree(thicket(draw));
+  const RobotTree tree(random_trees(draw));
   SkeletonModel model(tree, down);
   const auto joints = posture(tree.joints, draw);
   model.place(joints);
@@ -82,7 +82,7 @@ TEST_CASE("the torques of a force are its power over the joints' speeds") {
   }
 }
 
-TEST_CASE("a pendulum at rest needs m g l sin q, and a locked joint no coordinate") {
+TEST_CASE("a pendulum at rest needs the torque m g l sin q, and a locked joint has no coordinate") {
   const RobotTree tree(rigs::pendulum(0.5));
   SkeletonModel model(tree, Vec3(0, 0, -9.81));
   Eigen::VectorXd tau;

@@ -3,7 +3,7 @@
 #include "interfaces/values.hpp"
 #include "interfaces/xml/fields.hpp"
 
-/// Pulls every tendon towards one tension:  F_cmd = F_ref + k (F_ref − F).
+/// Controls every tendon to one tension:  F_cmd = F_ref + k (F_ref − F).
 class @Class@ {
  public:
   struct Params {
@@ -17,10 +17,10 @@ class @Class@ {
   erp::ActuatorCommand step(const erp::SensorFrame& frame, double /*dt_s*/) {
     erp::ActuatorCommand command;
     for (const auto& sample : erp::samples(frame.actuators)) {
-      auto& wanted = erp::append(command.actuators, erp::ActuatorReference{});
-      erp::assign(wanted.name, sample.name);
-      wanted.mode = static_cast<std::uint8_t>(erp::Mode::force);
-      wanted.reference = p_.tension_N + p_.gain * (p_.tension_N - sample.tension_N);
+      auto& desired = erp::append(command.actuators, erp::ActuatorReference{});
+      erp::assign(desired.name, sample.name);
+      desired.mode = static_cast<std::uint8_t>(erp::Mode::force);
+      desired.reference = p_.tension_N + p_.gain * (p_.tension_N - sample.tension_N);
     }
     return command;
   }

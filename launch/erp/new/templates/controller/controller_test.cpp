@@ -15,7 +15,7 @@ erp::SensorFrame frame_with(const char* actuator, double tension_N) {
 
 }  // namespace
 
-TEST_CASE("a tendon that already pulls with the reference is asked for the reference") {
+TEST_CASE("at the reference tension the command is the reference") {
   @Class@ controller({.tension_N = 20.0, .gain = 0.5});
   const auto command = controller.step(frame_with("flexor", 20.0), 0.002);
   REQUIRE(command.actuators._length == 1);
@@ -23,7 +23,7 @@ TEST_CASE("a tendon that already pulls with the reference is asked for the refer
   CHECK(command.actuators._buffer[0].reference == Approx(20.0));
 }
 
-TEST_CASE("a tendon that pulls too little is asked for more") {
+TEST_CASE("below the reference tension the command is higher than the reference") {
   @Class@ controller({.tension_N = 20.0, .gain = 0.5});
   const auto command = controller.step(frame_with("flexor", 10.0), 0.002);
   CHECK(command.actuators._buffer[0].reference == Approx(25.0));

@@ -1,0 +1,85 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "components/joints/joints.hpp"
+#include "components/node/node.hpp"
+#include "interfaces/xml/fields.hpp"
+#include "sim/model/cameras/images.hpp"
+#include "sim/model/cameras/view.hpp"
+
+/// A sequence of camera images: rendered from the sim's joint_state, or read from a folder
+/// (<camera>_00000.png, …, one per camera and period).
+namespace images {
+
+/// `<bone body="forearm" from_m="…" to_m="…" radius_m="…"/>`: a bone that hides the markers behind
+/// it.
+struct BoneConfig {
+  static constexpr auto element = "bone";
+  xml::Place place;
+  std::string body;
+  xml::Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};
+  double radius_m = 0.03;
+  void visit(auto& v) {
+    v.required("body", body);
+    v.required("from_m", from_m), v.required("to_m", to_m);
+    v("radius_m", radius_m, xml::positive);
+  }
+};
+
+struct ImageSourceParams {
+  std::string images;  ///< folder of image files, relative to the config; "": render
+  std::string save;    ///< folder to which rendered images are written; "": none
+  double period_s = 0.01;
+  int seed = 1;           ///< of the noise
+  double ball_m = 0.007;  ///< a marker's radius
+  double noise = 4;       ///< standard deviation of a pixel, of 255
+  std::vector<BoneConfig> bones;
+  void visit(auto& v) {
+    v("images", images), v("save", save);
+    v("period_s", period_s, xml::positive);
+    v("seed", seed, xml::Range{0, 1e9});
+    v("ball_m", ball_m, xml::positive);
+    v("noise", noise, xml::at_least_zero);
+    v.list(bones);
+  }
+};
+
+class ImageSource {
+ public:
+  /// One image per camera, in the order of the cameras, of one instant.
+  using Frame = std::vector<sim::cameras::Image>;
+  using Use = std::function<void(const Frame&, std::uint64_t sequence, std::int64_t stamp_ns)>;
+
+  /// `config_file`: the config that names the folders. Throws std::invalid_argument if the body of
+  /// a marker or bone does not exist.
+  ImageSource(const ImageSourceParams& params, const sim::cameras::ViewConfig& view,
+              const std::string& config_file, const erp::Robot& robot, node::Node& node, Use use);
+
+ private:
+  struct OnBody {
+    std::size_t body;
+    sim::Vec3 from_m, to_m;
+    double radius_m;
+  };
+  void paint(const erp::JointState& truth);
+  void read_files();
+  void save_frame();
+  void show(std::uint64_t sequence, std::int64_t stamp_ns);
+
+  ImageSourceParams params_;
+  std::vector<sim::cameras::CameraConfig> cameras_;
+  node::Node& node_;
+  Use use_;
+  joints::Names names_;
+  sim::SkeletonModel model_;
+  std::vector<OnBody> balls_, bones_;
+  std::vector<sim::cameras::Painter> painters_;
+  std::vector<sim::JointReading> truth_;
+  Frame frame_;
+  std::int64_t painted_ns_ = 0;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace images

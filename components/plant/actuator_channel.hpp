@@ -1,0 +1,100 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "components/plant/arbiter.hpp"
+#include "components/plant/limits.hpp"
+#include "components/plant/rate_limiter.hpp"
+#include "components/plant/tendon_monitor.hpp"
+#include "sim/model/actuator/ecu_units.hpp"
+
+/// One actuator: computes the next request to its ECU from the commands of controllers and the
+/// reported state of the ECU.
+///
+///   ECU state   no owner                 owner
+///   boot        off                      off (the plant sends the gains)
+///   idle        off                      arm
+///   armed       off                      commanded mode, if the command arrived after arming
+///   running     safe action              commanded mode, rate limits of robot.xml
+///   …           and limb degraded        safe action
+///   …           and tendon slack         winds the slack up slowly; when snapped, off until the
+///                                        owner commands mode off
+///   fault       clear if the host was silent, otherwise off until the owner commands mode off
+namespace plant {
+
+inline constexpr std::string_view outranked_reason = "another controller is the owner";
+
+/// The next request to an ECU channel.
+struct Demand {
+  ecu_request request = ECU_REQUEST_OFF;
+  std::int32_t setpoint = 0;
+};
+
+class ActuatorChannel {
+ public:
+  ActuatorChannel(const erp::Actuator& actuator, const erp::MotorType& motor,
+                  const erp::SensorType& sensors, const TendonMonitor::Params& watch);
+
+  const std::string& name() const { return name_; }
+  int ecu() const { return ecu_; }
+  int channel() const { return channel_; }
+  const sim::EcuUnits& units() const { return units_; }
+  ecu_state state() const { return state_; }
+
+  /// Receives a controller's command. The reason is empty when it was accepted unchanged.
+  Checked receive(std::string_view controller, std::int32_t priority, erp::Mode mode,
+                  double reference, std::int64_t now_ns, std::int64_t stale_ns);
+  /// Stores the reported state of the ECU.
+  void observe(ecu_state state, std::uint8_t fault, std::int32_t encoder_counts, double tension_N,
+               std::int64_t now_ns);
+  /// Marks the ECU as lost: its state is unknown until the next `observe`.
+  void mark_lost();
+  /// Computes the next request; `dt_s` since the last call. With `limb_degraded` another ECU of the
+  /// limb is lost (limb_monitor.hpp), so the safe action applies.
+  Demand decide(std::int64_t now_ns, std::int64_t stale_ns, double dt_s,
+                bool limb_degraded = false);
+
+  std::string_view owner() const { return arbiter_.owner(); }
+  std::int32_t priority() const { return priority_; }
+  /// The active safe action; none while there is an owner or the ECU is off.
+  erp::SafeAction safe_action() const { return active_safe_action_; }
+  TendonState tendon() const { return tendon_.state(); }
+  std::uint32_t limited() const { return limited_; }
+  std::uint32_t refused() const { return refused_; }
+  std::string_view reason() const { return reason_; }
+
+ private:
+  Demand follow(const ControllerCommand& command, double dt_s);
+  double rate_per_s(erp::Mode mode) const;
+  double rate_limited(const ControllerCommand& command, double dt_s);
+  Demand apply_safe_action();
+  Demand supervise_tendon(Demand demand, std::int64_t now_ns, double dt_s);
+  bool pulls(const Demand& demand) const;
+  Demand take_up(double line_m, double dt_s);
+
+  std::string name_;
+  int ecu_, channel_;
+  erp::SafeAction safe_action_;
+  double relax_tension_N_, approach_m_per_s_;
+  sim::EcuUnits units_;
+  Limits limits_;
+  Arbiter arbiter_;
+  ecu_state state_ = ECU_STATE_BOOT;
+  std::uint8_t fault_ = 0;
+  std::int32_t encoder_counts_ = 0, hold_counts_ = 0;
+  std::int64_t armed_ns_ = 0;
+  double max_line_speed_m_per_s_, max_tension_rate_N_per_s_;
+  RateLimiter rate_limiter_;
+  erp::Mode limited_mode_ = erp::Mode::off;  ///< mode of rate_limiter_
+  bool approaching_ = false;
+  TendonMonitor tendon_;
+  double slack_N_, tension_N_ = 0, take_up_line_m_ = 0;
+  bool taking_up_ = false;
+  erp::SafeAction active_safe_action_ = erp::SafeAction::none;
+  std::int32_t priority_ = 0;
+  std::uint32_t limited_ = 0, refused_ = 0;
+  std::string_view reason_;
+};
+
+}  // namespace plant

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+
+/// Determines whether a tendon is taut, from its tension and its line length alone.
+///
+///   slack     below `slack_N` for 16 ms while it should pull
+///   snapped   slack, and `take_up_m` of line was wound up since then without becoming taut; remains
+///             until `reset`
+///
+/// A slack tendon is not a fault: limbs are moved by hand and followers slacken. But a force law on a
+/// slack tendon winds without limit.
+namespace plant {
+
+enum class TendonState { taut, slack, snapped };
+
+class TendonMonitor {
+ public:
+  struct Params {
+    double slack_N, take_up_m;
+  };
+  explicit TendonMonitor(const Params& params) : params_(params) {}
+
+  /// Processes one reading. `should_pull`: the request needs more tension than slack. The line
+  /// length decreases when the motor winds up.
+  TendonState update(double tension_N, double line_m, bool should_pull, std::int64_t now_ns);
+  TendonState state() const { return state_; }
+  /// For a motor that no longer pulls: resets the slack timer, but keeps `snapped`.
+  void reset_unless_snapped() {
+    if (state_ != TendonState::snapped) reset();
+  }
+  void reset() { state_ = TendonState::taut, slack_ = false; }
+
+  /// A loss of tension is reported within 20 ms, as readings are up to 4 ms old.
+  static constexpr std::int64_t slack_time_ns = 16'000'000;
+
+ private:
+  Params params_;
+  TendonState state_ = TendonState::taut;
+  bool slack_ = false;
+  std::int64_t slack_since_ns_ = 0;
+  double slack_line_m_ = 0;  ///< line length when it became slack
+};
+
+}  // namespace plant

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "components/node/raw.hpp"
+#include "interfaces/recording/type_description.hpp"
+#include "launch/erp/run/signals.hpp"
+
+/// DDS participant of a tool: joins the bus, discovers endpoints and types, leaves. Needs no
+/// daemon.
+namespace launch {
+
+/// The requested topic was not discovered; the message names a similar one.
+struct NoSuchTopic : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class DiscoveryListener {
+ public:
+  explicit DiscoveryListener(const std::string& verb);
+
+  const node::Entity& participant() const { return participant_; }
+  node::Wake& wake() { return wake_; }
+
+  /// Calls `act` at each arrival of data and at least every 50 ms, until it returns true, the
+  /// duration has passed or a signal arrives. Returns false after a signal.
+  bool watch(std::int64_t duration_ns, const std::function<bool()>& act);
+  /// Waits until discovery yields no new endpoint for a while. Returns false after a signal.
+  bool settle();
+  /// Endpoints of all other participants.
+  std::vector<node::Endpoint> endpoints();
+  /// Waits for the type of a topic. Throws NoSuchTopic with the most similar name if the topic does
+  /// not exist.
+  node::Descriptor find_type(const std::string& topic);
+
+ private:
+  Signals signals_;  // before participant_, whose threads inherit the signal mask
+  std::string name_;
+  node::Wake wake_;
+  node::Entity participant_;
+  node::Discovery discovery_;
+};
+
+}  // namespace launch

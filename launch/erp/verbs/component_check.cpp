@@ -1,0 +1,77 @@
+#include "launch/erp/verbs/component_check.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <system_error>
+
+#include "components/node/clock.hpp"
+
+namespace launch {
+namespace {
+
+constexpr std::int64_t timeout_ns = 10'000'000'000;  // chosen
+
+/// Starts a program whose stderr is the write end `errors` of a pipe.
+pid_t spawn(std::vector<std::string>& argv, int errors) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+  std::vector<char*> arguments;
+  for (std::string& argument : argv) arguments.push_back(argument.data());
+  arguments.push_back(nullptr);
+  pid_t pid = -1;
+  const int error = posix_spawn(&pid, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw std::system_error(error, std::generic_category(), argv[0]);
+  return pid;
+}
+
+/// Reads until the other side closes the pipe; false at the timeout.
+bool read_all(int descriptor, std::string& text) {
+  const auto end_ns = node::monotonic_ns() + timeout_ns;
+  std::array<char, 4096> buffer{};
+  for (;;) {
+    const auto remaining_ms = (end_ns - node::monotonic_ns()) / 1'000'000;
+    pollfd polled{descriptor, POLLIN, 0};
+    if (remaining_ms <= 0 || poll(&polled, 1, static_cast<int>(remaining_ms)) == 0) return false;
+    const ssize_t n = read(descriptor, buffer.data(), buffer.size());
+    if (n <= 0) return true;
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+}
+
+}  // namespace
+
+std::string check_component(std::vector<std::string> argv) {
+  argv.push_back("--check");
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "pipe");
+  std::string errors;
+  int status = 0;
+  bool finished = false;
+  try {
+    const pid_t pid = spawn(argv, ends[1]);
+    close(ends[1]);
+    finished = read_all(ends[0], errors);
+    if (!finished) kill(pid, SIGKILL);
+    waitpid(pid, &status, 0);
+    close(ends[0]);
+  } catch (...) {
+    close(ends[0]), close(ends[1]);
+    throw;
+  }
+  if (!finished)
+    return argv[0] + ": --check did not finish within 10 s; run it by hand with --check";
+  if (status == 0) return "";
+  if (!errors.empty()) return errors;
+  return argv[0] + ": --check failed without a message; run it by hand with --check";
+}
+
+}  // namespace launch

@@ -1,0 +1,128 @@
+#include "sim/learning/calibration/newton_calibration.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+#include "sim/learning/calibration/saved_point.hpp"
+#include "sim/learning/calibration/sensitivity.hpp"
+#include "sim/learning/training_loop/random_stream.hpp"
+
+namespace sim::calibration {
+namespace {
+
+constexpr int most_steps = 12;
+constexpr double least_decrease = 1e-3;  // relative decrease of the cost by a round
+
+/// `list` holds the current point, then the best candidate so far.
+struct State {
+  static constexpr auto element = "newton";
+  xml::Place place;
+  int rounds = 0, judged = 0, kicks = 0;
+  double damping = 0, cost = 0;
+  bool by_torques = true, done = false;
+  std::string seed;
+  std::vector<SavedPoint> list;
+  void visit(auto& v) {
+    v.required("rounds", rounds);
+    v.required("judged", judged);
+    v.required("kicks", kicks);
+    v.required("seed", seed);
+    v.required("damping", damping);
+    v.required("cost", cost);
+    v.required("by_torques", by_torques);
+    v.required("done", done);
+    v.list(list);
+  }
+};
+
+}  // namespace
+
+NewtonCalibration::NewtonCalibration(Task task, const NewtonOptions& options)
+    : Calibration(std::move(task)), options_(options), x_(best()), cost_(cost(x_)) {}
+
+double NewtonCalibration::cost(const Eigen::VectorXd& x) const {
+  try {
+    const auto of = by_torques_ ? torques_Nm : turns_rad;
+    const auto left = of(task().parameters.at(x), task().poses.learn);
+    return (left / sigma()).squaredNorm() + x.squaredNorm();
+  } catch (const std::invalid_argument&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+void NewtonCalibration::round(const Pool& pool) {
+  ++rounds_;
+  const double before = cost_;
+  if (std::isfinite(cost_)) step(pool);
+  continue_from(before);
+}
+
+void NewtonCalibration::step(const Pool& pool) {
+  const auto of = by_torques_ ? torques : turns;
+  const Residuals at = of(task().parameters, x_, task().poses.learn, pool);
+  const Eigen::MatrixXd slope = at.slope / sigma();
+  const Eigen::VectorXd downhill = -(slope.transpose() * at.value / sigma() + x_);
+  const Eigen::MatrixXd curvature = slope.transpose() * slope;
+  const double before = cost_;
+  ++judged_;
+  for (int steps = 0; steps < most_steps && cost_ == before; ++steps) {
+    Eigen::MatrixXd damped = curvature;
+    damped.diagonal().array() += 1 + damping_;
+    const Eigen::VectorXd next = x_ + damped.llt().solve(downhill);
+    const double there = cost(next);
+    ++judged_;
+    if (there < cost_) x_ = next, cost_ = there, damping_ /= 10;
+    else damping_ *= 10;
+  }
+  update_best(x_, error_rad(task(), x_)), ++judged_;
+}
+
+/// If the step has not reduced the cost enough: switches from torques to angles, then restarts with
+/// kicks until done.
+void NewtonCalibration::continue_from(double before) {
+  if (before - cost_ >= least_decrease * before) return;  // false if the cost is infinite
+  if (by_torques_) return switch_to_angles(x_);
+  done_ = kicks_ == options_.kicks || best_error_rad() < options_.sigma_rad;
+  if (done_) return;
+  auto random = training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(++kicks_));
+  std::normal_distribution<double> normal(0, options_.kick);
+  Eigen::VectorXd x = best();
+  for (double& each : x) each += normal(random);
+  switch_to_angles(x);
+}
+
+void NewtonCalibration::switch_to_angles(const Eigen::VectorXd& x) {
+  x_ = x, by_torques_ = false, damping_ = 1;
+  cost_ = cost(x_), ++judged_;
+}
+
+long NewtonCalibration::judged_poses() const { return judged_ * std::ssize(task().poses.learn); }
+
+std::string NewtonCalibration::state() const {
+  State state{.rounds = rounds_,
+              .judged = static_cast<int>(judged_),
+              .kicks = kicks_,
+              .damping = damping_,
+              .cost = cost_,
+              .by_torques = by_torques_,
+              .done = done_,
+              .seed = std::to_string(options_.seed)};
+  state.list.push_back({{}, numbers(x_), {}, 0});
+  state.list.push_back({{}, numbers(best()), {}, best_error_rad()});
+  return xml::write(state);
+}
+
+void NewtonCalibration::restore(const std::string& text, const std::string& file) {
+  const auto state = xml::parse<State>(text, file);
+  expect_same_search(state.list.size() == 2 && state.seed == std::to_string(options_.seed) &&
+                         std::ssize(state.list[0].x) == task().parameters.size() &&
+                         state.list[0].x.size() == state.list[1].x.size(),
+                     file);
+  rounds_ = state.rounds, judged_ = state.judged, kicks_ = state.kicks, damping_ = state.damping;
+  cost_ = state.cost, by_torques_ = state.by_torques, done_ = state.done,
+  x_ = vector(state.list[0].x);
+  update_best(vector(state.list[1].x), state.list[1].error_rad);
+}
+
+}  // namespace sim::calibration

@@ -1,0 +1,87 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "interfaces/xml/fields.hpp"
+#include "sim/learning/muscle_networks/perceptron.hpp"
+#include "sim/learning/muscle_networks/posture_inputs.hpp"
+
+/// Tendon lengths over postures, learned from samples: one perceptron per muscle (paper, 5.3). The
+/// derivative of the lengths, the muscle Jacobian, is what is used; a constant in the lengths is
+/// unknown.
+namespace sim::muscle_networks {
+
+/// Joint positions and path lengths of the tendons.
+struct LengthSamples {
+  std::vector<std::vector<JointReading>> joints;
+  Eigen::MatrixXd length_m;  ///< muscles × samples, each row up to a constant
+};
+
+/// One muscle of `<muscles>`, a file: l = centre + spread · net(x).
+struct LearnedMuscle {
+  static constexpr auto element = "muscle";
+  xml::Place place;
+  std::string name;
+  double centre_m = 0, spread_m = 0, left_m = 0;  ///< left_m: RMS residual of the fit
+  int units = 0;
+  std::vector<double> hidden, output;  ///< column by column
+  void visit(auto& v) {
+    v.required("name", name);
+    v.required("centre_m", centre_m);
+    v.required("spread_m", spread_m);
+    v("left_m", left_m);
+    v.required("units", units, xml::positive);
+    v.required("hidden", hidden), v.required("output", output);
+  }
+};
+struct LearnedMuscles {
+  static constexpr auto element = "muscles";
+  xml::Place place;
+  std::string robot;
+  std::vector<LearnedMuscle> list;
+  void visit(auto& v) {
+    v.required("robot", robot);
+    v.list(list);
+  }
+};
+
+struct LearnOptions {
+  int units = 16;  ///< hidden units per muscle; chosen
+  std::uint64_t seed = 1;
+  FitOptions fit;
+  std::function<void(std::size_t done, std::size_t of)> progress = [](std::size_t, std::size_t) {};
+};
+/// Fits the networks muscle by muscle. Throws std::invalid_argument for too few samples, and as
+/// PostureInputs.
+LearnedMuscles learn(const erp::Robot& robot, const LengthSamples& samples,
+                     const LearnOptions& options = {});
+
+/// Evaluates the learned networks.
+class LearnedLengths {
+ public:
+  /// Throws std::invalid_argument if the file is of another robot or lacks some of its muscles.
+  LearnedLengths(const erp::Robot& robot, const LearnedMuscles& learned);
+
+  /// ∂l/∂q, muscles × coordinates, by the networks' own derivative. No heap.
+  const Eigen::MatrixXd& jacobian(std::span<const JointReading> joints);
+  /// The same by the central difference quotient over ± `step_rad` of each coordinate. No heap.
+  const Eigen::MatrixXd& jacobian_by_difference(std::span<const JointReading> joints,
+                                                double step_rad = 0.01);
+  const Eigen::VectorXd& length_m(std::span<const JointReading> joints);
+
+ private:
+  struct Muscle {
+    Perceptron net;
+    double centre_m, spread_m;
+  };
+  PostureInputs inputs_;
+  std::vector<Muscle> muscles_;
+  /// By coordinate: joint and its degree of freedom.
+  std::vector<std::pair<std::size_t, int>> moved_by_;
+  std::vector<JointReading> moved_;
+  Eigen::VectorXd x_, dy_dx_, length_m_, ahead_m_;
+  Eigen::MatrixXd slopes_, jacobian_;
+};
+
+}  // namespace sim::muscle_networks

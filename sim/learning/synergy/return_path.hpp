@@ -1,0 +1,42 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "interfaces/xml/fields.hpp"
+
+/// Moves lines back to where they started: wound-up lines are paid out first, then the others are
+/// wound up.
+///
+///   l_m(t) = l_m(0) (1 − p(2 t/T))          for wound-up lines, l_m(0) < 0
+///   l_m(t) = l_m(0) (1 − p(2 t/T − 1))      for paid-out lines
+///
+/// p rises from 0 to 1 with minimum jerk. If all lines return together, antagonists pull against
+/// muscles that still hold. That dislocated the torso, whose shoulder blades only muscles hold,
+/// after one plan in six.
+namespace sim::synergy {
+
+struct TrialTimes {
+  double watch_s = 1.2, way_s = 3, still_s = 1;  ///< chosen
+  void visit(auto& v) {
+    v("watch_s", watch_s, xml::positive);
+    v("way_s", way_s, xml::positive);
+    v("still_s", still_s, xml::at_least_zero);
+  }
+};
+
+class ReturnPath {
+ public:
+  /// `from_m`: current line lengths relative to the start.
+  ReturnPath(const TrialTimes& times, double begin_s, Eigen::VectorXd from_m)
+      : times_(times), begin_s_(begin_s), from_m_(std::move(from_m)) {}
+
+  Eigen::VectorXd at(double time_s) const;
+  /// True when the lines are back and the rest time `still_s` has passed.
+  bool done(double time_s) const { return time_s - begin_s_ > times_.way_s + times_.still_s; }
+
+ private:
+  TrialTimes times_;
+  double begin_s_;
+  Eigen::VectorXd from_m_;
+};
+
+}  // namespace sim::synergy

@@ -1,0 +1,65 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "interfaces/xml/fields.hpp"
+#include "sim/world/world.hpp"
+
+/// Loads that are mass_of to a simulated robot and detached again at given times.
+namespace sim {
+
+/// `<grasp body="forearm" at_m="0 0 -0.26" mass_kg="0.2" at_s="1"/>` in the sim's config: a point
+/// mass, in the body's frame, that moves with the body from the start (paper, Fig. 7b).
+struct AttachedLoad {
+  static constexpr auto element = "grasp";
+  xml::Place place;
+  std::string body;
+  xml::Vec3 at_m{0, 0, 0};
+  double mass_kg = 0;
+  double at_s = 0;  ///< simulated time
+  double for_s = 1e9;
+  void visit(auto& v) {
+    v.required("body", body);
+    v.required("at_m", at_m);
+    v.required("mass_kg", mass_kg, xml::positive);
+    v.required("at_s", at_s, xml::at_least_zero);
+    v("for_s", for_s, xml::positive);
+  }
+  bool is_attached(double time_s) const { return time_s >= at_s && time_s < at_s + for_s; }
+};
+
+class AttachedLoads {
+ public:
+  /// Throws std::invalid_argument for a body that the robot does not have or that cannot hold a load.
+  AttachedLoads(std::vector<AttachedLoad> list, World& world)
+      : list_(std::move(list)), was_attached_(list_.size()) {
+    for (const AttachedLoad& load : list_) world.attach({mass_of(load, world)});
+    world.attach({});
+  }
+
+  /// Attaches the loads that are due now to the world; returns those attached or detached by that.
+  std::vector<const AttachedLoad*> update(World& world) {
+    std::vector<const AttachedLoad*> changed;
+    std::vector<AttachedMass> now;
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      const bool is_attached = list_[k].is_attached(world.time_s());
+      if (is_attached != was_attached_[k]) changed.push_back(&list_[k]);
+      was_attached_[k] = is_attached;
+      if (is_attached) now.push_back(mass_of(list_[k], world));
+    }
+    if (!changed.empty()) world.attach(now);
+    return changed;
+  }
+
+ private:
+  static AttachedMass mass_of(const AttachedLoad& load, const World& world) {
+    return {static_cast<int>(body_named(world.body_names(), load.body, "a grasp")),
+            {load.at_m[0], load.at_m[1], load.at_m[2]},
+            load.mass_kg};
+  }
+
+  std::vector<AttachedLoad> list_;
+  std::vector<bool> was_attached_;
+};
+
+}  // namespace sim

@@ -1,0 +1,98 @@
+#include "sim/world/fault_injection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace sim {
+
+namespace {
+
+bool is_program_fault(FaultKind kind) {
+  return kind == FaultKind::hang || kind == FaultKind::busy || kind == FaultKind::bus_off;
+}
+
+}  // namespace
+
+bool FaultInjection::needs_separate_ecus() const {
+  return std::ranges::any_of(list_,
+                             [](const Placed& one) { return is_program_fault(one.what.kind); });
+}
+
+FaultInjection::FaultInjection(std::vector<InjectedFault> list, const erp::Robot& robot) {
+  for (InjectedFault& fault : list) {
+    const auto found = std::ranges::find(robot.actuators, fault.on, &erp::Actuator::name);
+    if (found == robot.actuators.end())
+      throw std::invalid_argument("<mishap on=\"" + fault.on +
+                                  "\">: the robot has no such actuator");
+    const auto k = static_cast<std::size_t>(found - robot.actuators.begin());
+    list_.push_back({std::move(fault), k, found->ecu});
+  }
+}
+
+void FaultInjection::apply_fault(std::size_t k, double time_s, const SensorScale& scale,
+                                 const ecu_inputs& last, ecu_inputs& inputs) const {
+  for (const Placed& one : list_) {
+    if (one.actuator != k || !is_on(one.what, time_s)) continue;
+    const auto counts = static_cast<std::uint16_t>(one.what.counts);
+    switch (one.what.kind) {
+      case FaultKind::tension_open:
+        inputs.tension_counts = static_cast<std::uint16_t>(scale.tension_counts_max);
+        break;
+      case FaultKind::tension_short:
+        inputs.tension_counts = 0;
+        break;
+      case FaultKind::tension_stuck:
+        inputs.tension_counts = last.tension_counts;
+        break;
+      case FaultKind::current_stuck:
+        inputs.current_counts = last.current_counts;
+        break;
+      case FaultKind::encoder_lost:
+        inputs.encoder_counts = last.encoder_counts;
+        break;
+      case FaultKind::encoder_slips:
+        inputs.encoder_counts += static_cast<std::int32_t>(
+            std::lround(std::numbers::pi / 2 / scale.shaft_rad_per_count));
+        break;
+      case FaultKind::over_current:
+        inputs.current_counts = static_cast<std::int16_t>(scale.current_counts_max);
+        break;
+      case FaultKind::hot:
+        inputs.temperature_counts = counts;
+        break;
+      case FaultKind::supply_low:
+        inputs.supply_counts = counts;
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+void FaultInjection::apply_fault(World& world) const {
+  for (const Placed& one : list_)
+    if (one.what.kind == FaultKind::tendon_snaps && world.time_s() >= one.what.at_s)
+      world.snap(one.actuator);
+}
+
+std::vector<const InjectedFault*> FaultInjection::beginning(double time_s, double tick_s) const {
+  std::vector<const InjectedFault*> found;
+  for (const Placed& one : list_)
+    if (begins(one.what, time_s, tick_s)) found.push_back(&one.what);
+  return found;
+}
+
+std::vector<FaultInjection::ProgramFault> FaultInjection::program_faults(double time_s,
+                                                                         double tick_s) const {
+  std::vector<ProgramFault> due;
+  for (const Placed& one : list_)
+    if (begins(one.what, time_s, tick_s) && is_program_fault(one.what.kind))
+      due.push_back({one.what.kind, one.ecu,
+                     static_cast<int>(std::min(std::lround(one.what.for_s / tick_s), 65535L))});
+  return due;
+}
+
+}  // namespace sim

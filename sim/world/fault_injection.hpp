@@ -1,0 +1,108 @@
+#pragma once
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware/core/sensing.h"
+#include "interfaces/robot/robot.hpp"
+#include "interfaces/xml/fields.hpp"
+#include "sim/model/actuator/sensors.hpp"
+#include "sim/world/world.hpp"
+
+/// Faults of a simulated robot, injected at given times, for training and for tests of the safe
+/// reaction.
+namespace sim {
+
+enum class FaultKind {
+  tension_open,   ///< force sensor at its upper rail
+  tension_short,  ///< force sensor at 0 counts
+  tension_stuck,  ///< force reading frozen
+  current_stuck,  ///< current reading frozen
+  encoder_lost,   ///< loss of a phase: counts frozen
+  encoder_slips,  ///< counts jump by a quarter turn of the gearbox shaft
+  over_current,   ///< Hall sensor at its rail
+  hot,            ///< temperature reading of `counts`
+  supply_low,     ///< supply reading of `counts`
+  tendon_snaps,   ///< exerts no tension any more
+  hang,           ///< separate ECU only: its program runs an endless loop
+  busy,           ///< separate ECU only: work takes longer than a period
+  bus_off         ///< separate ECU only: its CAN controller is in bus-off
+};
+
+/// `<mishap kind="tension_open" on="flexor" at_s="2" for_s="0.5"/>` in the sim's config.
+struct InjectedFault {
+  static constexpr auto element = "mishap";
+  xml::Place place;
+  FaultKind kind = FaultKind::tension_open;
+  std::string on;   ///< name of the actuator; for hang, busy and bus_off: its ECU
+  double at_s = 0;  ///< simulated time
+  double for_s = 1e9;
+  int counts = 0;  ///< for hot and supply_low
+  void visit(auto& v) {
+    v.required("kind", kind);
+    v.required("on", on);
+    v.required("at_s", at_s, xml::at_least_zero);
+    v("for_s", for_s, xml::positive);
+    v("counts", counts, xml::Range{0, 65535});
+  }
+};
+
+class FaultInjection {
+ public:
+  /// Throws std::invalid_argument for an actuator that the robot does not have.
+  FaultInjection(std::vector<InjectedFault> list, const erp::Robot& robot);
+
+  /// Changes the readings of actuator `k`'s ECU; `last` are its previous readings.
+  void apply_fault(std::size_t k, double time_s, const SensorScale& scale, const ecu_inputs& last,
+                   ecu_inputs& inputs) const;
+  /// Applies the faults of the world itself that are due.
+  void apply_fault(World& world) const;
+
+  struct ProgramFault {
+    FaultKind kind;
+    int ecu;
+    int periods;
+  };
+  /// Faults of ECU programs that begin in the tick at `time_s`.
+  std::vector<ProgramFault> program_faults(double time_s, double tick_s) const;
+  /// All faults that begin in the tick at `time_s`.
+  std::vector<const InjectedFault*> beginning(double time_s, double tick_s) const;
+  bool empty() const { return list_.empty(); }
+  /// Whether the list contains a fault of an ECU program, which needs a separate ECU.
+  bool needs_separate_ecus() const;
+
+ private:
+  struct Placed {
+    InjectedFault what;
+    std::size_t actuator;
+    int ecu;
+  };
+  static bool begins(const InjectedFault& m, double time_s, double tick_s) {
+    return m.at_s >= time_s && m.at_s < time_s + tick_s;
+  }
+  static bool is_on(const InjectedFault& m, double time_s) {
+    return time_s >= m.at_s && time_s < m.at_s + m.for_s;
+  }
+  std::vector<Placed> list_;
+};
+
+}  // namespace sim
+
+template <>
+struct xml::Names<sim::FaultKind> {
+  static constexpr auto list = std::to_array<std::pair<const char*, sim::FaultKind>>(
+      {{"tension_open", sim::FaultKind::tension_open},
+       {"tension_short", sim::FaultKind::tension_short},
+       {"tension_stuck", sim::FaultKind::tension_stuck},
+       {"current_stuck", sim::FaultKind::current_stuck},
+       {"encoder_lost", sim::FaultKind::encoder_lost},
+       {"encoder_slips", sim::FaultKind::encoder_slips},
+       {"over_current", sim::FaultKind::over_current},
+       {"hot", sim::FaultKind::hot},
+       {"supply_low", sim::FaultKind::supply_low},
+       {"tendon_snaps", sim::FaultKind::tendon_snaps},
+       {"hang", sim::FaultKind::hang},
+       {"busy", sim::FaultKind::busy},
+       {"bus_off", sim::FaultKind::bus_off}});
+};
