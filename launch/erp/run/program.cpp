@@ -27,6 +27,13 @@ void append_folders(std::vector<fs::path>& folders, const char* variable) {
 
 std::string own_folder() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
 
+/// An installed `erp` has its components in ../libexec/erp, one of a build tree beside it. In /usr/bin, beside an installed
+/// `erp`, are programs of others with the same names, such as Debian's logger.
+static fs::path component_folder() {
+  const fs::path own = own_folder(), installed = own.parent_path() / "libexec" / "erp";
+  return fs::is_directory(installed) ? installed : own;
+}
+
 std::string find_program(const std::string& type, const std::string& graph_folder) {
   if (type.find('/') != type.npos) {
     const fs::path path = fs::path(graph_folder) / type;
@@ -34,8 +41,7 @@ std::string find_program(const std::string& type, const std::string& graph_folde
   }
   std::vector<fs::path> folders;
   append_folders(folders, "ERP_COMPONENT_PATH");
-  folders.emplace_back(own_folder());
-  folders.push_back(fs::path(own_folder()).parent_path() / "libexec" / "erp");
+  folders.push_back(component_folder());
   append_folders(folders, "PATH");
   for (const auto& folder : folders)
     if (is_program(folder / type)) return fs::absolute(folder / type).string();
@@ -45,7 +51,7 @@ std::string find_program(const std::string& type, const std::string& graph_folde
 std::vector<std::string> own_programs() {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(own_folder(), ignored))
+  for (const auto& entry : fs::directory_iterator(component_folder(), ignored))
     if (is_program(entry.path()) && entry.path().filename() != "erp")
       names.push_back(entry.path().filename().string());
   return names;

@@ -9,11 +9,11 @@ namespace launch {
 std::string own_folder();
 
 /// The program of a component type. A type with a slash is a path relative to `graph_folder`. Other
-/// types are searched in $ERP_COMPONENT_PATH, the folder of `erp`, `../libexec/erp` relative to it,
-/// and $PATH. Returns "" if there is none.
+/// types are searched in $ERP_COMPONENT_PATH, then in `../libexec/erp` relative to `erp` if it is installed, else in the
+/// folder of `erp`, then in $PATH. Returns "" if there is none.
 std::string find_program(const std::string& type, const std::string& graph_folder);
 
-/// The programs in the folder of `erp`, except `erp`.
+/// The programs of components that belong to this `erp`.
 std::vector<std::string> own_programs();
 
 }  // namespace launch
