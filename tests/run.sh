@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The test command: installs what is missing, builds, runs every test.
 #   tests/run.sh           everything, on the release build
-#   tests/run.sh sim/gap   one room: builds its tests and runs them, without the long ones
+#   tests/run.sh sim/gap   one room: builds its tests and runs them
 #   tests/run.sh faults    every fault injected twenty times into running graphs, and timed
 #   tests/run.sh soak      half an hour of a graph of which processes are killed at random
 #   tests/run.sh fuzz      every fuzzer for 600 s, or for the seconds given next; ctest gives all of them 60
@@ -30,7 +30,7 @@ if [ "$preset" = fuzz ]; then
 fi
 cmake --preset "$preset" -DERP_TESTS=ON >/dev/null
 if [ -n "$room" ]; then
-  label=("-L" "^$room\$" "-LE" "^long\$")
+  label=("-L" "^$room\$")
   mapfile -t names < <(ctest --preset "$preset" -N "${label[@]}" | sed -n 's/^ *Test *#[0-9]*: //p')
   [ ${#names[@]} -gt 0 ] || { echo "tests/run.sh: no test in tests/$room" >&2; exit 2; }
   cmake --build --preset "$preset" --target "${names[@]}"

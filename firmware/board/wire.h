@@ -6,7 +6,7 @@
  *   READINGS  1  robot -> ECU  ecu 8, turn 8; per channel: encoder 32, current 16,
  *                              tension 16, temperature 16, supply 16; four analog inputs of 32
  *   DRIVE     2  ECU -> robot  ecu 8; duty 16, duty 16: both PWM outputs
- *   MISHAP    3  robot -> ECU  ecu 8, kind 8, periods 16: a fault injected by a test
+ *   FAULT     3  robot -> ECU  ecu 8, kind 8, periods 16: a fault injected by a test
  *   SAMPLE    4  ECU -> robot  ecu 8, turn 8 of the readings it has. Request for readings: answered
  *                              by READINGS of each later period, at least of the next one; by the
  *                              current readings if there are none or they are too old; in lockstep

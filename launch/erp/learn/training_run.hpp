@@ -19,7 +19,7 @@ struct TrainingRunOptions {
 };
 
 /// Trains with a line of progress and remaining time, then draws the curve. False: interrupted; a
-/// remark tells how to continue. Throws as sim::training_loop::run does.
+/// remark states how to continue. Throws as sim::training_loop::run does.
 bool run_training(sim::training_loop::Training& training, const TrainingRunOptions& options,
                   const sim::Pool& pool, std::ostream& remarks);
 

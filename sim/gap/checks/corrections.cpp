@@ -125,7 +125,7 @@ class Vote {
       for (std::size_t j = i + 1; j < means_.joints.size(); ++j) pair(Quantity::angle, i, j);
   }
 
-  /// Tries the factor that would satisfy each impossible law. If no factor helps, reports the columns of the
+  /// Applies the factor that would satisfy each impossible law. If no factor helps, reports the columns of the
   /// first one as contradicting.
   void try_any_factor() {
     std::vector<Law> impossible;

@@ -137,9 +137,28 @@ TEST_CASE("an unknown verb ends with exit code 2 and the most similar name") {
   CHECK_THAT(result.text, Contains("did you mean \"launch\"?"));
 }
 
+TEST_CASE("erp without a verb lists the verbs by purpose") {
+  const Bus bus;
+  const auto result = bus.erp({});
+  CHECK(result.code == 0);
+  CHECK_THAT(result.text, Contains("Inspect a running graph") && Contains("launch") &&
+                              Contains("erp VERB --help"));
+}
+
+TEST_CASE("erp help prints the attributes of robot.xml and rejects an unknown format") {
+  const Bus bus;
+  const auto robot = bus.erp({"help", "robot"});
+  CHECK(robot.code == 0);
+  CHECK_THAT(robot.text, Contains("resistance_ohm"));
+  const auto unknown = bus.erp({"help", "robt"});
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.text, Contains("did you mean \"robot\"?"));
+}
+
 TEST_CASE("every verb has a help text") {
   const Bus bus;
-  for (const char* verb : {"launch", "check", "ps", "ls", "hz", "echo", "delay", "graph", "new"}) {
+  for (const char* verb :
+       {"launch", "check", "ps", "ls", "hz", "echo", "delay", "graph", "new", "help"}) {
     INFO(verb);
     const auto help = bus.erp({verb, "--help"});
     CHECK(help.code == 0);
