@@ -1,5 +1,5 @@
 // Joint control in lockstep: the arm by computed force (Fig. 8 of the paper), the hinge rig by puller_follower
-// (Fig. 7a).
+// (Fig. 7a), and every joint controller over the CAN gateway.
 #include <fstream>
 
 #include "interfaces/robot/robot.hpp"
@@ -42,6 +42,11 @@ std::string twin_joint_with_load(const Folder& folder, double mass_kg) {
                {{"sim", "sim.xml"},
                 {"joint_target", configs + "reach.xml"},
                 {"puller_follower", configs + "puller_follower.xml"}});
+}
+
+std::string over_can() {
+  const std::string bus = "udp:239.255.42.9:" + std::to_string(23000 + own_domain);
+  return " --device can --set gateway.bus=" + bus + " --set sim.bus=" + bus;
 }
 
 }  // namespace
@@ -118,7 +123,8 @@ TEST_CASE("H-infinity control of seven joints: RMS error below 1°, every tensio
   CHECK(least_tension_N(file) > 2);
 }
 
-TEST_CASE("0.2 kg attached during motion: H-infinity stays within 1.1° after 0.6 s, PD exceeds 5°") {
+TEST_CASE(
+    "0.2 kg attached during motion: H-infinity stays within 1.1° after 0.6 s, PD exceeds 5°") {
   const auto largest_error_rad = [](const std::string& more) {
     Folder folder;
     const auto file = recorded(folder, "launch/puller_follower_twin.xml " + more, 3);
@@ -141,4 +147,13 @@ TEST_CASE("a load beyond the motors: the limb brakes, then follows the reference
     CHECK_THAT(content(folder / "run/erp.log"), Catch::Contains("its motors saturate"));
     for (const auto& e : errors(file, "sim", "joint_target", 9)) CHECK(e.rms_rad < 0.5 * degree);
   }
+}
+
+TEST_CASE("over the CAN gateway every joint controller stays within its error limit") {
+  const JointRun run = joint_run();
+  CAPTURE(run.graph);
+  Folder folder;
+  const auto file = recorded(folder, "launch/" + run.graph + ".xml" + over_can(), run.for_s);
+  CHECK(error_complaints(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Complaints{});
+  CHECK(least_tension_N(file) > 0.5);
 }

@@ -1,10 +1,13 @@
 #pragma once
 #include <catch2/catch.hpp>
+#include <iostream>
 #include <numbers>
+#include <sstream>
 
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/table.hpp"
 #include "launch/erp/record/joints.hpp"
+#include "tests/stalls.hpp"
 #include "tests/system/command.hpp"
 
 /// Runs of graphs with joint control, and their joint errors.
@@ -36,6 +39,34 @@ inline std::vector<launch::JointError> errors(const std::string& file, const std
   REQUIRE(found.size() > 0);
   for (const auto& e : found) REQUIRE(e.frames > 500);
   return found;
+}
+
+/// A graph of each joint controller.
+struct JointRun {
+  std::string graph;
+  int for_s;
+  double allowed_deg;  ///< RMS error of each joint
+};
+
+inline JointRun joint_run() {
+  return GENERATE(JointRun{"puller_follower", 12, 0.5}, JointRun{"puller_follower_twin", 5, 1.5},
+                  JointRun{"puller_follower_seven", 12, 1}, JointRun{"computed_force", 29, 0.5},
+                  JointRun{"computed_force_estimated", 29, 1.5});
+}
+
+/// Prints the error of each joint. Returns a complaint for each joint with an RMS error of `allowed_deg` or more.
+inline Complaints error_complaints(const std::string& run, const std::string& recording,
+                                   double from_s, double allowed_deg) {
+  Complaints wrong;
+  for (const auto& e : errors(recording, "sim", "joint_target", from_s)) {
+    std::ostringstream message;
+    message << run << ": " << e.joint << " " << e.rms_rad / degree << "° RMS, "
+            << e.largest_rad / degree << "° at most from " << from_s << " s on";
+    std::cout << message.str() << std::endl;
+    if (!(e.rms_rad < allowed_deg * degree))
+      wrong.push_back(message.str() + ", allowed " + std::to_string(allowed_deg));
+  }
+  return wrong;
 }
 
 inline double least_tension_N(const std::string& file) {

@@ -1,8 +1,5 @@
-// Joint controllers under conditions of a real robot: over the CAN gateway, with a plant that is killed during motion,
-// and on an overloaded machine.
+// Joint controllers in real time: with a plant that is killed during motion, and on an overloaded machine.
 #include <atomic>
-#include <iostream>
-#include <sstream>
 
 #include "components/node/real_time.hpp"
 #include "tests/stalls.hpp"
@@ -12,38 +9,6 @@
 using namespace tests;
 
 namespace {
-
-struct JointRun {
-  std::string graph;
-  int for_s;
-  double allowed_deg;  ///< RMS error of each joint
-};
-
-JointRun joint_run() {
-  return GENERATE(JointRun{"puller_follower", 12, 0.5}, JointRun{"puller_follower_twin", 5, 1.5},
-                  JointRun{"puller_follower_seven", 12, 1}, JointRun{"computed_force", 29, 0.5},
-                  JointRun{"computed_force_estimated", 29, 1.5});
-}
-
-std::string over_can() {
-  const std::string bus = "udp:239.255.42.9:" + std::to_string(23000 + own_domain);
-  return " --device can --set gateway.bus=" + bus + " --set sim.bus=" + bus;
-}
-
-/// Prints the error of each joint. Returns a complaint for each joint with an RMS error of `allowed_deg` or more.
-Complaints error_complaints(const std::string& run, const std::string& recording, double from_s,
-                            double allowed_deg) {
-  Complaints wrong;
-  for (const auto& e : errors(recording, "sim", "joint_target", from_s)) {
-    std::ostringstream message;
-    message << run << ": " << e.joint << " " << e.rms_rad / degree << "° RMS, "
-            << e.largest_rad / degree << "° at most from " << from_s << " s on";
-    std::cout << message.str() << std::endl;
-    if (!(e.rms_rad < allowed_deg * degree))
-      wrong.push_back(message.str() + ", allowed " + std::to_string(allowed_deg));
-  }
-  return wrong;
-}
 
 /// Keeps all cores busy: one thread more than the machine has cores.
 class CpuLoad {
@@ -66,15 +31,6 @@ class CpuLoad {
 };
 
 }  // namespace
-
-TEST_CASE("over the CAN gateway every joint controller stays within its error limit") {
-  const JointRun run = joint_run();
-  CAPTURE(run.graph);
-  Folder folder;
-  const auto file = recorded(folder, "launch/" + run.graph + ".xml" + over_can(), run.for_s);
-  CHECK(error_complaints(run.graph + " over CAN", file, 0.5, run.allowed_deg) == Complaints{});
-  CHECK(least_tension_N(file) > 0.5);
-}
 
 TEST_CASE("after the plant is killed and restarted, the joint errors return below their limits") {
   const JointRun run = joint_run();
