@@ -12,6 +12,7 @@ namespace {
 
 // Loopback without multicast: participants find each other by unicast to 127.0.0.1, so every
 // process needs a port of its own (index auto) and the highest index must cover a large graph.
+// WhcHigh: a writer that keeps lockstep_depth messages of 54 actuators is never blocked.
 constexpr const char* loopback = R"(<CycloneDDS><Domain Id="any">
   <General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
     <AllowMulticast>false</AllowMulticast></General>
@@ -21,6 +22,7 @@ constexpr const char* loopback = R"(<CycloneDDS><Domain Id="any">
     <LeaseDuration>3s</LeaseDuration></Discovery>
   <Sizing><ReceiveBufferSize>128 kB</ReceiveBufferSize>
     <ReceiveBufferChunkSize>64 kB</ReceiveBufferChunkSize></Sizing>
+  <Internal><Watermarks><WhcHigh>64 MB</WhcHigh><WhcAdaptive>false</WhcAdaptive></Watermarks></Internal>
 </Domain></CycloneDDS>)";
 
 dds_domainid_t domain_id() {
@@ -103,8 +105,8 @@ Entity make_topic(const Entity& participant, const dds_topic_descriptor_t& type,
   return {dds_create_topic(participant.id(), &type, name, nullptr, nullptr), name};
 }
 
-Entity make_writer(const Entity& participant, const Entity& topic) {
-  const Qos qos;
+Entity make_writer(const Entity& participant, const Entity& topic, int depth) {
+  const Qos qos(depth);
   return {dds_create_writer(participant.id(), topic.id(), qos.qos, nullptr), "create writer"};
 }
 

@@ -48,7 +48,8 @@ class Node {
 
   template <class M>
   Publisher<M>& advertise() {
-    return own(std::make_unique<Publisher<M>>(participant_, identity_));
+    const int depth = clock_.lockstep() ? lockstep_depth : 1;
+    return own(std::make_unique<Publisher<M>>(participant_, identity_, depth));
   }
   /// `handler` is called only while the node is active.
   template <class M>

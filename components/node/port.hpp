@@ -35,8 +35,8 @@ struct Identity {
 template <class M>
 class Publisher final : public Port {
  public:
-  Publisher(const Entity& participant, const Identity& identity)
-      : writer_(participant), identity_(identity) {}
+  Publisher(const Entity& participant, const Identity& identity, int depth)
+      : writer_(participant, depth), identity_(identity) {}
 
   void publish(M& message) {
     set_identity(message);
