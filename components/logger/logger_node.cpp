@@ -8,7 +8,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "components/logger/idl_texts.hpp"
 #include "components/node/type_schema.hpp"
 #include "interfaces/recording/cdr.hpp"
 

@@ -12,6 +12,9 @@
 /// Records every topic of the bus to one MCAP file. Messages that name another robot are skipped.
 namespace logger {
 
+/// The IDL source of a message type such as "erp/msg/SensorFrame"; "" for types of other projects.
+std::string idl_text(const std::string& message);
+
 class LoggerNode {
  public:
   static constexpr bool in_background = true;

@@ -13,6 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "interfaces/xml/writer.hpp"
+
 namespace node {
 namespace {
 
@@ -101,19 +103,8 @@ std::string plugin(const std::string& name) {
          "install Debian's libddsc0debian");
 }
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&') safe += "&amp;";
-    else if (c == '<') safe += "&lt;";
-    else if (c == '"') safe += "&quot;";
-    else safe += c;
-  }
-  return safe;
-}
-
 std::string library(const std::string& name, const std::string& function) {
-  return "<Library path=\"" + escaped(plugin(name)) + "\" initFunction=\"init_" + function +
+  return "<Library path=\"" + xml::escaped(plugin(name)) + "\" initFunction=\"init_" + function +
          "\" finalizeFunction=\"finalize_" + function + "\"/>";
 }
 
@@ -134,7 +125,7 @@ std::string security_config() {
     check_key_permissions(folder / key);
   check_certificates(folder);
   const auto file = [&](const std::string& element, const char* name) {
-    return "<" + element + ">file:" + escaped(folder / name) + "</" + element + ">";
+    return "<" + element + ">file:" + xml::escaped(folder / name) + "</" + element + ">";
   };
   return "<CycloneDDS><Domain Id=\"any\"><Security><Authentication>" +
          library("auth", "authentication") + file("IdentityCertificate", Files::identity) +

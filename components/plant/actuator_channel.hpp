@@ -1,11 +1,12 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
 #include "components/plant/arbiter.hpp"
 #include "components/plant/limits.hpp"
-#include "components/plant/rate_limiter.hpp"
 #include "components/plant/tendon_monitor.hpp"
 #include "sim/model/actuator/ecu_units.hpp"
 
@@ -24,6 +25,23 @@
 namespace plant {
 
 inline constexpr std::string_view outranked_reason = "another controller is the owner";
+
+/// Limits the rate of change of a reference:  r ← r + clamp(target − r, ± rate dt).
+class RateLimiter {
+ public:
+  static constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+  void reset(double value) { value_ = value; }
+  double step(double target, double rate_per_s, double dt_s) {
+    const double limit = rate_per_s * dt_s;
+    if (rate_per_s == unlimited || std::abs(target - value_) <= limit) return value_ = target;
+    return value_ += target > value_ ? limit : -limit;
+  }
+  double value() const { return value_; }
+
+ private:
+  double value_ = 0;
+};
 
 /// The next request to an ECU channel.
 struct Demand {

@@ -8,13 +8,25 @@
 
 #include "components/plant/actuator_channel.hpp"
 #include "components/plant/limb_monitor.hpp"
-#include "components/plant/notice.hpp"
 #include "interfaces/topics.hpp"
 
 /// The robot-independent layer between controllers and any device: units, limits, arbitration by
 /// priority and age of the command, safe action, re-arming. Reads no clock and no bus: time and
 /// messages are arguments.
 namespace plant {
+
+/// A change that is reported once.
+struct Notice {
+  erp::Severity severity;
+  std::string subject;  ///< actuator, or number of actuators
+  std::string code;
+  std::string text;
+};
+
+/// Merges notices that differ only in the actuator, if there are three or more, into one that states
+/// their number. If they are fewer than `actuators`, the number of all actuators, it also names the
+/// first three. Keeps the order otherwise.
+std::vector<Notice> merge_similar(std::vector<Notice> notices, std::size_t actuators);
 
 class Plant {
  public:

@@ -1,9 +1,12 @@
 #include "components/plant/plant_node.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
-#include "components/plant/gains.hpp"
+#include "firmware/core/parameters.h"
+#include "sim/control/gain_design.hpp"
 
 namespace plant {
 namespace {
@@ -12,6 +15,28 @@ constexpr std::int64_t device_check_ns =
     1'000'000;  // the device is lost 50 … 51 ms after its last message
 constexpr std::uint64_t owner_period = 50;  // frames: owners are published at 10 Hz
 constexpr std::uint64_t gains_period = 50;  // frames between attempts to set gains
+
+/// All gains of an ECU channel, designed from robot.xml; the last value commits the set.
+std::vector<erp::EcuParameterValue> gain_set(const erp::Robot& robot,
+                                             const erp::Actuator& actuator) {
+  const auto designed = sim::design_parameters(robot, actuator, {});
+  std::vector<erp::EcuParameterValue> values;
+  for (std::size_t i = 0; i < designed.size(); ++i)
+    values.push_back({static_cast<std::uint8_t>(actuator.ecu),
+                      static_cast<std::uint8_t>(actuator.channel), static_cast<std::uint8_t>(i),
+                      i + 1 == designed.size(), designed[i]});
+  return values;
+}
+
+/// The index of a gain by its name in firmware/core/parameters.h, e.g. `length_gain_V_per_rad`.
+std::optional<std::size_t> gain_index(std::string_view name) {
+#define ERP_GAIN_NAME(id, text) std::string_view(#text),
+  constexpr std::array names{ECU_PARAMETERS(ERP_GAIN_NAME)};
+#undef ERP_GAIN_NAME
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return i;
+  return std::nullopt;
+}
 
 /// Sets `commit` on the last value of each channel, so that the channel applies its gains at once.
 void commit_last(erp::EcuParameter& parameters) {

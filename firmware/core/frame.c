@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "firmware/core/bits.h"
+
 /* ---- envelope ---- */
 
 uint16_t frame_identifier(frame_function function, uint8_t ecu) {
@@ -30,35 +32,6 @@ static uint8_t check_value(const bus_frame* frame) {
 
 bool frame_is_intact(const bus_frame* frame) {
   return frame->size == 8 && frame->id <= 0x7FFu && frame->data[7] == check_value(frame);
-}
-
-/* ---- bit fields: a cursor over the 56 bits before the check value ---- */
-
-typedef struct {
-  uint64_t bits;
-  unsigned at;
-} cursor;
-
-static void put(cursor* c, unsigned width, uint32_t value) {
-  const uint64_t mask = ((uint64_t)1 << width) - 1u;
-  c->bits |= (value & mask) << c->at;
-  c->at += width;
-}
-static uint32_t take(cursor* c, unsigned width) {
-  const uint64_t mask = ((uint64_t)1 << width) - 1u;
-  const uint32_t value = (uint32_t)(c->bits >> c->at & mask);
-  c->at += width;
-  return value;
-}
-static uint8_t take8(cursor* c, unsigned width) { return (uint8_t)take(c, width); }
-static bool take_bit(cursor* c) { return take(c, 1) != 0; }
-static int32_t take_signed(cursor* c, unsigned width) {
-  const uint32_t sign = (uint32_t)1 << (width - 1);
-  return (int32_t)((take(c, width) ^ sign) - sign);
-}
-
-static int32_t saturate(int32_t value, int32_t low, int32_t high) {
-  return value < low ? low : value > high ? high : value;
 }
 
 static void seal(bus_frame* frame, frame_function function, uint8_t ecu, const cursor* c) {

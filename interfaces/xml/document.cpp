@@ -97,6 +97,12 @@ Element parse_document(std::string_view text, const std::string& file) {
   return Tree(text, file).root();
 }
 
+std::vector<Error> wrong_root(const Element& root, const std::string& expected) {
+  if (root.name == expected) return {};
+  return {error_in(root.name, root.place, "the root element must be <" + expected + ">",
+                   did_you_mean(root.name, {expected}))};
+}
+
 std::string resolved(const std::string& file, const std::string& from_file) {
   return (std::filesystem::path(from_file).parent_path() / file).lexically_normal().string();
 }

@@ -23,6 +23,9 @@ Element parse_document(std::string_view text, const std::string& file);
 /// The root element of a file. Throws Errors also when it is missing, unreadable or empty.
 Element read_document(const std::string& file);
 
+/// Reports a root element with another name.
+std::vector<Error> wrong_root(const Element& root, const std::string& expected);
+
 /// Resolves a file name relative to the folder of `from_file`, the file that contains it.
 std::string resolved(const std::string& file, const std::string& from_file);
 

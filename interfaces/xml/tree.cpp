@@ -12,8 +12,6 @@ std::string text_of(const Tree& tree, std::size_t depth) {
 
 }  // namespace
 
-std::string write_tree(const Tree& root) {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + text_of(root, 0);
-}
+std::string write_tree(const Tree& root) { return file_text(text_of(root, 0)); }
 
 }  // namespace xml

@@ -5,6 +5,23 @@ namespace {
 
 constexpr std::size_t columns = 100;
 
+/// `<name a="…" b="…"`, wrapped.
+std::string opening(const std::string& name, const std::vector<WrittenAttribute>& attributes,
+                    const std::string& indent) {
+  const std::string continued = "\n" + indent + std::string(name.size() + 1, ' ');
+  std::string text = indent + "<" + name;
+  std::size_t width = text.size();
+  for (const auto& [key, value] : attributes) {
+    const std::string attribute = " " + key + "=\"" + escaped(value) + "\"";
+    if (width + attribute.size() > columns - 2) text += continued, width = continued.size() - 1;
+    text += attribute;
+    width += attribute.size();
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -37,22 +54,9 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-/// `<name a="…" b="…"`, wrapped.
-std::string opening(const std::string& name, const std::vector<WrittenAttribute>& attributes,
-                    const std::string& indent) {
-  const std::string continued = "\n" + indent + std::string(name.size() + 1, ' ');
-  std::string text = indent + "<" + name;
-  std::size_t width = text.size();
-  for (const auto& [key, value] : attributes) {
-    const std::string attribute = " " + key + "=\"" + escaped(value) + "\"";
-    if (width + attribute.size() > columns - 2) text += continued, width = continued.size() - 1;
-    text += attribute;
-    width += attribute.size();
-  }
-  return text;
+std::string file_text(const std::string& element) {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + element;
 }
-
-}  // namespace
 
 std::string element_text(const std::string& name, const std::vector<WrittenAttribute>& attributes,
                          const std::string& children, std::size_t depth) {

@@ -13,6 +13,12 @@ namespace xml {
 /// An attribute as it is written: name and unescaped text.
 using WrittenAttribute = std::pair<std::string, std::string>;
 
+/// Text with the characters replaced that have a meaning in XML and HTML.
+std::string escaped(const std::string& text);
+
+/// The XML declaration followed by an element's text.
+std::string file_text(const std::string& element);
+
 /// One element as text, indented; attributes wrap at 100 columns.
 std::string element_text(const std::string& name, const std::vector<WrittenAttribute>& attributes,
                          const std::string& children, std::size_t depth);

@@ -4,9 +4,7 @@ execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10
 if(failed OR NOT revision)
   set(revision "unknown")
 endif()
-set(text "#include \"launch/erp/version.hpp\"
-
-namespace launch {
+set(text "namespace launch {
 
 const char* version() { return \"${VERSION}\"; }
 const char* revision() { return \"${revision}\"; }

@@ -11,3 +11,15 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <btBulletDynamicsCommon.h>
 #pragma GCC diagnostic pop
+
+#include <array>
+
+#include "sim/model/skeleton/pose.hpp"
+
+/// Vectors for Bullet.
+namespace sim {
+
+inline btVector3 bt(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline btVector3 bt(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace sim

@@ -5,7 +5,6 @@
 
 #include "sim/world/bullet_headers.hpp"
 #include "sim/world/bullet_skeleton.hpp"
-#include "sim/world/bullet_vectors.hpp"
 
 /// The implementation of BulletSkeleton; included by its own sources only.
 namespace sim {

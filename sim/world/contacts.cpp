@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "sim/world/bullet_headers.hpp"
-#include "sim/world/bullet_vectors.hpp"
 
 namespace sim {
 namespace {

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
+#include "interfaces/xml/writer.hpp"
 #include "launch/erp/gap/files.hpp"
 #include "launch/erp/gap/messages.hpp"
 #include "launch/erp/gap/report_parts.hpp"
-#include "launch/erp/gap/svg.hpp"
 
 namespace launch::gap {
 namespace {
 
 using namespace sim::diagnosis;
-using svg::escaped;
+using xml::escaped;
 
 constexpr const char* head = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "interfaces/xml/writer.hpp"
 #include "launch/erp/gap/report_parts.hpp"
 #include "launch/erp/gap/svg.hpp"
 
 namespace launch::gap {
 
 using namespace sim::diagnosis;
-using svg::escaped;
+using xml::escaped;
 
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "interfaces/xml/writer.hpp"
 #include "launch/erp/gap/messages.hpp"
 #include "launch/erp/gap/report_parts.hpp"
 #include "launch/erp/gap/svg.hpp"
@@ -10,7 +11,7 @@
 namespace launch::gap {
 
 using namespace sim::diagnosis;
-using svg::escaped;
+using xml::escaped;
 
 std::string page::name_of(const IdentifiedEffect& n) { return n.type + " on " + n.on; }
 

@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interfaces/xml/writer.hpp"
+
 namespace launch::gap::svg {
 namespace {
 
 std::string text(double x, double y, const std::string& words, const char* anchor = "start",
                  const char* more = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x, y,
-                     anchor, more, escaped(words));
+                     anchor, more, xml::escaped(words));
 }
 
 std::string rect(double x, double y, double w, double h, const std::string& style) {
@@ -55,17 +57,6 @@ std::vector<double> ticks(const Range& range) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& words) {
-  std::string safe;
-  for (const char c : words)
-    safe += c == '<'   ? "&lt;"
-            : c == '>' ? "&gt;"
-            : c == '&' ? "&amp;"
-            : c == '"' ? "&quot;"
-                       : std::string(1, c);
-  return safe;
-}
 
 std::string plot(const Axes& axes, const std::vector<Line>& lines) {
   constexpr double left = 64, right = 16, top = 44, bottom = 40, legend_y = 34;

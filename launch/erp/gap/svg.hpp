@@ -5,8 +5,6 @@
 /// Diagrams as inline SVG, without scripts or external files.
 namespace launch::gap::svg {
 
-std::string escaped(const std::string& text);
-
 struct Line {
   std::string label, colour;
   std::vector<double> x, y;  ///< NaN: the line is interrupted

@@ -1,4 +1,4 @@
-#include "launch/erp/learn/experience.hpp"
+#include "launch/erp/learn/learn.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,7 @@
 #include <iostream>
 #include <memory>
 
-#include "launch/erp/learn/experience.hpp"
-#include "launch/erp/learn/sensorimotor.hpp"
-#include "launch/erp/learn/synergy.hpp"
+#include "launch/erp/learn/learn.hpp"
 #include "launch/erp/run/signals.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"
 #include "launch/erp/verbs/verbs.hpp"

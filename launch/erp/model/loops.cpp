@@ -1,4 +1,4 @@
-#include "launch/erp/model/loops.hpp"
+#include "launch/erp/model/model.hpp"
 
 #include <fmt/format.h>
 

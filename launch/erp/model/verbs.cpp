@@ -4,7 +4,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "launch/erp/model/loops.hpp"
 #include "launch/erp/model/model.hpp"
 #include "launch/erp/model/muscles.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"

@@ -1,17 +1,24 @@
-#include "launch/erp/record/effort.hpp"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ostream>
 
+#include "interfaces/recording/table.hpp"
+#include "launch/erp/record/log.hpp"
 #include "launch/erp/verbs/guarded.hpp"
 
 namespace launch {
 namespace {
 
 using recording::Column;
+
+struct Effort {
+  std::string actuator;
+  double least_N = 0, mean_N = 0, largest_N = 0;
+  double ripple_N = 0;  ///< RMS of the tension about a straight line fitted over 0.1 s: oscillation
+  double energy_J = 0;  ///< ∫ V i dt: net energy from the supply
+};
 
 constexpr double line_span_s = 0.1;  // chosen
 
@@ -69,14 +76,15 @@ Effort effort_of(const recording::Table& table, const std::string& actuator, dou
   return e;
 }
 
-}  // namespace
-
+/// Ignores rows before `from_s` and empty cells.
 std::vector<Effort> efforts(const recording::Table& table, double from_s) {
   std::vector<Effort> all;
   for (const std::string& actuator : table.owners("tension_N"))
     all.push_back(effort_of(table, actuator, from_s));
   return all;
 }
+
+}  // namespace
 
 int log_effort(const std::string& path, double from_s, std::ostream& out) {
   return guarded([&] {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// `erp log info|export|recover|plot`. All functions return 0 done, 1 result not written, 2 bad
+/// `erp log info|export|recover|plot|effort`. All functions return 0 done, 1 result not written, 2 bad
 /// input, and print errors on stderr with place, value and remedy.
 namespace launch {
 
@@ -33,5 +33,8 @@ int log_recover(const std::string& in, const std::string& out, std::ostream& rep
 
 /// Draws the recording (MCAP or CSV) into `out`, an .svg or .png file. Needs gnuplot.
 int log_plot(const std::string& path, const std::string& out, const LogPlotOptions& options = {});
+
+/// `erp log effort`: prints tensions and energy of each muscle, and the total energy.
+int log_effort(const std::string& path, double from_s, std::ostream& out);
 
 }  // namespace launch

@@ -1,4 +1,3 @@
-#include "launch/erp/record/effort.hpp"
 #include "launch/erp/record/joints.hpp"
 #include "launch/erp/record/log.hpp"
 

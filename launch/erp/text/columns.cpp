@@ -1,24 +1,21 @@
 #include "launch/erp/text/columns.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace launch {
 namespace {
 
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
-
 std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return !continues_character(c); }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 }  // namespace
 
 std::string clipped(const std::string& text, std::size_t width) {
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (!continues_character(text[i]) && seen++ == width) return text.substr(0, i);
-  return text;
+  return fmt::format("{:.{}}", text, width);
 }
 
 std::vector<std::string> align(const std::vector<std::vector<std::string>>& rows,

@@ -7,14 +7,54 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/gap/checks/at_limit.hpp"
 #include "sim/gap/checks/corrections.hpp"
 #include "sim/gap/checks/dead_columns.hpp"
+#include "sim/gap/residuals/drives.hpp"
+#include "sim/model/actuator/sensors.hpp"
 
 namespace sim::checks {
 namespace {
 
-constexpr double beyond_stops = 3;  // times the largest angle of the stops; chosen
+constexpr double beyond_stops = 3;       // times the largest angle of the stops; chosen
+constexpr double smallest_share = 0.02;  // of the rows at the end of a range; chosen
+
+/// A converter at the end of its range. Its readings are bounds, not values.
+struct AtLimit {
+  Column column;
+  double limit = 0;  ///< in the column's unit
+  double share = 0;  ///< of the valid rows
+};
+
+/// Share of the valid rows in which the magnitude is at least `limit`.
+double share_beyond(const Signal& signal, double limit) {
+  double beyond = 0, valid = 0;
+  for (const double x : signal)
+    if (std::isfinite(x)) beyond += std::abs(x) >= limit, ++valid;
+  return valid > 0 ? beyond / valid : 0;
+}
+
+/// Currents and tensions that are at the end of their range in more than 2 % of the rows. The zero tension of a
+/// slack tendon is not an end of the range.
+std::vector<AtLimit> at_limit(const Episode& episode, const erp::Robot& robot) {
+  std::vector<AtLimit> all;
+  const auto add_if_at_limit = [&](const Column& column, const Signal& signal, int counts,
+                                   double per_count) {
+    const double share = share_beyond(signal, (counts - 0.5) * per_count);
+    if (share > smallest_share) all.push_back({column, counts * per_count, share});
+  };
+  for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
+    const erp::Actuator& actuator = robot.actuators[a];
+    if (residuals::drive_of(robot, actuator.name)) continue;  // its converters are not described
+    const SensorScale scale(robot.motor_of(actuator), robot.sensors_of(actuator));
+    const residuals::ActuatorSignals& measured = episode.actuators[a];
+    add_if_at_limit({Quantity::current, a}, measured.current_A, scale.current_counts_max,
+                    scale.current_A_per_count);
+    add_if_at_limit({Quantity::tension, a}, measured.tension_N,
+                    scale.tension_counts_max - scale.tension_zero_counts,
+                    scale.tension_N_per_count);
+  }
+  return all;
+}
 
 class Messages {
  public:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/gap/residuals/signal_noise.hpp"
+
 namespace sim::estimation {
 namespace {
 
@@ -19,9 +21,8 @@ std::vector<double> excess(const ResidualVector& residuals, const Eigen::VectorX
       all.push_back(0);
       continue;
     }
-    const auto middle = of_stage.begin() + std::ptrdiff_t(of_stage.size() / 2);
-    std::ranges::nth_element(of_stage, middle);
-    const double most = largest_square * std::max(1.0, *middle / median_of_chi_square);
+    const double most =
+        largest_square * std::max(1.0, sim::residuals::median(of_stage) / median_of_chi_square);
     double sum = 0;
     for (const double x : of_stage) sum += std::min(x, most);
     all.push_back(sum / double(of_stage.size()) - 1);

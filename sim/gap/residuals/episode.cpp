@@ -8,6 +8,7 @@
 #include "interfaces/recording/columns.hpp"
 #include "interfaces/xml/values.hpp"
 #include "sim/gap/residuals/drives.hpp"
+#include "sim/gap/residuals/signal_noise.hpp"
 
 namespace sim::residuals {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 constexpr double longest_gap_s = 60;
 constexpr double longest_period_s = 0.5;  // chosen: no recording is that slow
 constexpr std::size_t longest_filled = 3;
-
-double median(std::vector<double> x) {
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-  std::nth_element(x.begin(), middle, x.end());
-  return *middle;
-}
 
 /// For each row of the table, its row on the even grid; −1: dropped.
 struct Grid {
@@ -88,7 +83,7 @@ bool counts_ticks(const recording::Column& tick, const recording::Column& time) 
     if (!(ticks > 0)) return false;
     period.push_back((time.values[k] - time.values[k - 1]) / ticks);
   }
-  return !period.empty() && std::abs(median(std::move(period)) / tick_s - 1) < 0.1;
+  return !period.empty() && std::abs(median(period) / tick_s - 1) < 0.1;
 }
 
 std::vector<double> times_of(const recording::Column& tick) {
@@ -112,7 +107,7 @@ std::size_t drop_outliers(Signal& signal) {
   for (std::size_t k = 1; k < signal.size(); ++k)
     if (const double step = std::abs(signal[k] - signal[k - 1]); step > 0) steps.push_back(step);
   if (steps.size() < 10) return 0;
-  const double usual = median(std::move(steps));
+  const double usual = median(steps);
   std::size_t dropped = 0;
   for (std::size_t k = 1; k + 1 < signal.size(); ++k) {
     const double before = signal[k] - signal[k - 1], after = signal[k] - signal[k + 1];
@@ -231,7 +226,8 @@ RowTimes row_times(const recording::Table& table) {
   const auto times = tick && counts_ticks(*tick, *time) ? times_of(*tick) : time->values;
   std::vector<double> steps;
   for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
-  const double period_s = median(steps);
+  std::vector<double> reordered = steps;
+  const double period_s = median(reordered);
   double square = 0;
   for (const double step : steps) square += std::pow(std::remainder(step, period_s), 2);
   return {period_s, std::sqrt(square / 2 / double(steps.size()))};  // each row is in two steps

@@ -5,6 +5,12 @@
 
 namespace sim::residuals {
 
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 double rms(const Signal& signal) {
   double square = 0, count = 0;
   for (const double x : signal)
@@ -19,10 +25,8 @@ double noise_of(const Signal& signal) {
         !std::isnan(d))
       square.push_back(d * d);
   if (square.empty()) return 0;
-  const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
-  std::nth_element(square.begin(), middle, square.end());
   constexpr double median_of_chi_square = 0.455;
-  return std::sqrt(*middle / 20 / median_of_chi_square);
+  return std::sqrt(median(square) / 20 / median_of_chi_square);
 }
 
 }  // namespace sim::residuals

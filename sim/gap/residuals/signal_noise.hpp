@@ -1,8 +1,12 @@
 #pragma once
 #include "sim/gap/residuals/episode.hpp"
 
-/// Rms and noise of a signal. Missing samples do not count.
+/// Median, rms and noise of a signal. Missing samples do not count.
 namespace sim::residuals {
+
+/// The larger of the two middle values if their number is even. Reorders `values`; one at least, none
+/// missing.
+double median(std::vector<double>& values);
 
 /// 0 without samples.
 double rms(const Signal& signal);

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "interfaces/xml/fields.hpp"
+#include "sim/model/skeleton/joint_path.hpp"
 
 /// Moves lines back to where they started: wound-up lines are paid out first, then the others are
 /// wound up.
@@ -29,7 +30,11 @@ class ReturnPath {
   ReturnPath(const TrialTimes& times, double begin_s, Eigen::VectorXd from_m)
       : times_(times), begin_s_(begin_s), from_m_(std::move(from_m)) {}
 
-  Eigen::VectorXd at(double time_s) const;
+  Eigen::VectorXd at(double time_s) const {
+    const double half = 2 * (time_s - begin_s_) / times_.way_s;
+    const double paid_out = least_jerk(half).done, wound_up = least_jerk(half - 1).done;
+    return from_m_.unaryExpr([&](double m) { return m * (1 - (m < 0 ? paid_out : wound_up)); });
+  }
   /// True when the lines are back and the rest time `still_s` has passed.
   bool done(double time_s) const { return time_s - begin_s_ > times_.way_s + times_.still_s; }
 
