@@ -36,8 +36,9 @@ std::string arm_with(const Folder& folder, const std::string& type, const std::s
 /// A graph of `twin_joint` with a load that is attached to the forearm during the motion.
 std::string twin_joint_with_load(const Folder& folder, double mass_kg) {
   const std::string configs = ERP_SOURCE_DIR "/configs/twin_joint/";
-  std::ofstream(folder / "sim.xml") << "<sim><grasp body=\"forearm\" at_m=\"0 0 -0.26\" mass_kg=\""
-                                    << mass_kg << "\" at_s=\"1\"/></sim>\n";
+  std::ofstream(folder / "sim.xml")
+      << "<sim><attached_load body=\"forearm\" at_m=\"0 0 -0.26\" mass_kg=\"" << mass_kg
+      << "\" at_s=\"1\"/></sim>\n";
   return graph(folder, configs + "robot.xml",
                {{"sim", "sim.xml"},
                 {"joint_target", configs + "reach.xml"},
@@ -118,7 +119,8 @@ TEST_CASE("H-infinity control of seven joints: RMS error below 1°, every tensio
   CHECK(least_tension_N(file) > 2);
 }
 
-TEST_CASE("0.2 kg attached during motion: H-infinity stays within 1.1° after 0.6 s, PD exceeds 5°") {
+TEST_CASE(
+    "0.2 kg attached during motion: H-infinity stays within 1.1° after 0.6 s, PD exceeds 5°") {
   const auto largest_error_rad = [](const std::string& more) {
     Folder folder;
     const auto file = recorded(folder, "launch/puller_follower_twin.xml " + more, 3);
