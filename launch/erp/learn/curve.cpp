@@ -9,7 +9,7 @@
 namespace launch {
 namespace {
 
-/// "elbow.learnt_deg" → "deg".
+/// "elbow.learned_deg" → "deg".
 std::string unit_of(const std::string& metric) {
   return metric.substr(metric.find_last_of('_') + 1);
 }
