@@ -40,7 +40,7 @@ ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
       names_(robot),
       model_(robot),
       source_(jacobian_source(params.jacobian, muscles_file(params), robot, model_)),
-      share_(sim::objective_terms(robot, params.liking, params.least_N), model_.coordinates()),
+      share_(sim::objective_terms(robot, params.objective, params.least_N), model_.coordinates()),
       now_(names_.size()),
       desired_(names_.size()),
       acceleration_(Vector::Zero(model_.coordinates())),
@@ -138,9 +138,10 @@ erp::ActuatorCommand ComputedForce::command(const Eigen::MatrixXd& jacobian,
     rate_N_per_s_[i] += dt_s / (dt_s + params_.rate_s) * (rate - rate_N_per_s_[i]);
     const double reference_N = laws_[a].reference_N(
         {tension_N[i], rate_N_per_s_[i], line_rate_[i], line_acceleration_[i]});
-    node::append_reference(command, robot_.actuators[a].name, erp::Mode::force,
-              std::clamp(tension_N[i] + params_.anticipate * (reference_N - tension_N[i]), 0.0,
-                         robot_.actuators[a].max_tension_N));
+    node::append_reference(
+        command, robot_.actuators[a].name, erp::Mode::force,
+        std::clamp(tension_N[i] + params_.lag_compensation * (reference_N - tension_N[i]), 0.0,
+                   robot_.actuators[a].max_tension_N));
   }
   last_N_ = tension_N;
   return command;

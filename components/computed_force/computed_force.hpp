@@ -24,7 +24,7 @@ class ComputedForce {
  public:
   struct Params {
     xml::Place place;
-    sim::TensionObjective liking = sim::TensionObjective::least_tension;
+    sim::TensionObjective objective = sim::TensionObjective::least_tension;
     JacobianKind jacobian = JacobianKind::analytic;
     std::string muscles;     ///< file of a learned Jacobian, relative to the config
     double least_N = 5;      ///< f_min, so that no tendon goes slack; chosen
@@ -34,12 +34,13 @@ class ComputedForce {
     double integral_rad_s = 0.2;  ///< limit of |∫ e|; chosen
     double friction = 0;          ///< share of robot.xml's joint friction that is compensated
     /// Share of the force laws' lag that is compensated; force_reference.hpp.
-    double anticipate = 1;
+    double lag_compensation = 1;
     double rate_s = 0.02;        ///< smoothing time of df/dt; chosen
     std::string source = "sim";  ///< source of the joint_state that is used
     double stale_s = 0.05;       ///< older states and targets are rejected; chosen
     void visit(auto& v) {
-      v("liking", liking);
+      v.former("liking", "objective"), v.former("anticipate", "lag_compensation");
+      v("objective", objective);
       v("jacobian", jacobian);
       v("muscles", muscles);
       v("least_N", least_N, xml::at_least_zero);
@@ -48,7 +49,7 @@ class ComputedForce {
       v("ki_per_s3", ki_per_s3, xml::at_least_zero);
       v("integral_rad_s", integral_rad_s, xml::at_least_zero);
       v("friction", friction, xml::at_least_zero);
-      v("anticipate", anticipate, xml::at_least_zero);
+      v("lag_compensation", lag_compensation, xml::at_least_zero);
       v("rate_s", rate_s, xml::at_least_zero);
       v("source", source);
       v("stale_s", stale_s, xml::positive);

@@ -23,7 +23,7 @@ BaseFile checked_base(const Experience::Params& params, const erp::Robot& robot)
 std::shared_ptr<const Feedback> feedback(const Experience::Params& params, const Base& base,
                                          int start, const Vec3& target_m) {
   if (params.feedback == FeedbackKind::linear)
-    return linear_feedback(base, start, target_m, params.closing_per_s);
+    return linear_feedback(base, start, target_m, params.feedback_gain_per_s);
   if (params.feedback == FeedbackKind::fuzzy)
     return fuzzy_feedback(base, start, xml::resolved(params.rules, params.place.file));
   return nullptr;
@@ -86,7 +86,7 @@ void Experience::begin() {
   const Eigen::VectorXd desired_Vs = base_.inverse(start_, target_m);
   if (const double peak = peak_V(file_, desired_Vs); peak > file_.pattern_V)
     node_.report(
-        erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "far",
+        erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "out_of_reach",
         fmt::format(
             "needs {:.1f} V at a muscle; all voltages are scaled down to at most {:.1f} V. The "
             "goal lies outside the experience; train the base nearer to it",
@@ -127,7 +127,7 @@ erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s
   read(frame);
   time_s_ += dt_s;
   if (reach_ && dt_s > most_gap_s && goal_ < params_.goals.size()) {
-    node_.report(erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "begun_again",
+    node_.report(erp::Severity::warning, "goal " + std::to_string(goal_ + 1), "restarted",
                  fmt::format("no frames for {:.2f} s; the reach restarts", dt_s));
     reach_.reset();
   }
@@ -140,7 +140,7 @@ erp::ActuatorCommand Experience::step(const erp::SensorFrame& frame, double dt_s
   if (!hand && !unknown_reported_) {
     unknown_reported_ = true;
     node_.report(
-        erp::Severity::warning, params_.source, "blind",
+        erp::Severity::warning, params_.source, "no_joint_state",
         "its joint_state is missing, stale or lacks a joint; no correction until it is complete");
   }
   if (hand) unknown_reported_ = false;

@@ -30,16 +30,17 @@ class Experience {
     xml::Place place;
     std::string base;  ///< base.xml of `erp learn experience`, relative to this file
     sim::experience::FeedbackKind feedback = sim::experience::FeedbackKind::linear;
-    double closing_per_s = 1.5;  ///< gain b of linear feedback
-    std::string rules;           ///< file of fuzzy feedback, relative to this file
-    std::string save;            ///< file to which the extended base is written; "": none
-    std::string source = "sim";  ///< source of the joint_state that is used
-    double stale_s = 0.05;       ///< older states are rejected; chosen
+    double feedback_gain_per_s = 1.5;  ///< gain b of linear feedback
+    std::string rules;                 ///< file of fuzzy feedback, relative to this file
+    std::string save;                  ///< file to which the extended base is written; "": none
+    std::string source = "sim";        ///< source of the joint_state that is used
+    double stale_s = 0.05;             ///< older states are rejected; chosen
     std::vector<ReachGoal> goals;
     void visit(auto& v) {
+      v.former("closing_per_s", "feedback_gain_per_s");
       v.required("base", base);
       v("feedback", feedback);
-      v("closing_per_s", closing_per_s, xml::positive);
+      v("feedback_gain_per_s", feedback_gain_per_s, xml::positive);
       v("rules", rules);
       v("save", save);
       v("source", source);

@@ -57,7 +57,7 @@ void GapMonitor::evaluate() {
   std::string why;
   const auto gaps = window_.evaluate(why);
   if (!why.empty() && !failure_reported_)
-    node_.report(erp::Severity::warning, "", "not_judged", why), failure_reported_ = true;
+    node_.report(erp::Severity::warning, "", "not_evaluated", why), failure_reported_ = true;
   if (gaps.empty()) return;
   publish(gaps);
   for (const auto& gap : gaps) report(gap);
@@ -83,7 +83,7 @@ void GapMonitor::report(const sim::diagnosis::StageGap& gap) {
   StageState& state = states_[name_of(gap)];
   state.open = gap.open ? state.open + 1 : 0;
   state.closed = gap.judged && !gap.open ? state.closed + 1 : 0;
-  if (!state.reported && state.open >= params_.times) {
+  if (!state.reported && state.open >= params_.consecutive) {
     state.reported = true;
     node_.report(
         erp::Severity::warning, gap.on, "gap_open",
@@ -92,7 +92,7 @@ void GapMonitor::report(const sim::diagnosis::StageGap& gap) {
             "`erp gap diagnose` on a recording",
             name_of(gap), gap.rms, gap.unit, gap.floor, gap.unit));
   }
-  if (state.reported && state.closed >= params_.times) {
+  if (state.reported && state.closed >= params_.consecutive) {
     state.reported = false;
     node_.report(erp::Severity::info, gap.on, "gap_closed",
                  name_of(gap) + ": the residual is at its noise floor again");

@@ -16,12 +16,13 @@ class GapMonitor {
     std::string model;    ///< robot.xml to compare with; empty: the graph's
     double window_s = 4;  ///< length of the evaluated window
     double every_s = 1;   ///< period of the evaluation
-    int times = 2;        ///< consecutive evaluations before an event is reported
+    int consecutive = 2;  ///< number of consecutive evaluations before an event is reported
     void visit(auto& v) {
       v("model", model);
       v("window_s", window_s, xml::Range{2, 60});
       v("every_s", every_s, xml::Range{0.2, 60});
-      v("times", times, xml::Range{1, 100});
+      v.former("times", "consecutive");
+      v("consecutive", consecutive, xml::Range{1, 100});
     }
   };
   GapMonitor(const Params& params, const erp::Robot& robot, node::Node& node);

@@ -52,7 +52,7 @@ void GatewayNode::report_hello(const erp::EcuHello& hello) {
     node_.report(erp::Severity::fault, ecu_name(hello.ecu), "ecu_version",
                  version_text(hello.content.version));
   else if (hello.lacks_channels || hello.lacks_inputs)
-    node_.report(erp::Severity::fault, ecu_name(hello.ecu), "ecu_lacks",
+    node_.report(erp::Severity::fault, ecu_name(hello.ecu), "ecu_incomplete",
                  "has no " + listed("channel", hello.lacks_channels) +
                      (hello.lacks_channels && hello.lacks_inputs ? " and no " : "") +
                      listed("analog input", hello.lacks_inputs) +

@@ -21,7 +21,7 @@ void write_or_report(Node& node, const std::string& file, auto write) {
   try {
     write(file);
   } catch (const std::exception& e) {
-    node.report(erp::Severity::fault, file, "unwritten", e.what());
+    node.report(erp::Severity::fault, file, "not_written", e.what());
   }
 }
 

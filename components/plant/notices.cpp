@@ -90,7 +90,7 @@ void Plant::notice_limb(std::size_t actuator) {
     notices_.push_back({erp::Severity::fault, name, "ecu_lost",
                         "no message from its ECU: its state is unknown; check power and bus"});
   if (degraded && !reported.degraded)
-    notices_.push_back({erp::Severity::warning, name, "limb_broken",
+    notices_.push_back({erp::Severity::warning, name, "limb_degraded",
                         "another ECU of its limb is lost: taking its safe action"});
   reported.lost = lost, reported.degraded = degraded;
 }

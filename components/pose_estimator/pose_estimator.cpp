@@ -113,9 +113,9 @@ void PoseEstimator::update_from_imus(const node::Latest<erp::ImuFrame>& imus) {
           imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.turning_rad_per_s),
           std::hypot(unit.turning_noise_rad_per_s,
                      quantum * 2 * unit.turning_range_rad_per_s / counts));
-      filter_.update_gravity(imu_bodies_[k],
-                             Eigen::Map<const sim::Vec3>(sample.acceleration_m_per_s2),
-                             std::hypot(unit.acceleration_noise_m_per_s2, params_.jerked_m_per_s2));
+      filter_.update_gravity(
+          imu_bodies_[k], Eigen::Map<const sim::Vec3>(sample.acceleration_m_per_s2),
+          std::hypot(unit.acceleration_noise_m_per_s2, params_.acceleration_sigma_m_per_s2));
     }
 }
 

@@ -23,7 +23,7 @@ class PoseEstimator {
     bool joint_sensors = false;  ///< also use joint sensors
     double capture_rad = 0;      ///< σ of motion_capture's joint_state; 0: not used
     bool imus = false;           ///< also use inertial units
-    double jerked_m_per_s2 = 3;  ///< σ of their acceleration without gravity; chosen
+    double acceleration_sigma_m_per_s2 = 3;  ///< σ of their acceleration without gravity; chosen
     void visit(auto& v) {
       v("acceleration_rad_per_s2", acceleration_rad_per_s2, xml::positive);
       v("start_rad", start_rad, xml::positive);
@@ -34,7 +34,8 @@ class PoseEstimator {
       v("joint_sensors", joint_sensors);
       v("capture_rad", capture_rad, xml::at_least_zero);
       v("imus", imus);
-      v("jerked_m_per_s2", jerked_m_per_s2, xml::positive);
+      v.former("jerked_m_per_s2", "acceleration_sigma_m_per_s2");
+      v("acceleration_sigma_m_per_s2", acceleration_sigma_m_per_s2, xml::positive);
     }
   };
 

@@ -94,7 +94,7 @@ void PullerFollower::report_saturation() const {
   for (std::size_t k = 0; k < drives_.size(); ++k)
     if (drives_[k].is_saturated())
       node_->report(
-          erp::Severity::warning, hinges_[k].name, "outrun",
+          erp::Severity::warning, hinges_[k].name, "saturated",
           "its motors saturate; the joints are braked until all are at rest, then control "
           "resumes");
 }

@@ -79,7 +79,7 @@ void Sensorimotor::report_progress() {
   while (goals_reported_ < goals.size() && trials > 0 &&
          goals[goals_reported_].errors.size() == trials) {
     const auto& errors = goals[goals_reported_++].errors;
-    node_.report(erp::Severity::info, "goal " + std::to_string(goals_reported_), "tried",
+    node_.report(erp::Severity::info, "goal " + std::to_string(goals_reported_), "finished",
                  fmt::format("{} of {}: error {:.4f} in the first trial, {:.4f} in the last",
                              goals_reported_, goals.size(), errors.front(), errors.back()));
     node_.show("goals", static_cast<double>(goals_reported_));
@@ -88,7 +88,7 @@ void Sensorimotor::report_progress() {
   if (session_.unseen() > 0 && !unseen_reported_) {
     unseen_reported_ = true;
     node_.report(
-        erp::Severity::warning, params_.source, "blind",
+        erp::Severity::warning, params_.source, "marker_not_seen",
         "the marker was not seen during the averaging time; trials restart. Check that the graph "
         "has an eye and that the marker is in all of its images");
   }

@@ -26,7 +26,8 @@ class Sensorimotor {
     void visit(auto& v) {
       experiment.visit(v);
       v("stale_s", stale_s, xml::positive);
-      v("learnt", learned);
+      v.former("learnt", "learned");
+      v("learned", learned);
       v("save", save);
       v("source", source);
     }

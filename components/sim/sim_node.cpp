@@ -123,7 +123,7 @@ void SimNode::report_external() {
   const int alive = external_->alive();
   if (alive == alive_reported_) return;
   node_.report(alive > alive_reported_ ? erp::Severity::info : erp::Severity::warning, "ecus",
-               "outside",
+               "external_ecus",
                std::to_string(alive) + " of " + std::to_string(world_.robot().ecus().size()) +
                    " ECUs are connected");
   alive_reported_ = alive;
@@ -150,10 +150,11 @@ void SimNode::step() {
 void SimNode::tick() {
   node_.count_step(frame_.stamp_ns);
   for (const InjectedFault* fault : faults_.beginning(world_.time_s(), tick_s))
-    node_.report(erp::Severity::info, fault->on, "mishap",
+    node_.report(erp::Severity::info, fault->on, "fault_injected",
                  xml::Codec<FaultKind>::write(fault->kind));
   for (const AttachedLoad* load : loads_.update(world_))
-    node_.report(erp::Severity::info, load->body, "grasp",
+    node_.report(erp::Severity::info, load->body,
+                 load->is_attached(world_.time_s()) ? "load_attached" : "load_detached",
                  (load->is_attached(world_.time_s()) ? "attached " : "detached ") +
                      xml::Codec<double>::write(load->mass_kg) + " kg");
   if (external_) report_external();

@@ -58,7 +58,7 @@ std::optional<Vec3> Synergy::hand_m(const node::Latest<erp::BodyPose>& bodies) c
 /// Returns the lines to the start: at the beginning, and after a gap in the frames.
 void Synergy::begin_return(double dt_s) {
   if (trial_)
-    node_.report(erp::Severity::warning, target(), "begun_again",
+    node_.report(erp::Severity::warning, target(), "restarted",
                  fmt::format("no frames for {:.2f} s; the trial restarts", dt_s));
   trial_.reset();
   way_.emplace(file_.times, time_s_, line_m_);
@@ -100,7 +100,7 @@ void Synergy::end() {
     report_result(result);
     if (!params_.save.empty()) learn(std::move(result));
   } else {
-    node_.report(erp::Severity::info, target(), "tried",
+    node_.report(erp::Severity::info, target(), "finished",
                  "not evaluated: \"" + params_.source + "\" did not report the hand position");
   }
   trial_.reset();

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "interfaces/xml/renamed.hpp"
 #include "interfaces/xml/values.hpp"
 
 namespace xml {
@@ -27,7 +28,7 @@ std::string meaning_of_element() {
 std::string to_table(const std::vector<Description>& all);
 
 /// Describes a struct through its `visit`; children are indented below their element.
-class Describer {
+class Describer : public CurrentNamesOnly {
  public:
   explicit Describer(std::vector<Description>& all, std::string indent = "")
       : all_(all), indent_(std::move(indent)) {}

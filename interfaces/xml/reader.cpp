@@ -16,24 +16,28 @@ bool belongs_to_editors(const std::string& name) {
 
 }  // namespace
 
-const Attribute* Reader::attribute(const std::string& name) const {
+const Attribute* Reader::written(const std::string& name) const {
   for (const Attribute& a : element_.attributes)
     if (a.name == name) return &a;
   return nullptr;
 }
 
-const Element* Reader::only(const std::string& name) {
-  known_children_.push_back(name);
-  const Element* found = nullptr;
-  for (const Element& child : element_.children) {
-    if (child.name != name) continue;
-    if (found)
-      errors_.push_back(
-          error_in(element_.name, child.place, "a second <" + name + ">",
-                   "keep one; the first is in line " + std::to_string(found->place.line)));
-    else found = &child;
+const Attribute* Reader::attribute(const std::string& name) {
+  if (const Attribute* found = written(name)) return found;
+  for (const auto& [former, now] : former_names_) {
+    if (now != name) continue;
+    const Attribute* found = written(former);
+    if (!found) continue;
+    warn_renamed(found->place, former, now);
+    known_attributes_.push_back(former);
+    return found;
   }
-  return found;
+  return nullptr;
+}
+
+void Reader::refuse_second(const Element& child, const Element& first) {
+  errors_.push_back(error_in(element_.name, child.place, "a second <" + child.name + ">",
+                             "keep one; the first is in line " + std::to_string(first.place.line)));
 }
 
 void Reader::refuse(const Attribute& attribute, const Refusal& refusal) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interfaces/xml/document.hpp"
+#include "interfaces/xml/renamed.hpp"
 #include "interfaces/xml/values.hpp"
 
 namespace xml {
@@ -31,22 +32,27 @@ class Reader {
     read(*found, value, field.range);
   }
 
+  /// From now on the attribute `name` is also read under its former name.
+  void former(const char* former_name, const char* name) {
+    former_names_.push_back({former_name, name});
+  }
+
   template <class T>
   void child(T& value) {
-    if (const Element* found = only(T::element)) fill(value, *found, errors_);
+    if (const Element* found = only<T>()) fill(value, *found, errors_);
     else missing_children_.push_back(T::element);
   }
 
   template <class T>
   void optional_child(std::optional<T>& value) {
-    if (const Element* found = only(T::element)) fill(value.emplace(), *found, errors_);
+    if (const Element* found = only<T>()) fill(value.emplace(), *found, errors_);
   }
 
   template <class T>
   void list(std::vector<T>& values) {
     known_children_.push_back(T::element);
     for (const Element& child : element_.children)
-      if (child.name == T::element) fill(values.emplace_back(), child, errors_);
+      if (is_a<T>(child)) fill(values.emplace_back(), child, errors_);
   }
 
   template <class... Kinds>
@@ -69,25 +75,51 @@ class Reader {
   }
 
  private:
-  const Attribute* attribute(const std::string& name) const;
-  const Element* only(const std::string& name);  ///< the child with that name; reports a second one
+  struct FormerName {
+    std::string former, now;
+  };
+  /// Also under its former name, with a warning.
+  const Attribute* attribute(const std::string& name);
+  const Attribute* written(const std::string& name) const;
+  void refuse_second(const Element& child, const Element& first);
   void refuse(const Attribute& attribute, const Refusal& refusal);
   void refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
                       const std::vector<std::string>& known, std::vector<std::string>& missing);
 
+  /// Whether a child is the element of a T; warns if it has the former name.
+  template <class T>
+  bool is_a(const Element& child) {
+    if (!is_element_name<T>(child.name)) return false;
+    warn_if_former<T>(child.name, child.place);
+    if (child.name != T::element) known_children_.push_back(child.name);
+    return true;
+  }
+  /// The child that is the element of a T; reports a second one.
+  template <class T>
+  const Element* only() {
+    known_children_.push_back(T::element);
+    const Element* found = nullptr;
+    for (const Element& child : element_.children) {
+      if (!is_a<T>(child)) continue;
+      if (found) refuse_second(child, *found);
+      else found = &child;
+    }
+    return found;
+  }
   template <class T>
   void read(const Attribute& found, T& value, const Range& range) {
     if (const Refused refused = Codec<T>::read(found.value, value, range)) refuse(found, *refused);
   }
   template <class Kind, class Variant>
   void append_if_named(std::vector<Variant>& values, const Element& child) {
-    if (child.name != Kind::element) return;
+    if (!is_a<Kind>(child)) return;
     values.emplace_back(Kind{});
     fill(std::get<Kind>(values.back()), child, errors_);
   }
 
   const Element& element_;
   std::vector<Error>& errors_;
+  std::vector<FormerName> former_names_;
   std::vector<std::string> known_attributes_, known_children_;
   std::vector<std::string> missing_attributes_, missing_children_;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interfaces/xml/describe.hpp"
+#include "interfaces/xml/renamed.hpp"
 #include "interfaces/xml/values.hpp"
 
 namespace xml {
@@ -34,7 +35,7 @@ std::string complex_type(const SchemaParts& parts);
 std::string schema_document(const std::string& root_name, const std::string& root_type);
 
 /// Derives the XSD type of a struct from its `visit`.
-class Schema {
+class Schema : public CurrentNamesOnly {
  public:
   template <class T>
   void operator()(const char* name, const T&, const Field& field = {}) {

@@ -30,6 +30,9 @@ class Setter {
   void required(const char* name, T& value, const Field& field = {}) {
     (*this)(name, value, field);
   }
+  /// From now on the attribute `name` is also set under its former name.
+  void former(const char* former_name, const char* name);
+
   void rest(std::vector<Attribute>& values) {
     for (Attribute& attribute : values) {
       known_.push_back(attribute.name.c_str());

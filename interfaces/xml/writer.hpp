@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "interfaces/xml/renamed.hpp"
 #include "interfaces/xml/values.hpp"
 
 namespace xml {
@@ -28,7 +29,7 @@ std::string text_element(const std::string& name, const std::vector<WrittenAttri
                          const std::string& text, std::size_t depth);
 
 /// Writes a struct through its `visit`. Omits optional attributes that equal their default.
-class Writer {
+class Writer : public CurrentNamesOnly {
  public:
   explicit Writer(std::size_t depth = 0, std::vector<WrittenAttribute> defaults = {})
       : depth_(depth), defaults_(std::move(defaults)) {}

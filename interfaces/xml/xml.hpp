@@ -13,6 +13,12 @@ namespace xml {
 /// their defaults. Throws Errors with all errors of the file.
 template <class T>
 void read_into(T& value, const Element& root, const std::string& root_name) {
+  if constexpr (requires { T::former_element; }) {
+    if (root_name == T::element && root.name == T::former_element) {
+      warn_if_former<T>(root.name, root.place);
+      return read_into(value, root, root.name);
+    }
+  }
   throw_if_any(wrong_root(root, root_name));
   std::vector<Error> errors;
   Reader::fill(value, root, errors);

@@ -5,13 +5,13 @@
 #include "interfaces/xml/fields.hpp"
 #include "sim/world/world.hpp"
 
-/// Loads that are mass_of to a simulated robot and detached again at given times.
+/// Loads that are attached to a simulated robot and detached again at given times.
 namespace sim {
 
-/// `<grasp body="forearm" at_m="0 0 -0.26" mass_kg="0.2" at_s="1"/>` in the sim's config: a point
+/// `<attached_load body="forearm" at_m="0 0 -0.26" mass_kg="0.2" at_s="1"/>` in the sim's config: a point
 /// mass, in the body's frame, that moves with the body from the start (paper, Fig. 7b).
 struct AttachedLoad {
-  static constexpr auto element = "grasp";
+  static constexpr auto element = "attached_load", former_element = "grasp";
   xml::Place place;
   std::string body;
   xml::Vec3 at_m{0, 0, 0};
@@ -53,7 +53,7 @@ class AttachedLoads {
 
  private:
   static AttachedMass mass_of(const AttachedLoad& load, const World& world) {
-    return {static_cast<int>(body_named(world.body_names(), load.body, "a grasp")),
+    return {static_cast<int>(body_named(world.body_names(), load.body, "an attached load")),
             {load.at_m[0], load.at_m[1], load.at_m[2]},
             load.mass_kg};
   }

@@ -25,7 +25,7 @@ FaultInjection::FaultInjection(std::vector<InjectedFault> list, const erp::Robot
   for (InjectedFault& fault : list) {
     const auto found = std::ranges::find(robot.actuators, fault.on, &erp::Actuator::name);
     if (found == robot.actuators.end())
-      throw std::invalid_argument("<mishap on=\"" + fault.on +
+      throw std::invalid_argument("<fault on=\"" + fault.on +
                                   "\">: the robot has no such actuator");
     const auto k = static_cast<std::size_t>(found - robot.actuators.begin());
     list_.push_back({std::move(fault), k, found->ecu});

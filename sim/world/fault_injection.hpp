@@ -30,9 +30,9 @@ enum class FaultKind {
   bus_off         ///< separate ECU only: its CAN controller is in bus-off
 };
 
-/// `<mishap kind="tension_open" on="flexor" at_s="2" for_s="0.5"/>` in the sim's config.
+/// `<fault kind="tension_open" on="flexor" at_s="2" for_s="0.5"/>` in the sim's config.
 struct InjectedFault {
-  static constexpr auto element = "mishap";
+  static constexpr auto element = "fault", former_element = "mishap";
   xml::Place place;
   FaultKind kind = FaultKind::tension_open;
   std::string on;   ///< name of the actuator; for hang, busy and bus_off: its ECU

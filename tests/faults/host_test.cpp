@@ -89,7 +89,7 @@ TEST_CASE("five corrupt commands in a row trip, four do not; wrong lengths count
 void write_rig_that_snaps(const tests::Folder& folder) {
   write_rig(folder);
   std::ofstream(folder / "sim.xml")
-      << "<sim><mishap kind=\"tendon_snaps\" on=\"flexor\" at_s=\"4\"/></sim>\n";
+      << "<sim><fault kind=\"tendon_snaps\" on=\"flexor\" at_s=\"4\"/></sim>\n";
   std::ofstream(folder / "force.csv") << "time_s,flexor.mode,flexor.reference,extensor.mode,"
                                          "extensor.reference\n0,force,20,force,20\n60,force,20,"
                                          "force,20\n";
@@ -110,7 +110,7 @@ TEST_CASE("after a tendon snaps its actuator is released and no motor runs away"
   while (slack.needs_more(1 + injections() / 5)) {
     Bench bench(folder / "robot.xml", folder / "graph.xml");
     const auto broke =
-        bench.await([&] { return bench.events().first(1, "mishap", "flexor"); }, 8000);
+        bench.await([&] { return bench.events().first(1, "fault_injected", "flexor"); }, 8000);
     REQUIRE(broke != 0);
     slack.add(broke, bench.await([&] { return bench.events().first(broke, "tendon_slack"); }));
     CHECK(bench.await([&] { return bench.events().first(broke, "tendon_snapped"); }, 8000) != 0);

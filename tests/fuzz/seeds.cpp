@@ -158,7 +158,7 @@ void write_wire() {
   write("wire", "readings", text(wire_pack_readings(bytes, 3, &readings)));
   write("wire", "drive", text(wire_pack_drive(bytes, 3, duty)));
   write("wire", "sample", text(wire_pack_sample(bytes, 3, 9)));
-  write("wire", "mishap", "\xA5\xA5" + text(wire_pack_fault(bytes, 3, &fault)));
+  write("wire", "fault", "\xA5\xA5" + text(wire_pack_fault(bytes, 3, &fault)));
 }
 
 // ---- recording ----

@@ -36,8 +36,9 @@ std::string arm_with(const Folder& folder, const std::string& type, const std::s
 /// A graph of `twin_joint` with a load that is attached to the forearm during the motion.
 std::string twin_joint_with_load(const Folder& folder, double mass_kg) {
   const std::string configs = ERP_SOURCE_DIR "/configs/twin_joint/";
-  std::ofstream(folder / "sim.xml") << "<sim><grasp body=\"forearm\" at_m=\"0 0 -0.26\" mass_kg=\""
-                                    << mass_kg << "\" at_s=\"1\"/></sim>\n";
+  std::ofstream(folder / "sim.xml")
+      << "<sim><attached_load body=\"forearm\" at_m=\"0 0 -0.26\" mass_kg=\"" << mass_kg
+      << "\" at_s=\"1\"/></sim>\n";
   return graph(folder, configs + "robot.xml",
                {{"sim", "sim.xml"},
                 {"joint_target", configs + "reach.xml"},

@@ -21,7 +21,7 @@ constexpr int tries = 8;
 void write_graph(const Folder& folder, const std::string& learned = "") {
   const std::string configs = ERP_SOURCE_DIR "/configs/pendulum/";
   std::ofstream(folder / "sensorimotor.xml")
-      << "<sensorimotor view=\"" << configs << "view.xml\" twitches=\"16\" tries=\"" << tries
+      << "<sensorimotor view=\"" << configs << "view.xml\" twitches=\"16\" trials=\"" << tries
       << "\" save=\"saved.xml\"" << learned
       << "><goal at=\"0.12 -0.05\"/><goal at=\"-0.1 -0.12\"/></sensorimotor>";
   std::ofstream(folder / "graph.xml")
@@ -63,7 +63,7 @@ TEST_CASE(
   }
 
   std::filesystem::rename(folder / "saved.xml", folder / "before.xml");
-  write_graph(folder, " learnt=\"before.xml\"");
+  write_graph(folder, " learned=\"before.xml\"");
   REQUIRE(run("erp launch " + (folder / "graph.xml") + over(device) +
               " --lockstep --for 60s --out " + (folder / "again"))
               .exit_code == 0);

@@ -70,13 +70,13 @@ struct IndistinguishableOptions {
   std::vector<std::string> without = {};     ///< signals to ignore: "tension", "current", "joint"
   double seconds = 20;                       ///< length of each simulated recording
   double share = 0.1;                        ///< largest share of the hidden effect that may remain
-  int together = 1;                          ///< most effects whose sum replaces one
+  int max_effects = 1;                       ///< largest number of effects whose sum replaces one
   std::vector<std::string> withhold = {};    ///< effect types to exclude
   int threads = 2;
 };
 
-/// `erp gap twins`. Prints which effects the robot's sensors cannot distinguish, one row per pair; with `together`
-/// above 1, one row per effect and the sum of others that replaces it. Throws as `where`, std::runtime_error.
+/// `erp gap confounders`. Prints which effects the robot's sensors cannot distinguish, one row per pair; with
+/// `max_effects` above 1, one row per effect and the sum of others that replaces it. Throws as `where`, std::runtime_error.
 /// Returns 0; 5: no stage could be evaluated.
 int list_indistinguishable(const IndistinguishableOptions& options, std::ostream& out,
                            std::ostream& remarks);

@@ -49,11 +49,11 @@ std::string size_of(Placed p) {
 
 std::vector<diagnosis::Indistinguishable> search(const diagnosis::Evaluator& evaluator,
                                                  const IndistinguishableOptions& options) {
-  if (options.together < 2)
+  if (options.max_effects < 2)
     return diagnosis::indistinguishable_effects(evaluator, options.share, options.withhold,
                                                 options.threads);
   return diagnosis::confounders(evaluator, {.share = options.share,
-                                            .most = std::size_t(options.together),
+                                            .most = std::size_t(options.max_effects),
                                             .withhold = options.withhold,
                                             .threads = options.threads});
 }
@@ -85,9 +85,10 @@ int list_indistinguishable(const IndistinguishableOptions& options, std::ostream
   std::vector<std::vector<std::string>> rows{
       {"hidden effect", "size", "replaced by", "visible, sigma", "remaining, sigma", "similarity"}};
   for (const auto& one : search(evaluator, options))
-    rows.push_back({name_of(one.hidden), size_of(one.hidden), names_of(one.others),
-                    fmt::format("{:.1f}", one.magnitude), fmt::format("{:.2g}", one.remaining),
-                    fmt::format("{:.4f}", std::sqrt(1 - std::pow(one.remaining / one.magnitude, 2)))});
+    rows.push_back(
+        {name_of(one.hidden), size_of(one.hidden), names_of(one.others),
+         fmt::format("{:.1f}", one.magnitude), fmt::format("{:.2g}", one.remaining),
+         fmt::format("{:.4f}", std::sqrt(1 - std::pow(one.remaining / one.magnitude, 2)))});
   for (const std::string& line : align(rows, {false, false, false, true, true, true}))
     out << line << "\n";
   if (rows.size() == 1) out << "the sensors distinguish every visible effect from every other\n";

@@ -71,7 +71,7 @@ Json json_of(const StageGap& gap) {
           {"excess_interval", pair_of(gap.excess_interval)},
           {"share", rounded(gap.share)},
           {"windows", gap.windows},
-          {"judged", gap.judged},
+          {"evaluated", gap.judged},
           {"open", gap.open}};
 }
 
@@ -109,7 +109,7 @@ Json effects_of(const Diagnosis& d) {
 }
 
 /// Effects of the same `set` are equivalent.
-Json confusable_of(const Diagnosis& d) {
+Json confounders_of(const Diagnosis& d) {
   Json list = Json::array();
   int set = 0;
   for (const IdentifiedEffect& answer : d.answer) {
@@ -155,12 +155,12 @@ std::string diagnosis_json(const Diagnosis& d, const sim::closed_loop::FreeRun& 
     }
     unexplained.push_back(one);
   }
-  const Json all{{"format", "erp gap diagnosis 1"},
+  const Json all{{"format", "erp gap diagnosis 2"},
                  {"robot", robot.name},
                  {"verdict", word(d.verdict)},
                  {"where", list_of(d.where)},
                  {"effects", effects_of(d)},
-                 {"confusable", confusable_of(d)},
+                 {"confounders", confounders_of(d)},
                  {"constants", list_of(d.constants)},
                  {"gap", gap},
                  {"unexplained", unexplained},
@@ -168,8 +168,8 @@ std::string diagnosis_json(const Diagnosis& d, const sim::closed_loop::FreeRun& 
                  {"recordings", d.recordings},
                  {"train", d.train},
                  {"held_out", d.held_out},
-                 {"judged_from_s", shared(d)},
-                 {"mend_first", d.fix_first},
+                 {"held_out_from_s", shared(d)},
+                 {"fix_first", d.fix_first},
                  {"warnings", d.warnings}};
   return all.dump(1) + "\n";
 }

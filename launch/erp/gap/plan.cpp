@@ -8,6 +8,7 @@
 #include <ostream>
 #include <set>
 
+#include "launch/erp/gap/former_keys.hpp"
 #include "launch/erp/gap/gap.hpp"
 #include "launch/erp/gap/planned_graph.hpp"
 #include "launch/erp/text/progress.hpp"
@@ -60,14 +61,14 @@ Problem problem_of(const Json& d, const std::string& file) {
   };
   std::vector<Json> set;
   std::set<int> sets;
-  for (const Json& one : d.at("confusable")) {
+  for (const Json& one : d.at("confounders")) {
     if (on_bus(one)) continue;
     sets.insert(one.value("set", 0));
     if (sets.size() == 1) set.push_back(one);
   }
   const bool split = !set.empty(), answered = d.at("verdict") == "supported";
   Problem problem{
-      d.at("robot"), {}, {}, sets.size() - split, !d.value("mend_first", Json::array()).empty()};
+      d.at("robot"), {}, {}, sets.size() - split, !d.value("fix_first", Json::array()).empty()};
   for (const Json& effect : d.at("effects")) {
     if (on_bus(effect)) continue;
     const bool supported = effect.at("supported").get<bool>();
@@ -83,7 +84,7 @@ Problem problem_of(const Json& d, const std::string& file) {
 Problem read_problem(const std::string& file) {
   const std::string text = read_text(file);
   try {
-    return problem_of(Json::parse(text), file);
+    return problem_of(parse_diagnosis<Json>(text, file), file);
   } catch (const Json::exception& e) {
     const std::string why = e.what();  // text after the library's error code
     throw std::invalid_argument(file + ": is not a diagnosis.json of erp gap diagnose (" +
@@ -204,7 +205,7 @@ int plan(const PlanOptions& options, std::ostream& out, std::ostream& remarks) {
   if (fix_first)
     remarks
         << options.diagnosis
-        << ": fix its recordings first (see mend_first in it); until then its answer and this plan "
+        << ": fix its recordings first (see fix_first in it); until then its answer and this plan "
            "may be wrong\n";
   auto experiment = search(robot, suspects, options, remarks);
   const auto never = never_distinguished(experiment, suspects);

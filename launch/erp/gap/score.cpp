@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "launch/erp/gap/blind.hpp"
+#include "launch/erp/gap/former_keys.hpp"
 #include "launch/erp/gap/score_case.hpp"
 #include "launch/erp/gap/truth.hpp"
 #include "launch/erp/text/text_files.hpp"
@@ -56,7 +57,7 @@ int blind_score(const std::string& folder, const std::string& truth_file, std::o
       ++missing;
       continue;
     }
-    const Json d = Json::parse(read_text(file));
+    const Json d = parse_diagnosis<Json>(read_text(file), file);
     const bool built = !truth.value("numbers", Json::array()).empty();
     const std::string hides = truth["kind"],
                       kind = hides + (built && hides != "many" ? ", as built" : "");

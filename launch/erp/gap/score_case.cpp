@@ -83,8 +83,8 @@ std::string truth_closes(double share) {
 
 /// Whether two effects are in the same set of equivalent effects.
 bool equivalent(const Json& diagnosis, const Json& one, const Json& other) {
-  for (const Json& a : diagnosis["confusable"])
-    for (const Json& b : diagnosis["confusable"])
+  for (const Json& a : diagnosis["confounders"])
+    for (const Json& b : diagnosis["confounders"])
       if (a["set"] == b["set"] && same(a, one) && same(b, other)) return true;
   return false;
 }
@@ -121,12 +121,12 @@ void score_single(const Json& truth, const Json& d, std::optional<double> most, 
   const auto answer = answer_of(d);
   const bool first = !answer.empty() && same(answer[0], hidden);
   bool in_set = first;
-  for (const Json& other : d["confusable"]) in_set |= same(other, hidden);
+  for (const Json& other : d["confounders"]) in_set |= same(other, hidden);
   score.rates["1 stage and place"].count(located(hidden, d));
   score.rates["5 stage and place in the group"].count(in_group(hidden, d));
   score.rates["2 true effect first"].count(first);
   score.rates["3 true effect in the set"].count(in_set);
-  score.set_size += static_cast<double>(std::max<std::size_t>(1, d["confusable"].size()));
+  score.set_size += static_cast<double>(std::max<std::size_t>(1, d["confounders"].size()));
   ++score.sets;
   for (const Json& effect : d["effects"])
     if (same(effect, hidden))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "launch/erp/gap/former_keys.hpp"
 #include "launch/erp/gap/gap.hpp"
 #include "launch/erp/text/text_files.hpp"
 #include "sim/gap/diagnosis/diagnose.hpp"
@@ -36,16 +37,17 @@ std::optional<double> closed_by_truth(const std::string& folder,
   }
   const erp::Robot robot = erp::read_robot(folder + "/robot.xml");
   const std::string place = folder + "/" + truth["case"].get<std::string>();
-  const auto d = nlohmann::ordered_json::parse(read_text(place + "/diagnosis.json"));
+  const std::string file = place + "/diagnosis.json";
+  const auto d = parse_diagnosis<nlohmann::ordered_json>(read_text(file), file);
   std::vector<std::string> files;  // the diagnosis may have used other paths
   for (const auto& name : d["held_out"])
     files.push_back(place + "/" +
                     std::filesystem::path(name.get<std::string>()).filename().string());
   auto episodes = read_episodes(robot, files).episodes;
-  const auto judged_from_s = d.value("judged_from_s", nlohmann::ordered_json::object());
+  const auto held_out_from_s = d.value("held_out_from_s", nlohmann::ordered_json::object());
   for (std::size_t k = 0; k < episodes.size(); ++k)
-    if (const auto name = d["held_out"][k].get<std::string>(); judged_from_s.contains(name))
-      episodes[k].judge_from(judged_from_s[name].get<double>());
+    if (const auto name = d["held_out"][k].get<std::string>(); held_out_from_s.contains(name))
+      episodes[k].judge_from(held_out_from_s[name].get<double>());
   const diagnosis::Evaluator evaluator(robot, std::move(episodes));
   std::vector<std::size_t> all(files.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;

@@ -8,6 +8,7 @@
 #include "launch/erp/gap/blind.hpp"
 #include "launch/erp/gap/gap.hpp"
 #include "launch/erp/run/program.hpp"
+#include "launch/erp/verbs/former_names.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"
 #include "launch/erp/verbs/verbs.hpp"
 
@@ -102,33 +103,39 @@ void add_plan(CLI::App& gap, Chosen& chosen) {
   plan->callback([=, &chosen] { chosen = [=] { return gap::plan(*o, std::cout, std::cerr); }; });
 }
 
-void add_twins(CLI::App& gap, Chosen& chosen) {
+void add_confounder_options(CLI::App& verb, Chosen& chosen) {
   auto o = std::make_shared<gap::IndistinguishableOptions>();
   o->threads = all_cores();
-  auto* twins =
-      gap.add_subcommand("twins", "List effects that the sensors of a robot cannot distinguish");
-  twins->footer(
+  verb.footer(
       "Exit codes: 0 listed, 5 recordings too short to evaluate any stage; 1 failed, 2 bad usage "
       "or input.");
-  twins->add_option("--robot", o->robot, "robot.xml, the model")->required();
-  twins->add_option("--real", o->recordings,
-                    "recordings of the robot; default: four simulated ones");
-  twins->add_option("--without", o->without, "signals to ignore")
+  verb.add_option("--robot", o->robot, "robot.xml, the model")->required();
+  verb.add_option("--real", o->recordings, "recordings of the robot; default: four simulated ones");
+  verb.add_option("--without", o->without, "signals to ignore")
       ->check(CLI::IsMember({"tension", "current", "joint"}));
-  twins->add_option("--seconds", o->seconds, "length of each simulated recording; default: 20")
+  verb.add_option("--seconds", o->seconds, "length of each simulated recording; default: 20")
       ->check(CLI::Range(2.0, 600.0));
-  twins
-      ->add_option("--share", o->share,
-                   "largest share of an effect that may remain unexplained; default: 0.1")
+  verb.add_option("--share", o->share,
+                  "largest share of an effect that may remain unexplained; default: 0.1")
       ->check(CLI::Range(0.0, 1.0));
-  twins->add_option("--together", o->together, "most effects whose sum replaces one; default: 1")
+  verb.add_option("--max-effects", o->max_effects,
+                  "largest number of effects whose sum replaces one; default: 1")
       ->check(CLI::Range(1, 9));
-  twins->add_option("--withhold", o->withhold, "effect types to exclude");
-  twins->add_option("--threads", o->threads, "number of threads; default: all cores")
+  add_former_option(verb, "--together", "--max-effects");
+  verb.add_option("--withhold", o->withhold, "effect types to exclude");
+  verb.add_option("--threads", o->threads, "number of threads; default: all cores")
       ->check(above_zero());
-  twins->callback([=, &chosen] {
+  verb.callback([=, &chosen] {
     chosen = [=] { return gap::list_indistinguishable(*o, std::cout, std::cerr); };
   });
+}
+
+void add_confounders(CLI::App& gap, Chosen& chosen) {
+  const char* purpose = "List effects that the sensors of a robot cannot distinguish";
+  add_confounder_options(*gap.add_subcommand("confounders", purpose), chosen);
+  auto* former = gap.add_subcommand("twins", purpose);
+  mark_former_verb(*former, "confounders");
+  add_confounder_options(*former, chosen);
 }
 
 void add_blind(CLI::App& gap, Chosen& chosen) {
@@ -216,7 +223,7 @@ void add_gap(CLI::App& app, Chosen& chosen) {
   add_diagnose(*gap, chosen);
   add_gap_calibrate(*gap, chosen);
   add_plan(*gap, chosen);
-  add_twins(*gap, chosen);
+  add_confounders(*gap, chosen);
   add_monitor(*gap, chosen);
   add_blind(*gap, chosen);
 }

@@ -74,7 +74,7 @@ class Checker {
   /// Reads a file that a config or a verb names, by its root element. Throws Errors.
   template <class... Kind>
   bool reads_as_one_of(const std::string& root, const std::string& file) {
-    return ((root == Kind::element && (xml::read<Kind>(file), true)) || ...);
+    return ((xml::is_element_name<Kind>(root) && (xml::read<Kind>(file), true)) || ...);
   }
 
   void check_config(const xml::Element& root, const std::string& file) {

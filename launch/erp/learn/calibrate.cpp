@@ -46,7 +46,7 @@ int calibrate_run(const CalibrateOptions& options, std::ostream& out, std::ostre
                 simulated_errors("simulated", calibrated, poses, options.training.threads)},
                out);
   out << fmt::format("{} rounds, {} poses evaluated\n", training->rounds(),
-                     training->judged_poses());
+                     training->evaluated_poses());
   print_identified(parameters, identified, out);
   out << fmt::format(
       "{}/robot.xml is the calibrated robot, curve.svg the course of the calibration\n", folder);

@@ -12,10 +12,10 @@
 namespace launch {
 
 /// Prints the motion to record, as a trajectory for `target`: each pose that the given trajectory
-/// holds, and the mean line lengths between neighbours, each held for `still_s`.
+/// holds, and the mean line lengths between neighbours, each held for `hold_s`.
 struct TourOptions {
   std::string lengths;
-  double still_s = 2, way_s = 1.5;
+  double hold_s = 2, move_s = 1.5;
 };
 int calibrate_tour(const TourOptions& options, std::ostream& out);
 

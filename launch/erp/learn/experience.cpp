@@ -29,7 +29,7 @@ std::shared_ptr<const sim::experience::Feedback> feedback(FeedbackKind kind, con
                                                           int start, const Vec3& target_m) {
   using namespace sim::experience;
   if (kind == FeedbackKind::linear)
-    return linear_feedback(training.base(), start, target_m, task.closing_per_s);
+    return linear_feedback(training.base(), start, target_m, task.feedback_gain_per_s);
   if (kind == FeedbackKind::fuzzy)
     return fuzzy_feedback(training.base(), start, xml::resolved(task.rules, task.place.file));
   return nullptr;
@@ -115,7 +115,7 @@ void print_offsets(const Tests& tests, std::ostream& out) {
 }
 
 std::string csv_of(const Tests& tests) {
-  std::string text = "test,way,target_x_m,target_y_m,target_z_m,off_x_mm,off_y_mm,off_z_mm\n";
+  std::string text = "test,feedback,target_x_m,target_y_m,target_z_m,off_x_mm,off_y_mm,off_z_mm\n";
   for (std::size_t k = 0; k < tests.count(); ++k)
     for (std::size_t kind = 0; kind < tests.kinds(); ++kind) {
       const Vec3 at = tests.target_m(k), off = 1e3 * tests.off_m(k, kind);

@@ -16,7 +16,7 @@ struct SensorimotorOptions {
 };
 
 /// `erp learn sensorimotor`: runs twitches, then trials at each goal, in the simulator. Writes
-/// learnt.xml for the component, figure.svg (paper, Fig. 9b and 9d), curve.csv, curve.svg,
+/// learned.xml for the component, figure.svg (paper, Fig. 9b and 9d), curve.csv, curve.svg,
 /// state.xml. Returns the exit code; throws as `calibrate_run` does.
 int learn_sensorimotor(const SensorimotorOptions& options, std::ostream& out,
                        std::ostream& remarks);

@@ -100,7 +100,7 @@ void print_identified(const calibration::Parameters& parameters,
 
 std::string parameters_csv(const calibration::Parameters& parameters, const Eigen::VectorXd& x,
                            const calibration::Identified& identified) {
-  std::string text = "parameter,changed,unit,left\n";
+  std::string text = "parameter,changed,unit,remaining_uncertainty\n";
   for (std::size_t k = 0; k < parameters.list().size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     const Change change = change_of(parameters.list()[k], x[at]);

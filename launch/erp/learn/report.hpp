@@ -27,8 +27,8 @@ void print_errors(const erp::Robot& robot, const sim::calibration::PoseSet& pose
 void print_identified(const sim::calibration::Parameters& parameters,
                       const sim::calibration::Identified& identified, std::ostream& out);
 
-/// One row per parameter: `parameter,changed,unit,left`. left: remaining uncertainty relative to
-/// its spread, 0 … 1.
+/// One row per parameter: `parameter,changed,unit,remaining_uncertainty`. The uncertainty is relative
+/// to the spread of the parameter, 0 … 1.
 std::string parameters_csv(const sim::calibration::Parameters& parameters, const Eigen::VectorXd& x,
                            const sim::calibration::Identified& identified);
 

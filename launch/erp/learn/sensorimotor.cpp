@@ -126,7 +126,7 @@ int learn_sensorimotor(const SensorimotorOptions& options, std::ostream& out,
   run.rounds = 1 + experiment.session.trials;
   const bool ended = run_training(training, run, *pool, remarks);
   if (!pool->first()) return 0;
-  write_file(run.folder + "/learnt.xml", training.state());
+  write_file(run.folder + "/learned.xml", training.state());
   draw(figure(training, robot), run.folder + "/figure.svg");
   print_synergies(training, robot, out);
   print_errors(training, out);
@@ -134,7 +134,7 @@ int learn_sensorimotor(const SensorimotorOptions& options, std::ostream& out,
     out << fmt::format("{} trials exceeded {:.0f} N above rest at a muscle and were scaled down\n",
                        training.limited(), experiment.session.most_N);
   out << fmt::format(
-      "{0}/learnt.xml is an initial map for the component sensorimotor, "
+      "{0}/learned.xml is an initial map for the component sensorimotor, "
       "{0}/figure.svg shows it\n",
       run.folder);
   return ended ? 0 : 1;

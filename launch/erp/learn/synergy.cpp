@@ -33,7 +33,7 @@ std::vector<double> numbers_of(const Test& test) {
   return {test.target_m.x(),
           test.target_m.y(),
           test.target_m.z(),
-          test.came_back ? 1.0 : 0.0,
+          test.returned ? 1.0 : 0.0,
           o.struck ? 1.0 : 0.0,
           o.nearest_m,
           o.strike_s,
@@ -78,8 +78,8 @@ double struck_percent(const std::vector<Test>& tests, double from_m = -HUGE_VAL,
   return count > 0 ? 100.0 * struck / count : 0;
 }
 
-double came_back_percent(const std::vector<Test>& tests) {
-  return 100.0 * static_cast<double>(std::ranges::count_if(tests, &Test::came_back)) /
+double returned_percent(const std::vector<Test>& tests) {
+  return 100.0 * static_cast<double>(std::ranges::count_if(tests, &Test::returned)) /
          static_cast<double>(tests.size());
 }
 
@@ -122,12 +122,12 @@ void print(const std::vector<Tested>& results, std::ostream& out) {
         "{:>4.0f} % of the bank, {:>3} plans, {:>2} synergies (90 %): struck{:>6.1f} %, "
         "returned{:>6.1f} %\n",
         100 * result.share, result.bank.plans().size(), components(result.bank, 0.9),
-        struck_percent(result.tests), came_back_percent(result.tests));
+        struck_percent(result.tests), returned_percent(result.tests));
 }
 
 std::string csv_of(const std::vector<Tested>& results) {
   std::string text =
-      "share,target_x_m,target_y_m,target_z_m,came_back,struck,nearest_m,"
+      "share,target_x_m,target_y_m,target_z_m,returned,struck,nearest_m,"
       "strike_s,strike_speed_m_per_s,stayed,reward,relative_jerk\n";
   for (const Tested& result : results)
     for (const Test& test : result.tests) {

@@ -71,8 +71,8 @@ int calibrate_tour(const TourOptions& options, std::ostream& out) {
     tour.columns[0].values.push_back(time_s);
   };
   const auto hold = [&](const References& pose) {
-    time_s += options.way_s, add(pose);
-    time_s += options.still_s, add(pose);
+    time_s += options.move_s, add(pose);
+    time_s += options.hold_s, add(pose);
   };
   add(row_of(plan, references, 0));
   for (std::size_t k = 0; k < held.size(); ++k)

@@ -19,7 +19,7 @@ std::string progress_line(const sim::training_loop::Training& training, int roun
   return line;
 }
 
-/// "elbow.learnt_deg" → "deg".
+/// "elbow.learned_deg" → "deg".
 std::string unit_of(const std::string& metric) {
   return metric.substr(metric.find_last_of('_') + 1);
 }

@@ -4,6 +4,7 @@
 
 #include "launch/erp/learn/calibrate.hpp"
 #include "launch/erp/run/signals.hpp"
+#include "launch/erp/verbs/former_names.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"
 #include "launch/erp/verbs/verbs.hpp"
 
@@ -26,12 +27,14 @@ void add_tour(CLI::App& calibrate, Chosen& chosen) {
   tour->add_option("lengths", o->lengths,
                    "trajectory of line lengths, as written by erp model lengths")
       ->required();
-  tour->add_option("--still", o->still_s, "time that each pose is held, s")
+  tour->add_option("--hold", o->hold_s, "time that each pose is held, s")
       ->capture_default_str()
       ->check(CLI::Range(0.5, 600.0));
-  tour->add_option("--way", o->way_s, "time from one pose to the next, s")
+  tour->add_option("--move", o->move_s, "time from one pose to the next, s")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 600.0));
+  add_former_option(*tour, "--still", "--hold");
+  add_former_option(*tour, "--way", "--move");
   tour->add_option("--out", *out, "file to write; default: standard output");
   tour->callback([=, &chosen] {
     chosen = [=] {

@@ -94,7 +94,7 @@ int launch_graph(const LaunchOptions& options) {
   const std::string graph_folder = fs::absolute(options.graph_file).parent_path().string();
   const auto find = [&](const std::string& type) { return find_program(type, graph_folder); };
 
-  const double patience_s = parse_duration_s(options.patience);
+  const double ready_timeout_s = parse_duration_s(options.ready_timeout);
   RunOptions run_options{{}, ".", sources(graph, robot)};
   for (const auto& setting : options.settings)
     run_options.settings.push_back(parse_setting(setting));
@@ -103,7 +103,7 @@ int launch_graph(const LaunchOptions& options) {
   const FolderLock lock(run_options.folder);
   Plan plan = make_plan(graph, run_options, find);
   plan.max_restarts = options.max_restarts;
-  plan.patience_s = patience_s;
+  plan.ready_timeout_s = ready_timeout_s;
   const auto since = fs::file_time_type::clock::now();
   Run run(graph, robot.name, plan, run_options.folder);
   const int exit_code = run.execute();

@@ -44,7 +44,7 @@ struct Plan {
   std::vector<PlannedProcess> processes;
   std::string recording;  ///< file of the first logger; empty: no logger
   std::size_t max_restarts = BackOff::Tuning{}.max_restarts;  ///< of one component within 30 s
-  double patience_s = 60;  ///< time limit until all components are ready
+  double ready_timeout_s = 60;  ///< time limit until all components are ready
 };
 
 /// Returns the program of a component type, or "".

@@ -46,7 +46,7 @@ std::string conflict_text(const std::string& component, const std::string& robot
 Tuning tuning_of(const Plan& plan) {
   Tuning tuning;
   tuning.restart.max_restarts = plan.max_restarts;
-  tuning.start_timeout_ns = static_cast<std::int64_t>(1e9 * plan.patience_s);
+  tuning.start_timeout_ns = static_cast<std::int64_t>(1e9 * plan.ready_timeout_s);
   return tuning;
 }
 

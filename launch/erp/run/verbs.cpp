@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "launch/erp/run/launch.hpp"
+#include "launch/erp/verbs/former_names.hpp"
 
 namespace launch {
 
@@ -26,8 +27,10 @@ void add_launch(CLI::App& app, Chosen& chosen) {
   verb->add_option("--restarts", options->max_restarts,
                    "maximum number of restarts of one component within 30 s")
       ->capture_default_str();
-  verb->add_option("--patience", options->patience, "time limit until all components are ready")
+  verb->add_option("--ready-timeout", options->ready_timeout,
+                   "time limit until all components are ready")
       ->capture_default_str();
+  add_former_option(*verb, "--patience", "--ready-timeout");
   verb->add_option("--out", options->folder,
                    "folder for logs and recording (default: erp_runs/<graph>/<UTC time>)");
   verb->add_option("--security", options->security,

@@ -28,7 +28,7 @@ std::vector<training_loop::Metric> errors_of(const Candidate& candidate, const P
       if (coordinates_of(joint.type) > 0)
         all.push_back({joint.name + of, errors.mean_rad[k++] / degree});
   };
-  add(".learnt_deg", poses.learn), add(".checked_deg", poses.check);
+  add(".learned_deg", poses.learn), add(".checked_deg", poses.check);
   return all;
 }
 
@@ -48,7 +48,7 @@ void Calibration::update_best(const Eigen::VectorXd& x, double error_rad) {
 
 std::vector<training_loop::Metric> Calibration::metrics() const {
   auto all = errors_;
-  all.push_back({"judged_poses", static_cast<double>(judged_poses())});
+  all.push_back({"evaluated_poses", static_cast<double>(evaluated_poses())});
   return all;
 }
 

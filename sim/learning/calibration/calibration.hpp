@@ -32,7 +32,7 @@ class Calibration : public training_loop::Training {
   const Eigen::VectorXd& best() const { return best_; }
   double best_error_rad() const { return best_error_rad_; }
   /// Number of poses evaluated so far.
-  virtual long judged_poses() const = 0;
+  virtual long evaluated_poses() const = 0;
 
  protected:
   /// Reports an evaluated candidate; keeps it if it is the best so far.

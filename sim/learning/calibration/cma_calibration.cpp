@@ -81,7 +81,7 @@ void CmaCalibration::round(const Pool&) {
 
 int CmaCalibration::rounds() const { return impl_->generation; }
 
-long CmaCalibration::judged_poses() const {
+long CmaCalibration::evaluated_poses() const {
   return std::ssize(task().poses.learn) * impl_->options.offspring * rounds();
 }
 

@@ -16,7 +16,7 @@ class CmaCalibration : public Calibration {
 
   void round(const Pool& pool) override;
   int rounds() const override;
-  long judged_poses() const override;
+  long evaluated_poses() const override;
   std::string state() const override;
   void restore(const std::string& text, const std::string& file) override;
 

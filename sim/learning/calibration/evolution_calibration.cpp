@@ -34,7 +34,7 @@ void EvolutionCalibration::round(const Pool& pool) {
   update_best(evolution_.parents().front().x, evolution_.parents().front().error);
 }
 
-long EvolutionCalibration::judged_poses() const {
+long EvolutionCalibration::evaluated_poses() const {
   return std::ssize(task().poses.learn) * options_.offspring * rounds();
 }
 

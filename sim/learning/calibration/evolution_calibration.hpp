@@ -11,7 +11,7 @@ class EvolutionCalibration : public Calibration {
 
   void round(const Pool& pool) override;
   int rounds() const override { return evolution_.generation(); }
-  long judged_poses() const override;
+  long evaluated_poses() const override;
   std::string state() const override;
   void restore(const std::string& text, const std::string& file) override;
 

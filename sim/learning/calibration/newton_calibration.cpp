@@ -18,15 +18,16 @@ constexpr double least_decrease = 1e-3;  // relative decrease of the cost by a r
 struct State {
   static constexpr auto element = "newton";
   xml::Place place;
-  int rounds = 0, judged = 0, kicks = 0;
+  int rounds = 0, evaluated = 0, restarts = 0;
   double damping = 0, cost = 0;
   bool by_torques = true, done = false;
   std::string seed;
   std::vector<SavedPoint> list;
   void visit(auto& v) {
+    v.former("judged", "evaluated"), v.former("kicks", "restarts");
     v.required("rounds", rounds);
-    v.required("judged", judged);
-    v.required("kicks", kicks);
+    v.required("evaluated", evaluated);
+    v.required("restarts", restarts);
     v.required("seed", seed);
     v.required("damping", damping);
     v.required("cost", cost);
@@ -65,17 +66,17 @@ void NewtonCalibration::step(const Pool& pool) {
   const Eigen::VectorXd downhill = -(slope.transpose() * at.value / sigma() + x_);
   const Eigen::MatrixXd curvature = slope.transpose() * slope;
   const double before = cost_;
-  ++judged_;
+  ++evaluated_;
   for (int steps = 0; steps < most_steps && cost_ == before; ++steps) {
     Eigen::MatrixXd damped = curvature;
     damped.diagonal().array() += 1 + damping_;
     const Eigen::VectorXd next = x_ + damped.llt().solve(downhill);
     const double there = cost(next);
-    ++judged_;
+    ++evaluated_;
     if (there < cost_) x_ = next, cost_ = there, damping_ /= 10;
     else damping_ *= 10;
   }
-  update_best(x_, error_rad(task(), x_)), ++judged_;
+  update_best(x_, error_rad(task(), x_)), ++evaluated_;
 }
 
 /// If the step has not reduced the cost enough: switches from torques to angles, then restarts with
@@ -83,9 +84,10 @@ void NewtonCalibration::step(const Pool& pool) {
 void NewtonCalibration::continue_from(double before) {
   if (before - cost_ >= least_decrease * before) return;  // false if the cost is infinite
   if (by_torques_) return switch_to_angles(x_);
-  done_ = kicks_ == options_.kicks || best_error_rad() < options_.sigma_rad;
+  done_ = restarts_ == options_.restarts || best_error_rad() < options_.sigma_rad;
   if (done_) return;
-  auto random = training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(++kicks_));
+  auto random =
+      training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(++restarts_));
   std::normal_distribution<double> normal(0, options_.kick);
   Eigen::VectorXd x = best();
   for (double& each : x) each += normal(random);
@@ -94,15 +96,17 @@ void NewtonCalibration::continue_from(double before) {
 
 void NewtonCalibration::switch_to_angles(const Eigen::VectorXd& x) {
   x_ = x, by_torques_ = false, damping_ = 1;
-  cost_ = cost(x_), ++judged_;
+  cost_ = cost(x_), ++evaluated_;
 }
 
-long NewtonCalibration::judged_poses() const { return judged_ * std::ssize(task().poses.learn); }
+long NewtonCalibration::evaluated_poses() const {
+  return evaluated_ * std::ssize(task().poses.learn);
+}
 
 std::string NewtonCalibration::state() const {
   State state{.rounds = rounds_,
-              .judged = static_cast<int>(judged_),
-              .kicks = kicks_,
+              .evaluated = static_cast<int>(evaluated_),
+              .restarts = restarts_,
               .damping = damping_,
               .cost = cost_,
               .by_torques = by_torques_,
@@ -119,7 +123,8 @@ void NewtonCalibration::restore(const std::string& text, const std::string& file
                          std::ssize(state.list[0].x) == task().parameters.size() &&
                          state.list[0].x.size() == state.list[1].x.size(),
                      file);
-  rounds_ = state.rounds, judged_ = state.judged, kicks_ = state.kicks, damping_ = state.damping;
+  rounds_ = state.rounds, evaluated_ = state.evaluated, restarts_ = state.restarts,
+  damping_ = state.damping;
   cost_ = state.cost, by_torques_ = state.by_torques, done_ = state.done,
   x_ = vector(state.list[0].x);
   update_best(vector(state.list[1].x), state.list[1].error_rad);

@@ -6,7 +6,7 @@ namespace sim::calibration {
 struct NewtonOptions {
   double sigma_rad = 7e-4;  ///< standard deviation of the measured angles: 0.04 degrees; chosen
   double sigma_Nm = 0.1;    ///< standard deviation of the torques in the first phase; chosen
-  int kicks = 8;            ///< largest number of random restarts
+  int restarts = 8;         ///< largest number of random restarts
   /// Standard deviation of a restart, relative to each parameter's spread; chosen.
   double kick = 0.15;
   std::uint64_t seed = 1;  ///< of the restarts
@@ -32,7 +32,7 @@ class NewtonCalibration : public Calibration {
   void round(const Pool& pool) override;
   int rounds() const override { return rounds_; }
   bool done() const override { return done_; }
-  long judged_poses() const override;
+  long evaluated_poses() const override;
   std::string state() const override;
   void restore(const std::string& text, const std::string& file) override;
 
@@ -48,8 +48,8 @@ class NewtonCalibration : public Calibration {
   Eigen::VectorXd x_;
   bool by_torques_ = true;
   double cost_, damping_ = 1;
-  int rounds_ = 0, kicks_ = 0;
-  long judged_ = 0;  ///< evaluated candidates
+  int rounds_ = 0, restarts_ = 0;
+  long evaluated_ = 0;  ///< evaluated candidates
   bool done_ = false;
 };
 

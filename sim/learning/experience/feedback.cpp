@@ -61,9 +61,9 @@ class Fuzzy final : public Feedback {
 }  // namespace
 
 std::unique_ptr<Feedback> linear_feedback(const Base& base, int start, const Vector3d& target_m,
-                                          double closing_per_s) {
+                                          double gain_per_s) {
   return std::make_unique<Linear>(
-      closing_per_s * weighted_inverse(base.influence(start, target_m), base.freedom(start)));
+      gain_per_s * weighted_inverse(base.influence(start, target_m), base.freedom(start)));
 }
 
 std::unique_ptr<Feedback> fuzzy_feedback(const Base& base, int start, const std::string& fll_file) {

@@ -21,7 +21,7 @@ class Feedback {
 /// ΔV = b K ΔX (eq. 10): K is the weighted inverse of the influence near the stored experience that
 /// is nearest to the target; b, in 1/s, is the rate at which the offset decreases.
 std::unique_ptr<Feedback> linear_feedback(const Base& base, int start,
-                                          const Eigen::Vector3d& target_m, double closing_per_s);
+                                          const Eigen::Vector3d& target_m, double gain_per_s);
 
 /// ΔV = K_Jac ΔV_fuzzy (eq. 9). K_Jac is the weighted inverse of the whole base's influence, scaled
 /// so that its largest element is 1. ΔV_fuzzy, in V, follows for each of x, y, z from the rules of

@@ -18,7 +18,7 @@ Reach::Reach(Patterns patterns, Eigen::MatrixXd drives, const ReachTimes& times,
 double Reach::length_s() const {
   switch (phase_) {
     case Phase::way:
-      return times_.way_s + times_.still_s;
+      return times_.approach_s + times_.hold_s;
     case Phase::pattern:
       return patterns_.end_s() + times_.settle_s;
     case Phase::correct:
@@ -60,7 +60,7 @@ void Reach::next() {
 }
 
 MuscleCommand Reach::guide(double into_s) const {
-  const double done = least_jerk(into_s / times_.way_s).done;
+  const double done = least_jerk(into_s / times_.approach_s).done;
   return {true, from_line_m_ + done * (plan_.start_line_m - from_line_m_)};
 }
 

@@ -20,14 +20,15 @@
 namespace sim::experience {
 
 struct ReachTimes {
-  double way_s = 1.5, still_s = 0.5;     ///< chosen
-  double settle_s = 1.5, correct_s = 4;  ///< chosen
+  double approach_s = 1.5, hold_s = 0.5;  ///< chosen
+  double settle_s = 1.5, correct_s = 4;   ///< chosen
   double mean_s = 0.1;  ///< averaging time of the hand position at the end of a phase; chosen
   /// Limit of the feedback voltage of a drive; larger ones are scaled down; chosen.
   double feedback_V = 3;
   void visit(auto& v) {
-    v("way_s", way_s, xml::positive);
-    v("still_s", still_s, xml::positive);
+    v.former("way_s", "approach_s"), v.former("still_s", "hold_s");
+    v("approach_s", approach_s, xml::positive);
+    v("hold_s", hold_s, xml::positive);
     v("settle_s", settle_s, xml::positive);
     v("correct_s", correct_s, xml::at_least_zero);
     v("mean_s", mean_s, xml::positive);

@@ -41,11 +41,12 @@ struct Experiment {
   std::vector<Grid> grids;
   std::vector<GoalAt> goals;
   void visit(auto& v) {
+    v.former("tries", "trials"), v.former("little", "regularization");
     v.required("view", view);
     v("noise_px", noise_px, xml::at_least_zero);
     v("seed", seed, xml::Range{0, 1e9});
     v("twitches", session.twitches, xml::Range{0, 1e5});
-    v("tries", session.trials, xml::Range{0, 1e5});
+    v("trials", session.trials, xml::Range{0, 1e5});
     v("twitch_N", session.twitch_N, xml::positive);
     v("twitch_s", session.twitch_s, xml::positive);
     v("pause_s", session.pause_s, xml::positive);
@@ -54,7 +55,7 @@ struct Experiment {
     v("mean_s", session.mean_s, xml::positive);
     v("most_N", session.most_N, xml::positive);
     v("rate", session.reach.rate, xml::Range{0, 2});
-    v("little", session.reach.little, xml::positive);
+    v("regularization", session.reach.regularization, xml::positive);
     v.list(grids), v.list(goals);
   }
 };

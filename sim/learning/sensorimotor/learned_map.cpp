@@ -36,7 +36,7 @@ void learn(Goal& goal, const VectorXd& desired, const VectorXd& moved,
   goal.errors.push_back(error.norm());
   for (Index j = 0; j < desired.size(); ++j)
     goal.alpha[j] += options.rate * error[j] * desired[j] /
-                     (desired[j] * desired[j] + options.little * options.little);
+                     (desired[j] * desired[j] + options.regularization * options.regularization);
 }
 
 }  // namespace sim::sensorimotor

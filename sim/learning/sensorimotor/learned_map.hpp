@@ -32,7 +32,7 @@ struct Goal {
 struct ReachOptions {
   double rate = 0.4;  ///< η; chosen
   /// Ε, in senses: a goal smaller than that along a sense hardly changes its α.
-  double little = 0.01;
+  double regularization = 0.01;
 };
 
 class LearnedMap {

@@ -38,7 +38,7 @@ LearnedMap learned_map_of(const LearnedMapFile& file, Index senses, Index muscle
                                 std::to_string(senses));
   for (Index s = 0; s < senses; ++s) {
     const SenseRow& row = file.senses[static_cast<std::size_t>(s)];
-    hebb.row(s) = vector(row.ties, muscles, row.place);
+    hebb.row(s) = vector(row.weights, muscles, row.place);
   }
   return {hebb, vector(file.squares, muscles, file.place)};
 }

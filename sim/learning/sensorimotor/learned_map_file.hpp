@@ -4,15 +4,18 @@
 #include "interfaces/xml/xml.hpp"
 #include "sim/learning/sensorimotor/learned_map.hpp"
 
-/// A learned map as a file: `<sensorimotor_learnt>`.
+/// A learned map as a file: `<sensorimotor_learned>`.
 namespace sim::sensorimotor {
 
 /// A row of H: one sense, all muscles.
 struct SenseRow {
   static constexpr auto element = "sense";
   xml::Place place;
-  std::vector<double> ties;
-  void visit(auto& v) { v.required("ties", ties); }
+  std::vector<double> weights;
+  void visit(auto& v) {
+    v.former("ties", "weights");
+    v.required("weights", weights);
+  }
 };
 struct GoalRow {
   static constexpr auto element = "goal";
@@ -21,7 +24,7 @@ struct GoalRow {
   void visit(auto& v) { v.required("at", at), v.required("alpha", alpha), v("errors", errors); }
 };
 struct LearnedMapFile {
-  static constexpr auto element = "sensorimotor_learnt";
+  static constexpr auto element = "sensorimotor_learned", former_element = "sensorimotor_learnt";
   xml::Place place;
   int rounds = 0;               ///< completed rounds of the training that wrote it
   std::string seed;             ///< of that training

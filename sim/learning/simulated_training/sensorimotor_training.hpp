@@ -36,7 +36,7 @@ class SensorimotorTraining : public training_loop::Training {
   bool done() const override { return rounds_ > experiment_.session.trials; }
   /// Mean and standard deviation over goals of |e| in the last trial, in units of the senses.
   std::vector<training_loop::Metric> metrics() const override;
-  /// A `<sensorimotor_learnt>`.
+  /// A `<sensorimotor_learned>`.
   std::string state() const override;
   void restore(const std::string& text, const std::string& file) override;
 

@@ -55,9 +55,9 @@ void SynergyTraining::add_rough_plans(const std::vector<Pose>& poses) {
     for (std::size_t m = 0; m < muscles_.size(); ++m)
       plan.weights_m[static_cast<Eigen::Index>(m)] = -line_m[muscles_[m]];
     Trial trial(plan, task_.times, 0, 0);
-    const bool came_back = play_trial(trial, Vec3::Zero(), seed()).came_back;
+    const bool returned = play_trial(trial, Vec3::Zero(), seed()).returned;
     plan.at_m = rest_of(trial.path());
-    if (came_back) bank_.add(std::move(plan));
+    if (returned) bank_.add(std::move(plan));
   }
 }
 
@@ -100,27 +100,27 @@ void SynergyTraining::round(const Pool& pool) {
   std::vector<PlannedTrial> trials;
   for (std::size_t k = 0; k < count; ++k) trials.push_back(plan_trial(k));
   const auto all = pool.map(count, [&](std::size_t k) { return run_trial(trials[k]); });
-  struck_ = came_back_ = reward_ = 0;
+  struck_ = returned_ = reward_ = 0;
   std::vector<MotorPlan> fresh;
   for (std::size_t k = 0; k < count; ++k) {
     PlannedTrial& trial = trials[k];
-    const bool came_back = all[k].size() > 2;
+    const bool returned = all[k].size() > 2;
     bank_.credit(trial.blend.credits, all[k][1]);
-    if (k % 2 == 0) struck_ += all[k][0], reward_ += all[k][1], came_back_ += came_back;
-    if (!came_back) continue;
+    if (k % 2 == 0) struck_ += all[k][0], reward_ += all[k][1], returned_ += returned;
+    if (!returned) continue;
     trial.plan.value = all[k][2], trial.plan.at_m = {all[k][3], all[k][4], all[k][5]};
-    if (task_.zone.holds(trial.plan.at_m, task_.beyond_m)) fresh.push_back(std::move(trial.plan));
+    if (task_.zone.holds(trial.plan.at_m, task_.margin_m)) fresh.push_back(std::move(trial.plan));
   }
   for (MotorPlan& plan : fresh) bank_.add(std::move(plan));
   bank_.trim();
   const int plain = (task_.batch + 1) / 2;
-  struck_ /= plain, came_back_ /= plain, reward_ /= plain;
+  struck_ /= plain, returned_ /= plain, reward_ /= plain;
   ++file_.rounds;
 }
 
 std::vector<training_loop::Metric> SynergyTraining::metrics() const {
   return {{"struck_percent", 100 * struck_},
-          {"came_back_percent", 100 * came_back_},
+          {"returned_percent", 100 * returned_},
           {"mean_reward", reward_}};
 }
 
@@ -130,7 +130,7 @@ SynergyTraining::Test SynergyTraining::test(const Bank& bank, std::uint64_t seed
   Test test{.target_m = task_.zone.draw(random)};
   Trial trial(bank.blend(test.target_m).plan, task_.times, task_.noise, random());
   const TrialResult result = play_trial(trial, test.target_m, random());
-  test.came_back = result.came_back, test.outcome = result.outcome;
+  test.returned = result.returned, test.outcome = result.outcome;
   test.relative_jerk = relative_jerk(trial.path(), trial.end_s());
   return test;
 }

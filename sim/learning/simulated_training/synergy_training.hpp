@@ -38,7 +38,7 @@ class SynergyTraining : public training_loop::Training {
   /// Result of a bank's plan, with noise, for a target that was not used in the training.
   struct Test {
     Vec3 target_m;
-    bool came_back = false;
+    bool returned = false;
     synergy::Outcome outcome;
     double relative_jerk = 0;
   };
@@ -59,7 +59,7 @@ class SynergyTraining : public training_loop::Training {
   std::vector<std::size_t> muscles_;
   synergy::Bank bank_;
   double struck_ = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first round
-  double came_back_ = struck_, reward_ = struck_;
+  double returned_ = struck_, reward_ = struck_;
 };
 
 }  // namespace sim::simulated_training

@@ -82,11 +82,12 @@ Blend Bank::blend(const Vector3d& target_m) const {
                        .at_m = target_m,
                        .value = 0},
               .credits = credits_of(plans_, target_m, basis_m)};
-  const auto shares = balanced_weights(blend.credits, plans_, target_m, basis_m, options_.lean_m);
+  const auto shares =
+      balanced_weights(blend.credits, plans_, target_m, basis_m, options_.max_extrapolation_m);
   for (std::size_t k = 0; k < plans_.size(); ++k) {
     blend.plan.weights_m += shares[k] * plans_[k].weights_m;
     blend.plan.signal.rise_s += blend.credits[k] * plans_[k].signal.rise_s;
-    blend.plan.signal.beyond += blend.credits[k] * plans_[k].signal.beyond;
+    blend.plan.signal.overshoot += blend.credits[k] * plans_[k].signal.overshoot;
     blend.plan.value += blend.credits[k] * plans_[k].value;
   }
   return blend;
@@ -105,15 +106,15 @@ void Bank::cut(std::size_t count) {
 }
 
 MotorPlan varied(MotorPlan plan, const Exploration& by, std::mt19937_64& random) {
-  constexpr double least_s = 0.3, most_s = 1.6, most_beyond = 0.4;  // chosen
+  constexpr double least_s = 0.3, most_s = 1.6, max_overshoot = 0.4;  // chosen
   std::normal_distribution<double> normal;
   const double all = 1 + by.weights * normal(random);
   for (double& weight : plan.weights_m)
     weight = weight * all * (1 + by.weights * normal(random)) + by.weights_m * normal(random);
   plan.signal.rise_s =
       std::clamp(plan.signal.rise_s * std::exp(by.rise * normal(random)), least_s, most_s);
-  plan.signal.beyond =
-      std::clamp(plan.signal.beyond + by.beyond * normal(random), -most_beyond, most_beyond);
+  plan.signal.overshoot = std::clamp(plan.signal.overshoot + by.overshoot * normal(random),
+                                     -max_overshoot, max_overshoot);
   return plan;
 }
 

@@ -15,20 +15,22 @@
 /// x is the target, x_k the place that the hand reached with plan k, r the reward of the trial; x̄
 /// and S are the mean and scatter of the x_k weighted by β. γ corrects for plans that do not
 /// surround a target evenly: for a linear robot Σ γ_k plan_k reaches the target. Extrapolation is
-/// not linear, so |x − x̄| is limited to `lean_m`. σ is `basis_m`, or the distance to the fourth
+/// not linear, so |x − x̄| is limited to
+/// `max_extrapolation_m`. σ is `basis_m`, or the distance to the fourth
 /// nearest plan if that is larger.
 namespace sim::synergy {
 
 struct BankOptions {
-  double basis_m = 0.04;  ///< chosen
-  double rate = 0.3;      ///< η; chosen
-  double lean_m = 0.07;   ///< chosen: larger extrapolation dislocated the torso
-  int most = 200;         ///< capacity of the bank; chosen
+  double basis_m = 0.04;              ///< chosen
+  double rate = 0.3;                  ///< η; chosen
+  double max_extrapolation_m = 0.07;  ///< chosen: larger extrapolation dislocated the torso
+  int capacity = 200;                 ///< capacity of the bank; chosen
   void visit(auto& v) {
+    v.former("lean_m", "max_extrapolation_m"), v.former("most", "capacity");
     v("basis_m", basis_m, xml::positive);
-    v("lean_m", lean_m, xml::at_least_zero);
+    v("max_extrapolation_m", max_extrapolation_m, xml::at_least_zero);
     v("rate", rate, xml::Range{0, 1});
-    v("most", most, xml::Range{1, 1e5});
+    v("capacity", capacity, xml::Range{1, 1e5});
   }
 };
 
@@ -42,12 +44,13 @@ struct Exploration {
   double weights = 0.1;     ///< relative, of each weight; also of a common factor of all weights
   double weights_m = 2e-4;  ///< absolute, of each weight
   double rise = 0.1;        ///< relative, of T
-  double beyond = 0.05;
+  double overshoot = 0.05;
   void visit(auto& v) {
+    v.former("explore_beyond", "explore_overshoot");
     v("explore_weights", weights, xml::at_least_zero);
     v("explore_weights_m", weights_m, xml::at_least_zero);
     v("explore_rise", rise, xml::at_least_zero);
-    v("explore_beyond", beyond, xml::at_least_zero);
+    v("explore_overshoot", overshoot, xml::at_least_zero);
   }
 };
 
@@ -66,7 +69,7 @@ class Bank {
   /// Stores a plan.
   void add(MotorPlan plan);
   /// Reduces the bank to its capacity.
-  void trim() { cut(static_cast<std::size_t>(options_.most)); }
+  void trim() { cut(static_cast<std::size_t>(options_.capacity)); }
   /// Removes plans until `count` remain: of the two plans whose places are nearest to each other,
   /// the less valuable one is removed first.
   void cut(std::size_t count);

@@ -17,7 +17,7 @@ Bank bank_of(const BankFile& file) {
   for (const PlanRow& row : file.plans.all)
     plans.push_back(
         {Eigen::Map<const Eigen::VectorXd>(row.weights_m.data(), std::ssize(row.weights_m)),
-         {row.rise_s, row.beyond},
+         {row.rise_s, row.overshoot},
          vec(row.at_m),
          row.value});
   return {file.options, std::move(plans)};
@@ -30,7 +30,7 @@ std::vector<PlanRow> rows_of(const Bank& bank) {
                     numbers(plan.at_m),
                     plan.value,
                     plan.signal.rise_s,
-                    plan.signal.beyond,
+                    plan.signal.overshoot,
                     {plan.weights_m.begin(), plan.weights_m.end()}});
   return rows;
 }
@@ -57,7 +57,7 @@ void check(const BankFile& file) {
   for (const PlanRow& row : file.plans.all)
     if (row.weights_m.size() != file.muscles.all.size())
       refuse(row.place, std::to_string(row.weights_m.size()) + " weights, but there are " +
-                            std::to_string(file.muscles.all.size()) + " <learnt> muscles");
+                            std::to_string(file.muscles.all.size()) + " <learned> muscles");
 }
 
 }  // namespace sim::synergy

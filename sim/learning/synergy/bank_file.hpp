@@ -12,10 +12,10 @@
 /// Everything that a trial needs, as a file: `<synergy_bank>`.
 namespace sim::synergy {
 
-/// `<learnt muscle="right_biceps"/>`: a muscle that plans have a weight for. The lines of the
+/// `<learned muscle="right_biceps"/>`: a muscle that plans have a weight for. The lines of the
 /// others keep their length.
 struct LearnedMuscle {
-  static constexpr auto element = "learnt", plural = "muscles";
+  static constexpr auto element = "learned", former_element = "learnt", plural = "muscles";
   xml::Place place;
   std::string muscle;
   void visit(auto& v) { v.required("muscle", muscle); }
@@ -24,13 +24,14 @@ struct PlanRow {
   static constexpr auto element = "plan", plural = "plans";
   xml::Place place;
   xml::Vec3 at_m{};
-  double value = 1, rise_s = 0.8, beyond = 0;
+  double value = 1, rise_s = 0.8, overshoot = 0;
   std::vector<double> weights_m;
   void visit(auto& v) {
     v.required("at_m", at_m);
     v("value", value, xml::at_least_zero);
     v.required("rise_s", rise_s, xml::positive);
-    v("beyond", beyond);
+    v.former("beyond", "overshoot");
+    v("overshoot", overshoot);
     v.required("weights_m", weights_m);
   }
 };

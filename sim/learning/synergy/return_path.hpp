@@ -16,11 +16,12 @@
 namespace sim::synergy {
 
 struct TrialTimes {
-  double watch_s = 1.2, way_s = 3, still_s = 1;  ///< chosen
+  double watch_s = 1.2, return_s = 3, hold_s = 1;  ///< chosen
   void visit(auto& v) {
+    v.former("way_s", "return_s"), v.former("still_s", "hold_s");
     v("watch_s", watch_s, xml::positive);
-    v("way_s", way_s, xml::positive);
-    v("still_s", still_s, xml::at_least_zero);
+    v("return_s", return_s, xml::positive);
+    v("hold_s", hold_s, xml::at_least_zero);
   }
 };
 
@@ -31,12 +32,12 @@ class ReturnPath {
       : times_(times), begin_s_(begin_s), from_m_(std::move(from_m)) {}
 
   Eigen::VectorXd at(double time_s) const {
-    const double half = 2 * (time_s - begin_s_) / times_.way_s;
+    const double half = 2 * (time_s - begin_s_) / times_.return_s;
     const double paid_out = least_jerk(half).done, wound_up = least_jerk(half - 1).done;
     return from_m_.unaryExpr([&](double m) { return m * (1 - (m < 0 ? paid_out : wound_up)); });
   }
-  /// True when the lines are back and the rest time `still_s` has passed.
-  bool done(double time_s) const { return time_s - begin_s_ > times_.way_s + times_.still_s; }
+  /// True when the lines are back and the rest time `hold_s` has passed.
+  bool done(double time_s) const { return time_s - begin_s_ > times_.return_s + times_.hold_s; }
 
  private:
   TrialTimes times_;

@@ -10,7 +10,7 @@ struct Task {
   std::string poses;  ///< poses.csv: one rough initial plan per row; relative to this file
   int rounds = 60, batch = 40;
   double noise = 0.05;     ///< relative standard deviation of the signal-dependent noise; chosen
-  double beyond_m = 0.08;  ///< plans that end at most this far outside the zone are stored; chosen
+  double margin_m = 0.08;  ///< plans that end at most this far outside the zone are stored; chosen
   int seed = 1;
   Exploration exploring;
   BankOptions options;
@@ -20,11 +20,12 @@ struct Task {
   BottleConfig bottle;
   xml::Plural<LearnedMuscle> muscles;
   void visit(auto& v) {
+    v.former("beyond_m", "margin_m");
     v.required("poses", poses);
     v("rounds", rounds, xml::Range{1, 1e5});
     v("batch", batch, xml::Range{2, 1e5});
     v("noise", noise, xml::at_least_zero);
-    v("beyond_m", beyond_m, xml::at_least_zero);
+    v("margin_m", margin_m, xml::at_least_zero);
     v("seed", seed, xml::Range{0, 1e9});
     exploring.visit(v);
     options.visit(v);

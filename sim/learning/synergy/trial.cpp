@@ -47,8 +47,8 @@ TrialResult result_of(const Trial& trial, const BottleConfig& bottle, const Eige
                       const Eigen::Vector3d& target_m) {
   TrialResult result{.outcome = evaluate(bottle, target_m, trial.path(), trial.end_s()),
                      .off_m = (trial.last_m() - rest_m).norm()};
-  result.came_back = result.off_m <= back_m;
-  if (!result.came_back) return result;
+  result.returned = result.off_m <= back_m;
+  if (!result.returned) return result;
   result.credit = result.outcome.reward;
   MotorPlan& plan = result.plan.emplace(trial.plan());
   plan.at_m = rest_of(trial.path());

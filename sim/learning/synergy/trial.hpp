@@ -65,7 +65,7 @@ constexpr double back_m = 0.02;
 struct TrialResult {
   Outcome outcome;
   double off_m = 0;  ///< final distance of the hand from its rest position
-  bool came_back = false;
+  bool returned = false;
   double credit = 0;
   std::optional<MotorPlan> plan;  ///< the plan to store, if any
 };

@@ -17,7 +17,7 @@ struct TreeBody {
 };
 
 /// Index of `body` in `names`. Throws std::invalid_argument if it is not there; `what`, for example
-/// "a grasp", names the element that refers to the body.
+/// "an attached load", names the element that refers to the body.
 std::size_t body_named(std::span<const std::string> names, const std::string& body,
                        const std::string& what);
 

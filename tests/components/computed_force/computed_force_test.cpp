@@ -18,7 +18,7 @@ struct Bench : JointBench {
 /// Parameters without compensation of the force laws' lag.
 ComputedForce::Params plain() {
   ComputedForce::Params params;
-  params.anticipate = 0;
+  params.lag_compensation = 0;
   return params;
 }
 
@@ -143,7 +143,8 @@ TEST_CASE("online learning halves the Jacobian error of a wrong robot.xml") {
       if (auto* attach = std::get_if<erp::Attach>(&element); attach && attach->body == "upper_arm")
         attach->at_m[0] += 0.008;
   sim::Musculoskeletal truth(real), model(model_robot);
-  const auto source = control::jacobian_source(control::JacobianKind::on_line, "", model_robot, model);
+  const auto source =
+      control::jacobian_source(control::JacobianKind::on_line, "", model_robot, model);
   std::mt19937 random(7);
   const auto off = [&](int postures, bool learn) {
     double squares = 0;

@@ -8,7 +8,7 @@ goes="1 2 3"
 launched() {
   local graph=$1 out=$2 && shift 2
   set -o pipefail
-  "$bin/erp" launch "$graph" --lockstep --for 1s --out "$out" --patience 5min "$@" < /dev/null 2>&1 |
+  "$bin/erp" launch "$graph" --lockstep --for 1s --out "$out" --ready-timeout 5min "$@" < /dev/null 2>&1 |
     sed -u 's/^/ /'
 }
 

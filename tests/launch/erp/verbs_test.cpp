@@ -125,9 +125,9 @@ TEST_CASE("erp gap monitor runs the component with its options and exit codes") 
   CHECK(help.code == 0);
   CHECK_THAT(help.text, Contains("gap_monitor: a component") && Contains("window_s"));
   const auto checked =
-      bus.erp({"gap", "monitor", "--robot", bus.robot(), "--set", "times=0", "--check"});
+      bus.erp({"gap", "monitor", "--robot", bus.robot(), "--set", "consecutive=0", "--check"});
   CHECK(checked.code == 2);
-  CHECK_THAT(checked.text, Contains("times"));
+  CHECK_THAT(checked.text, Contains("consecutive"));
 }
 
 TEST_CASE("an unknown verb ends with exit code 2 and the most similar name") {

@@ -40,7 +40,7 @@ TEST_CASE("blind cases are made, diagnosed and scored; a changed truth file is r
 
   const auto d = nlohmann::json::parse(std::ifstream(cases + "/case_0001/diagnosis.json"));
   for (const char* name :
-       {"verdict", "where", "effects", "confusable", "gap", "recordings", "warnings"})
+       {"verdict", "where", "effects", "confounders", "gap", "recordings", "warnings"})
     CHECK(d.contains(name));
   for (const char* name :
        {"type", "on", "parameters", "intervals", "gain", "gain_interval", "supported"})
@@ -126,14 +126,14 @@ TEST_CASE(
   };
   nlohmann::json truths;
   const auto add_case = [&](const char* name, const nlohmann::json& effects,
-                            const nlohmann::json& confusable) {
+                            const nlohmann::json& confounders) {
     truths.push_back({{"case", name}, {"kind", "pair"}, {"hidden", {hidden("a"), hidden("b")}}});
     fs::create_directories(folder.path / name);
     std::ofstream(folder.path / name / "diagnosis.json")
         << nlohmann::json{{"verdict", "supported"},
                           {"where", nlohmann::json::array()},
                           {"effects", effects},
-                          {"confusable", confusable}};
+                          {"confounders", confounders}};
   };
   const auto none = nlohmann::json::array();
   add_case("both", {effect("a"), effect("b")}, none);

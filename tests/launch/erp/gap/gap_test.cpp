@@ -108,7 +108,7 @@ TEST_CASE("simulated recordings of all prototypes are evaluated and have no susp
   }
 }
 
-TEST_CASE("erp gap twins lists indistinguishable effects without a recording") {
+TEST_CASE("erp gap confounders lists indistinguishable effects without a recording") {
   std::ostringstream out, remarks, less;
   launch::gap::IndistinguishableOptions options{.robot = robot_file, .seconds = 4};
   CHECK(launch::gap::list_indistinguishable(options, out, remarks) == 0);
@@ -119,9 +119,11 @@ TEST_CASE("erp gap twins lists indistinguishable effects without a recording") {
   CHECK_THAT(less.str(), !Catch::Contains("tendon_kite_line"));  // not visible without tension
 }
 
-TEST_CASE("erp gap twins --together 2 lists sums of two effects; an unknown type is rejected") {
+TEST_CASE(
+    "erp gap confounders --max-effects 2 lists sums of two effects; an unknown type is rejected") {
   std::ostringstream out, remarks;
-  launch::gap::IndistinguishableOptions options{.robot = robot_file, .seconds = 4, .together = 2};
+  launch::gap::IndistinguishableOptions options{
+      .robot = robot_file, .seconds = 4, .max_effects = 2};
   CHECK(launch::gap::list_indistinguishable(options, out, remarks) == 0);
   CHECK_THAT(out.str(),
              Catch::Matches("[^]*sensor_joint_offset on elbow [^\n]* on [^\n]* \\+ [^]*"));

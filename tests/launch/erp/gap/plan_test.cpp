@@ -24,7 +24,7 @@ Planned plan(const fs::path& folder, const std::string& one, const std::string& 
   fs::create_directories(folder);
   std::ofstream(folder / "diagnosis.json")
       << R"({"robot": "hinge_rig", "verdict": "supported", "effects": [)" << one << ", " << other
-      << (identified.empty() ? "" : ", ") << identified << R"(], "confusable": [)" << one << ", "
+      << (identified.empty() ? "" : ", ") << identified << R"(], "confounders": [)" << one << ", "
       << other << "]}";
   std::ostringstream out, remarks;
   const int code = launch::gap::plan({.robot = robot,
@@ -165,7 +165,7 @@ TEST_CASE(
   const Folder folder;
   fs::create_directories(folder.path);
   std::ofstream(folder.path / "diagnosis.json")
-      << R"({"robot": "hinge_rig", "verdict": "supported", "confusable": [], "effects": [{"type":
+      << R"({"robot": "hinge_rig", "verdict": "supported", "confounders": [], "effects": [{"type":
           "sensor_joint_gain", "on": "elbow", "supported": true, "parameters": {}}]})";
   std::ostringstream out, remarks;
   CHECK_THROWS_WITH(launch::gap::plan({.robot = rigs::config("arm/robot.xml"),

@@ -24,7 +24,7 @@ TEST_CASE("a recording of 0.12 s is reported as too short and does not change th
   CHECK(launch::gap::calibrate(both, out, remarks) == 0);
 }
 
-TEST_CASE("without a long enough recording, calibrate and twins return 5") {
+TEST_CASE("without a long enough recording, calibrate and confounders return 5") {
   const RecordedRig folder;
   const auto short_one = folder.recorded("short.csv", true, 3, 0.12);
   std::ostringstream out, remarks;

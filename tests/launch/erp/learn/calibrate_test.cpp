@@ -64,8 +64,8 @@ TEST_CASE(
   REQUIRE(launch::calibrate_run(options, fixture.out, fixture.remarks) == 0);
   CHECK_THAT(fixture.out.str(),
              Catch::Contains("identified") && Catch::Contains("shoulder, checked"));
-  CHECK(
-      text_of(fixture.path / "found/parameters.csv").starts_with("parameter,changed,unit,left\n"));
+  CHECK(text_of(fixture.path / "found/parameters.csv")
+            .starts_with("parameter,changed,unit,remaining_uncertainty\n"));
   CHECK(fs::file_size(fixture.path / "found/curve.svg") > 1000);
 
   const auto errors = [&](const std::string& robot) {

@@ -228,16 +228,16 @@ TEST_CASE("bad input is rejected with exit code 2 before any process starts") {
   CHECK_FALSE(fs::exists(graph.folder / "run"));
 }
 
-TEST_CASE("a launch whose components are not ready within --patience is stopped in order") {
+TEST_CASE("a launch whose components are not ready within --ready-timeout is stopped in order") {
   const Graph graph;
-  CHECK(graph.run({"--patience", "1ms"}) == 1);
+  CHECK(graph.run({"--ready-timeout", "1ms"}) == 1);
   CHECK_THAT(graph.screen(), Contains("not ready after 0.0 s: ") && Contains("worker"));
   CHECK(graph.processes().empty());
 }
 
-TEST_CASE("a --patience that is not a duration is rejected before the run folder is created") {
+TEST_CASE("a --ready-timeout that is not a duration is rejected before the run folder is created") {
   const Graph graph;
-  CHECK(graph.run({"--patience", "soon"}) == 2);
+  CHECK(graph.run({"--ready-timeout", "soon"}) == 2);
   CHECK_THAT(graph.screen(), Contains("\"soon\" is not a duration"));
   CHECK_FALSE(fs::exists(graph.folder / "run"));
 }

@@ -105,7 +105,7 @@ TEST_CASE("a learned map survives writing and reading exactly, and is refused fo
                   {{Vector2d(0.1, 0.1), Vector2d(0, 0), {}}});
   play(session, linear);
   const auto text = xml::write(file_of(session.learned(), session.goals()));
-  const auto file = xml::parse<LearnedMapFile>(text, "learnt");
+  const auto file = xml::parse<LearnedMapFile>(text, "learned");
   CHECK(learned_map_of(file, 2, 4).hebb() == session.learned().hebb());
   CHECK(goals_of(file, 2).front().alpha == session.goals().front().alpha);
   CHECK_THROWS_WITH(learned_map_of(file, 2, 5), Catch::Contains("other muscles"));

@@ -32,7 +32,7 @@ SynergyTraining training() {
 TEST_CASE("from three rough plans an arm learns to strike targets of a zone") {
   const auto one = training_runs::run_in_three_ways("synergy", training);
   const auto metrics = one.metrics();
-  REQUIRE(metrics.at(1).name == "came_back_percent");
+  REQUIRE(metrics.at(1).name == "returned_percent");
   CHECK(metrics.at(1).value == 100);
   CHECK(one.bank().plans().size() > 20);
   const auto rough = training();
@@ -43,7 +43,7 @@ TEST_CASE("from three rough plans an arm learns to strike targets of a zone") {
     const auto test = one.test(one.bank(), 5, k);
     after_m += test.outcome.nearest_m / 12;
     CHECK(test.relative_jerk > 1);
-    CHECK(test.came_back);
+    CHECK(test.returned);
   }
   CHECK(after_m < 0);                 // overlap: struck
   CHECK(after_m < before_m - 0.001);  // the initial blends already come close

@@ -49,18 +49,18 @@ TEST_CASE("a blend reaches its target although the plans near it lie to one side
   CHECK_THROWS_WITH(Bank().blend({0, 0, 0}), Catch::Contains("without plans"));
 }
 
-TEST_CASE("a blend extrapolates at most lean_m beyond its plans") {
+TEST_CASE("a blend extrapolates at most max_extrapolation_m beyond its plans") {
   const std::vector<MotorPlan> plans{plan_of(VectorXd::Unit(5, 0) * 0.1),
                                      plan_of(VectorXd::Unit(5, 0) * 0.2)};
   const double target_m = 0.4;
   const auto x_m = [&](double lean_m) {
-    const Bank two({.lean_m = lean_m}, plans);
+    const Bank two({.max_extrapolation_m = lean_m}, plans);
     return (reach * two.blend({target_m, 0, 0}).plan.weights_m).x();
   };
   const double mean_m = x_m(0), freely_m = x_m(9);
   CHECK(freely_m > mean_m + 0.03);
   CHECK(x_m(0.05) - mean_m == Approx(0.05 / (target_m - mean_m) * (freely_m - mean_m)));
-  CHECK(x_m(0.3) == freely_m);  // within lean_m
+  CHECK(x_m(0.3) == freely_m);  // within max_extrapolation_m
 }
 
 TEST_CASE("rewards are credited to contributors, and plans of larger value contribute more") {
@@ -80,7 +80,7 @@ TEST_CASE("a full bank removes the less valuable of two plans for the same place
   std::vector<MotorPlan> plans{plan_of(VectorXd::Constant(5, 0.1), 1.2),
                                plan_of(VectorXd::Constant(5, 0.101), 0.9),
                                plan_of(VectorXd::Constant(5, 0.3), 0.1)};
-  Bank stored({.most = 2}, plans);
+  Bank stored({.capacity = 2}, plans);
   stored.trim();
   REQUIRE(stored.plans().size() == 2);
   CHECK(stored.plans()[0].value == 1.2);
@@ -98,14 +98,15 @@ TEST_CASE("a varied plan is near the plan and within bounds") {
   CHECK(other.weights_m != plan.weights_m);
   CHECK((other.weights_m - plan.weights_m).cwiseAbs().maxCoeff() < 0.03);
   const MotorPlan wild =
-      varied(plan, {.weights = 0, .weights_m = 0, .rise = 50, .beyond = 50}, random);
+      varied(plan, {.weights = 0, .weights_m = 0, .rise = 50, .overshoot = 50}, random);
   CHECK(wild.weights_m == plan.weights_m);
   CHECK((wild.signal.rise_s == 0.3 || wild.signal.rise_s == 1.6));
-  CHECK(std::abs(wild.signal.beyond) == 0.4);
+  CHECK(std::abs(wild.signal.overshoot) == 0.4);
 }
 
 TEST_CASE("on the return wound-up lines are paid out first, then the others are wound up") {
-  const ReturnPath way({.watch_s = 1, .way_s = 2, .still_s = 0.5}, 3, Eigen::Vector2d(-0.02, 0.01));
+  const ReturnPath way({.watch_s = 1, .return_s = 2, .hold_s = 0.5}, 3,
+                       Eigen::Vector2d(-0.02, 0.01));
   CHECK(way.at(3) == Eigen::Vector2d(-0.02, 0.01));
   CHECK((way.at(3.5) - Eigen::Vector2d(-0.01, 0.01)).norm() < 1e-12);
   CHECK((way.at(4) - Eigen::Vector2d(0, 0.01)).norm() < 1e-12);
@@ -116,8 +117,8 @@ TEST_CASE("on the return wound-up lines are paid out first, then the others are 
 }
 
 TEST_CASE("a trial plays its signal with proportional noise, then returns the lines") {
-  const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0.25}, {0, 0, 0}};
-  const TrialTimes times{.watch_s = 1, .way_s = 1, .still_s = 0.5};
+  const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .overshoot = 0.25}, {0, 0, 0}};
+  const TrialTimes times{.watch_s = 1, .return_s = 1, .hold_s = 0.5};
   Trial quiet(plan, times, 0, 1), noisy(plan, times, 0.1, 1);
   double most = 0, squares = 0, end = 0;
   int count = 0;
@@ -177,8 +178,8 @@ namespace {
 
 /// A trial whose hand moves 0.3 m, and back by the share `back` of that.
 Trial trial_returning(double back) {
-  const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .beyond = 0}, {0, 0, 0}};
-  Trial trial(plan, {.watch_s = 1, .way_s = 1, .still_s = 0.5}, 0, 1);
+  const MotorPlan plan{VectorXd::Constant(2, 0.04), {.rise_s = 0.8, .overshoot = 0}, {0, 0, 0}};
+  Trial trial(plan, {.watch_s = 1, .return_s = 1, .hold_s = 0.5}, 0, 1);
   for (double t = 0; !trial.done(); t += 0.002) {
     trial.step(t);
     const double there = sim::least_jerk(t / 0.8).done - back * sim::least_jerk(t - 2.2).done;
@@ -208,11 +209,11 @@ TEST_CASE("a plan from which the hand does not return is not stored even if it s
       result_of(trial_returning(0.9), {}, {0, 0, 0}, {0.3, 0, 0});  // 30 mm off
   CHECK(lost.outcome.struck);
   CHECK(lost.off_m == Approx(0.03));
-  CHECK(!lost.came_back);
+  CHECK(!lost.returned);
   CHECK(lost.credit == 0);
   CHECK(!lost.plan);
   const TrialResult nearly = result_of(trial_returning(0.95), {}, {0, 0, 0}, {0.3, 0, 0});
-  CHECK(nearly.came_back);
+  CHECK(nearly.returned);
   CHECK(nearly.plan);
 }
 
@@ -224,10 +225,10 @@ TEST_CASE("a bank survives writing and reading, and one that does not fit is ref
   const auto again = xml::parse<BankFile>(xml::write(file), "bank.xml");
   CHECK_NOTHROW(check(again));
   CHECK(rows_of(bank_of(again)).front().value == 1.25);
-  CHECK(bank_of(again).plans().front().signal.beyond == 0.1);
+  CHECK(bank_of(again).plans().front().signal.overshoot == 0.1);
   BankFile wrong = again;
   wrong.plans.all.front().weights_m = {1, 2};
-  CHECK_THROWS_WITH(check(wrong), Catch::Contains("2 weights, but there are 1 <learnt> muscles"));
+  CHECK_THROWS_WITH(check(wrong), Catch::Contains("2 weights, but there are 1 <learned> muscles"));
   wrong.plans.all.clear();
   CHECK_THROWS_WITH(check(wrong), Catch::Contains("<plan>"));
   CHECK_THROWS_WITH(actuators_of({{{}, "no_such"}}, erp::read_robot(rigs::config("arm/robot.xml"))),

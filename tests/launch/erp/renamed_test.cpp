@@ -1,0 +1,203 @@
+// Former names of XML, JSON and the command line still work, each with one warning.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "launch/erp/run/process.hpp"
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Result {
+  int code;
+  std::string text;  ///< stdout and stderr
+};
+
+class Folder {
+ public:
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+
+  std::string file(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name) << text;
+    return path / name;
+  }
+  /// Runs a program of ERP_BIN_DIR.
+  Result run(std::vector<std::string> arguments) const {
+    arguments[0] = ERP_BIN_DIR "/" + arguments[0];
+    const auto log = path / ("out" + std::to_string(++runs_));
+    launch::Process process(arguments, log.string());
+    for (;;) {
+      if (const auto ending = process.poll()) {
+        std::ostringstream text;
+        text << std::ifstream(log).rdbuf();
+        return {ending->code, text.str()};
+      }
+      usleep(2000);
+    }
+  }
+
+  const fs::path path = fs::temp_directory_path() / ("erp_renamed_" + std::to_string(getpid()));
+
+ private:
+  mutable int runs_ = 0;
+};
+
+std::string config(const std::string& name) { return ERP_SOURCE_DIR "/configs/" + name; }
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto k = text.find(part); k != text.npos; k = text.find(part, k + 1)) ++found;
+  return found;
+}
+
+std::size_t warnings(const Result& result) { return count(result.text, "warning: "); }
+
+std::string diagnosis(const std::string& confounders, const std::string& fix_first) {
+  const std::string effects =
+      R"([{"type": "gearbox_coulomb", "on": "flexor", "supported": true, "parameters": {"extra_Nm": 0.05}},
+          {"type": "gearbox_viscous", "on": "flexor", "supported": true,
+           "parameters": {"extra_Nm_s_per_rad": 0.02}}])";
+  return R"({"robot": "hinge_rig", "verdict": "supported", "effects": )" + effects + ", \"" +
+         confounders + "\": " + effects + ", \"" + fix_first + R"(": ["flexor.current_A"]})";
+}
+
+}  // namespace
+
+TEST_CASE("a sim config with <grasp> and <mishap> is valid; each former name is reported once") {
+  const Folder folder;
+  const auto file =
+      folder.file("sim.xml",
+                  "<sim>\n"
+                  "  <grasp body=\"forearm\" at_m=\"0 0 0\" mass_kg=\"1\" at_s=\"1\"/>\n"
+                  "  <grasp body=\"forearm\" at_m=\"0 0 0\" mass_kg=\"1\" at_s=\"2\"/>\n"
+                  "  <mishap kind=\"tendon_snaps\" on=\"flexor\" at_s=\"1\"/>\n"
+                  "</sim>\n");
+  const Result old = folder.run({"erp", "check", file});
+  INFO(old.text);
+  CHECK(old.code == 0);
+  CHECK(warnings(old) == 2);
+  CHECK_THAT(old.text,
+             Contains("warning: " + file + ":2:3: <grasp> is deprecated; write <attached_load>\n"));
+  CHECK_THAT(old.text, Contains(file + ":4:3: <mishap> is deprecated; write <fault>\n"));
+  const Result now = folder.run({"erp", "check", config("twin_joint/sim_attached_load.xml")});
+  CHECK(now.code == 0);
+  CHECK(warnings(now) == 0);
+}
+
+TEST_CASE("a learned map with its former root element and attribute is valid; each is reported") {
+  const Folder folder;
+  const auto file = folder.file("before.xml",
+                                "<sensorimotor_learnt squares=\"1 1\">\n"
+                                "  <sense ties=\"1 2\"/>\n  <sense ties=\"3 4\"/>\n"
+                                "</sensorimotor_learnt>\n");
+  const Result old = folder.run({"erp", "check", file});
+  INFO(old.text);
+  CHECK(old.code == 0);
+  CHECK(warnings(old) == 2);
+  CHECK_THAT(old.text,
+             Contains(":1:1: <sensorimotor_learnt> is deprecated; write <sensorimotor_learned>"));
+  CHECK_THAT(old.text, Contains(":2:10: \"ties\" is deprecated; write \"weights\""));
+}
+
+TEST_CASE("a former parameter is set by --set and by a config, with a warning") {
+  const Folder folder;
+  const Result set =
+      folder.run({"computed_force", "--set", "liking=smooth", "--set", "anticipate=0", "--check"});
+  INFO(set.text);
+  CHECK(set.code == 0);
+  CHECK(set.text ==
+        "warning: --set liking=smooth: \"liking\" is deprecated; write \"objective\"\n"
+        "warning: --set anticipate=0: \"anticipate\" is deprecated; write \"lag_compensation\"\n");
+  CHECK(folder.run({"computed_force", "--set", "liking=smoth", "--check"}).code == 2);
+  const auto file = folder.file("config.xml", "<computed_force liking=\"smooth\"/>");
+  const Result read = folder.run({"computed_force", "--config", file, "--check"});
+  CHECK(read.code == 0);
+  CHECK(read.text == "warning: " + file + ":1:17: \"liking\" is deprecated; write \"objective\"\n");
+}
+
+TEST_CASE("an attribute given under both names is refused") {
+  const Folder folder;
+  const auto file =
+      folder.file("config.xml", "<computed_force liking=\"smooth\" objective=\"smooth\"/>");
+  const Result both = folder.run({"computed_force", "--config", file, "--check"});
+  CHECK(both.code == 2);
+  CHECK_THAT(both.text, Contains("unknown attribute \"liking\""));
+}
+
+TEST_CASE("a diagnosis.json of format 1 gives the same plan, with one warning per former key") {
+  const Folder folder;
+  const auto plan = [&](const std::string& file) {
+    return folder.run({"erp", "gap", "plan", "--robot", config("hinge_rig/robot.xml"),
+                       "--diagnosis", file, "--out", folder.path / "next", "--seconds", "4",
+                       "--candidates", "3"});
+  };
+  const auto file = folder.file("old.json", diagnosis("confusable", "mend_first"));
+  const Result old = plan(file);
+  INFO(old.text);
+  REQUIRE(old.code == 0);
+  CHECK(warnings(old) == 2);
+  CHECK_THAT(old.text, Contains(file + ": \"mend_first\" is deprecated; write \"fix_first\"\n"));
+  CHECK_THAT(old.text, Contains(file + ": \"confusable\" is deprecated; write \"confounders\"\n"));
+  CHECK_THAT(old.text, Contains("fix its recordings first"));
+  const Result now = plan(folder.file("new.json", diagnosis("confounders", "fix_first")));
+  CHECK(now.code == 0);
+  CHECK(warnings(now) == 0);
+  CHECK(old.text.substr(old.text.find("suspects ")) == now.text.substr(now.text.find("suspects ")));
+}
+
+TEST_CASE("erp gap twins --together lists confounders with two warnings; --help lists neither") {
+  const Folder folder;
+  const auto list = [&](const std::string& verb, const std::string& option) {
+    return folder.run({"erp", "gap", verb, "--robot", config("hinge_rig/robot.xml"), "--seconds",
+                       "4", option, "1"});
+  };
+  const Result old = list("twins", "--together");
+  INFO(old.text);
+  CHECK(old.code == 0);
+  CHECK(warnings(old) == 2);
+  CHECK_THAT(old.text,
+             Contains("warning: erp gap: \"twins\" is deprecated; write \"confounders\"\n"));
+  CHECK_THAT(old.text, Contains("\"--together\" is deprecated; write \"--max-effects\"\n"));
+  const Result now = list("confounders", "--max-effects");
+  CHECK(now.code == 0);
+  CHECK(warnings(now) == 0);
+  CHECK_THAT(old.text, Contains("routing_pulley_radius on flexor"));
+  CHECK_THAT(now.text, Contains("routing_pulley_radius on flexor"));
+  CHECK_THAT(folder.run({"erp", "gap", "--help"}).text, !Contains("twins"));
+  CHECK_THAT(folder.run({"erp", "gap", "confounders", "--help"}).text, !Contains("--together"));
+  const Result refused = list("confounders", "--together=99");
+  CHECK(refused.code == 2);
+}
+
+TEST_CASE("former options of erp calibrate tour and erp launch have the effect of the new ones") {
+  const Folder folder;
+  const auto tour = [&](const std::string& hold, const std::string& move) {
+    return folder.run({"erp", "calibrate", "tour", config("arm/lengths.csv"), hold, "3", move, "1",
+                       "--out", folder.path / "tour.csv"});
+  };
+  const auto written = [&] {
+    std::ostringstream text;
+    text << std::ifstream(folder.path / "tour.csv").rdbuf();
+    return text.str();
+  };
+  const Result old = tour("--still", "--way");
+  INFO(old.text);
+  CHECK(old.code == 0);
+  CHECK(warnings(old) == 2);
+  const auto first = written();
+  const Result now = tour("--hold", "--move");
+  CHECK(now.code == 0);
+  CHECK(warnings(now) == 0);
+  CHECK(first == written());
+  CHECK_FALSE(first.empty());
+  const Result launched = folder.run({"erp", "launch", "missing.xml", "--patience", "60s"});
+  CHECK(launched.code == 2);
+  CHECK_THAT(launched.text, Contains("warning: erp launch: \"--patience\" is deprecated; write "
+                                     "\"--ready-timeout\"\n"));
+}
