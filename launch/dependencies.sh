@@ -8,7 +8,7 @@ build=(git ca-certificates g++ gcc make cmake ninja-build pkg-config cyclonedds-
   libceres-dev libssl-dev libsocketcan-dev nlohmann-json3-dev libopencv-imgproc-dev libopencv-imgcodecs-dev gnuplot-nox
   libpagmo-dev libfuzzylite-dev)
 test=(libopenmpi-dev openmpi-bin catch2 libbenchmark-dev libmujoco-dev libcgal-dev libcollada-dom-dev libboost-filesystem-dev libxml2-utils user-mode-linux kmod iproute2 can-utils
-  nodejs npm procps spin gcovr gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang-16 libclang-rt-16-dev)
+  groff-base nodejs npm procps spin gcovr gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang-16 libclang-rt-16-dev)
 
 required=("${build[@]}")
 [ "${1:-build}" = test ] && required+=("${test[@]}")

@@ -15,7 +15,7 @@ std::vector<Error> wrong_root(const Element& root, const std::string& expected);
 /// The XML declaration followed by an element's text.
 std::string file_text(const std::string& element);
 
-/// Fills `value` from a file whose root element is <root_name>; attributes absent from the file keep
+/// Fills `value` from a file whose root element is `<root_name>`; attributes absent from the file keep
 /// their defaults. Throws Errors with all errors of the file.
 template <class T>
 void read_into(T& value, const Element& root, const std::string& root_name) {

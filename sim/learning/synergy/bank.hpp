@@ -20,15 +20,20 @@
 namespace sim::synergy {
 
 struct BankOptions {
-  double basis_m = 0.04;  ///< chosen
-  double rate = 0.3;      ///< η; chosen
-  double lean_m = 0.07;   ///< chosen: larger extrapolation dislocated the torso
-  int most = 200;         ///< capacity of the bank; chosen
+  double basis_m = 0.04;
+  double rate = 0.3;
+  double lean_m = 0.07;
+  int most = 200;
   void visit(auto& v) {
-    v("basis_m", basis_m, xml::positive);
-    v("lean_m", lean_m, xml::at_least_zero);
-    v("rate", rate, xml::Range{0, 1});
-    v("most", most, xml::Range{1, 1e5});
+    v("basis_m", basis_m,
+      {xml::positive, "Width σ of the neighbourhood in which plans are blended; chosen."});
+    v("lean_m", lean_m,
+      {xml::at_least_zero,
+       "Largest extrapolation from the mean of the blended plans; larger ones dislocated the "
+       "torso; chosen."});
+    v("rate", rate,
+      {xml::Range{0, 1}, "Rate η at which the value of a plan follows the rewards; chosen."});
+    v("most", most, {xml::Range{1, 1e5}, "Largest number of stored plans; chosen."});
   }
 };
 
@@ -39,15 +44,21 @@ struct Blend {
 
 /// Standard deviations of the variation of a plan.
 struct Exploration {
-  double weights = 0.1;     ///< relative, of each weight; also of a common factor of all weights
-  double weights_m = 2e-4;  ///< absolute, of each weight
-  double rise = 0.1;        ///< relative, of T
+  double weights = 0.1;
+  double weights_m = 2e-4;
+  double rise = 0.1;
   double beyond = 0.05;
   void visit(auto& v) {
-    v("explore_weights", weights, xml::at_least_zero);
-    v("explore_weights_m", weights_m, xml::at_least_zero);
-    v("explore_rise", rise, xml::at_least_zero);
-    v("explore_beyond", beyond, xml::at_least_zero);
+    v("explore_weights", weights,
+      {xml::at_least_zero,
+       "Relative standard deviation of each weight, and of a common factor of all weights; "
+       "chosen."});
+    v("explore_weights_m", weights_m,
+      {xml::at_least_zero, "Absolute standard deviation of each weight; chosen."});
+    v("explore_rise", rise,
+      {xml::at_least_zero, "Relative standard deviation of the rise time T; chosen."});
+    v("explore_beyond", beyond,
+      {xml::at_least_zero, "Standard deviation of the overshoot; chosen."});
   }
 };
 

@@ -15,11 +15,12 @@
 namespace sim::synergy {
 
 struct TrialTimes {
-  double watch_s = 1.2, way_s = 3, still_s = 1;  ///< chosen
+  double watch_s = 1.2, way_s = 3, still_s = 1;
   void visit(auto& v) {
-    v("watch_s", watch_s, xml::positive);
-    v("way_s", way_s, xml::positive);
-    v("still_s", still_s, xml::at_least_zero);
+    v("watch_s", watch_s,
+      {xml::positive, "Time for which the hand is observed after a plan began; chosen."});
+    v("way_s", way_s, {xml::positive, "Time in which the lines return to the start; chosen."});
+    v("still_s", still_s, {xml::at_least_zero, "Time at rest before the next plan; chosen."});
   }
 };
 
