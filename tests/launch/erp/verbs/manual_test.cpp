@@ -51,7 +51,7 @@ TEST_CASE("erp help lists formats and components, and explains a component with 
   const auto component = run("erp help gap_monitor");
   CHECK(component.exit_code == 0);
   CHECK_THAT(component.output, Contains("window_s  number from 2 to 60") &&
-                                   Contains("  s     default 4") &&
+                                   Contains("  s  default 4") &&
                                    Contains("Length of the evaluated window"));
   const auto by_path = run("erp help " ERP_BIN_DIR "/gap_monitor");
   CHECK(by_path.exit_code == 0);
