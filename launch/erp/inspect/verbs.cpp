@@ -16,7 +16,6 @@
 #include "launch/erp/verbs/component_check.hpp"
 #include "launch/erp/verbs/man_page.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"
-#include "launch/erp/version.hpp"
 
 namespace launch {
 
@@ -78,7 +77,7 @@ void add_help(CLI::App& app, Chosen& chosen) {
       ->check(CLI::IsMember({"bash"}).description(""));
   verb->callback([options, &app, &chosen] {
     chosen = [options, &app] {
-      if (options->man) print_man_page(app, version(), std::cout);
+      if (options->man) print_man_page(app, std::cout);
       else if (!options->shell.empty()) print_bash_completion(app, std::cout);
       else print_help(app, options->name, std::cout);
       return 0;

@@ -98,11 +98,10 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-void print_man_page(const CLI::App& app, const std::string& version, std::ostream& out) {
+void print_man_page(const CLI::App& app, std::ostream& out) {
   const std::string name = app.get_name();
   out << ".\\\" Generated from the command line of " << name << "; do not edit.\n.TH "
-      << upper(name) << " 1 \"\" \"" << name << " " << roff(version)
-      << "\" \"User Commands\"\n.SH NAME\n"
+      << upper(name) << " 1 \"\" \"" << roff(app.version()) << "\" \"User Commands\"\n.SH NAME\n"
       << name << " \\- " << roff(app.get_description()) << "\n.SH SYNOPSIS\n\\fB" << name
       << "\\fR \\fIVERB\\fR [options]\n.br\n\\fB" << name
       << "\\fR \\fIVERB\\fR \\fB\\-\\-help\\fR\n.br\n\\fB" << name

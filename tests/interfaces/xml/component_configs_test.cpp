@@ -14,6 +14,7 @@
 #include "components/logger/logger_node.hpp"
 #include "components/motion_capture/motion_capture.hpp"
 #include "components/plant/plant.hpp"
+#include "components/pose_estimator/pose_estimator.hpp"
 #include "components/puller_follower/puller_follower.hpp"
 #include "components/reference/joint_player.hpp"
 #include "components/reference/reference.hpp"
@@ -68,6 +69,7 @@ const std::map<std::string, Kind> kinds{
     {"motion_capture", kind_of<capture::MotionCapture::Params>()},
     {"muscles", kind_of<sim::muscle_networks::LearnedMuscles>()},
     {"plant", kind_of<plant::Plant::Params>()},
+    {"pose_estimator", kind_of<pose::PoseEstimator::Params>()},
     {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},
     {"replay", kind_of<replay::ReplayNode::Params>()},
