@@ -1,5 +1,6 @@
 #include "launch/erp/inspect/reference.hpp"
 
+#include <filesystem>
 #include <map>
 #include <ostream>
 #include <sstream>
@@ -82,8 +83,9 @@ void print_reference(const std::string& name, const DescribeComponent& describe,
   }
   const auto table = describe(name);
   if (!table) refuse(name);
-  out << name << ": parameters of a component, as attributes of <" << name
-      << "> in its config or by --set " << name << ".PARAMETER=VALUE of erp launch.\n"
+  const std::string type = std::filesystem::path(name).filename().string();
+  out << type << ": parameters of a component, as attributes of <" << type
+      << "> in its config or by --set " << type << ".PARAMETER=VALUE of erp launch.\n"
       << columns << *table;
 }
 

@@ -55,7 +55,7 @@ TEST_CASE("erp help lists formats and components, and explains a component with 
                                    Contains("Length of the evaluated window"));
   const auto by_path = run("erp help " ERP_BIN_DIR "/gap_monitor");
   CHECK(by_path.exit_code == 0);
-  CHECK_THAT(by_path.output, Contains("Length of the evaluated window"));
+  CHECK(by_path.output == component.output);
 }
 
 TEST_CASE("erp help VERB prints the same as erp VERB --help") {
