@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages for building or testing that are missing. Uses sudo unless run as root.
-#   dependencies.sh build | test
+#   dependencies.sh build | test | docs
 set -euo pipefail
 
 build=(git ca-certificates g++ gcc make cmake ninja-build pkg-config cyclonedds-dev cyclonedds-tools
@@ -8,10 +8,17 @@ build=(git ca-certificates g++ gcc make cmake ninja-build pkg-config cyclonedds-
   libceres-dev libssl-dev libsocketcan-dev nlohmann-json3-dev libopencv-imgproc-dev libopencv-imgcodecs-dev gnuplot-nox
   libpagmo-dev libfuzzylite-dev)
 test=(libopenmpi-dev openmpi-bin catch2 libbenchmark-dev libmujoco-dev libcgal-dev libcollada-dom-dev libboost-filesystem-dev libxml2-utils user-mode-linux kmod iproute2 can-utils
-  nodejs npm procps spin gcovr gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang-16 libclang-rt-16-dev)
+  groff-base nodejs npm procps spin gcovr gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm clang-16 libclang-rt-16-dev)
+
+docs=(doxygen graphviz)
 
 required=("${build[@]}")
-[ "${1:-build}" = test ] && required+=("${test[@]}")
+case ${1:-build} in
+  build) ;;
+  test) required+=("${test[@]}" "${docs[@]}") ;;
+  docs) required+=("${docs[@]}") ;;
+  *) echo "dependencies.sh: unknown set \"$1\"; give build, test or docs" >&2; exit 2 ;;
+esac
 
 # A command that was installed in another way replaces the Debian package.
 missing=()

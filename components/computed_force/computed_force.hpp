@@ -26,33 +26,50 @@ class ComputedForce {
     xml::Place place;
     sim::TensionObjective objective = sim::TensionObjective::least_tension;
     JacobianKind jacobian = JacobianKind::analytic;
-    std::string muscles;     ///< file of a learned Jacobian, relative to the config
-    double least_N = 5;      ///< f_min, so that no tendon goes slack; chosen
-    double kp_per_s2 = 100;  ///< (10 /s)², critically damped with kd; chosen
+    std::string muscles;
+    double least_N = 5;
+    double kp_per_s2 = 100;
     double kd_per_s = 20;
     double ki_per_s3 = 0;
-    double integral_rad_s = 0.2;  ///< limit of |∫ e|; chosen
-    double friction = 0;          ///< share of robot.xml's joint friction that is compensated
-    /// Share of the force laws' lag that is compensated; force_reference.hpp.
+    double integral_rad_s = 0.2;
+    double friction = 0;
     double lag_compensation = 1;
-    double rate_s = 0.02;        ///< smoothing time of df/dt; chosen
-    std::string source = "sim";  ///< source of the joint_state that is used
-    double stale_s = 0.05;       ///< older states and targets are rejected; chosen
+    double rate_s = 0.02;
+    std::string source = "sim";
+    double stale_s = 0.05;
     void visit(auto& v) {
       v.former("liking", "objective"), v.former("anticipate", "lag_compensation");
-      v("objective", objective);
-      v("jacobian", jacobian);
-      v("muscles", muscles);
-      v("least_N", least_N, xml::at_least_zero);
-      v("kp_per_s2", kp_per_s2, xml::at_least_zero);
-      v("kd_per_s", kd_per_s, xml::at_least_zero);
-      v("ki_per_s3", ki_per_s3, xml::at_least_zero);
-      v("integral_rad_s", integral_rad_s, xml::at_least_zero);
-      v("friction", friction, xml::at_least_zero);
-      v("lag_compensation", lag_compensation, xml::at_least_zero);
-      v("rate_s", rate_s, xml::at_least_zero);
-      v("source", source);
-      v("stale_s", stale_s, xml::positive);
+      v("objective", objective,
+        "Objective by which the tensions are selected among those that give the torques.");
+      v("jacobian", jacobian,
+        "Muscle Jacobian: analytic from the routing, network or difference from a learned file, "
+        "on_line learned in the run.");
+      v("muscles", muscles,
+        "Learned Jacobian, a <muscles> file, relative to the config; empty: none.");
+      v("least_N", least_N,
+        {xml::at_least_zero,
+         "Smallest tension f_min of each tendon, so that none goes slack; chosen."});
+      v("kp_per_s2", kp_per_s2,
+        {xml::at_least_zero,
+         "Gain k_p of the joint error, (10 /s)², critically damped with kd_per_s; chosen."});
+      v("kd_per_s", kd_per_s,
+        {xml::at_least_zero, "Gain k_d of the error of the joint velocity; chosen."});
+      v("ki_per_s3", ki_per_s3,
+        {xml::at_least_zero, "Gain k_i of the integral of the joint error; 0: none."});
+      v("integral_rad_s", integral_rad_s,
+        {xml::at_least_zero, "Limit of the magnitude of the integral of the joint error; chosen."});
+      v("friction", friction,
+        {xml::at_least_zero,
+         "Share of the joint friction of robot.xml that is compensated; 1: all."});
+      v("lag_compensation", lag_compensation,
+        {xml::at_least_zero,
+         "Share of the lag of the ECUs' force laws that is compensated; 0: none."});
+      v("rate_s", rate_s,
+        {xml::at_least_zero, "Smoothing time of the rate of the tensions; chosen."});
+      v("source", source,
+        "Component whose joint_state is used: sim, pose_estimator or motion_capture.");
+      v("stale_s", stale_s,
+        {xml::positive, "Age from which joint states and targets are rejected; chosen."});
     }
   };
 

@@ -19,32 +19,39 @@ namespace control {
 /// `<goal at_m="0.3 -0.2 -0.5"/>`: position in the world.
 struct ReachGoal {
   static constexpr auto element = "goal";
+  static constexpr auto meaning = "Position to reach; the goals are reached in sequence.";
   xml::Place place;
   xml::Vec3 at_m{};
-  void visit(auto& v) { v.required("at_m", at_m); }
+  void visit(auto& v) { v.required("at_m", at_m, "Position in the world that the hand reaches."); }
 };
 
 class Experience {
  public:
   struct Params {
     xml::Place place;
-    std::string base;  ///< base.xml of `erp learn experience`, relative to this file
+    std::string base;
     sim::experience::FeedbackKind feedback = sim::experience::FeedbackKind::linear;
-    double feedback_gain_per_s = 1.5;  ///< gain b of linear feedback
-    std::string rules;                 ///< file of fuzzy feedback, relative to this file
-    std::string save;                  ///< file to which the extended base is written; "": none
-    std::string source = "sim";        ///< source of the joint_state that is used
-    double stale_s = 0.05;             ///< older states are rejected; chosen
+    double feedback_gain_per_s = 1.5;
+    std::string rules;
+    std::string save;
+    std::string source = "sim";
+    double stale_s = 0.05;
     std::vector<ReachGoal> goals;
     void visit(auto& v) {
       v.former("closing_per_s", "feedback_gain_per_s");
-      v.required("base", base);
-      v("feedback", feedback);
-      v("feedback_gain_per_s", feedback_gain_per_s, xml::positive);
-      v("rules", rules);
-      v("save", save);
-      v("source", source);
-      v("stale_s", stale_s, xml::positive);
+      v.required("base", base,
+                 "Stored experiences, an <experience_base> of erp learn experience, relative to "
+                 "the config.");
+      v("feedback", feedback,
+        "Feedback on the offset of the hand after the voltage pattern: linear, fuzzy (with rules) "
+        "or none.");
+      v("feedback_gain_per_s", feedback_gain_per_s, {xml::positive, "Gain b of linear feedback."});
+      v("rules", rules,
+        "Rules of fuzzy feedback in the FuzzyLite language, relative to the config; empty: none.");
+      v("save", save, "File to which the extended base is written; empty: none.");
+      v("source", source,
+        "Component whose joint_state is used: sim, pose_estimator or motion_capture.");
+      v("stale_s", stale_s, {xml::positive, "Age from which joint states are rejected; chosen."});
       v.list(goals);
     }
   };

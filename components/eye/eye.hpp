@@ -12,13 +12,15 @@ class Eye {
   static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
-    std::string view;  ///< file of cameras and markers, relative to this file
+    std::string view;
     images::ImageSourceParams film;
     images::SpotOptions spots;
     void visit(auto& v) {
-      v.required("view", view);
+      v.required("view", view,
+                 "File of cameras and markers, a <camera_view>, relative to the config.");
       film.visit(v);
-      v("threshold", spots.threshold, xml::Range{1, 254});
+      v("threshold", spots.threshold,
+        {xml::Range{1, 254}, "Brightness above which a pixel belongs to a spot, of 255; chosen."});
     }
   };
 

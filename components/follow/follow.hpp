@@ -21,10 +21,14 @@ enum class Where { ecu, host };
 
 struct Params {
   Where where = Where::ecu;
-  double stale_s = 0.1;  ///< older targets are rejected; chosen
+  double stale_s = 0.1;
   void visit(auto& v) {
-    v("where", where);
-    v("stale_s", stale_s, xml::positive);
+    v("where", where,
+      "Place of the law: ecu passes targets on to the ECU's mode, host runs the same law here and "
+      "commands voltages.");
+    v("stale_s", stale_s,
+      {xml::positive,
+       "Age from which targets are rejected; the plant then takes its safe action; chosen."});
   }
 };
 

@@ -13,16 +13,18 @@ class GapMonitor {
   static constexpr bool in_background = true;
   struct Params {
     xml::Place place;
-    std::string model;    ///< robot.xml to compare with; empty: the graph's
-    double window_s = 4;  ///< length of the evaluated window
-    double every_s = 1;   ///< period of the evaluation
-    int consecutive = 2;  ///< number of consecutive evaluations before an event is reported
+    std::string model;
+    double window_s = 4;
+    double every_s = 1;
+    int consecutive = 2;
     void visit(auto& v) {
-      v("model", model);
-      v("window_s", window_s, xml::Range{2, 60});
-      v("every_s", every_s, xml::Range{0.2, 60});
       v.former("times", "consecutive");
-      v("consecutive", consecutive, xml::Range{1, 100});
+      v("model", model, "robot.xml to compare with, relative to the config; empty: the graph's.");
+      v("window_s", window_s, {xml::Range{2, 60}, "Length of the evaluated window; chosen."});
+      v("every_s", every_s, {xml::Range{0.2, 60}, "Period of the evaluation; chosen."});
+      v("consecutive", consecutive,
+        {xml::Range{1, 100},
+         "Consecutive evaluations with the same result before an event is reported; chosen."});
     }
   };
   GapMonitor(const Params& params, const erp::Robot& robot, node::Node& node);

@@ -16,11 +16,17 @@ namespace can {
 class GatewayNode {
  public:
   struct Params {
-    std::string bus = "udp:239.255.42.1:20000";  ///< as in erp::open_buses
-    /// File for a trace of all frames; "": none. With several buses one file each: run.log becomes
-    /// run.left.log.
+    std::string bus = "udp:239.255.42.1:20000";
     std::string trace;
-    void visit(auto& v) { v("bus", bus), v("trace", trace); }
+    void visit(auto& v) {
+      v("bus", bus,
+        "CAN buses: udp:GROUP:PORT (virtual), socketcan:INTERFACE or trace:FILE. One per bus of "
+        "robot.xml, separated by spaces, or one for all: its last number increases from bus to "
+        "bus.");
+      v("trace", trace,
+        "File for a trace of all frames, as of candump -L; empty: none. With several buses "
+        "run.log becomes run.left.log for the bus left.");
+    }
   };
   GatewayNode(const Params& params, const erp::Robot& robot, node::Node& node);
 

@@ -17,31 +17,37 @@ namespace images {
 /// it.
 struct BoneConfig {
   static constexpr auto element = "bone";
+  static constexpr auto meaning = "Bone that hides the markers behind it in rendered images.";
   xml::Place place;
   std::string body;
   xml::Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};
   double radius_m = 0.03;
   void visit(auto& v) {
-    v.required("body", body);
-    v.required("from_m", from_m), v.required("to_m", to_m);
-    v("radius_m", radius_m, xml::positive);
+    v.required("body", body, "Body that contains the bone.");
+    v.required("from_m", from_m, "First end of the bone in the frame of the body.");
+    v.required("to_m", to_m, "Second end of the bone in the frame of the body.");
+    v("radius_m", radius_m, {xml::positive, "Radius of the bone, a capsule; chosen."});
   }
 };
 
 struct ImageSourceParams {
-  std::string images;  ///< folder of image files, relative to the config; "": render
-  std::string save;    ///< folder to which rendered images are written; "": none
+  std::string images;
+  std::string save;
   double period_s = 0.01;
-  int seed = 1;           ///< of the noise
-  double ball_m = 0.007;  ///< a marker's radius
-  double noise = 4;       ///< standard deviation of a pixel, of 255
+  int seed = 1;
+  double ball_m = 0.007;
+  double noise = 4;
   std::vector<BoneConfig> bones;
   void visit(auto& v) {
-    v("images", images), v("save", save);
-    v("period_s", period_s, xml::positive);
-    v("seed", seed, xml::Range{0, 1e9});
-    v("ball_m", ball_m, xml::positive);
-    v("noise", noise, xml::at_least_zero);
+    v("images", images,
+      "Folder of image files, <camera>_00000.png and so on, relative to the config; empty: images "
+      "are rendered.");
+    v("save", save, "Folder to which rendered images are written; empty: none.");
+    v("period_s", period_s, {xml::positive, "Time between two images."});
+    v("seed", seed, {xml::Range{0, 1e9}, "Seed of the pixel noise."});
+    v("ball_m", ball_m, {xml::positive, "Radius of a marker."});
+    v("noise", noise,
+      {xml::at_least_zero, "Standard deviation of the brightness of a rendered pixel, of 255."});
     v.list(bones);
   }
 };

@@ -13,7 +13,7 @@ struct Spot {
 };
 
 struct SpotOptions {
-  int threshold = 90;     ///< of 255
+  int threshold = 90;
   double least_px = 6;    ///< smaller ones are noise
   double most_px = 2000;  ///< larger ones are lamps
 };

@@ -20,10 +20,10 @@ class LoggerNode {
   static constexpr bool in_background = true;
   struct Params {
     std::string file = "recording.mcap";
-    std::string attach;  ///< XML files to keep with the recording, separated by `:`
+    std::string attach;
     void visit(auto& v) {
-      v("file", file);
-      v("attach", attach);
+      v("file", file, "Recording to write, MCAP.");
+      v("attach", attach, "XML files to keep with the recording, separated by colons.");
     }
   };
   LoggerNode(const Params& params, const erp::Robot& robot, node::Node& node);

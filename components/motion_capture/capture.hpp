@@ -17,8 +17,8 @@ struct CaptureOptions {
   SpotOptions spots;
   StereoOptions stereo;
   JointFit::Options fit;
-  double gate_m = 0.03;         ///< largest distance of a marker from its predicted position
-  double lost_m = 0.003;        ///< largest RMS residual of a valid fit
+  double gate_m = 0.03;
+  double lost_m = 0.003;
   std::size_t min_markers = 3;  ///< smallest number of visible markers
   double known_rad = 0.05;      ///< σ above which a joint counts as unknown; chosen
   double follow = 0.3;          ///< gain g of the velocity update

@@ -19,13 +19,16 @@ class MotionCapture {
     xml::Place place;
     images::ImageSourceParams film;
     CaptureOptions options;
-    sim::cameras::ViewConfig view;  ///< cameras left and right; markers
+    sim::cameras::ViewConfig view;
     void visit(auto& v) {
       film.visit(v);
-      v("threshold", options.spots.threshold, xml::Range{1, 254});
-      v("gap_m", options.stereo.gap_m, xml::positive);
-      v("gate_m", options.gate_m, xml::positive);
-      v("lost_m", options.lost_m, xml::positive);
+      v("threshold", options.spots.threshold,
+        {xml::Range{1, 254}, "Brightness above which a pixel belongs to a spot, of 255; chosen."});
+      v("gap_m", options.stereo.gap_m,
+        {xml::positive, "Largest distance of the rays of two spots that match; chosen."});
+      v("gate_m", options.gate_m,
+        {xml::positive, "Largest distance of a marker from its predicted position; chosen."});
+      v("lost_m", options.lost_m, {xml::positive, "Largest RMS residual of a valid fit; chosen."});
       view.visit(v);
     }
   };

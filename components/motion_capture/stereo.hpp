@@ -14,7 +14,7 @@ namespace capture {
 using images::Spot, images::SpotOptions, images::find_spots;
 
 struct StereoOptions {
-  double gap_m = 0.003;            ///< chosen
+  double gap_m = 0.003;
   double near_m = 0.3, far_m = 6;  ///< from each camera
 };
 

@@ -10,6 +10,7 @@ Options parse_options(int argc, char** argv, const std::string& parameters, int&
   Options options;
   options.type = std::filesystem::path(argv[0]).filename().string();
   std::vector<std::string> settings;
+  bool describe = false;
   CLI::App app(options.type + ": a component of a robot graph", options.type);
   app.footer(parameters.empty() ? "" : "Parameters, for --config and --set:\n" + parameters);
   app.add_option("--name", options.name,
@@ -29,11 +30,17 @@ Options parse_options(int argc, char** argv, const std::string& parameters, int&
       ->check(CLI::NonNegativeNumber);
   app.add_option("--priority", options.priority, "controllers: the highest number takes control");
   app.add_flag("--check", options.check, "check --config and --set, then exit");
+  app.add_flag("--describe", describe, "print the table of parameters alone, then exit");
   exit_code = -1;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? 0 : 2;
+    return options;
+  }
+  if (describe) {
+    std::fputs(parameters.c_str(), stdout);
+    exit_code = 0;
     return options;
   }
   for (const auto& setting : settings) {

@@ -23,7 +23,7 @@ struct Options {
 };
 
 /// Parses the command line. Prints help or an error if needed and then sets `exit_code` to the exit
-/// code of the program; otherwise sets it to −1. --help prints `parameters`.
+/// code of the program; otherwise sets it to −1. --help and --describe print `parameters`.
 Options parse_options(int argc, char** argv, const std::string& parameters, int& exit_code);
 
 }  // namespace node

@@ -31,15 +31,24 @@ std::vector<Notice> merge_similar(std::vector<Notice> notices, std::size_t actua
 class Plant {
  public:
   struct Params {
-    double stale_s = 0.020;        ///< age beyond which a command is ignored
-    double device_lost_s = 0.050;  ///< silence after which an ECU, or the device, is lost
-    double slack_N = 0.5;     ///< tension below which a tendon is slack; at least 6 x sensor noise
-    double take_up_m = 0.03;  ///< slack that is wound up before the tendon counts as snapped
+    double stale_s = 0.020;
+    double device_lost_s = 0.050;
+    double slack_N = 0.5;
+    double take_up_m = 0.03;
     void visit(auto& v) {
-      v("stale_s", stale_s, xml::positive);
-      v("device_lost_s", device_lost_s, xml::positive);
-      v("slack_N", slack_N, xml::at_least_zero);
-      v("take_up_m", take_up_m, xml::positive);
+      v("stale_s", stale_s,
+        {xml::positive,
+         "Age from which a controller's command is ignored: 10 periods of the ECUs; chosen."});
+      v("device_lost_s", device_lost_s,
+        {xml::positive,
+         "Silence after which an ECU or the device counts as lost; that of the ECUs after the last "
+         "command."});
+      v("slack_N", slack_N,
+        {xml::at_least_zero,
+         "Tension below which a tendon is slack; at least 6 times the standard deviation of the "
+         "sensor; chosen."});
+      v("take_up_m", take_up_m,
+        {xml::positive, "Slack that is wound up before the tendon counts as snapped; chosen."});
     }
   };
 

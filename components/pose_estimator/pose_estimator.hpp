@@ -18,24 +18,36 @@ namespace pose {
 class PoseEstimator {
  public:
   struct Params : FilterOptions {
-    double model_m = 0.0002;     ///< σ_model, error of the tendon's law and routing; chosen
-    double slack_N = 1;          ///< tendons with less tension are skipped; chosen
-    bool joint_sensors = false;  ///< also use joint sensors
-    double capture_rad = 0;      ///< σ of motion_capture's joint_state; 0: not used
-    bool imus = false;           ///< also use inertial units
-    double acceleration_sigma_m_per_s2 = 3;  ///< σ of their acceleration without gravity; chosen
+    double model_m = 0.0002;
+    double slack_N = 1;
+    bool joint_sensors = false;
+    double capture_rad = 0;
+    bool imus = false;
+    double acceleration_sigma_m_per_s2 = 3;
     void visit(auto& v) {
-      v("acceleration_rad_per_s2", acceleration_rad_per_s2, xml::positive);
-      v("start_rad", start_rad, xml::positive);
-      v("start_rad_per_s", start_rad_per_s, xml::positive);
-      v("gate", gate, xml::positive);
-      v("model_m", model_m, xml::at_least_zero);
-      v("slack_N", slack_N, xml::at_least_zero);
-      v("joint_sensors", joint_sensors);
-      v("capture_rad", capture_rad, xml::at_least_zero);
-      v("imus", imus);
       v.former("jerked_m_per_s2", "acceleration_sigma_m_per_s2");
-      v("acceleration_sigma_m_per_s2", acceleration_sigma_m_per_s2, xml::positive);
+      v("acceleration_rad_per_s2", acceleration_rad_per_s2,
+        {xml::positive,
+         "Standard deviation σ_a of the acceleration that is not modelled; chosen."});
+      v("start_rad", start_rad,
+        {xml::positive, "Standard deviation of the initial joint angles; chosen."});
+      v("start_rad_per_s", start_rad_per_s,
+        {xml::positive, "Standard deviation of the initial joint velocities; chosen."});
+      v("gate", gate,
+        {xml::positive,
+         "Innovation, in standard deviations, beyond which a measurement is rejected; chosen."});
+      v("model_m", model_m,
+        {xml::at_least_zero,
+         "Standard deviation σ_model of the error of the tendon's law and routing; chosen."});
+      v("slack_N", slack_N,
+        {xml::at_least_zero, "Tension below which a tendon is skipped; chosen."});
+      v("joint_sensors", joint_sensors, "Whether joint sensors are also used.");
+      v("capture_rad", capture_rad,
+        {xml::at_least_zero, "Standard deviation of motion_capture's joint_state; 0: not used."});
+      v("imus", imus, "Whether inertial units are also used.");
+      v("acceleration_sigma_m_per_s2", acceleration_sigma_m_per_s2,
+        {xml::positive,
+         "Standard deviation of the acceleration of inertial units without gravity; chosen."});
     }
   };
 

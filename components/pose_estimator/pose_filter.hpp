@@ -22,10 +22,11 @@
 /// No heap after construction.
 namespace pose {
 
+/// σ_a, σ of the initial state, gate; meanings: PoseEstimator::Params.
 struct FilterOptions {
-  double acceleration_rad_per_s2 = 20;            ///< σ_a, unmodelled acceleration; chosen
-  double start_rad = 0.1, start_rad_per_s = 0.1;  ///< σ of the initial state; chosen
-  double gate = 5;                                ///< in standard deviations; chosen
+  double acceleration_rad_per_s2 = 20;
+  double start_rad = 0.1, start_rad_per_s = 0.1;
+  double gate = 5;
 };
 
 class PoseFilter {

@@ -12,16 +12,16 @@
 /// (paper, 5.2 and Fig. 7a).
 namespace control {
 
-/// Reference tension of a pair, and dynamics of the tensions.
+/// Reference tension of a pair, and dynamics of the tensions; meanings: PullerFollower::Params.
 struct DriveParams {
-  double low_N = 4, high_N = 15;  ///< reference tension away from and at a change of roles; chosen
-  double width_Nm = 0.15;         ///< torque range of a change of roles; chosen
-  double lead_s = 0.3;            ///< how long before a change the rise begins; chosen
-  double raise_N_per_s = 40;      ///< largest rate of the reference tension; chosen
-  double raise_s = 0.05;          ///< smoothing time of the reference; chosen
-  double smooth_s = 0.01;         ///< smoothing time of the torque; chosen
-  double tension_per_s = 60;      ///< bandwidth b of the tensions; chosen
-  double brake_s = 0.05;          ///< damping g of the brake; chosen
+  double low_N = 4, high_N = 15;
+  double width_Nm = 0.15;
+  double lead_s = 0.3;
+  double raise_N_per_s = 40;
+  double raise_s = 0.05;
+  double smooth_s = 0.01;
+  double tension_per_s = 60;
+  double brake_s = 0.05;
 };
 
 class JointDrive {

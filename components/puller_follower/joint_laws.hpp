@@ -15,12 +15,12 @@ enum class Law {
   pd  ///< for comparison: τ = H₀ (k_p e + k_d ė) + w_G τ_G, H₀: diagonal of H at the start
 };
 
+/// Gains of the laws; meanings: PullerFollower::Params.
 struct LawParams {
-  /// (15 /s)², critically damped; chosen. Not used by loop_shaping.
   double kp_per_s2 = 225, kd_per_s = 30, ki_per_s3 = 1000;
-  double integral_rad_s = 0.1;  ///< limit of |∫ e|; chosen
-  double gravity = 1;           ///< w_G, share of gravity that is compensated
-  double feedforward = 1;       ///< w_a, share of the desired acceleration's torque
+  double integral_rad_s = 0.1;
+  double gravity = 1;
+  double feedforward = 1;
   sim::loop_shaping::JointShape shape;
 };
 

@@ -30,36 +30,73 @@ class PullerFollower {
   struct Params {
     xml::Place place;
     Law law = Law::linearised;
-    /// Of loop_shaping: a file of JointShape, relative to the config; its smooth_s counts then.
     std::string loops;
     LawParams laws;
     DriveParams drives;
-    double friction = 1;           ///< share of robot.xml's joint friction that is compensated
-    std::string source = "sim";    ///< source of the joint_state that is used
-    double stale_s = 0.05;         ///< older states and targets are rejected; chosen
-    double start_rad_per_s = 0.5;  ///< approximate speed of the approach to the target; chosen
+    double friction = 1;
+    std::string source = "sim";
+    double stale_s = 0.05;
+    double start_rad_per_s = 0.5;
     void visit(auto& v) {
-      v("law", law);
-      v("low_N", drives.low_N, xml::at_least_zero);
-      v("high_N", drives.high_N, xml::at_least_zero);
-      v("width_Nm", drives.width_Nm, xml::positive);
-      v("lead_s", drives.lead_s, xml::at_least_zero);
-      v("raise_N_per_s", drives.raise_N_per_s, xml::positive);
-      v("raise_s", drives.raise_s, xml::positive);
-      v("smooth_s", drives.smooth_s, xml::positive);
-      v("brake_s", drives.brake_s, xml::at_least_zero);
-      v("tension_per_s", drives.tension_per_s, xml::positive);
-      v("kp_per_s2", laws.kp_per_s2, xml::at_least_zero);
-      v("kd_per_s", laws.kd_per_s, xml::at_least_zero);
-      v("ki_per_s3", laws.ki_per_s3, xml::at_least_zero);
-      v("integral_rad_s", laws.integral_rad_s, xml::at_least_zero);
-      v("gravity", laws.gravity, xml::at_least_zero);
-      v("feedforward", laws.feedforward, xml::at_least_zero);
-      v("loops", loops);
-      v("friction", friction, xml::at_least_zero);
-      v("source", source);
-      v("stale_s", stale_s, xml::positive);
-      v("start_rad_per_s", start_rad_per_s, xml::positive);
+      v("law", law,
+        "Law from joint angles to torques: input-output linearisation, H-infinity loop shaping, or "
+        "PD for comparison.");
+      v("low_N", drives.low_N,
+        {xml::at_least_zero, "Reference tension of a pair away from a change of roles; chosen."});
+      v("high_N", drives.high_N,
+        {xml::at_least_zero, "Reference tension of a pair around a change of roles; chosen."});
+      v("width_Nm", drives.width_Nm, {xml::positive, "Torque range of a change of roles; chosen."});
+      v("lead_s", drives.lead_s,
+        {xml::at_least_zero,
+         "Time before a change of roles at which the reference tension begins to rise; chosen."});
+      v("raise_N_per_s", drives.raise_N_per_s,
+        {xml::positive, "Largest rate of the reference tension; chosen."});
+      v("raise_s", drives.raise_s,
+        {xml::positive, "Smoothing time of the reference tension; chosen."});
+      v("smooth_s", drives.smooth_s,
+        {xml::positive,
+         "Smoothing time of the torque; chosen. loop_shaping uses smooth_s of its file instead."});
+      v("brake_s", drives.brake_s,
+        {xml::at_least_zero,
+         "Damping g of the brake: the lines yield by g times the rate at which the joint pulls "
+         "them out; chosen."});
+      v("tension_per_s", drives.tension_per_s,
+        {xml::positive,
+         "Bandwidth b of the tensions; the delay to the motor limits it to about 60 /s; chosen."});
+      v("kp_per_s2", laws.kp_per_s2,
+        {xml::at_least_zero,
+         "Gain k_p of the joint error, (15 /s)², critically damped with kd_per_s; chosen. Not used "
+         "by loop_shaping."});
+      v("kd_per_s", laws.kd_per_s,
+        {xml::at_least_zero,
+         "Gain k_d of the error of the joint velocity; chosen. Not used by loop_shaping."});
+      v("ki_per_s3", laws.ki_per_s3,
+        {xml::at_least_zero,
+         "Gain k_i of the integral of the joint error; chosen. Used by linearised only."});
+      v("integral_rad_s", laws.integral_rad_s,
+        {xml::at_least_zero,
+         "Limit of the magnitude of the integral of the joint error; chosen. Used by linearised "
+         "only."});
+      v("gravity", laws.gravity,
+        {xml::at_least_zero,
+         "Share w_G of the torques of gravity that is compensated; 1: all. Not used by "
+         "linearised."});
+      v("feedforward", laws.feedforward,
+        {xml::at_least_zero,
+         "Share w_a of the torques of the desired acceleration that is commanded; loop_shaping "
+         "only."});
+      v("loops", loops,
+        "Weights of loop_shaping: a <loops> file, relative to the config; empty: its defaults.");
+      v("friction", friction,
+        {xml::at_least_zero,
+         "Share of the joint friction of robot.xml that is compensated; 1: all."});
+      v("source", source,
+        "Component whose joint_state is used: sim, pose_estimator or motion_capture.");
+      v("stale_s", stale_s,
+        {xml::positive, "Age from which joint states and targets are rejected; chosen."});
+      v("start_rad_per_s", start_rad_per_s,
+        {xml::positive,
+         "Approximate speed of the approach to the target at the start and after a gap; chosen."});
     }
   };
 

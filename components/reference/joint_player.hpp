@@ -22,20 +22,27 @@ class JointPlayer {
  public:
   struct Params {
     xml::Place place;
-    std::string file;               ///< poses.csv, relative to the config that names it
-    sim::Via via = sim::Via::rest;  ///< whether the motion stops in each pose
-    /// Repeat; from the last pose to the first in the time between the first two.
+    std::string file;
+    sim::Via via = sim::Via::rest;
     bool loop = false;
-    std::string source = "sim";    ///< source of the joint_state that is used
-    double start_rad_per_s = 0.5;  ///< chosen
-    double lost_rad = 0.6;         ///< chosen
+    std::string source = "sim";
+    double start_rad_per_s = 0.5;
+    double lost_rad = 0.6;
     void visit(auto& v) {
-      v.required("file", file);
-      v("via", via);
-      v("loop", loop);
-      v("source", source);
-      v("start_rad_per_s", start_rad_per_s, xml::positive);
-      v("lost_rad", lost_rad, xml::positive);
+      v.required("file", file, "Poses (CSV: time_s and the joints), relative to the config.");
+      v("via", via,
+        "Whether the motion stops in each pose (rest) or only in repeated ones (through).");
+      v("loop", loop,
+        "Whether the motion is repeated; from the last pose to the first in the time between the "
+        "first two.");
+      v("source", source,
+        "Component whose joint_state is used: sim, pose_estimator or motion_capture.");
+      v("start_rad_per_s", start_rad_per_s,
+        {xml::positive, "Largest speed of the approach to the first pose; chosen."});
+      v("lost_rad", lost_rad,
+        {xml::positive,
+         "Distance of the robot from the reference from which the motion resumes at the robot; "
+         "chosen."});
     }
   };
 

@@ -15,12 +15,14 @@ namespace reference {
 
 struct Params {
   xml::Place place;
-  std::string file;  ///< a trajectory, relative to the config that names it
+  std::string file;
   bool loop = false;
   std::vector<Signal> signals;
   void visit(auto& v) {
-    v("file", file);
-    v("loop", loop);
+    v("file", file,
+      "Trajectory (CSV: time_s, and <actuator>.mode, <actuator>.reference), relative to the "
+      "config; empty: none.");
+    v("loop", loop, "Whether the trajectory is repeated.");
     v.list(signals);
   }
 };

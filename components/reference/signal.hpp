@@ -18,24 +18,33 @@ enum class Shape { constant, step, sine, sweep };
 
 struct Signal {
   static constexpr auto element = "signal";
+  static constexpr auto meaning = "Test signal for one actuator.";
   xml::Place place;
   std::string actuator;
   erp::Mode mode = erp::Mode::force;
   Shape shape = Shape::constant;
-  double offset = 0, amplitude = 0;    ///< in V, m, A or N, depending on `mode`
-  double start_s = 0, duration_s = 0;  ///< duration 0: unlimited; the offset applies afterwards
+  double offset = 0, amplitude = 0;
+  double start_s = 0, duration_s = 0;
   double frequency_Hz = 1, end_frequency_Hz = 1;
 
   void visit(auto& v) {
-    v.required("actuator", actuator);
-    v.required("mode", mode);
-    v.required("shape", shape);
-    v("offset", offset);
-    v("amplitude", amplitude);
-    v("start_s", start_s, xml::at_least_zero);
-    v("duration_s", duration_s, xml::at_least_zero);
-    v("frequency_Hz", frequency_Hz, xml::at_least_zero);
-    v("end_frequency_Hz", end_frequency_Hz, xml::at_least_zero);
+    v.required("actuator", actuator, "Actuator that follows the signal.");
+    v.required("mode", mode,
+               "Controlled variable: voltage in V, length in m, current in A or force in N.");
+    v.required("shape", shape,
+               "Signal: constant, step at start_s, sine, or sweep, a sine of linearly changing "
+               "frequency.");
+    v("offset", offset,
+      "Value before, after and about which the signal changes, in the unit of the mode.");
+    v("amplitude", amplitude,
+      "Height of the step, amplitude of sine and sweep, in the unit of the mode.");
+    v("start_s", start_s, {xml::at_least_zero, "Beginning of the signal, after the first frame."});
+    v("duration_s", duration_s,
+      {xml::at_least_zero, "Length of the signal, after which the offset applies; 0: unlimited."});
+    v("frequency_Hz", frequency_Hz,
+      {xml::at_least_zero, "Frequency of a sine; of a sweep at its beginning."});
+    v("end_frequency_Hz", end_frequency_Hz,
+      {xml::at_least_zero, "Frequency of a sweep at its end."});
   }
 
   double at(double t_s) const {

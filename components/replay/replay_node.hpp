@@ -12,8 +12,11 @@ namespace replay {
 class ReplayNode {
  public:
   struct Params {
-    std::string file;  ///< the recording; required
-    void visit(auto& v) { v("file", file); }
+    std::string file;
+    void visit(auto& v) {
+      v("file", file,
+        "Recording whose ecu_frames are published; the component does not start without it.");
+    }
   };
   /// Throws if the recording is missing or contains no frames.
   static void check(const Params& params) { Frames frames(params.file); }

@@ -19,17 +19,21 @@ class Sensorimotor {
   struct Params {
     xml::Place place;
     sim::sensorimotor::Experiment experiment;
-    std::string learned;         ///< initial map, relative to this file; then there are no twitches
-    std::string save;            ///< file to which the map is written; "": none
-    std::string source = "eye";  ///< source of the image_point that is used
-    double stale_s = 0.1;        ///< images older than the frame by more are rejected; chosen
+    std::string learned;
+    std::string save;
+    std::string source = "eye";
+    double stale_s = 0.1;
     void visit(auto& v) {
       experiment.visit(v);
-      v("stale_s", stale_s, xml::positive);
       v.former("learnt", "learned");
-      v("learned", learned);
-      v("save", save);
-      v("source", source);
+      v("stale_s", stale_s,
+        {xml::positive,
+         "Age relative to the sensor frame from which images are rejected; chosen."});
+      v("learned", learned,
+        "Initial map, a <sensorimotor_learned>, relative to the config; with it there are no "
+        "twitches; empty: none.");
+      v("save", save, "File to which the map is written after each goal; empty: none.");
+      v("source", source, "Component whose image_point is used.");
     }
   };
 

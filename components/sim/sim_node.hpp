@@ -31,26 +31,32 @@ class SimNode {
  public:
   struct Lock {
     static constexpr auto element = "lock";
+    static constexpr auto meaning = "Joint that does not move.";
     xml::Place place;
     std::string joint;
-    void visit(auto& v) { v.required("joint", joint); }
+    void visit(auto& v) {
+      v.required("joint", joint, "Joint that is locked at its initial angle.");
+    }
   };
   struct Params {
-    double physics_Hz = 1000;  ///< a multiple of the ECUs' 500 Hz, or std::invalid_argument
-    int seed = 1;              ///< of the sensor noise
-    std::string bus;  ///< "": DDS; otherwise CAN frames on these buses, as in erp::open_buses
-    int converter_port = 0;       ///< external ECUs connect to this UDP port on loopback; 0: none
-    std::string converter_lines;  ///< serial devices of external ECUs; with neither, virtual ECUs
-    std::vector<Lock> locks;      ///< joints locked at their initial angle
-    std::vector<InjectedFault> faults;  ///< faults to inject
-    std::vector<AttachedLoad> loads;    ///< loads to attach
+    double physics_Hz = 1000;
+    int seed = 1;
+    std::string bus;
+    int converter_port = 0;
+    std::string converter_lines;
+    std::vector<Lock> locks;
+    std::vector<InjectedFault> faults;
+    std::vector<AttachedLoad> loads;
     bool has_external_ecus() const { return converter_port > 0 || !converter_lines.empty(); }
     void visit(auto& v) {
-      v("physics_Hz", physics_Hz, xml::Range{500, 20000});
-      v("seed", seed, xml::Range{0, 1e9});
-      v("bus", bus);
-      v("converter_port", converter_port, xml::Range{0, 65535});
-      v("converter_lines", converter_lines);
+      v("physics_Hz", physics_Hz,
+        {xml::Range{500, 20000}, "Rate of the physics; a multiple of the ECUs' 500 Hz."});
+      v("seed", seed, {xml::Range{0, 1e9}, "Seed of the sensor noise."});
+      v("bus", bus, "CAN buses on which the robot is simulated, as bus of gateway; empty: DDS.");
+      v("converter_port", converter_port,
+        {xml::Range{0, 65535}, "UDP port on loopback to which external ECUs connect; 0: none."});
+      v("converter_lines", converter_lines,
+        "Serial devices of external ECUs; empty, and converter_port 0: virtual ECUs.");
       v.list(locks);
       v.list(faults);
       v.list(loads);

@@ -18,29 +18,34 @@ namespace control {
 /// `<target at_m="0.35 -0.2 0.1"/>`: the centre of a bottle, in the world.
 struct StrikeTarget {
   static constexpr auto element = "target";
+  static constexpr auto meaning = "Bottle to strike; the targets are struck in sequence.";
   xml::Place place;
   xml::Vec3 at_m{};
-  void visit(auto& v) { v.required("at_m", at_m); }
+  void visit(auto& v) { v.required("at_m", at_m, "Centre of the bottle in the world."); }
 };
 
 class Synergy {
  public:
   struct Params {
     xml::Place place;
-    std::string bank;  ///< bank.xml of `erp learn synergy`, relative to this file
-    std::string save;  ///< file to which the bank is written as it learns; "": no learning
-    std::string source = "sim";  ///< source of the body_pose that is used
-    double stale_s = 0.05;       ///< older poses are rejected; chosen
-    double noise = 0;            ///< relative standard deviation of added signal-dependent noise
-    int seed = 1;                ///< of the noise
+    std::string bank;
+    std::string save;
+    std::string source = "sim";
+    double stale_s = 0.05;
+    double noise = 0;
+    int seed = 1;
     std::vector<StrikeTarget> targets;
     void visit(auto& v) {
-      v.required("bank", bank);
-      v("save", save);
-      v("source", source);
-      v("stale_s", stale_s, xml::positive);
-      v("noise", noise, xml::Range{0, 1});
-      v("seed", seed, xml::Range{0, 1e9});
+      v.required("bank", bank,
+                 "Motor plans, a <synergy_bank> of erp learn synergy, relative to the config.");
+      v("save", save, "File to which the bank is written as it learns; empty: no learning.");
+      v("source", source, "Component whose body_pose gives the hand: sim or motion_capture.");
+      v("stale_s", stale_s, {xml::positive, "Age from which body poses are rejected; chosen."});
+      v("noise", noise,
+        {xml::Range{0, 1},
+         "Relative standard deviation of signal-dependent noise that is added to the plans; 0: "
+         "none."});
+      v("seed", seed, {xml::Range{0, 1e9}, "Seed of the noise."});
       v.list(targets);
     }
   };

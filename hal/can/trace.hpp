@@ -15,7 +15,7 @@ struct TraceLine {
   CanFrame frame{};
 };
 
-/// One line of `candump -L`:  (1436509053.850870) can0 123#DEADBEEF
+/// One line of `candump -L`: `(1436509053.850870) can0 123#DEADBEEF`.
 /// Empty for any other text and for frames of other formats: 29-bit, remote, FD, error frames.
 std::optional<TraceLine> parse_trace_line(const std::string& line);
 

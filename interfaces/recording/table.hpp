@@ -5,7 +5,7 @@
 #include <vector>
 
 /// A recording as a table: one row per cycle, one column per signal.
-///
+/// ```
 ///   time_s                    time since the first row
 ///   sequence                  of the frame: the device's tick (on request)
 ///   <a>.mode                  mode of the ECU (erp::Mode as a number; a name in CSV)
@@ -24,6 +24,7 @@
 ///   <d>.control_V             of a drive: control signal from this row to the next
 ///   <d>.position_m            of a drive's slide; <d>.position_rad of its shaft
 ///   <d>.reference_m, .reference_rad, .pulse_V   of a drive; pulses are part of control_V
+/// ```
 namespace recording {
 
 inline constexpr double not_taken = std::numeric_limits<double>::quiet_NaN();

@@ -11,7 +11,7 @@ namespace erp {
 /// xml::Errors with the errors of all its files.
 Robot assemble_robot(const std::string& file);
 
-/// Reflects a part at y = 0 and renames its elements, according to <mirror>.
+/// Reflects a part at y = 0 and renames its elements, according to `<mirror>`.
 ///
 /// With M = diag(1, −1, 1): points and directions p → M p; rotation axes, which are pseudo-vectors,
 /// a → −M a, so that M R(a, q) M = R(−M a, q): equal angles are mirror images. Principal inertias do

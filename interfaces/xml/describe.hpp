@@ -9,7 +9,7 @@
 
 namespace xml {
 
-/// One line of `--help` and of `erp help`: an attribute with its type, range, default and meaning, or an element.
+/// One line of `--help` and of `erp help`: an attribute with its type, range, default and meaning; its unit is part of the name, or an element.
 struct Description {
   std::string name, type, default_text;
   bool required = false;
@@ -24,7 +24,7 @@ std::string meaning_of_element() {
   else return "";
 }
 
-/// One parameter per line, columns aligned: `gain     number > 0    default 2.5`.
+/// One parameter per line, columns aligned: name, type with range, unit, default, meaning.
 std::string to_table(const std::vector<Description>& all);
 
 /// Describes a struct through its `visit`; children are indented below their element.

@@ -67,7 +67,7 @@ class Writer : public CurrentNamesOnly {
     for (const Attribute& a : values) attributes_.emplace_back(a.name, a.value);
   }
 
-  /// `value` as the element <name>; it is not changed (`visit` is not const).
+  /// `value` as the element `<name>`; it is not changed (`visit` is not const).
   template <class T>
   static std::string text_of(T& value, const std::string& name, std::size_t depth) {
     Writer writer(depth, attributes_of_default<T>());

@@ -9,7 +9,7 @@
 /// README.md.
 namespace xml {
 
-/// Fills `value` from a file whose root element is <root_name>; attributes absent from the file keep
+/// Fills `value` from a file whose root element is `<root_name>`; attributes absent from the file keep
 /// their defaults. Throws Errors with all errors of the file.
 template <class T>
 void read_into(T& value, const Element& root, const std::string& root_name) {

@@ -5,7 +5,7 @@
 /// Conversion of desired joint poses to desired line lengths.
 namespace sim {
 
-/// The poses of a table, one per row: columns <j>.angle_rad, or <j>.qw … <j>.qz for a spherical
+/// The poses of a table, one per row: columns `<j>.angle_rad`, or `<j>.qw … <j>.qz` for a spherical
 /// joint. Joints without a column keep their starting position. Throws std::invalid_argument for a
 /// column that belongs to no joint, a value out of range (with row and joint), or a table without rows.
 std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot& robot);

@@ -5,7 +5,7 @@
 #include "sim/formats/linkage.hpp"
 
 /// COLLADA 1.5, the format of the paper's simulator. Standard elements of kinematics and physics contain
-/// the skeleton, in degrees and principal axes. An <extra> element of profile ERP under the kinematics
+/// the skeleton, in degrees and principal axes. An `<extra>` element of profile ERP under the kinematics
 /// model contains robot.xml: tendons, motors, sensors, friction, and every number to the last bit.
 ///
 /// If a value of the standard elements differs from the extra by more than rounding, another program has

@@ -23,7 +23,7 @@ std::string to_sdf(const erp::Robot& robot);
 
 /// The whole robot as COLLADA 1.5: see collada.hpp. The same robot always gives the same file.
 std::string to_collada(const erp::Robot& robot);
-/// The robot of a COLLADA file, bit for bit as it was written. Without the <extra> of profile ERP, the
+/// The robot of a COLLADA file, bit for bit as it was written. Without the `<extra>` of profile ERP, the
 /// skeleton without solids. Throws like from_urdf.
 erp::Robot from_collada(const std::string& file);
 

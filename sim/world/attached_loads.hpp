@@ -12,18 +12,21 @@ namespace sim {
 /// mass, in the body's frame, that moves with the body from the start (paper, Fig. 7b).
 struct AttachedLoad {
   static constexpr auto element = "attached_load", former_element = "grasp";
+  static constexpr auto meaning =
+      "Point mass that is attached to a body; it moves with the body from the start (paper, Fig. "
+      "7b).";
   xml::Place place;
   std::string body;
   xml::Vec3 at_m{0, 0, 0};
   double mass_kg = 0;
-  double at_s = 0;  ///< simulated time
+  double at_s = 0;
   double for_s = 1e9;
   void visit(auto& v) {
-    v.required("body", body);
-    v.required("at_m", at_m);
-    v.required("mass_kg", mass_kg, xml::positive);
-    v.required("at_s", at_s, xml::at_least_zero);
-    v("for_s", for_s, xml::positive);
+    v.required("body", body, "Body that carries the load.");
+    v.required("at_m", at_m, "Position of the point mass in the frame of the body.");
+    v.required("mass_kg", mass_kg, {xml::positive, "Mass of the load."});
+    v.required("at_s", at_s, {xml::at_least_zero, "Simulated time at which the load is attached."});
+    v("for_s", for_s, {xml::positive, "Time until the load is detached."});
   }
   bool is_attached(double time_s) const { return time_s >= at_s && time_s < at_s + for_s; }
 };

@@ -33,18 +33,19 @@ enum class FaultKind {
 /// `<fault kind="tension_open" on="flexor" at_s="2" for_s="0.5"/>` in the sim's config.
 struct InjectedFault {
   static constexpr auto element = "fault", former_element = "mishap";
+  static constexpr auto meaning = "Fault of the simulated robot.";
   xml::Place place;
   FaultKind kind = FaultKind::tension_open;
-  std::string on;   ///< name of the actuator; for hang, busy and bus_off: its ECU
-  double at_s = 0;  ///< simulated time
+  std::string on;
+  double at_s = 0;
   double for_s = 1e9;
-  int counts = 0;  ///< for hot and supply_low
+  int counts = 0;
   void visit(auto& v) {
-    v.required("kind", kind);
-    v.required("on", on);
-    v.required("at_s", at_s, xml::at_least_zero);
-    v("for_s", for_s, xml::positive);
-    v("counts", counts, xml::Range{0, 65535});
+    v.required("kind", kind, "Fault; sim/world/README.md describes each.");
+    v.required("on", on, "Actuator of the fault; for hang, busy and bus_off the ECU.");
+    v.required("at_s", at_s, {xml::at_least_zero, "Simulated time at which the fault begins."});
+    v("for_s", for_s, {xml::positive, "Length of the fault."});
+    v("counts", counts, {xml::Range{0, 65535}, "Reading in counts; used by hot and supply_low."});
   }
 };
 

@@ -4,11 +4,14 @@
 #include "tests/system/background.hpp"
 
 using namespace tests;
+namespace fs = std::filesystem;
 
 TEST_CASE("a new controller builds out of tree, passes its test and drives a running robot") {
   Folder folder;
   const auto prefix = folder / "erp", project = folder / "my_controller";
   REQUIRE(run("cmake --install " ERP_BUILD_DIR " --prefix " + prefix).exit_code == 0);
+  CHECK(content(prefix + "/share/man/man1/erp.1").starts_with(".\\\""));
+  CHECK(fs::exists(prefix + "/share/bash-completion/completions/erp"));
   REQUIRE(run("erp new controller my_controller " + project).exit_code == 0);
   const auto build =
       run("cmake -S " + project + " -B " + project + "/build -DCMAKE_PREFIX_PATH=" + prefix +

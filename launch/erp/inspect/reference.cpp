@@ -1,27 +1,107 @@
 #include "launch/erp/inspect/reference.hpp"
 
+#include <filesystem>
+#include <map>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
 #include "interfaces/xml/words.hpp"
 #include "interfaces/xml/xml.hpp"
+#include "sim/control/loop_shaping/joint_loops.hpp"
+#include "sim/learning/calibration/parameters.hpp"
+#include "sim/learning/experience/base_file.hpp"
+#include "sim/learning/experience/task.hpp"
+#include "sim/learning/muscle_networks/learned_lengths.hpp"
+#include "sim/learning/sensorimotor/learned_map_file.hpp"
+#include "sim/learning/synergy/task.hpp"
+#include "sim/model/cameras/view.hpp"
 
 namespace launch {
+namespace {
 
-void print_reference(const std::string& format, std::ostream& out) {
-  if (format != erp::Robot::element && format != erp::Graph::element)
-    throw std::invalid_argument(
-        "help: no XML format \"" + format + "\"; " +
-        xml::did_you_mean(format, {erp::Robot::element, erp::Graph::element}) +
-        "; parameters of a component: its program with --help");
-  out << "<" << format
-      << ">: attributes, and elements in <>, indented below their element. The unit of an "
-         "attribute is "
-      << "part of its name.\n\n"
-      << (format == erp::Robot::element ? xml::describe<erp::Robot>()
-                                        : xml::describe<erp::Graph>());
+using Describe = std::string (*)();
+
+template <class... Kind>
+std::map<std::string, Describe> formats_of() {
+  return {{Kind::element, &xml::describe<Kind>}...};
+}
+
+const std::map<std::string, Describe> main_formats = formats_of<erp::Robot, erp::Graph>();
+
+/// Files that configs of components and verbs name.
+const std::map<std::string, Describe> named_files =
+    formats_of<sim::loop_shaping::JointShape, sim::cameras::ViewConfig,
+               sim::muscle_networks::LearnedMuscles, sim::sensorimotor::LearnedMapFile,
+               sim::experience::Task, sim::experience::BaseFile, sim::synergy::Task,
+               sim::synergy::BankFile, sim::calibration::Choice>();
+
+const Describe* find(const std::string& name) {
+  for (const auto* formats : {&main_formats, &named_files})
+    if (const auto found = formats->find(name); found != formats->end()) return &found->second;
+  return nullptr;
+}
+
+std::vector<std::string> names_of(const std::map<std::string, Describe>& formats) {
+  std::vector<std::string> names;
+  for (const auto& [name, describe] : formats) names.push_back(name);
+  return names;
+}
+
+/// The names on lines of at most 100 columns, below each other from column 19 on.
+std::string wrapped(const std::vector<std::string>& names) {
+  constexpr std::size_t indent = 19, width = 100;
+  std::string text;
+  std::size_t column = indent;
+  for (const auto& name : names) {
+    if (column + 1 + name.size() > width) text += "\n" + std::string(column = indent, ' ');
+    else if (column > indent) text += ' ', ++column;
+    text += name, column += name.size();
+  }
+  return text;
+}
+
+[[noreturn]] void refuse(const std::string& name) {
+  auto known = component_names();
+  for (const auto& more : {names_of(main_formats), names_of(named_files)})
+    known.insert(known.end(), more.begin(), more.end());
+  throw std::invalid_argument("help: no XML format, component or verb \"" + name + "\"; " +
+                              xml::did_you_mean(name, known) + "; erp help lists all");
+}
+
+}  // namespace
+
+void print_reference(const std::string& name, const DescribeComponent& describe,
+                     std::ostream& out) {
+  const char* columns = "Columns: name, type with range, unit, default, meaning.\n\n";
+  if (const Describe* format = find(name)) {
+    out << "<" << name << ">: attributes, and elements in <>, indented below their element.\n"
+        << columns << (*format)();
+    return;
+  }
+  const auto table = describe(name);
+  if (!table) refuse(name);
+  const std::string type = std::filesystem::path(name).filename().string();
+  out << type << ": parameters of a component, as attributes of <" << type
+      << "> in its config or by --set " << type << ".PARAMETER=VALUE of erp launch.\n"
+      << columns << *table;
+}
+
+void list_references(std::ostream& out) {
+  out << "erp help NAME explains\n"
+      << "  XML formats      " << wrapped(names_of(main_formats)) << '\n'
+      << "  components       " << wrapped(component_names()) << '\n'
+      << "  files they name  " << wrapped(names_of(named_files)) << '\n'
+      << "  verbs            as erp VERB --help\n";
+}
+
+std::vector<std::string> component_names() {
+  std::vector<std::string> names;
+  std::istringstream stream(ERP_COMPONENTS);
+  for (std::string name; stream >> name;) names.push_back(name);
+  return names;
 }
 
 }  // namespace launch

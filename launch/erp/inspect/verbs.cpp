@@ -1,15 +1,20 @@
 #include "launch/erp/verbs/verbs.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
+#include "interfaces/graph/graph.hpp"
 #include "launch/erp/inspect/check.hpp"
 #include "launch/erp/inspect/graph_view.hpp"
 #include "launch/erp/inspect/reference.hpp"
 #include "launch/erp/inspect/topic_view.hpp"
 #include "launch/erp/run/program.hpp"
 #include "launch/erp/text/duration.hpp"
+#include "launch/erp/verbs/completion.hpp"
+#include "launch/erp/verbs/component_check.hpp"
+#include "launch/erp/verbs/man_page.hpp"
 #include "launch/erp/verbs/verb_parts.hpp"
 
 namespace launch {
@@ -33,13 +38,51 @@ void add_check(CLI::App& app, Chosen& chosen) {
   });
 }
 
+/// The parameters of a component of erp, or of one given by the path of its program.
+static std::optional<std::string> describe_by_program(const std::string& type) {
+  const auto own = component_names();
+  const bool is_known = std::find(own.begin(), own.end(), type) != own.end();
+  if (!is_known && type.find('/') == type.npos) return std::nullopt;
+  const std::string program = find_program(type, ".");
+  if (program.empty()) return std::nullopt;
+  return describe_component(program);
+}
+
+/// robot and graph are formats before they are verbs.
+static void print_help(const CLI::App& app, const std::string& name, std::ostream& out) {
+  if (name.empty()) return list_references(out);
+  if (name != erp::Graph::element)
+    for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+      if (verb->get_name() == name) {
+        out << verb->help(app.get_name());
+        return;
+      }
+  print_reference(name, describe_by_program, out);
+}
+
 void add_help(CLI::App& app, Chosen& chosen) {
-  auto* verb = app.add_subcommand(
-      "help", "Print all elements and attributes of robot or graph: type, range, default, meaning");
-  auto format = std::make_shared<std::string>();
-  verb->add_option("format", *format, "robot or graph")->required();
-  verb->callback(
-      [format, &chosen] { chosen = [format] { return print_reference(*format, std::cout), 0; }; });
+  auto* verb =
+      app.add_subcommand("help", "Explain an XML format, the parameters of a component, or a verb");
+  struct Options {
+    std::string name, shell;
+    bool man = false;
+  };
+  auto options = std::make_shared<Options>();
+  auto* name =
+      verb->add_option("name", options->name,
+                       "robot, graph, a component or its program, a verb (default: list all)");
+  verb->add_flag("--man", options->man, "print the manual page of erp")->excludes(name);
+  verb->add_option("--completion", options->shell, "print the completion script of a shell: bash")
+      ->excludes(name)
+      ->check(CLI::IsMember({"bash"}).description(""));
+  verb->callback([options, &app, &chosen] {
+    chosen = [options, &app] {
+      if (options->man) print_man_page(app, std::cout);
+      else if (!options->shell.empty()) print_bash_completion(app, std::cout);
+      else print_help(app, options->name, std::cout);
+      return 0;
+    };
+  });
 }
 
 void add_graph_view(CLI::App& app, Chosen& chosen) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <csignal>
 #include <iostream>
+#include <stdexcept>
 #include <system_error>
 
 #include "components/node/clock.hpp"
@@ -18,11 +19,11 @@ namespace {
 
 constexpr std::int64_t timeout_ns = 10'000'000'000;  // chosen
 
-/// Starts a program whose stderr is the write end `errors` of a pipe.
-pid_t spawn(std::vector<std::string>& argv, int errors) {
+/// Starts a program whose `descriptor`, stdout or stderr, is the write end `pipe_end` of a pipe.
+pid_t spawn(std::vector<std::string>& argv, int descriptor, int pipe_end) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, pipe_end, descriptor);
   std::vector<char*> arguments;
   for (std::string& argument : argv) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
@@ -47,35 +48,53 @@ bool read_all(int descriptor, std::string& text) {
   }
 }
 
-}  // namespace
+struct Answer {
+  bool finished = false;
+  int status = 0;
+  std::string text;
+};
 
-std::string check_component(std::vector<std::string> argv) {
-  argv.push_back("--check");
+/// Runs a program and reads what it writes to `descriptor`; kills it at the timeout.
+Answer request(std::vector<std::string>& argv, int descriptor) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
     throw std::system_error(errno, std::generic_category(), "pipe");
-  std::string errors;
-  int status = 0;
-  bool finished = false;
+  Answer answer;
   try {
-    const pid_t pid = spawn(argv, ends[1]);
+    const pid_t pid = spawn(argv, descriptor, ends[1]);
     close(ends[1]);
-    finished = read_all(ends[0], errors);
-    if (!finished) kill(pid, SIGKILL);
-    waitpid(pid, &status, 0);
+    answer.finished = read_all(ends[0], answer.text);
+    if (!answer.finished) kill(pid, SIGKILL);
+    waitpid(pid, &answer.status, 0);
     close(ends[0]);
   } catch (...) {
     close(ends[0]), close(ends[1]);
     throw;
   }
-  if (!finished)
+  return answer;
+}
+
+}  // namespace
+
+std::string check_component(std::vector<std::string> argv) {
+  argv.push_back("--check");
+  const Answer answer = request(argv, STDERR_FILENO);
+  if (!answer.finished)
     return argv[0] + ": --check did not finish within 10 s; run it by hand with --check";
-  if (status == 0) {
-    std::cerr << errors;  // warnings
+  if (answer.status == 0) {
+    std::cerr << answer.text;  // warnings
     return "";
   }
-  if (!errors.empty()) return errors;
+  if (!answer.text.empty()) return answer.text;
   return argv[0] + ": --check failed without a message; run it by hand with --check";
+}
+
+std::string describe_component(const std::string& program) {
+  std::vector<std::string> argv{program, "--describe"};
+  const Answer answer = request(argv, STDOUT_FILENO);
+  if (answer.finished && answer.status == 0) return answer.text;
+  throw std::invalid_argument(program +
+                              ": --describe failed; name a component, a program of node::run");
 }
 
 }  // namespace launch

@@ -25,18 +25,24 @@ namespace sim::loop_shaping {
 /// `<loops crossover_Hz="2.5"/>`, a file.
 struct JointShape {
   static constexpr auto element = "loops";
+  static constexpr auto meaning = "Weights of the H-infinity loops of a robot.";
   xml::Place place;
-  double crossover_Hz = 2.5;  ///< ω_c/2π
-  double integral_Hz = 0.3;   ///< ω_i/2π
-  double lead = 3;            ///< α; 1: none
-  double smooth_s = 0.01;     ///< T_s
-  double delay_s = 0.004;     ///< T: two of the ECUs' periods
+  double crossover_Hz = 2.5;
+  double integral_Hz = 0.3;
+  double lead = 3;
+  double smooth_s = 0.01;
+  double delay_s = 0.004;
   void visit(auto& v) {
-    v("crossover_Hz", crossover_Hz, xml::positive);
-    v("integral_Hz", integral_Hz, xml::at_least_zero);
-    v("lead", lead, xml::Range{1, 100});
-    v("smooth_s", smooth_s, xml::positive);
-    v("delay_s", delay_s, xml::positive);
+    v("crossover_Hz", crossover_Hz,
+      {xml::positive, "Crossover frequency ω_c/2π of the loops; chosen."});
+    v("integral_Hz", integral_Hz,
+      {xml::at_least_zero, "Frequency ω_i/2π below which the loops integrate; 0: none; chosen."});
+    v("lead", lead, {xml::Range{1, 100}, "Phase lead α around the crossover; 1: none; chosen."});
+    v("smooth_s", smooth_s,
+      {xml::positive,
+       "Time constant T_s with which the torque follows the commanded torque; chosen."});
+    v("delay_s", delay_s,
+      {xml::positive, "Delay T from a torque to its measured effect: two periods of the ECUs."});
   }
 };
 

@@ -43,7 +43,7 @@ struct Constant {
 
 /// The constants of a robot that recordings may determine, in the order of the chain: motor, gearbox, spindle, tendon,
 /// routing and sensors of each actuator, then joints and bodies. Not included: tendons that are ropes, and numbers that
-/// are 0 in robot.xml without an absolute default tolerance. Throws xml::Errors if a <tolerance> of robot.xml names no
+/// are 0 in robot.xml without an absolute default tolerance. Throws xml::Errors if a `<tolerance>` of robot.xml names no
 /// such number.
 std::vector<Constant> constants_of(const erp::Robot& robot);
 

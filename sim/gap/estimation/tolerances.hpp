@@ -6,7 +6,7 @@
 namespace sim::estimation {
 
 /// Sets the tolerances of robot.xml; removes numbers with tolerance 0, which are known exactly. Throws xml::Errors if a
-/// <tolerance> names no such number.
+/// `<tolerance>` names no such number.
 void apply_tolerances(std::vector<Constant>& all, const erp::Robot& robot);
 
 }  // namespace sim::estimation

@@ -20,20 +20,26 @@ enum class Quantity { attachments, length, stiffness, radius };
 /// One `<vary>` of a calibration's file.
 struct Vary {
   static constexpr auto element = "vary";
+  static constexpr auto meaning = "Quantity to identify.";
   xml::Place place;
   Quantity what = Quantity::attachments;
-  std::string on = "*";  ///< an actuator; "*": all
-  double spread = 0;     ///< in m; relative for stiffness and radius
+  std::string on = "*";
+  double spread = 0;
   void visit(auto& v) {
-    v.required("what", what);
-    v("on", on);
-    v.required("spread", spread, xml::positive);
+    v.required("what", what,
+               "Quantity to identify: attachments of the tendon, line length, stiffness, or radius "
+               "of the spindle.");
+    v("on", on, "Actuator; *: all.");
+    v.required(
+        "spread", spread,
+        {xml::positive, "Expected standard deviation, in m; relative for stiffness and radius."});
   }
 };
 
 /// `<calibration>`, a file.
 struct Choice {
   static constexpr auto element = "calibration";
+  static constexpr auto meaning = "Quantities that erp calibrate run identifies.";
   xml::Place place;
   std::vector<Vary> list;
   void visit(auto& v) { v.list(list); }

@@ -9,28 +9,30 @@ namespace sim::experience {
 /// A starting posture: `<start line_m="…"/>`, line lengths by actuator.
 struct StartRow {
   static constexpr auto element = "start", plural = "starts";
+  static constexpr auto meaning = "Starting posture.";
   xml::Place place;
   std::vector<double> line_m;
-  void visit(auto& v) { v.required("line_m", line_m); }
+  void visit(auto& v) { v.required("line_m", line_m, "Line length of each actuator."); }
 };
 struct ExperienceRow {
   static constexpr auto element = "experience", plural = "experiences";
+  static constexpr auto meaning = "Reach with its result.";
   xml::Place place;
   int start = 0;
   std::vector<double> scales_Vs;
   xml::Vec3 end_m{};
   void visit(auto& v) {
-    v("start", start, xml::Range{0, 1e6});
-    v.required("scales_Vs", scales_Vs);
-    v.required("end_m", end_m);
+    v("start", start, {xml::Range{0, 1e6}, "Number of the starting posture, from 0."});
+    v.required("scales_Vs", scales_Vs, "Scale of each drive.");
+    v.required("end_m", end_m, "Position that the hand reached, in the world.");
   }
 };
 struct BaseFile {
   static constexpr auto element = "experience_base";
+  static constexpr auto meaning = "Stored experiences, and all that a reach needs.";
   xml::Place place;
-  int rounds = 0;  ///< completed rounds of the training that wrote it
+  int rounds = 0;
   std::string seed;
-  /// Largest pattern voltage of a muscle; targets that need more are out of reach.
   double pattern_V = 10;
   ReachTimes times;
   HandConfig hand;
@@ -39,9 +41,11 @@ struct BaseFile {
   xml::Plural<StartRow> starts;
   xml::Plural<ExperienceRow> experiences;
   void visit(auto& v) {
-    v("rounds", rounds);
-    v("seed", seed);
-    v("pattern_V", pattern_V, xml::positive);
+    v("rounds", rounds, "Completed rounds of the training that wrote the file.");
+    v("seed", seed, "Seed of that training.");
+    v("pattern_V", pattern_V,
+      {xml::positive,
+       "Largest pattern voltage of a muscle; targets that need more are out of reach."});
     times.visit(v);
     v.child(hand);
     v.child(bursts), v.child(drives), v.child(starts), v.child(experiences);

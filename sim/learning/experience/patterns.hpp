@@ -22,14 +22,16 @@ enum class Role { agonist, antagonist };
 /// brakes.
 struct Burst {
   static constexpr auto element = "burst", plural = "pattern";
+  static constexpr auto meaning = "Burst of a voltage pattern, a raised cosine.";
   xml::Place place;
   Role of = Role::agonist;
   double at_s = 0, for_s = 0, share = 1;
   void visit(auto& v) {
-    v.required("of", of);
-    v("at_s", at_s, xml::at_least_zero);
-    v.required("for_s", for_s, xml::positive);
-    v("share", share);
+    v.required("of", of, "Muscles of the burst: agonists wind up, antagonists pay out.");
+    v("at_s", at_s, {xml::at_least_zero, "Beginning of the burst."});
+    v.required("for_s", for_s, {xml::positive, "Length of the burst."});
+    v("share", share,
+      "Area of the burst relative to the others; of an antagonist: negative brakes.");
   }
 };
 
@@ -37,10 +39,14 @@ struct Burst {
 /// up.
 struct Drive {
   static constexpr auto element = "drive", plural = "drives";
+  static constexpr auto meaning = "Muscles that move one degree of freedom.";
   xml::Place place;
   std::string name;
   std::vector<double> shares;
-  void visit(auto& v) { v.required("name", name), v.required("shares", shares); }
+  void visit(auto& v) {
+    v.required("name", name, "Name of the drive.");
+    v.required("shares", shares, "Share of each actuator, positive if its line is wound up.");
+  }
 };
 
 class Patterns {

@@ -20,19 +20,22 @@
 namespace sim::experience {
 
 struct ReachTimes {
-  double approach_s = 1.5, hold_s = 0.5;  ///< chosen
-  double settle_s = 1.5, correct_s = 4;   ///< chosen
-  double mean_s = 0.1;  ///< averaging time of the hand position at the end of a phase; chosen
-  /// Limit of the feedback voltage of a drive; larger ones are scaled down; chosen.
+  double approach_s = 1.5, hold_s = 0.5;
+  double settle_s = 1.5, correct_s = 4;
+  double mean_s = 0.1;
   double feedback_V = 3;
   void visit(auto& v) {
     v.former("way_s", "approach_s"), v.former("still_s", "hold_s");
-    v("approach_s", approach_s, xml::positive);
-    v("hold_s", hold_s, xml::positive);
-    v("settle_s", settle_s, xml::positive);
-    v("correct_s", correct_s, xml::at_least_zero);
-    v("mean_s", mean_s, xml::positive);
-    v("feedback_V", feedback_V, xml::positive);
+    v("approach_s", approach_s,
+      {xml::positive, "Time in which the lines move to the start; chosen."});
+    v("hold_s", hold_s, {xml::positive, "Time at rest before the pattern; chosen."});
+    v("settle_s", settle_s, {xml::positive, "Time at zero voltage after the pattern; chosen."});
+    v("correct_s", correct_s, {xml::at_least_zero, "Time of feedback; 0: none; chosen."});
+    v("mean_s", mean_s,
+      {xml::positive, "Averaging time of the hand position at the end of a phase; chosen."});
+    v("feedback_V", feedback_V,
+      {xml::positive,
+       "Limit of the feedback voltage of a drive; larger ones are scaled down; chosen."});
   }
 };
 

@@ -11,16 +11,16 @@ namespace sim::experience {
 
 struct Task {
   static constexpr auto element = "acquisition";
+  static constexpr auto meaning = "Training of erp learn experience.";
   xml::Place place;
-  std::string starts;  ///< poses.csv of postures to start from; "": where the robot starts
-  std::string rules;   ///< file of the fuzzy feedback, in the FuzzyLite language
-  /// Tensions in the starting posture, so that few tendons go slack; chosen.
+  std::string starts;
+  std::string rules;
   double rest_N = 30, least_N = 20;
   int rounds = 30, batch = 40;
-  double noise_Vs = 0.5;    ///< exploration noise of the scales, in every second trial; chosen
-  double pattern_V = 10;    ///< largest pattern voltage of a muscle; chosen
-  double noise_m = 0.0002;  ///< measurement noise of the hand position; chosen
-  double feedback_gain_per_s = 1.5;  ///< gain b of linear feedback; chosen
+  double noise_Vs = 0.5;
+  double pattern_V = 10;
+  double noise_m = 0.0002;
+  double feedback_gain_per_s = 1.5;
   int seed = 1;
   ReachTimes times;
   HandConfig hand;
@@ -28,17 +28,24 @@ struct Task {
   xml::Plural<Burst> bursts;
   void visit(auto& v) {
     v.former("closing_per_s", "feedback_gain_per_s");
-    v("starts", starts);
-    v("rules", rules);
-    v("rest_N", rest_N, xml::at_least_zero);
-    v("least_N", least_N, xml::at_least_zero);
-    v("rounds", rounds, xml::Range{1, 1e5});
-    v("batch", batch, xml::Range{2, 1e5});
-    v("noise_Vs", noise_Vs, xml::at_least_zero);
-    v("pattern_V", pattern_V, xml::positive);
-    v("noise_m", noise_m, xml::at_least_zero);
-    v("feedback_gain_per_s", feedback_gain_per_s, xml::positive);
-    v("seed", seed, xml::Range{0, 1e9});
+    v("starts", starts, "Postures (CSV) to start from; empty: where the robot starts.");
+    v("rules", rules,
+      "Rules of the fuzzy feedback in the FuzzyLite language, relative to the file; empty: none.");
+    v("rest_N", rest_N, {xml::at_least_zero, "Mean tension in the starting posture; chosen."});
+    v("least_N", least_N,
+      {xml::at_least_zero,
+       "Smallest tension in the starting posture, so that few tendons go slack; chosen."});
+    v("rounds", rounds, {xml::Range{1, 1e5}, "Number of rounds of the training."});
+    v("batch", batch, {xml::Range{2, 1e5}, "Number of trials in a round."});
+    v("noise_Vs", noise_Vs,
+      {xml::at_least_zero,
+       "Standard deviation of the exploration of the scales, in every second trial; chosen."});
+    v("pattern_V", pattern_V, {xml::positive, "Largest pattern voltage of a muscle; chosen."});
+    v("noise_m", noise_m,
+      {xml::at_least_zero, "Standard deviation of the measured hand position; chosen."});
+    v("feedback_gain_per_s", feedback_gain_per_s,
+      {xml::positive, "Gain b of linear feedback; chosen."});
+    v("seed", seed, {xml::Range{0, 1e9}, "Seed of the training."});
     times.visit(v);
     v.child(hand), v.child(zone);
     v.child(bursts);

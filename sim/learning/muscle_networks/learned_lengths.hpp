@@ -21,27 +21,30 @@ struct LengthSamples {
 /// One muscle of `<muscles>`, a file: l = centre + spread · net(x).
 struct LearnedMuscle {
   static constexpr auto element = "muscle";
+  static constexpr auto meaning = "Network from posture to the length of one tendon.";
   xml::Place place;
   std::string name;
-  double centre_m = 0, spread_m = 0, left_m = 0;  ///< left_m: RMS residual of the fit
+  double centre_m = 0, spread_m = 0, left_m = 0;
   int units = 0;
-  std::vector<double> hidden, output;  ///< column by column
+  std::vector<double> hidden, output;
   void visit(auto& v) {
-    v.required("name", name);
-    v.required("centre_m", centre_m);
-    v.required("spread_m", spread_m);
-    v("left_m", left_m);
-    v.required("units", units, xml::positive);
-    v.required("hidden", hidden), v.required("output", output);
+    v.required("name", name, "Muscle.");
+    v.required("centre_m", centre_m, "Length at which the output of the network is 0.");
+    v.required("spread_m", spread_m, "Change of length for an output of 1.");
+    v("left_m", left_m, "RMS residual of the fit.");
+    v.required("units", units, {xml::positive, "Number of hidden units."});
+    v.required("hidden", hidden, "Weights of the hidden layer, column by column.");
+    v.required("output", output, "Weights of the output layer, column by column.");
   }
 };
 struct LearnedMuscles {
   static constexpr auto element = "muscles";
+  static constexpr auto meaning = "Learned tendon lengths of a robot.";
   xml::Place place;
   std::string robot;
   std::vector<LearnedMuscle> list;
   void visit(auto& v) {
-    v.required("robot", robot);
+    v.required("robot", robot, "Robot of the networks.");
     v.list(list);
   }
 };

@@ -29,9 +29,9 @@ struct Goal {
   std::vector<double> errors;  ///< |e| of each trial
 };
 
+/// η and ε; meanings: Experiment.
 struct ReachOptions {
-  double rate = 0.4;  ///< η; chosen
-  /// Ε, in senses: a goal smaller than that along a sense hardly changes its α.
+  double rate = 0.4;
   double regularization = 0.01;
 };
 

@@ -10,31 +10,38 @@ namespace sim::sensorimotor {
 /// A row of H: one sense, all muscles.
 struct SenseRow {
   static constexpr auto element = "sense";
+  static constexpr auto meaning = "Row of the map, one for each sense.";
   xml::Place place;
   std::vector<double> weights;
   void visit(auto& v) {
     v.former("ties", "weights");
-    v.required("weights", weights);
+    v.required("weights", weights, "Row of H: association of the sense with each muscle.");
   }
 };
 struct GoalRow {
   static constexpr auto element = "goal";
+  static constexpr auto meaning = "Goal with its learned gains.";
   xml::Place place;
   std::vector<double> at, alpha, errors;
-  void visit(auto& v) { v.required("at", at), v.required("alpha", alpha), v("errors", errors); }
+  void visit(auto& v) {
+    v.required("at", at, "Target, by sense.");
+    v.required("alpha", alpha, "Gain α, by sense.");
+    v("errors", errors, "Remaining error of each trial, in the units of the senses.");
+  }
 };
 struct LearnedMapFile {
   static constexpr auto element = "sensorimotor_learned", former_element = "sensorimotor_learnt";
+  static constexpr auto meaning = "Learned map from muscles to senses.";
   xml::Place place;
-  int rounds = 0;               ///< completed rounds of the training that wrote it
-  std::string seed;             ///< of that training
-  std::vector<double> squares;  ///< N², by muscle
+  int rounds = 0;
+  std::string seed;
+  std::vector<double> squares;
   std::vector<SenseRow> senses;
   std::vector<GoalRow> goals;
   void visit(auto& v) {
-    v("rounds", rounds);
-    v("seed", seed);
-    v.required("squares", squares);
+    v("rounds", rounds, "Completed rounds of the training that wrote the file.");
+    v("seed", seed, "Seed of that training.");
+    v.required("squares", squares, "N²: sum of the squared forces, by muscle.");
     v.list(senses), v.list(goals);
   }
 };

@@ -11,14 +11,12 @@
 ///   reach   M is held; the mean position at the end gives the motion achieved
 namespace sim::sensorimotor {
 
+/// Meanings: Experiment.
 struct SessionOptions {
-  int twitches = 40;  ///< 0: none; the given map is used
-  int trials = 20;    ///< of each goal; 0: none
-  /// Forces of twitches: twitch_N/2 to twitch_N; chosen.
+  int twitches = 40;
+  int trials = 20;
   double twitch_N = 8, twitch_s = 0.5, pause_s = 1.0;
-  /// `mean_s`: averaging time at the end of relax and reach; chosen.
   double relax_s = 1.5, reach_s = 1.5, mean_s = 0.2;
-  /// Force limit above rest; trials that exceed it are scaled down and counted.
   double most_N = 60;
   ReachOptions reach;
   std::uint64_t seed = 1;

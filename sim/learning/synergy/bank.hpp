@@ -21,16 +21,21 @@
 namespace sim::synergy {
 
 struct BankOptions {
-  double basis_m = 0.04;              ///< chosen
-  double rate = 0.3;                  ///< η; chosen
-  double max_extrapolation_m = 0.07;  ///< chosen: larger extrapolation dislocated the torso
-  int capacity = 200;                 ///< capacity of the bank; chosen
+  double basis_m = 0.04;
+  double rate = 0.3;
+  double max_extrapolation_m = 0.07;
+  int capacity = 200;
   void visit(auto& v) {
     v.former("lean_m", "max_extrapolation_m"), v.former("most", "capacity");
-    v("basis_m", basis_m, xml::positive);
-    v("max_extrapolation_m", max_extrapolation_m, xml::at_least_zero);
-    v("rate", rate, xml::Range{0, 1});
-    v("capacity", capacity, xml::Range{1, 1e5});
+    v("basis_m", basis_m,
+      {xml::positive, "Width σ of the neighbourhood in which plans are blended; chosen."});
+    v("max_extrapolation_m", max_extrapolation_m,
+      {xml::at_least_zero,
+       "Largest extrapolation from the mean of the blended plans; larger ones dislocated the "
+       "torso; chosen."});
+    v("rate", rate,
+      {xml::Range{0, 1}, "Rate η at which the value of a plan follows the rewards; chosen."});
+    v("capacity", capacity, {xml::Range{1, 1e5}, "Largest number of stored plans; chosen."});
   }
 };
 
@@ -41,16 +46,22 @@ struct Blend {
 
 /// Standard deviations of the variation of a plan.
 struct Exploration {
-  double weights = 0.1;     ///< relative, of each weight; also of a common factor of all weights
-  double weights_m = 2e-4;  ///< absolute, of each weight
-  double rise = 0.1;        ///< relative, of T
+  double weights = 0.1;
+  double weights_m = 2e-4;
+  double rise = 0.1;
   double overshoot = 0.05;
   void visit(auto& v) {
     v.former("explore_beyond", "explore_overshoot");
-    v("explore_weights", weights, xml::at_least_zero);
-    v("explore_weights_m", weights_m, xml::at_least_zero);
-    v("explore_rise", rise, xml::at_least_zero);
-    v("explore_overshoot", overshoot, xml::at_least_zero);
+    v("explore_weights", weights,
+      {xml::at_least_zero,
+       "Relative standard deviation of each weight, and of a common factor of all weights; "
+       "chosen."});
+    v("explore_weights_m", weights_m,
+      {xml::at_least_zero, "Absolute standard deviation of each weight; chosen."});
+    v("explore_rise", rise,
+      {xml::at_least_zero, "Relative standard deviation of the rise time T; chosen."});
+    v("explore_overshoot", overshoot,
+      {xml::at_least_zero, "Standard deviation of the overshoot; chosen."});
   }
 };
 

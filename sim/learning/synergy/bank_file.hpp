@@ -16,31 +16,37 @@ namespace sim::synergy {
 /// others keep their length.
 struct LearnedMuscle {
   static constexpr auto element = "learned", former_element = "learnt", plural = "muscles";
+  static constexpr auto meaning = "Muscle that takes part.";
   xml::Place place;
   std::string muscle;
-  void visit(auto& v) { v.required("muscle", muscle); }
+  void visit(auto& v) {
+    v.required("muscle", muscle,
+               "Muscle for which plans have a weight; the lines of the others keep their length.");
+  }
 };
 struct PlanRow {
   static constexpr auto element = "plan", plural = "plans";
+  static constexpr auto meaning = "Stored motor plan.";
   xml::Place place;
   xml::Vec3 at_m{};
   double value = 1, rise_s = 0.8, overshoot = 0;
   std::vector<double> weights_m;
   void visit(auto& v) {
-    v.required("at_m", at_m);
-    v("value", value, xml::at_least_zero);
-    v.required("rise_s", rise_s, xml::positive);
     v.former("beyond", "overshoot");
-    v("overshoot", overshoot);
-    v.required("weights_m", weights_m);
+    v.required("at_m", at_m, "Place that the hand reached with the plan, in the world.");
+    v("value", value, {xml::at_least_zero, "Value v of the plan: running estimate of its reward."});
+    v.required("rise_s", rise_s, {xml::positive, "Rise time T of the plan."});
+    v("overshoot", overshoot, "Overshoot b of the plan, relative; negative: undershoot.");
+    v.required("weights_m", weights_m, "Line length that each learned muscle winds up.");
   }
 };
 struct BankFile {
   static constexpr auto element = "synergy_bank";
+  static constexpr auto meaning = "Motor plans, and all that a trial needs.";
   xml::Place place;
-  int rounds = 0;  ///< completed rounds of the training that wrote it
+  int rounds = 0;
   std::string seed;
-  xml::Vec3 rest_m{};  ///< position of the hand before a trial, in the world
+  xml::Vec3 rest_m{};
   BankOptions options;
   TrialTimes times;
   HandConfig hand;
@@ -48,9 +54,9 @@ struct BankFile {
   xml::Plural<LearnedMuscle> muscles;
   xml::Plural<PlanRow> plans;
   void visit(auto& v) {
-    v("rounds", rounds);
-    v("seed", seed);
-    v.required("rest_m", rest_m);
+    v("rounds", rounds, "Completed rounds of the training that wrote the file.");
+    v("seed", seed, "Seed of that training.");
+    v.required("rest_m", rest_m, "Position of the hand before a trial, in the world.");
     options.visit(v);
     times.visit(v);
     v.child(hand), v.child(bottle);

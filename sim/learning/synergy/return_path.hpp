@@ -16,12 +16,14 @@
 namespace sim::synergy {
 
 struct TrialTimes {
-  double watch_s = 1.2, return_s = 3, hold_s = 1;  ///< chosen
+  double watch_s = 1.2, return_s = 3, hold_s = 1;
   void visit(auto& v) {
     v.former("way_s", "return_s"), v.former("still_s", "hold_s");
-    v("watch_s", watch_s, xml::positive);
-    v("return_s", return_s, xml::positive);
-    v("hold_s", hold_s, xml::at_least_zero);
+    v("watch_s", watch_s,
+      {xml::positive, "Time for which the hand is observed after a plan began; chosen."});
+    v("return_s", return_s,
+      {xml::positive, "Time in which the lines return to the start; chosen."});
+    v("hold_s", hold_s, {xml::at_least_zero, "Time at rest before the next plan; chosen."});
   }
 };
 

@@ -13,22 +13,25 @@
 /// does not move.
 namespace sim::synergy {
 
-/// `<bottle radius_m="0.0325" …/>`: sizes of the bottle and of the hand; all chosen: half a litre,
-/// a palm.
+/// `<bottle radius_m="0.0325" …/>`: sizes of the bottle and of the hand.
 struct BottleConfig {
   static constexpr auto element = "bottle";
+  static constexpr auto meaning = "Sizes of bottle and hand, and the reward.";
   xml::Place place;
   double radius_m = 0.0325, height_m = 0.2;
-  double hand_m = 0.04;  ///< radius of the hand
-  /// Radius of the zone: distance of the hand's point from the bottle's centre.
+  double hand_m = 0.04;
   double zone_m = 0.12;
   double zone_reward = 0.5;
   void visit(auto& v) {
-    v("radius_m", radius_m, xml::positive);
-    v("height_m", height_m, xml::positive);
-    v("hand_m", hand_m, xml::at_least_zero);
-    v("zone_m", zone_m, xml::positive);
-    v("zone_reward", zone_reward, xml::at_least_zero);
+    v("radius_m", radius_m, {xml::positive, "Radius of the bottle; half a litre; chosen."});
+    v("height_m", height_m, {xml::positive, "Height of the bottle; chosen."});
+    v("hand_m", hand_m, {xml::at_least_zero, "Radius of the hand, a sphere; a palm; chosen."});
+    v("zone_m", zone_m,
+      {xml::positive,
+       "Radius of the zone: distance of the hand's point from the centre of the bottle; chosen."});
+    v("zone_reward", zone_reward,
+      {xml::at_least_zero,
+       "Reward for a hand that remains in the zone after the plan; a strike gives 1; chosen."});
   }
 };
 

@@ -6,11 +6,12 @@ namespace sim::synergy {
 
 struct Task {
   static constexpr auto element = "striking";
+  static constexpr auto meaning = "Training of erp learn synergy.";
   xml::Place place;
-  std::string poses;  ///< poses.csv: one rough initial plan per row; relative to this file
+  std::string poses;
   int rounds = 60, batch = 40;
-  double noise = 0.05;     ///< relative standard deviation of the signal-dependent noise; chosen
-  double margin_m = 0.08;  ///< plans that end at most this far outside the zone are stored; chosen
+  double noise = 0.05;
+  double margin_m = 0.08;
   int seed = 1;
   Exploration exploring;
   BankOptions options;
@@ -21,12 +22,16 @@ struct Task {
   xml::Plural<LearnedMuscle> muscles;
   void visit(auto& v) {
     v.former("beyond_m", "margin_m");
-    v.required("poses", poses);
-    v("rounds", rounds, xml::Range{1, 1e5});
-    v("batch", batch, xml::Range{2, 1e5});
-    v("noise", noise, xml::at_least_zero);
-    v("margin_m", margin_m, xml::at_least_zero);
-    v("seed", seed, xml::Range{0, 1e9});
+    v.required("poses", poses,
+               "Poses (CSV), one rough initial plan per row, relative to the file.");
+    v("rounds", rounds, {xml::Range{1, 1e5}, "Number of rounds of the training."});
+    v("batch", batch, {xml::Range{2, 1e5}, "Number of trials in a round."});
+    v("noise", noise,
+      {xml::at_least_zero, "Relative standard deviation of the signal-dependent noise; chosen."});
+    v("margin_m", margin_m,
+      {xml::at_least_zero,
+       "Largest distance from the zone at which plans may end to be stored; chosen."});
+    v("seed", seed, {xml::Range{0, 1e9}, "Seed of the training."});
     exploring.visit(v);
     options.visit(v);
     times.visit(v);

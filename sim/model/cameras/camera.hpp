@@ -19,23 +19,30 @@ using Pixel = Eigen::Vector2d;
 /// `<camera name="left" at_m="…" looks_at_m="…"/>`
 struct CameraConfig {
   static constexpr auto element = "camera";
+  static constexpr auto meaning =
+      "Pinhole camera with radial distortion, with the parameters of OpenCV.";
   xml::Place place;
   std::string name;
-  xml::Vec3 at_m{0, 0, 0}, looks_at_m{0, 0, 0};  ///< in the world
-  xml::Vec3 up{0, 0, 1};  ///< approximate direction of the image's upper edge
+  xml::Vec3 at_m{0, 0, 0}, looks_at_m{0, 0, 0};
+  xml::Vec3 up{0, 0, 1};
   double focal_px = 800;
   int width_px = 640, height_px = 480;
-  double centre_u_px = 0, centre_v_px = 0;  ///< of the optical axis, from the image's middle
+  double centre_u_px = 0, centre_v_px = 0;
   double k1 = 0, k2 = 0;
   void visit(auto& v) {
-    v.required("name", name);
-    v.required("at_m", at_m), v.required("looks_at_m", looks_at_m);
-    v("up", up);
-    v("focal_px", focal_px, xml::positive);
-    v("width_px", width_px, xml::Range{16, 8192});
-    v("height_px", height_px, xml::Range{16, 8192});
-    v("centre_u_px", centre_u_px), v("centre_v_px", centre_v_px);
-    v("k1", k1), v("k2", k2);
+    v.required("name", name, "Name of the camera; images and image points carry it.");
+    v.required("at_m", at_m, "Position of the centre of projection in the world.");
+    v.required("looks_at_m", looks_at_m, "Point in the world on the optical axis.");
+    v("up", up, "Approximate direction in the world of the image's upper edge.");
+    v("focal_px", focal_px, {xml::positive, "Focal length f."});
+    v("width_px", width_px, {xml::Range{16, 8192}, "Width of the image."});
+    v("height_px", height_px, {xml::Range{16, 8192}, "Height of the image."});
+    v("centre_u_px", centre_u_px,
+      "Column of the optical axis, from the middle of the image, to the right.");
+    v("centre_v_px", centre_v_px,
+      "Row of the optical axis, from the middle of the image, downwards.");
+    v("k1", k1, "Coefficient k₁ of radial distortion, of ρ²; 0: none.");
+    v("k2", k2, "Coefficient k₂ of radial distortion, of ρ⁴; 0: none.");
   }
 };
 

@@ -12,18 +12,26 @@ namespace sim {
 /// `<hand body="hand" at_m="0 0 -0.1"/>`: the reaching point, in its body's frame.
 struct HandConfig {
   static constexpr auto element = "hand";
+  static constexpr auto meaning = "Point of a body that reaches or strikes.";
   xml::Place place;
   std::string body;
   xml::Vec3 at_m{0, 0, 0};
-  void visit(auto& v) { v.required("body", body), v("at_m", at_m); }
+  void visit(auto& v) {
+    v.required("body", body, "Body of the hand.");
+    v("at_m", at_m, "Position of the reaching point in the frame of the body.");
+  }
 };
 
 /// `<zone from_m="0.2 -0.3 -0.4" to_m="0.4 0 -0.1"/>`: a box in the world that contains the targets.
 struct ZoneConfig {
   static constexpr auto element = "zone";
+  static constexpr auto meaning = "Box in the world that contains the targets of the training.";
   xml::Place place;
   xml::Vec3 from_m{}, to_m{};
-  void visit(auto& v) { v.required("from_m", from_m), v.required("to_m", to_m); }
+  void visit(auto& v) {
+    v.required("from_m", from_m, "Corner of the box with the smallest coordinates, in the world.");
+    v.required("to_m", to_m, "Corner of the box with the largest coordinates, in the world.");
+  }
   /// A random point, uniformly distributed in the box.
   Vec3 draw(auto& random) const {
     Vec3 at_m;

@@ -1,17 +1,20 @@
-// Reader and XSD agree on the configs of components. One line per component.
+// Configs of components: reader and XSD agree, every parameter has a meaning. One line per component.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <sstream>
 
 #include "components/computed_force/computed_force.hpp"
 #include "components/experience/experience.hpp"
 #include "components/eye/eye.hpp"
 #include "components/follow/follow.hpp"
+#include "components/gap_monitor/gap_monitor.hpp"
 #include "components/gateway/gateway_node.hpp"
 #include "components/logger/logger_node.hpp"
 #include "components/motion_capture/motion_capture.hpp"
 #include "components/plant/plant.hpp"
+#include "components/pose_estimator/pose_estimator.hpp"
 #include "components/puller_follower/puller_follower.hpp"
 #include "components/reference/joint_player.hpp"
 #include "components/reference/reference.hpp"
@@ -23,7 +26,9 @@
 #include "sim/learning/calibration/parameters.hpp"
 #include "sim/learning/experience/task.hpp"
 #include "sim/learning/muscle_networks/learned_lengths.hpp"
+#include "sim/learning/sensorimotor/learned_map_file.hpp"
 #include "sim/learning/synergy/task.hpp"
+#include "tests/interfaces/xml/without_meaning.hpp"
 #include "tests/interfaces/xml/xmllint.hpp"
 
 namespace fs = std::filesystem;
@@ -33,6 +38,7 @@ namespace {
 struct Kind {
   std::function<std::string(const std::string& root)> schema;
   std::function<void(const std::string& file, const std::string& root)> read;
+  std::function<std::vector<std::string>(const std::string& root)> without_meaning;
 };
 
 template <class Params>
@@ -41,7 +47,8 @@ Kind kind_of() {
           [](const std::string& file, const std::string& root) {
             Params params;
             xml::read_into(params, file, root);
-          }};
+          },
+          [](const std::string& root) { return without_meaning<Params>(root); }};
 }
 
 const std::map<std::string, Kind> kinds{
@@ -53,6 +60,7 @@ const std::map<std::string, Kind> kinds{
     {"experience_base", kind_of<sim::experience::BaseFile>()},
     {"eye", kind_of<eye::Eye::Params>()},
     {"force_control", kind_of<follow::Params>()},
+    {"gap_monitor", kind_of<GapMonitor::Params>()},
     {"gateway", kind_of<can::GatewayNode::Params>()},
     {"joint_target", kind_of<reference::JointPlayer::Params>()},
     {"length_control", kind_of<follow::Params>()},
@@ -61,10 +69,12 @@ const std::map<std::string, Kind> kinds{
     {"motion_capture", kind_of<capture::MotionCapture::Params>()},
     {"muscles", kind_of<sim::muscle_networks::LearnedMuscles>()},
     {"plant", kind_of<plant::Plant::Params>()},
+    {"pose_estimator", kind_of<pose::PoseEstimator::Params>()},
     {"puller_follower", kind_of<control::PullerFollower::Params>()},
     {"reference", kind_of<reference::Params>()},
     {"replay", kind_of<replay::ReplayNode::Params>()},
     {"sensorimotor", kind_of<control::Sensorimotor::Params>()},
+    {"sensorimotor_learnt", kind_of<sim::sensorimotor::LearnedMapFile>()},
     {"sim", kind_of<sim::SimNode::Params>()},
     {"striking", kind_of<sim::synergy::Task>()},
     {"synergy", kind_of<control::Synergy::Params>()},
@@ -86,6 +96,22 @@ Configs configs_by_root() {
 }
 
 }  // namespace
+
+TEST_CASE(
+    "every parameter of every component, and of every file that a config names, has a meaning") {
+  for (const auto& [root, kind] : kinds)
+    CHECK(kind.without_meaning(root) == std::vector<std::string>{});
+}
+
+TEST_CASE("the list above has every component that is installed") {
+  std::istringstream components(ERP_COMPONENTS);
+  int count = 0;
+  for (std::string name; components >> name; ++count) {
+    INFO(name);
+    CHECK(kinds.contains(name));
+  }
+  CHECK(count > 15);
+}
 
 TEST_CASE("reader and XSD both accept every component's config") {
   const Configs configs = configs_by_root();

@@ -46,16 +46,16 @@ TEST_CASE("an unknown path is refused with the nearest one, at every level") {
   CHECK_FALSE(refusal([&] { xml::set(p, "", "1"); }).empty());
 }
 
-TEST_CASE("the help lists names, types, ranges and defaults") {
+TEST_CASE("the help lists names, types, ranges, units and defaults") {
   CHECK(xml::describe<example::Params>() ==
-        "gain_per_s  number > 0            required\n"
-        "mode        slow | fast           default fast\n"
-        "enabled     true or false         default false\n"
-        "offset_m    3 × number            default 0 0 0\n"
-        "limit_N     number >= 0\n"
+        "gain_per_s  number > 0            1/s  required\n"
+        "mode        slow | fast                default fast\n"
+        "enabled     true or false              default false\n"
+        "offset_m    3 × number            m    default 0 0 0\n"
+        "limit_N     number >= 0           N\n"
         "names       list of text\n"
-        "factor      number                default 0.5\n"
+        "factor      number                     default 0.5\n"
         "<track>     any number\n"
-        "  name      text                  required\n"
-        "  step      integer from 1 to 10  default 1\n");
+        "  name      text                       required\n"
+        "  step      integer from 1 to 10       default 1\n");
 }

@@ -6,43 +6,55 @@
 
 #include "interfaces/graph/graph.hpp"
 #include "interfaces/robot/robot.hpp"
-#include "interfaces/xml/xml.hpp"
+#include "tests/interfaces/xml/without_meaning.hpp"
+
+TEST_CASE("every element and attribute of robot.xml has a meaning") {
+  CHECK(without_meaning<erp::Robot>("robot") == std::vector<std::string>{});
+}
+
+TEST_CASE("every element and attribute of a graph has a meaning") {
+  CHECK(without_meaning<erp::Graph>("graph") == std::vector<std::string>{});
+}
 
 namespace {
 
-template <class T>
-std::vector<std::string> without_meaning() {
-  std::vector<xml::Description> all;
-  T fresh{};
-  xml::Describer describer(all);
-  fresh.visit(describer);
-  std::vector<std::string> names;
-  std::string element = T::element;
-  for (const auto& d : all) {
-    if (d.is_element) element = d.name;
-    if (d.meaning.empty()) names.push_back(element + " " + d.name);
-  }
-  return names;
+/// No component has a program here, except `brake`.
+std::optional<std::string> describe(const std::string& type) {
+  if (type != "brake") return std::nullopt;
+  return "force_N  number  N  default 3  Force of the brake.\n";
+}
+
+std::string reference(const std::string& name) {
+  std::ostringstream out;
+  launch::print_reference(name, describe, out);
+  return out.str();
 }
 
 }  // namespace
 
-TEST_CASE("every element and attribute of robot.xml has a meaning") {
-  CHECK(without_meaning<erp::Robot>() == std::vector<std::string>{});
+TEST_CASE("erp help robot prints type, range, unit, default and meaning") {
+  CHECK_THAT(reference("robot"), Catch::Contains("resistance_ohm") &&
+                                     Catch::Contains("number > 0") && Catch::Contains("  ohm  ") &&
+                                     Catch::Contains("required") && Catch::Contains("default"));
 }
 
-TEST_CASE("every element and attribute of a graph has a meaning") {
-  CHECK(without_meaning<erp::Graph>() == std::vector<std::string>{});
+TEST_CASE("erp help of a file that a config names prints its attributes") {
+  CHECK_THAT(reference("loops"), Catch::Contains("crossover_Hz") && Catch::Contains("  Hz  "));
 }
 
-TEST_CASE("erp help robot prints type, range, default and meaning") {
+TEST_CASE("erp help of a component prints the table of its program") {
+  CHECK_THAT(reference("brake"), Catch::Contains("Force of the brake.") &&
+                                     Catch::Contains("--set brake.PARAMETER=VALUE"));
+}
+
+TEST_CASE("erp help of an unknown name gives the most similar one") {
+  CHECK_THROWS_WITH(reference("robt"), Catch::Contains("robot"));
+  CHECK_THROWS_WITH(reference("puler_follower"), Catch::Contains("puller_follower"));
+}
+
+TEST_CASE("erp help without a name lists formats, components and files") {
   std::ostringstream out;
-  launch::print_reference("robot", out);
-  CHECK_THAT(out.str(), Catch::Contains("resistance_ohm") && Catch::Contains("number > 0") &&
-                            Catch::Contains("required") && Catch::Contains("default"));
-}
-
-TEST_CASE("erp help of an unknown format names the known ones") {
-  std::ostringstream out;
-  CHECK_THROWS_WITH(launch::print_reference("robt", out), Catch::Contains("robot"));
+  launch::list_references(out);
+  CHECK_THAT(out.str(), Catch::Contains("graph robot") && Catch::Contains("puller_follower") &&
+                            Catch::Contains("loops"));
 }

@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "interfaces/xml/describe.hpp"
+
+/// Elements and attributes that a struct lists without a meaning, as "element attribute". `root`: name of its element.
+template <class T>
+std::vector<std::string> without_meaning(const std::string& root) {
+  std::vector<xml::Description> all;
+  T fresh{};
+  xml::Describer describer(all);
+  fresh.visit(describer);
+  std::vector<std::string> names;
+  std::string element = root;
+  for (const auto& d : all) {
+    if (d.is_element) element = d.name;
+    if (d.meaning.empty()) names.push_back(element + " " + d.name);
+  }
+  return names;
+}
