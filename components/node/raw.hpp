@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -47,7 +48,7 @@ class Discovery {
 struct RawSample {
   std::span<const std::byte> cdr;
   std::int64_t source_ns = 0;  ///< the message's stamp
-  dds_instance_handle_t writer = 0;
+  std::uint64_t writer = 0;    ///< of its writer's GUID; the same after a lost connection
 };
 
 /// Reads any topic, given its type.
@@ -68,10 +69,12 @@ class RawReader {
 
  private:
   std::optional<RawSample> next();
+  std::uint64_t id_of(dds_instance_handle_t writer);
 
   std::unique_ptr<DataCallback> callback_;  // its address stays valid when the reader is moved
   std::vector<std::byte> bytes_;
   Entity topic_, reader_;
+  std::map<dds_instance_handle_t, std::uint64_t> ids_;
 };
 
 }  // namespace node
