@@ -53,6 +53,6 @@ TEST_CASE("messages are counted as missing while a stopped logger is lost and fo
   INFO(graph.output());
   CHECK(graph.output().find("messages are missing") != std::string::npos);
   const auto counts = run("erp log info " + folder / "run/hinge_rig.mcap" +
-                          " | awk '$1 == \"sensor_frame\" {print $3 + $6, $6 > 1000}'");
+                          " | awk '$1 == \"sensor_frame\" {print $3 + $6, ($6 > 1000)}'");
   CHECK(counts.output == "40000 1\n");
 }
