@@ -3,7 +3,6 @@
 #include <dds/ddsi/ddsi_serdata.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "components/node/builtin.hpp"
@@ -88,24 +87,9 @@ std::optional<RawSample> RawReader::next() {
       ddsi_serdata_to_ser(data, 0, bytes_.size(), bytes_.data());
     }
     ddsi_serdata_unref(data);
-    if (info.valid_data)
-      return RawSample{bytes_, info.source_timestamp, id_of(info.publication_handle)};
+    if (info.valid_data) return RawSample{bytes_, info.source_timestamp, info.publication_handle};
   }
   return std::nullopt;
-}
-
-/// DDS gives a writer a new handle when it finds it again, but its GUID stays the same.
-std::uint64_t RawReader::id_of(dds_instance_handle_t writer) {
-  const auto [known, is_new] = ids_.try_emplace(writer, writer);
-  if (!is_new) return known->second;
-  auto* endpoint = dds_get_matched_publication_data(reader_.id(), writer);
-  if (!endpoint) return writer;
-  std::array<std::uint64_t, 2> halves;
-  static_assert(sizeof halves == sizeof endpoint->key);
-  std::memcpy(halves.data(), &endpoint->key, sizeof halves);
-  dds_builtintopic_free_endpoint(endpoint);
-  constexpr std::uint64_t odd = 0x9E37'79B9'7F4A'7C15;  // mixes the halves
-  return known->second = halves[0] * odd ^ halves[1];
 }
 
 std::uint32_t RawReader::matched() const {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,7 +47,7 @@ class Discovery {
 struct RawSample {
   std::span<const std::byte> cdr;
   std::int64_t source_ns = 0;  ///< the message's stamp
-  std::uint64_t writer = 0;    ///< of its writer's GUID; the same after a lost connection
+  dds_instance_handle_t writer = 0;
 };
 
 /// Reads any topic, given its type.
@@ -69,12 +68,10 @@ class RawReader {
 
  private:
   std::optional<RawSample> next();
-  std::uint64_t id_of(dds_instance_handle_t writer);
 
   std::unique_ptr<DataCallback> callback_;  // its address stays valid when the reader is moved
   std::vector<std::byte> bytes_;
   Entity topic_, reader_;
-  std::map<dds_instance_handle_t, std::uint64_t> ids_;
 };
 
 }  // namespace node
