@@ -82,7 +82,8 @@ class Writer {
     send(message);
   }
   /// Sends the message with its own sequence number; its stamp is also the DDS source timestamp.
-  /// A reader that receives nothing for a second loses the message, and counts it as missing.
+  /// If readers are so far behind that DDS has no room for the message for a second, it is not
+  /// sent; every reader then counts it as missing.
   void send(const M& message) {
     const dds_return_t rc = dds_write_ts(
         writer_.id(), static_cast<const typename M::Wire*>(&message), message.stamp_ns);

@@ -10,7 +10,7 @@
 namespace launch {
 
 // Defined by revision.cmake.
-const char* version();   ///< of the project, "0.1.0"
+const char* version();   ///< of the project, "0.2.0"
 const char* revision();  ///< of git, "-dirty" with uncommitted changes; or "unknown"
 
 namespace {

@@ -15,13 +15,13 @@ namespace sensorimotor = sim::sensorimotor;
 
 namespace {
 
-constexpr int tries = 8;
+constexpr int trials = 8;
 
 /// The pendulum with two goals in its camera's image; 76 s in all.
 void write_graph(const Folder& folder, const std::string& learned = "") {
   const std::string configs = ERP_SOURCE_DIR "/configs/pendulum/";
   std::ofstream(folder / "sensorimotor.xml")
-      << "<sensorimotor view=\"" << configs << "view.xml\" twitches=\"16\" trials=\"" << tries
+      << "<sensorimotor view=\"" << configs << "view.xml\" twitches=\"16\" trials=\"" << trials
       << "\" save=\"saved.xml\"" << learned
       << "><goal at=\"0.12 -0.05\"/><goal at=\"-0.1 -0.12\"/></sensorimotor>";
   std::ofstream(folder / "graph.xml")
@@ -56,7 +56,7 @@ TEST_CASE(
   const Eigen::MatrixXd signs = (Eigen::MatrixXd(2, 4) << 1, 1, -1, -1, -1, 1, 1, -1).finished();
   CHECK(learned_map_of(file, 2, 4).q().cwiseProduct(signs).minCoeff() > 0.1);
   for (const auto& goal : file.goals) {
-    REQUIRE(goal.errors.size() == tries);
+    REQUIRE(goal.errors.size() == trials);
     std::cout << "over " << device << ": error " << goal.errors.front() << " at the first attempt, "
               << goal.errors.back() << " at the last\n";
     CHECK(goal.errors.back() < 0.2 * goal.errors.front());

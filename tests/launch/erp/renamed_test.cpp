@@ -1,15 +1,10 @@
 // Former names of XML, JSON and the command line still work, each with one warning.
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <vector>
 
-#include "launch/erp/run/process.hpp"
+#include "tests/system/command.hpp"
 
 using Catch::Matchers::Contains;
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -18,34 +13,20 @@ struct Result {
   std::string text;  ///< stdout and stderr
 };
 
-class Folder {
+/// A temporary folder, in which programs are run.
+class Folder : public tests::Folder {
  public:
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-
   std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name) << text;
-    return path / name;
+    std::ofstream(*this / name) << text;
+    return *this / name;
   }
-  /// Runs a program of ERP_BIN_DIR.
-  Result run(std::vector<std::string> arguments) const {
-    arguments[0] = ERP_BIN_DIR "/" + arguments[0];
-    const auto log = path / ("out" + std::to_string(++runs_));
-    launch::Process process(arguments, log.string());
-    for (;;) {
-      if (const auto ending = process.poll()) {
-        std::ostringstream text;
-        text << std::ifstream(log).rdbuf();
-        return {ending->code, text.str()};
-      }
-      usleep(2000);
-    }
+  /// `arguments`: free of characters that the shell replaces.
+  Result run(const std::vector<std::string>& arguments) const {
+    std::string command;
+    for (const auto& argument : arguments) command += argument + " ";
+    const auto outcome = tests::run(command);
+    return {outcome.exit_code, outcome.output};
   }
-
-  const fs::path path = fs::temp_directory_path() / ("erp_renamed_" + std::to_string(getpid()));
-
- private:
-  mutable int runs_ = 0;
 };
 
 std::string config(const std::string& name) { return ERP_SOURCE_DIR "/configs/" + name; }
@@ -134,7 +115,7 @@ TEST_CASE("a diagnosis.json of format 1 gives the same plan, with one warning pe
   const Folder folder;
   const auto plan = [&](const std::string& file) {
     return folder.run({"erp", "gap", "plan", "--robot", config("hinge_rig/robot.xml"),
-                       "--diagnosis", file, "--out", folder.path / "next", "--seconds", "4",
+                       "--diagnosis", file, "--out", folder / "next", "--seconds", "4",
                        "--candidates", "3"});
   };
   const auto file = folder.file("old.json", diagnosis("confusable", "mend_first"));
@@ -179,13 +160,9 @@ TEST_CASE("former options of erp calibrate tour and erp launch have the effect o
   const Folder folder;
   const auto tour = [&](const std::string& hold, const std::string& move) {
     return folder.run({"erp", "calibrate", "tour", config("arm/lengths.csv"), hold, "3", move, "1",
-                       "--out", folder.path / "tour.csv"});
+                       "--out", folder / "tour.csv"});
   };
-  const auto written = [&] {
-    std::ostringstream text;
-    text << std::ifstream(folder.path / "tour.csv").rdbuf();
-    return text.str();
-  };
+  const auto written = [&] { return tests::content(folder / "tour.csv"); };
   const Result old = tour("--still", "--way");
   INFO(old.text);
   CHECK(old.code == 0);
