@@ -2,13 +2,14 @@
 
 #include <stdexcept>
 
+#include "interfaces/recording/fields.hpp"
 #include "interfaces/recording/mcap_reader.hpp"
 #include "interfaces/recording/ros2msg.hpp"
 
 namespace replay {
 namespace {
 
-/// The value of a numeric field; 0 if the recording is of a version without that field.
+/// The value of a numeric field of at most 32 bits; 0 if the recording is of a version without that field.
 template <class T>
 T number(const recording::Members& members, const char* name) {
   const auto* value = members.find(name);
@@ -67,8 +68,8 @@ Frames::Frames(const std::string& file) {
 erp::EcuFrame Frames::at(std::size_t k) const {
   const auto members = recording::decode_cdr(type_, messages_[k]);
   erp::EcuFrame frame;
-  frame.stamp_ns = number<std::int64_t>(members, "stamp_ns");
-  frame.sequence = number<std::uint64_t>(members, "sequence");
+  frame.stamp_ns = recording::integer_in<std::int64_t>(members, "stamp_ns");
+  frame.sequence = recording::integer_in<std::uint64_t>(members, "sequence");
   if (const auto* channels = members.find("channels"))
     for (const auto& value : *channels->elements())
       erp::append(frame.channels, channel_of(*value.members()));

@@ -99,6 +99,23 @@ TEST_CASE("a replayed recording reproduces its sensor readings") {
   CHECK(exported(again) == exported(original));
 }
 
+TEST_CASE("the intervals of a replayed real-time recording are exact to 1 ns") {
+  Folder folder;
+  const auto stamps = [](const std::string& file) {
+    const Recorded frames(file, "ecu_frame");
+    std::vector<std::int64_t> since_first;
+    for (const auto& frame : without_repeats(frames.messages()))
+      since_first.push_back(std::get<std::int64_t>(frame.find("stamp_ns")->data));
+    for (auto k = since_first.rbegin(); k != since_first.rend(); ++k) *k -= since_first.front();
+    return since_first;
+  };
+  const auto original = record(folder, "original", "launch/force_step.xml", "--for 1s");
+  const auto again = record(folder, "again", "launch/force_step.xml",
+                            "--lockstep --for 2s " + device_options("replay", original));
+  CHECK(stamps(original).size() > 100);
+  CHECK(stamps(again) == stamps(original));
+}
+
 TEST_CASE("a force step: rise time at most 318 ms, steady-state RMS error at most 0.236 N") {
   const auto outcome =
       run("erp launch launch/force_step.xml --lockstep --for 5s --out $(mktemp -d)/run");

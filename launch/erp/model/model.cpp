@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
 #include <stdexcept>
@@ -84,15 +85,15 @@ int model_info(const std::string& robot_file, bool json, std::ostream& out) {
   const erp::Robot robot = erp::read_robot(robot_file);
   const ModelProperties f = properties_of(robot);
   out << fmt::format(
-      fmt::runtime(json ? "{{\"robot\": \"{}\", \"bodies\": {}, \"joints\": {}, "
+      fmt::runtime(json ? "{{\"robot\": {}, \"bodies\": {}, \"joints\": {}, "
                           "\"degrees_of_freedom\": {}, \"actuators\": {}, \"muscles\": {}, "
                           "\"mass_kg\": {:.6g}, \"ecus\": {}, \"buses\": {}, \"drives\": {}}}\n"
                         : "robot               {}\nbodies              {}\njoints              {}\n"
                           "degrees of freedom  {}\nactuators           {}\nmuscles             {}\n"
                           "mass                {:.6g} kg\nECUs                {}\n"
                           "buses               {}\ndrives              {}\n"),
-      f.name, f.bodies, f.joints, f.degrees_of_freedom, f.actuators, f.muscles, f.mass_kg, f.ecus,
-      f.buses, f.drives);
+      json ? nlohmann::json(f.name).dump() : f.name, f.bodies, f.joints, f.degrees_of_freedom,
+      f.actuators, f.muscles, f.mass_kg, f.ecus, f.buses, f.drives);
   for (const erp::Drive& drive : robot.drives)
     if (!json) out << fmt::format("drive               {}\n", description(drive));
   if (!json)
