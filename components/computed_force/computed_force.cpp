@@ -87,7 +87,7 @@ void ComputedForce::reference_acceleration(double dt_s) {
     const int turns = std::min(sim::coordinates_of(now_[j].type), 3);
     if (first < 0 || names_.list()[j].type == erp::JointType::free) continue;
     const Eigen::Matrix3d own = into_joint_frame(now_[j], desired_[j].now);
-    const Vec3 e = vec(sim::way_between(now_[j].type, now_[j].position, desired_[j].now.position));
+    const Vec3 e = vec(sim::displacement(now_[j].type, now_[j].position, desired_[j].now.position));
     const Vec3 speed = own * vec(desired_[j].now.velocity_rad_per_s);
     const Vec3 slower = speed - vec(now_[j].velocity_rad_per_s);
     const Vec3 ahead = own * vec(desired_[j].acceleration_rad_per_s2);

@@ -64,7 +64,7 @@ struct Equilibrium::Inside {
       std::array<double, 3> way{};
       for (int d = 0; d < coordinates_of(q[j].type); ++d)
         way[static_cast<std::size_t>(d)] = u[first_of(j) + d];
-      q[j].position = gone(q[j].type, q[j].position, way);
+      q[j].position = displaced(q[j].type, q[j].position, way);
     }
     return q;
   }

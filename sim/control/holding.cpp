@@ -74,7 +74,7 @@ struct PoseHolder::Inside {
   void place(const Pose& pose) {
     std::vector<JointReading> joints;
     for (std::size_t j = 0; j < pose.size(); ++j) {
-      joints.push_back(start_of(model.tree().joints[j]));
+      joints.push_back(initial_reading(model.tree().joints[j]));
       joints[j].position = pose[j];
     }
     model.place(joints);

@@ -1,4 +1,5 @@
-// Duration of a cycle of the joint controllers, and comparison of the quadratic program with CGAL's solver.
+// Duration of a cycle of the joint controllers, and comparison of the quadratic program with CGAL's
+// solver.
 #include <CGAL/MP_Float.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
@@ -41,8 +42,8 @@ struct Oscillation {
     const double s = std::sin(3 * time_s), c = 3 * std::cos(3 * time_s);
     motions.clear();
     for (const auto& joint : names.list()) {
-      sim::JointMotion motion{sim::start_of(joint), {}};
-      motion.now.position = sim::gone(joint.type, motion.now.position, {0.1 * s, 0.1 * s, 0});
+      sim::JointMotion motion{sim::initial_reading(joint), {}};
+      motion.now.position = sim::displaced(joint.type, motion.now.position, {0.1 * s, 0.1 * s, 0});
       motion.now.velocity_rad_per_s = {0.1 * c, 0.1 * c, 0};
       motion.acceleration_rad_per_s2 = {-0.9 * s, -0.9 * s, 0};
       motions.push_back(motion);
@@ -119,7 +120,8 @@ VectorXd by_cgal(const Program& program, const sim::ObjectiveTerms& likes) {
 
 void program_row(const std::string& name) {
   const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml");
-  const sim::ObjectiveTerms likes = sim::objective_terms(robot, sim::TensionObjective::least_tension, 5);
+  const sim::ObjectiveTerms likes =
+      sim::objective_terms(robot, sim::TensionObjective::least_tension, 5);
   const auto all = programs(robot, 20);
   sim::TensionShare share(likes, static_cast<int>(all[0].l.cols()));
   Times ours, cgal;

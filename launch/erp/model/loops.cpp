@@ -19,7 +19,7 @@ namespace shaping = sim::loop_shaping;
 void place(sim::Musculoskeletal& model, const sim::Pose& pose) {
   std::vector<sim::JointReading> readings;
   for (std::size_t j = 0; j < pose.size(); ++j) {
-    readings.push_back(sim::start_of(model.tree().joints[j]));
+    readings.push_back(sim::initial_reading(model.tree().joints[j]));
     readings.back().position = pose[j];
   }
   model.place(readings);

@@ -14,7 +14,7 @@ using Joints = std::vector<JointReading>;
 
 double apart_rad(erp::JointType type, const std::array<double, 4>& a,
                  const std::array<double, 4>& b) {
-  const auto way = way_between(type, a, b);
+  const auto way = displacement(type, a, b);
   return std::hypot(way[0], way[1], way[2]);
 }
 
@@ -40,7 +40,7 @@ class StillInterval {
   void add(double time_s, const Joints& joints, const std::vector<double>& shaft_rad) {
     end_s_ = time_s, ++rows_;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const auto way = way_between(joints[j].type, first_[j].position, joints[j].position);
+      const auto way = displacement(joints[j].type, first_[j].position, joints[j].position);
       for (std::size_t d = 0; d < 3; ++d) off_[j][d] += way[d];
     }
     for (std::size_t a = 0; a < shaft_.size(); ++a) shaft_[a] += shaft_rad[a];
@@ -52,7 +52,7 @@ class StillInterval {
     for (std::size_t j = 0; j < first_.size(); ++j) {
       auto way = off_[j];
       for (double& turn : way) turn /= rows_;
-      still.pose.push_back(gone(first_[j].type, first_[j].position, way));
+      still.pose.push_back(displaced(first_[j].type, first_[j].position, way));
     }
     return still;
   }

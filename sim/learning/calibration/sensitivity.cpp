@@ -24,7 +24,7 @@ VectorXd turn_between(const erp::Robot& robot, const Pose& from, const Pose& to)
   std::vector<double> turn;
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto way = way_between(joints[j].type, from[j], to[j]);
+    const auto way = displacement(joints[j].type, from[j], to[j]);
     turn.insert(turn.end(), way.begin(), way.begin() + coordinates_of(joints[j].type));
   }
   return Eigen::Map<VectorXd>(turn.data(), std::ssize(turn));

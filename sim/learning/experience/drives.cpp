@@ -18,7 +18,7 @@ Drive drive(const std::string& name, const Eigen::VectorXd& shortening) {
 std::vector<Drive> drives_of(const erp::Robot& robot) {
   Musculoskeletal model(robot);
   std::vector<JointReading> start;
-  for (const erp::Joint& joint : model.tree().joints) start.push_back(start_of(joint));
+  for (const erp::Joint& joint : model.tree().joints) start.push_back(initial_reading(joint));
   model.place(start);
   std::vector<Drive> drives;
   for (std::size_t j = 0; j < start.size(); ++j) {

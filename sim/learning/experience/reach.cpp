@@ -60,7 +60,7 @@ void Reach::next() {
 }
 
 MuscleCommand Reach::guide(double into_s) const {
-  const double done = least_jerk(into_s / times_.approach_s).done;
+  const double done = minimum_jerk(into_s / times_.approach_s).fraction;
   return {true, from_line_m_ + done * (plan_.start_line_m - from_line_m_)};
 }
 

@@ -123,10 +123,10 @@ const MatrixXd& LearnedLengths::jacobian_by_difference(std::span<const JointRead
     std::array<double, 3> way{};
     const auto at = joints[joint].position;
     way[static_cast<std::size_t>(turn)] = step_rad;
-    moved_[joint].position = gone(joints[joint].type, at, way);
+    moved_[joint].position = displaced(joints[joint].type, at, way);
     ahead_m_ = length_m(moved_);
     way[static_cast<std::size_t>(turn)] = -step_rad;
-    moved_[joint].position = gone(joints[joint].type, at, way);
+    moved_[joint].position = displaced(joints[joint].type, at, way);
     jacobian_.col(static_cast<Index>(c)) = (ahead_m_ - length_m(moved_)) / (2 * step_rad);
     moved_[joint].position = at;
   }

@@ -38,13 +38,14 @@ class Pace {
     Eigen::VectorXd u(model_.coordinates());
     const auto& joints = model_.tree().joints;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      auto way = way_between(joints[j].type, from[j], to[j]);
+      auto way = displacement(joints[j].type, from[j], to[j]);
       const int first = model_.skeleton().first_of(static_cast<int>(j));
       for (int d = 0; d < coordinates_of(joints[j].type); ++d) {
         u[first + d] = way[static_cast<std::size_t>(d)];
         way[static_cast<std::size_t>(d)] /= 2;
       }
-      middle.push_back({.type = joints[j].type, .position = gone(joints[j].type, from[j], way)});
+      middle.push_back(
+          {.type = joints[j].type, .position = displaced(joints[j].type, from[j], way)});
     }
     model_.place(middle);
     const Eigen::VectorXd change_m = model_.jacobian() * u;
@@ -97,7 +98,7 @@ class PoseSequence {
     for (const TimedPose& passed : poses_) {
       double square = 0;
       for (std::size_t j = 0; j < joints_.size(); ++j)
-        for (const double d : way_between(joints_[j].type, passed.pose[j], pose[j]))
+        for (const double d : displacement(joints_[j].type, passed.pose[j], pose[j]))
           square += d * d;
       nearest = std::min(nearest, std::sqrt(square));
     }
@@ -147,7 +148,7 @@ Pose Workspace::anywhere() {
       pose[j][0] = std::uniform_real_distribution(middle - reach, middle + reach)(random_);
     }
     if (joint.type == erp::JointType::spherical)
-      pose[j] = gone(joint.type, start_[j], turn_within(options_.ball_rad, random_));
+      pose[j] = displaced(joint.type, start_[j], turn_within(options_.ball_rad, random_));
   }
   return pose;
 }

@@ -109,7 +109,8 @@ void SynergyTraining::round(const Pool& pool) {
     if (k % 2 == 0) struck_ += all[k][0], reward_ += all[k][1], returned_ += returned;
     if (!returned) continue;
     trial.plan.value = all[k][2], trial.plan.at_m = {all[k][3], all[k][4], all[k][5]};
-    if (task_.zone.holds(trial.plan.at_m, task_.margin_m)) fresh.push_back(std::move(trial.plan));
+    if (task_.zone.contains(trial.plan.at_m, task_.margin_m))
+      fresh.push_back(std::move(trial.plan));
   }
   for (MotorPlan& plan : fresh) bank_.add(std::move(plan));
   bank_.trim();

@@ -17,8 +17,8 @@ struct Signal {
   static constexpr double back_s = 0.4;  ///< T_b; chosen
   double rise_s = 0.8, overshoot = 0;
   double at(double time_s) const {
-    return (1 + overshoot) * least_jerk(time_s / rise_s).done -
-           overshoot * least_jerk((time_s - rise_s) / back_s).done;
+    return (1 + overshoot) * minimum_jerk(time_s / rise_s).fraction -
+           overshoot * minimum_jerk((time_s - rise_s) / back_s).done;
   }
 };
 

@@ -35,7 +35,7 @@ class ReturnPath {
 
   Eigen::VectorXd at(double time_s) const {
     const double half = 2 * (time_s - begin_s_) / times_.return_s;
-    const double paid_out = least_jerk(half).done, wound_up = least_jerk(half - 1).done;
+    const double paid_out = minimum_jerk(half).done, wound_up = minimum_jerk(half - 1).done;
     return from_m_.unaryExpr([&](double m) { return m * (1 - (m < 0 ? paid_out : wound_up)); });
   }
   /// True when the lines are back and the rest time `hold_s` has passed.

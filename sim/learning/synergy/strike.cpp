@@ -82,7 +82,7 @@ double relative_jerk(const HandPath& path, double end_s) {
   if (at_m.size() < 4) return 0;
   const Vec3 way_m = at_m.back() - at_m.front();
   for (std::size_t k = 0; k < at_m.size(); ++k)
-    least_m.push_back(way_m * least_jerk(double(k) / double(at_m.size() - 1)).done);
+    least_m.push_back(way_m * minimum_jerk(double(k) / double(at_m.size() - 1)).done);
   return jerks(at_m) / std::max(jerks(least_m), 1e-12);
 }
 

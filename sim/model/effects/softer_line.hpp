@@ -14,8 +14,8 @@ void soften_line(auto& tendon, double compliance_m_per_N) {
                after_m_per_N = before_m_per_N + compliance_m_per_N;
   if (!(after_m_per_N > 0)) return;
   line = 1 / after_m_per_N;
-  const double softer = 1 + compliance_m_per_N / (1 / tendon.stiffness_N_per_m + before_m_per_N);
-  tendon.damping_N_s_per_m /= softer * softer;
+  const double ratio = 1 + compliance_m_per_N / (1 / tendon.stiffness_N_per_m + before_m_per_N);
+  tendon.damping_N_s_per_m /= ratio * ratio;
 }
 
 }  // namespace sim::effects

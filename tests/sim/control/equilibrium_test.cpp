@@ -38,7 +38,7 @@ TEST_CASE(
       for (const auto& from : {pose, arm_at(turn + 0.2, elbow - 0.2)}) {
         const auto rest = equilibrium.find(shafts, from);
         CHECK(rest.unbalanced_Nm < 1e-6);
-        const auto off = sim::way_between(erp::JointType::spherical, pose[0], rest.pose[0]);
+        const auto off = sim::displacement(erp::JointType::spherical, pose[0], rest.pose[0]);
         CHECK(std::hypot(off[0], off[1], off[2]) < 1e-5);
         CHECK(rest.pose[1][0] == Approx(elbow).margin(1e-5));
       }

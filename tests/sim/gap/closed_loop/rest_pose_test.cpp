@@ -15,7 +15,7 @@ TEST_CASE("the simulated rest pose of the arm agrees with its static equilibrium
   for (std::size_t k = 0; k < 4; ++k) {
     CHECK(rest_poses[k].at_rest);
     const auto rest = equilibrium.find(shafts_rad[k], sim::starting_pose(arm)).pose;
-    const auto turn = sim::way_between(erp::JointType::spherical, rest[0], rest_poses[k].pose[0]);
+    const auto turn = sim::displacement(erp::JointType::spherical, rest[0], rest_poses[k].pose[0]);
     CHECK(std::hypot(turn[0], turn[1], turn[2]) < 0.01);
     CHECK(rest_poses[k].pose[1][0] == Approx(rest[1][0]).margin(0.01));
   }

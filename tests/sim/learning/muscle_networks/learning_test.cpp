@@ -17,17 +17,18 @@ namespace {
 
 erp::Robot arm() { return erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml"); }
 
-/// A random posture of the arm: elbow over its range, shoulder turned by up to half a radian per axis.
+/// A random posture of the arm: elbow over its range, shoulder turned by up to half a radian per
+/// axis.
 Joints random_posture(const erp::Robot& robot, std::mt19937& random) {
   std::uniform_real_distribution<double> within(-1, 1);
   Joints joints;
   for (const erp::Joint& joint : robot.joints()) {
-    joints.push_back(sim::start_of(joint));
+    joints.push_back(sim::initial_reading(joint));
     auto& position = joints.back().position;
     if (joint.type == erp::JointType::spherical)
-      position =
-          sim::gone(joint.type, position,
-                    std::array{0.5 * within(random), 0.5 * within(random), 0.5 * within(random)});
+      position = sim::displaced(
+          joint.type, position,
+          std::array{0.5 * within(random), 0.5 * within(random), 0.5 * within(random)});
     else
       position[0] =
           0.5 * (joint.min_rad + joint.max_rad + within(random) * (joint.max_rad - joint.min_rad));
@@ -67,7 +68,7 @@ TEST_CASE("derivatives of posture inputs equal difference quotients, also for ba
           Joints other = joints;
           std::array<double, 3> way{};
           way[std::size_t(d)] = by;
-          other[j].position = sim::gone(joints[j].type, joints[j].position, way);
+          other[j].position = sim::displaced(joints[j].type, joints[j].position, way);
           return other;
         };
         inputs.read(moved(step), ahead), inputs.read(moved(-step), behind);

@@ -88,7 +88,7 @@ TEST_CASE("a camera below the pendulum sees its end at the projected position") 
   REQUIRE(eye.senses() == 2);
   sim::SkeletonModel model(sim::RobotTree(robot), sim::Vec3::Zero());
   std::vector<sim::JointReading> joints;
-  for (const erp::Joint& joint : robot.joints()) joints.push_back(sim::start_of(joint));
+  for (const erp::Joint& joint : robot.joints()) joints.push_back(sim::initial_reading(joint));
   const auto seen = [&](double tilt_x, double tilt_y) {
     joints[0].position[0] = tilt_x, joints[1].position[0] = tilt_y;
     model.place(joints);

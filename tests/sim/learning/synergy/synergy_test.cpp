@@ -30,7 +30,7 @@ Bank bank(int count) {
 HandPath along(const Vector3d& way_m, double time_s, double wait_s) {
   HandPath path;
   for (double t = 0; t <= time_s + wait_s; t += path.sample_s)
-    path.at_m.push_back(sim::least_jerk(t / time_s).done * way_m);
+    path.at_m.push_back(sim::minimum_jerk(t / time_s).done * way_m);
   return path;
 }
 
@@ -182,7 +182,7 @@ Trial trial_returning(double back) {
   Trial trial(plan, {.watch_s = 1, .return_s = 1, .hold_s = 0.5}, 0, 1);
   for (double t = 0; !trial.done(); t += 0.002) {
     trial.step(t);
-    const double there = sim::least_jerk(t / 0.8).done - back * sim::least_jerk(t - 2.2).done;
+    const double there = sim::minimum_jerk(t / 0.8).done - back * sim::minimum_jerk(t - 2.2).done;
     trial.see(t, Vector3d(0.3 * there, 0, 0));
   }
   return trial;

@@ -53,7 +53,7 @@ void check_derivatives(const auto& where, double t) {
   where(t - h, before), where(t, at), where(t + h, after);
   for (std::size_t j = 0; j < at.size(); ++j) {
     const Vec3 turned =
-        vec(sim::way_between(at[j].now.type, before[j].now.position, after[j].now.position)) /
+        vec(sim::displacement(at[j].now.type, before[j].now.position, after[j].now.position)) /
         (2 * h);
     CHECK((turned - vec(at[j].now.velocity_rad_per_s)).norm() < 1e-7);
     const Vec3 faster =
@@ -113,7 +113,7 @@ TEST_CASE(
   };
   at(begin_s, guided);
   for (std::size_t j = 0; j < 2; ++j) {
-    CHECK(vec(sim::way_between(now[j].type, guided[j].now.position, now[j].position)).norm() <
+    CHECK(vec(sim::displacement(now[j].type, guided[j].now.position, now[j].position)).norm() <
           1e-9);
     CHECK((vec(guided[j].now.velocity_rad_per_s) - vec(now[j].velocity_rad_per_s)).norm() < 1e-9);
   }
@@ -182,10 +182,10 @@ TEST_CASE("the trajectory through a point has minimum jerk") {
 
 TEST_CASE("a ball joint rotates by the smaller angle") {
   const auto far = pose(3.0, Vec3::UnitZ(), 0)[0], back = pose(-3.0, Vec3::UnitZ(), 0)[0];
-  const Vec3 way = vec(sim::way_between(erp::JointType::spherical, far, back));
+  const Vec3 way = vec(sim::displacement(erp::JointType::spherical, far, back));
   CHECK(way.z() == Approx(2 * std::numbers::pi - 6));
-  const auto there = sim::gone(erp::JointType::spherical, far, {way.x(), way.y(), way.z()});
-  CHECK(vec(sim::way_between(erp::JointType::spherical, there, back)).norm() < 1e-12);
+  const auto there = sim::displaced(erp::JointType::spherical, far, {way.x(), way.y(), way.z()});
+  CHECK(vec(sim::displacement(erp::JointType::spherical, there, back)).norm() < 1e-12);
 }
 
 TEST_CASE("times that do not increase are rejected with the row") {
