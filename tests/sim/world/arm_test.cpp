@@ -43,7 +43,7 @@ Hold hold(Limb& limb, const std::vector<double>& from, const std::vector<double>
   std::vector<double> lines = from;
   for (int k = 0; k <= std::lround((1.5 + settle_s) / 0.002); ++k) {
     for (std::size_t i = 0; i < lines.size(); ++i)
-      lines[i] = from[i] + sim::least_jerk(k / 750.0).done * (to[i] - from[i]);
+      lines[i] = from[i] + sim::minimum_jerk(k / 750.0).done * (to[i] - from[i]);
     limb.follow_lines(lines);
   }
   const sim::Pose settled = pose_of(limb.world);

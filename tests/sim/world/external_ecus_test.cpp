@@ -130,7 +130,7 @@ TEST_CASE("the world waits for a late ECU, not for a disconnected one") {
   Rig rig;
   Pins pins;
   REQUIRE(rig.request(pins).size() == 1);
-  const int late = sim::ExternalEcus::late_steps, silent = sim::ExternalEcus::silent_steps;
+  const int late = sim::ExternalEcus::overdue_steps, silent = sim::ExternalEcus::silent_steps;
   CHECK(rig.step(silent - 1) == late);
   CHECK(rig.step(10) == 10);
   CHECK(rig.ecus.alive() == 0);
@@ -138,9 +138,9 @@ TEST_CASE("the world waits for a late ECU, not for a disconnected one") {
 
 TEST_CASE("while the world waits for one ECU, the others do not look silent to a gateway") {
   using sim::ExternalEcus;
-  const int wait = ExternalEcus::silent_steps - ExternalEcus::late_steps;
+  const int wait = ExternalEcus::silent_steps - ExternalEcus::overdue_steps;
   const double usual_s =
-      2 * ExternalEcus::steps_a_tick * ExternalEcus::step_s;  // between two messages
+      2 * ExternalEcus::steps_per_tick * ExternalEcus::step_s;  // between two messages
   CHECK(wait * ExternalEcus::step_s + usual_s < 1e-9 * double(erp::EcuWatch::silent_ns));
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("in lockstep the next readings are sent when all ECUs have requested t
   pins.request(now[0].turn);
   CHECK(rig.receive());
   CHECK(pins.given().empty());
-  rig.step(sim::ExternalEcus::steps_a_tick);
+  rig.step(sim::ExternalEcus::steps_per_tick);
   rig.ecus.begin_turn();
   const auto next = pins.given();
   REQUIRE(next.size() == 1);
