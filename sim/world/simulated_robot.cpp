@@ -15,7 +15,7 @@ SimulatedRobot::SimulatedRobot(const erp::Robot& robot, const erp::Robot& config
 
 void SimulatedRobot::send_gains(const erp::Robot& configured) {
   for (const erp::Actuator& a : configured.actuators) {
-    const auto gains = design_parameters(configured, a, {.stuck_share = 0});
+    const auto gains = design_parameters(configured, a, {.stuck_speed_fraction = 0});
     erp::EcuParameter message;
     for (std::size_t k = 0; k < gains.size(); ++k)
       erp::append(message.values,

@@ -6,7 +6,7 @@
 #include "interfaces/robot/robot.hpp"
 
 /// The uncertain parameters of a robot as normalised numbers x_i (paper, 4.4): 0 is the value of
-/// robot.xml, 1 is off by the expected spread.
+/// robot.xml, 1 differs from it by the expected spread.
 ///
 ///   attachments   A, B: first and last point of a tendon    x_i m, each of three axes
 ///   length        L_K0                                      m, added to the length from robot.xml:

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "sim/control/tension_share.hpp"
+#include "sim/control/tension_distribution.hpp"
 
 namespace {
 
@@ -19,8 +19,8 @@ const erp::Robot& arm() {
 class Truth {
  public:
   explicit Truth(unsigned seed)
-      : share_(sim::objective_terms(arm(), sim::TensionObjective::least_tension, 5),
-               model_.coordinates()),
+      : distribution_(sim::objective_terms(arm(), sim::TensionObjective::least_tension, 5),
+                      model_.coordinates()),
         random_(seed) {
     for (const auto& joint : model_.tree().joints) now_.push_back(sim::initial_reading(joint));
     speed_.setZero(model_.coordinates());
@@ -34,7 +34,7 @@ class Truth {
     model_.skeleton().inertia(inertia);
     // A soft spring towards the start keeps the arm in range.
     VectorXd pull = -4 * offset_ - 2 * speed_;
-    const VectorXd f = share_.share(model_.jacobian(), bias + inertia * pull);
+    const VectorXd f = distribution_.distribute(model_.jacobian(), bias + inertia * pull);
     VectorXd torque = -bias - model_.jacobian().transpose() * f;
     for (std::size_t j = 0; j < now_.size(); ++j)
       for (int d = 0; d < sim::coordinates_of(now_[j].type); ++d) {
@@ -91,7 +91,7 @@ class Truth {
   }
 
   sim::Musculoskeletal model_{arm()};
-  sim::TensionShare share_;
+  sim::TensionDistribution distribution_;
   VectorXd speed_, offset_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_;

@@ -8,7 +8,7 @@
 TEST_CASE("the simulated rest pose of the arm agrees with its static equilibrium within 0.01 rad") {
   const erp::Robot arm = arm_poses::arm();
   std::vector<std::vector<double>> shafts_rad;
-  for (const auto& still : arm_poses::held(arm, 4)) shafts_rad.push_back(still.shaft_rad);
+  for (const auto& still : arm_poses::held_poses(arm, 4)) shafts_rad.push_back(still.shaft_rad);
   sim::Equilibrium equilibrium(arm);
   const auto rest_poses = sim::closed_loop::rest_poses(arm, shafts_rad);
   REQUIRE(rest_poses.size() == 4);
