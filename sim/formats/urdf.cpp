@@ -91,7 +91,7 @@ void join_roots(Tree& root, const erp::Robot& robot) {
 Eigen::Isometry3d origin_of(const Foreign& element) {
   const auto origin = element.one("origin");
   if (!origin) return Eigen::Isometry3d::Identity();
-  std::vector<double> v(3), turn(3);
+  std::vector<double> v(3), rpy(3);
   if (origin->attribute("xyz")) v = origin->numbers("xyz", 3);
   if (origin->attribute("rpy")) rpy = origin->numbers("rpy", 3);
   v.insert(v.end(), rpy.begin(), rpy.end());

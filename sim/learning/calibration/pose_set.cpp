@@ -29,7 +29,7 @@ double largest_angle_rad(const Joints& a, const Pose& b) {
 class StillInterval {
  public:
   StillInterval(double time_s, const Joints& joints, std::size_t actuators)
-      : begin_s_(time_s), first_(joints), off_(joints.size()), shaft_(actuators) {}
+      : begin_s_(time_s), first_(joints), sum_(joints.size()), shaft_(actuators) {}
 
   bool contains(const Joints& joints, double turns_rad) const {
     for (std::size_t j = 0; j < joints.size(); ++j)

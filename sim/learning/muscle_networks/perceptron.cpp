@@ -32,7 +32,7 @@ Perceptron Perceptron::drawn(Index inputs, Index units, std::uint64_t seed) {
   std::uniform_real_distribution<double> coordinate(-1, 1);
   Perceptron net{MatrixXd(units, inputs + 1), VectorXd::Zero(units + 1)};
   for (Index k = 0; k < units; ++k) {
-    VectorXd at(inputs);
+    VectorXd inflection(inputs);
     for (Index i = 0; i < inputs; ++i)
       net.hidden(k, i) = normal(random), inflection[i] = coordinate(random);
     net.hidden(k, inputs) = -net.hidden.row(k).head(inputs).dot(inflection);

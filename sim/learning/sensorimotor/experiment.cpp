@@ -18,7 +18,7 @@ std::vector<Goal> goals_of(const Experiment& experiment, Eigen::Index senses) {
   std::vector<Goal> goals;
   const auto add = [&](const xml::Place& place, const VectorXd& target) {
     if (target.size() != senses)
-      throw std::invalid_argument(place.file + ":" + std::to_string(place.spaced) +
+      throw std::invalid_argument(place.file + ":" + std::to_string(place.line) +
                                   ": the goal has " + std::to_string(target.size()) +
                                   " senses, the cameras give " + std::to_string(senses) +
                                   "; give two per camera");
