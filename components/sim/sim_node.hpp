@@ -14,16 +14,16 @@
 #include "sim/world/virtual_ecus.hpp"
 #include "sim/world/world.hpp"
 
-/// The simulator as the device of a graph: the world of robot.xml with the virtual ECUs that run
-/// the firmware. Every 2 ms it measures, publishes an ecu_frame and simulates a tick with the
-/// commands received so far.
+/// The simulator as the device of a graph: the world of robot.xml with the virtual ECUs that run the
+/// firmware. Every 2 ms it measures, publishes an ecu_frame and simulates a tick with the commands
+/// received so far.
 ///
 ///   realtime   one tick per 2 ms of the clock; a delay of up to 0.2 s is made up at twice the rate,
 ///              a longer one is skipped and counted as overruns
 ///   lockstep   a tick follows the command that answers the last frame, without waiting for the clock
 ///
-/// With `bus` set it simulates the robot on its CAN buses instead, and a gateway is the device.
-/// With `converter_port` or `converter_lines` set its ECUs are separate programs on those buses
+/// With `bus` set it simulates the robot on its CAN buses instead, and a gateway is the device. With
+/// `converter_port` or `converter_lines` set its ECUs are separate programs on those buses
 /// (external_ecus.hpp).
 namespace sim {
 

@@ -10,8 +10,8 @@
 /// One motor plan over time. The simulator without a bus and a live graph run the same code. Time
 /// is an argument.
 ///
-///   plan    l_m(t) = −w_m u(t) (1 + n_m(t)): signal-dependent noise n, an Ornstein–Uhlenbeck process
-///           for each muscle (Harris and Wolpert 1998: proportional standard deviation)
+///   plan    l_m(t) = −w_m u(t) (1 + n_m(t)): signal-dependent noise n, for each muscle an
+///           Ornstein–Uhlenbeck process (Harris and Wolpert 1998: proportional standard deviation)
 ///   watch   the lines keep their length; the hand is still recorded
 ///   return  the lines return to their starting lengths, and rest
 namespace sim::synergy {

@@ -16,7 +16,7 @@
 ///   change_motor(motor)  change_actuator(actuator)  change_joint(joint)  change_body(body)
 ///   change_robot(robot, on)                  acts_per_step: the seams below also act
 /// Seams in the chain of an actuator, called in each step:
-///   voltage_V(V, s)                   voltage at the motor's terminals for the voltage that the ECU applies
+///   voltage_V(V, s)                   voltage at the motor for the voltage V that the ECU applies
 ///   driver_delay_s()                  delay until this voltage acts
 ///   delayed_voltage_V(V, s, memory)      the delayed voltage, its mean over a step
 ///   resistance_ohm(R, s, memory)      of the winding
@@ -36,7 +36,7 @@
 ///   read(value, s, memory)            the reading;   undo(reading, s, memory)  its inverse
 ///   averaged(s)                       weight, 0 … 1, with which `undo` returns the mean around the
 ///                                     sample instead of the value at its instant
-///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, a new value per call
+///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, new per call
 namespace sim::effects {
 
 /// The stage of the model that an effect belongs to.

@@ -5,7 +5,9 @@ namespace sim::effects {
 /// A compliance c in series with a tendon's spring and damper,  F = κ x + d ẋ,  Δx = x + c F.
 /// For motions slower than 1/(c d):
 ///
-///   1/κ_line' = 1/κ_line + c      d' = d/(1 + κ c)²      κ: spring and line in series, before the change
+///   1/κ_line' = 1/κ_line + c,   d' = d/(1 + κ c)²
+///
+/// κ: stiffness of spring and line in series, before the change.
 ///
 /// Ignores that κ of a stiffening spring depends on the stretch.
 void soften_line(auto& tendon, double compliance_m_per_N) {

@@ -6,7 +6,9 @@ namespace sim::effects {
 
 /// Elasticity of the line.
 ///
-///   Δx = x_spring + c F l/l₀        l: free line length, unstretched: path − Δx; l₀: path at the start
+///   Δx = x_spring + c F l/l₀
+///
+/// l: free line length, unstretched: path − Δx; l₀: path at the start.
 ///
 /// The wound line does not stretch, because friction on the spindle holds it. With the stiffness κ
 /// of spring and line at its initial length, δF = −κ Δx κε/(1 + κε), ε = c (l/l₀ − 1).
