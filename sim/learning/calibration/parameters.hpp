@@ -62,7 +62,7 @@ struct Candidate {
 
 class Parameters {
  public:
-  /// Begins at the robot's line lengths; its other effects are kept. Throws xml::Errors for an
+  /// Begins at the robot's line lengths; its other effects do not change. Throws xml::Errors for an
   /// actuator that does not exist or is chosen twice.
   Parameters(erp::Robot robot, const Choice& choice);
 

@@ -7,7 +7,7 @@ namespace sim::muscle_networks {
 /// Learns corrections to known tendon lengths l_base online, sample by sample:
 ///
 ///   l = l_base(q) + Cᵀ φ(x) + noise,    φ(x) = tanh(W x + b) and a constant; W, b random and fixed
-///   P = (σ_C/σ_noise)² initially, so that the correction stays near 0 where there are no samples
+///   P = (σ_C/σ_noise)² initially: the correction stays near 0 where there are no samples
 ///   k = P φ/(λ + φᵀ P φ),   C ← C + k (l − l_base − Cᵀ φ)ᵀ,   P ← (P − k φᵀ P)/λ
 ///
 /// Recursive least squares with forgetting factor λ. All muscles share P, because they share φ. The

@@ -60,7 +60,7 @@ bool Motor::drives(const MotorState& x, const MotorLoad& load, int direction) co
 }
 
 Motor::Band Motor::band(const MotorLoad& load) const {
-  // Breakaway: ω = 0, dω/dt = 0, so that T = X and the power's direction follows from X.
+  // Breakaway: ω = 0, dω/dt = 0. Then T = X, and the direction of power follows from X.
   const double n = type_.gear_ratio, eta = type_.gear_efficiency;
   const double up = radius_m_ * load.tension_N + dry_friction_Nm(load, 1);
   const double down = radius_m_ * load.tension_N - dry_friction_Nm(load, -1);

@@ -51,7 +51,7 @@ class RotationVector {
   }
 
   Vec3 u_;
-  double a_, b_, da_, db_;  ///< da: (da/dθ)/θ, so that ȧ = da u·u̇
+  double a_, b_, da_, db_;  ///< da: (da/dθ)/θ; then ȧ = da u·u̇
 };
 
 }  // namespace sim
