@@ -40,7 +40,8 @@ ComputedForce::ComputedForce(const Params& params, const erp::Robot& robot)
       names_(robot),
       model_(robot),
       source_(jacobian_source(params.jacobian, muscles_file(params), robot, model_)),
-      share_(sim::objective_terms(robot, params.objective, params.least_N), model_.coordinates()),
+      distribution_(sim::objective_terms(robot, params.objective, params.least_N),
+                    model_.coordinates()),
       now_(names_.size()),
       desired_(names_.size()),
       acceleration_(Vector::Zero(model_.coordinates())),
@@ -76,7 +77,7 @@ std::optional<erp::ActuatorCommand> ComputedForce::step(
   mark_tripped(frame);
   source_->update(now_, frame);
   const Eigen::MatrixXd& jacobian = source_->at(now_);
-  return command(jacobian, share_.share(jacobian, torque_), dt_s);
+  return command(jacobian, distribution_.distribute(jacobian, torque_), dt_s);
 }
 
 /// a_ref, joint by joint.
@@ -87,7 +88,7 @@ void ComputedForce::reference_acceleration(double dt_s) {
     const int turns = std::min(sim::coordinates_of(now_[j].type), 3);
     if (first < 0 || names_.list()[j].type == erp::JointType::free) continue;
     const Eigen::Matrix3d own = into_joint_frame(now_[j], desired_[j].now);
-    const Vec3 e = vec(sim::way_between(now_[j].type, now_[j].position, desired_[j].now.position));
+    const Vec3 e = vec(sim::displacement(now_[j].type, now_[j].position, desired_[j].now.position));
     const Vec3 speed = own * vec(desired_[j].now.velocity_rad_per_s);
     const Vec3 slower = speed - vec(now_[j].velocity_rad_per_s);
     const Vec3 ahead = own * vec(desired_[j].acceleration_rad_per_s2);
@@ -123,7 +124,7 @@ void ComputedForce::mark_tripped(const erp::SensorFrame& frame) {
       const bool tripped = static_cast<erp::EcuState>(sample.ecu_state) == erp::EcuState::fault;
       const double measured_N =
           sample.valid & erp::valid::tension ? std::max(0.0, sample.tension_N) : 0;
-      share_.fix(static_cast<int>(a), tripped ? measured_N : -1);
+      distribution_.fix(static_cast<int>(a), tripped ? measured_N : -1);
     }
 }
 

@@ -6,14 +6,14 @@
 #include "components/joints/joints.hpp"
 #include "components/node/run.hpp"
 #include "sim/control/force_reference.hpp"
-#include "sim/control/tension_share.hpp"
+#include "sim/control/tension_distribution.hpp"
 #include "sim/model/actuator/musculoskeletal.hpp"
 
 /// Computed force control (paper, 5.3 and Fig. 8a):
 ///
 ///   a_ref = a_d + k_d (v_d − v) + k_p e + k_i ∫ e dt          e = q_d ⊖ q
 ///   τ     = H(q) a_ref + C(q, v) + τ_G(q) + τ_f(v_d)          eq. 6; τ_f friction of the joints
-///   f     = argmin of a cost, τ = −Lᵀ(q) f, f_min ≤ f ≤ f_max     eqs 7, 8: tension_share.hpp
+///   f     = argmin of a cost, τ = −Lᵀ(q) f, f_min ≤ f ≤ f_max   eqs 7, 8: tension_distribution.hpp
 ///
 /// f are references for the force controllers of the ECUs. For ball joints e, v and a are vectors
 /// in the child's frame, so there is no gimbal lock. A tendon whose ECU has tripped enters with its
@@ -97,7 +97,7 @@ class ComputedForce {
   joints::Names names_;
   sim::Musculoskeletal model_;
   std::unique_ptr<JacobianSource> source_;
-  sim::TensionShare share_;
+  sim::TensionDistribution distribution_;
   std::vector<sim::JointReading> now_;
   std::vector<sim::JointMotion> desired_;
   std::vector<sim::ForceReference> laws_;

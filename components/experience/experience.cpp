@@ -47,7 +47,7 @@ Experience::Experience(const Params& params, const erp::Robot& robot, node::Node
       base_(base_of(file_)),
       hand_(file_.hand, sim::RobotTree(robot).names),
       motors_(robot) {
-  for (const erp::Joint& joint : names_.list()) now_.push_back(sim::start_of(joint));
+  for (const erp::Joint& joint : names_.list()) now_.push_back(sim::initial_reading(joint));
   line_m_ = tension_N_ = Eigen::VectorXd::Zero(std::ssize(robot.actuators));
   feedback(params_, base_, 0, Vec3::Zero());  // reports errors of the rules file at start-up
 }

@@ -32,7 +32,7 @@ void extrapolate(sim::JointReading& reading, std::int64_t by_ns) {
   const double by_s = 1e-9 * static_cast<double>(by_ns);
   auto way = reading.velocity_rad_per_s;
   for (double& turn : way) turn *= by_s;
-  reading.position = sim::gone(reading.type, reading.position, way);
+  reading.position = sim::displaced(reading.type, reading.position, way);
 }
 
 }  // namespace
@@ -56,14 +56,15 @@ bool Names::each(const Message& message, Take read_one) const {
 
 bool Names::read(const erp::JointState& message, std::vector<sim::JointReading>& readings) const {
   readings.resize(joints_.size());
-  for (std::size_t j = 0; j < joints_.size(); ++j) readings[j] = sim::start_of(joints_[j]);
+  for (std::size_t j = 0; j < joints_.size(); ++j) readings[j] = sim::initial_reading(joints_[j]);
   return each(message,
               [&](std::size_t j, const auto& sample) { return read_sample(sample, readings[j]); });
 }
 
 bool Names::read(const erp::JointTarget& message, std::vector<sim::JointMotion>& motions) const {
   motions.resize(joints_.size());
-  for (std::size_t j = 0; j < joints_.size(); ++j) motions[j] = {sim::start_of(joints_[j]), {}};
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    motions[j] = {sim::initial_reading(joints_[j]), {}};
   return each(message, [&](std::size_t j, const auto& sample) {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -122,7 +123,7 @@ void Names::write(std::span<const sim::JointReading> readings, const Eigen::Vect
 double apart_rad(std::span<const sim::JointReading> a, std::span<const sim::JointMotion> b) {
   double most = 0;
   for (std::size_t j = 0; j < a.size(); ++j) {
-    const auto way = sim::way_between(a[j].type, a[j].position, b[j].now.position);
+    const auto way = sim::displacement(a[j].type, a[j].position, b[j].now.position);
     most = std::max(most, std::hypot(way[0], way[1], way[2]));
   }
   return most;
@@ -133,7 +134,7 @@ sim::CatchUp catch_up(std::span<const sim::JointReading> now,
   constexpr double least_s = 0.2;  // chosen: shortest transition; also limits the deceleration
   double top = 0;
   for (const auto& joint : now) top = std::max(top, sim::vec(joint.velocity_rad_per_s).norm());
-  const double way_s = sim::least_jerk_top_speed * apart_rad(now, desired) / rad_per_s;
+  const double way_s = sim::minimum_jerk_top_speed * apart_rad(now, desired) / rad_per_s;
   return {now, desired, std::max({way_s, least_s * top / rad_per_s, least_s})};
 }
 

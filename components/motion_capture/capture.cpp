@@ -14,7 +14,7 @@ using sim::Vec3;
 Capture::Capture(const sim::RobotTree& tree, std::vector<Marker> markers,
                  std::array<sim::cameras::Camera, 2> cameras, const CaptureOptions& options)
     : cameras_(std::move(cameras)), options_(options), fit_(tree, std::move(markers), options.fit) {
-  for (const erp::Joint& joint : tree.joints) joints_.push_back(sim::start_of(joint));
+  for (const erp::Joint& joint : tree.joints) joints_.push_back(sim::initial_reading(joint));
 }
 
 std::optional<Captured> Capture::see(const sim::cameras::Image& left,
@@ -39,7 +39,7 @@ void Capture::predict(double dt_s) {
   for (JointReading& joint : predicted_) {
     std::array<double, 3> way = joint.velocity_rad_per_s;
     for (double& turn : way) turn *= dt_s;
-    joint.position = sim::gone(joint.type, joint.position, way);
+    joint.position = sim::displaced(joint.type, joint.position, way);
   }
 }
 
@@ -92,7 +92,7 @@ void Capture::update_velocities(const std::vector<bool>& known_before, double dt
     JointReading& joint = captured_.joints[j];
     joint.velocity_rad_per_s = {};
     if (known_before.empty() || !known_before[j] || !captured_.known[j] || !(dt_s > 0)) continue;
-    const auto off = sim::way_between(joint.type, predicted_[j].position, joint.position);
+    const auto off = sim::displacement(joint.type, predicted_[j].position, joint.position);
     for (std::size_t d = 0; d < 3; ++d)
       joint.velocity_rad_per_s[d] =
           predicted_[j].velocity_rad_per_s[d] + options_.follow * off[d] / dt_s;

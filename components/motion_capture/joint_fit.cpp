@@ -76,7 +76,7 @@ double JointFit::step(const MarkerPoints& seen, std::vector<JointReading>& joint
     std::array<double, 3> turn{};
     for (int d = 0; d < std::min(sim::coordinates_of(joints[j].type), 3); ++d)
       turn[static_cast<std::size_t>(d)] = way[first + d];
-    joints[j].position = sim::gone(joints[j].type, joints[j].position, turn);
+    joints[j].position = sim::displaced(joints[j].type, joints[j].position, turn);
   }
   return count ? std::sqrt(squares / count) : 0;
 }

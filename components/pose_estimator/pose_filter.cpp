@@ -9,7 +9,8 @@ namespace pose {
 PoseFilter::PoseFilter(const erp::Robot& robot, const FilterOptions& options)
     : options_(options), model_(robot), gravity_m_per_s2_(sim::vec(robot.gravity_m_per_s2())) {
   const Eigen::Index n = model_.coordinates();
-  for (const erp::Joint& joint : model_.tree().joints) joints_.push_back(sim::start_of(joint));
+  for (const erp::Joint& joint : model_.tree().joints)
+    joints_.push_back(sim::initial_reading(joint));
   viscous_.resize(static_cast<std::size_t>(n));
   for (std::size_t j = 0; j < joints_.size(); ++j)
     for (int d = 0; d < sim::coordinates_of(joints_[j].type); ++d)
@@ -77,7 +78,7 @@ void PoseFilter::turn(const Eigen::Ref<const Vector>& by) {
       way[static_cast<std::size_t>(d)] = by[first + d];
       joints_[j].velocity_rad_per_s[static_cast<std::size_t>(d)] = speed_[first + d];
     }
-    joints_[j].position = sim::gone(joints_[j].type, joints_[j].position, way);
+    joints_[j].position = sim::displaced(joints_[j].type, joints_[j].position, way);
   }
 }
 
@@ -93,7 +94,7 @@ bool PoseFilter::update_joint(int joint, const std::array<double, 4>& position, 
   const auto j = static_cast<std::size_t>(joint);
   const int first = model_.skeleton().first_of(joint);
   if (first < 0) return false;
-  const auto way = sim::way_between(joints_[j].type, joints_[j].position, position);
+  const auto way = sim::displacement(joints_[j].type, joints_[j].position, position);
   bool all = true;
   for (int d = 0; d < std::min(sim::coordinates_of(joints_[j].type), 3); ++d) {
     row_.setZero();

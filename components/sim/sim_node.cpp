@@ -82,7 +82,7 @@ SimNode::SimNode(const Params& params, const erp::Robot& robot, node::Node& node
     });
   else
     node.every(
-        tick_ns / steps_a_tick(), [this] { step(); }, external_ ? 0 : make_up_ns);
+        tick_ns / steps_per_tick(), [this] { step(); }, external_ ? 0 : make_up_ns);
 }
 
 void SimNode::join_bus_as_device() {
@@ -114,7 +114,7 @@ void SimNode::serve_external(const Params& params, const erp::Robot& robot) {
 /// In lockstep the world advances when every ECU has requested the next readings.
 void SimNode::receive_external() {
   if (!external_->receive()) return;
-  for (int k = 0; k < steps_a_tick(); ++k) step();
+  for (int k = 0; k < steps_per_tick(); ++k) step();
   if (!at_end()) external_->begin_turn();
 }
 
@@ -140,11 +140,11 @@ void SimNode::on_command(const erp::EcuCommand& command) {
 
 /// With external ECUs the world advances in steps between their periods. They cannot run faster to
 /// make up for a delay, so the world does not either.
-int SimNode::steps_a_tick() const { return external_ ? ExternalEcus::steps_a_tick : 1; }
+int SimNode::steps_per_tick() const { return external_ ? ExternalEcus::steps_per_tick : 1; }
 
 void SimNode::step() {
   if (external_ && !external_->step(world_)) return;
-  if (++steps_ % steps_a_tick() == 0) tick();
+  if (++steps_ % steps_per_tick() == 0) tick();
 }
 
 void SimNode::tick() {

@@ -71,7 +71,7 @@ class SimNode {
   void serve_external(const Params& params, const erp::Robot& robot);
   void receive_external();
   void report_external();
-  int steps_a_tick() const;
+  int steps_per_tick() const;
   void step();
   void tick();
   bool at_end() const { return end_ticks_ && ticks_ >= end_ticks_; }

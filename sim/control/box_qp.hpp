@@ -6,15 +6,16 @@
 ///
 ///   min ½ xᵀ H x − cᵀ x,   low ≤ x ≤ high          H symmetric, positive definite
 ///
-/// Solved by a dual active set method (Goldfarb and Idnani 1983, here for bounds only). x is the minimum
-/// with the active bounds as equalities; their multipliers w = H x − c are ≥ 0 at low and ≤ 0 at high.
-/// Each iteration activates the most violated bound; an active bound whose multiplier reaches zero on
-/// the way is released. Each step increases the dual objective, so the method terminates. It starts
-/// with the active set of the previous call: near the last solution it needs one step or none.
+/// Solved by a dual active set method (Goldfarb and Idnani 1983, here for bounds only). x is the
+/// minimum with the active bounds as equalities; their multipliers w = H x − c are ≥ 0 at low and ≤
+/// 0 at high. Each iteration activates the most violated bound. An active bound is released if its
+/// multiplier reaches zero during the step. Each step increases the dual objective, so the method
+/// terminates. It starts with the active set of the previous call. Near the last solution it needs
+/// one step or none.
 ///
-/// With the free variables swept, the tableau contains −H_FF⁻¹, H_FF⁻¹ H_FB and
-/// H_BB − H_BF H_FF⁻¹ H_FB. Its columns are the directions of all variables and multipliers when one
-/// variable moves to its bound. Activating or releasing a bound is one sweep of n² operations.
+/// With the free variables swept, the tableau contains −H_FF⁻¹, H_FF⁻¹ H_FB and H_BB − H_BF H_FF⁻¹
+/// H_FB. Its columns are the directions of all variables and multipliers when one variable moves to
+/// its bound. Activating or releasing a bound is one sweep of n² operations.
 ///
 /// No heap after construction.
 namespace sim {
@@ -36,29 +37,29 @@ class BoxQp {
   int changes() const { return changes_; }
   /// False: because of rounding, the last call did not converge within 20 changes per variable. Its
   /// result satisfies the bounds and may be slightly suboptimal.
-  bool settled() const { return settled_; }
+  bool converged() const { return converged_; }
   /// Clears the active set.
-  void start_cold() { held_.assign(held_.size(), Held::free); }
+  void start_cold() { active_.assign(active_.size(), Bound::free); }
 
  private:
-  enum class Held : char { free, at_low, at_high };
+  enum class Bound : char { free, at_low, at_high };
   void check(const Vector& low, const Vector& high) const;
   void sweep(Eigen::Index k);
-  void free_all_but_held(const Matrix& h);
-  void solve_held(const Vector& c, const Vector& low, const Vector& high);
+  void sweep_free_variables(const Matrix& h);
+  void solve_active_set(const Vector& c, const Vector& low, const Vector& high);
   bool release_wrong_signs();
   Eigen::Index most_violated(const Vector& low, const Vector& high) const;
-  void activate(Eigen::Index p, double bound, Held side);
-  bool is_free(Eigen::Index k) const { return held_[static_cast<std::size_t>(k)] == Held::free; }
-  Held& held(Eigen::Index k) { return held_[static_cast<std::size_t>(k)]; }
+  void activate(Eigen::Index p, double bound, Bound side);
+  bool is_free(Eigen::Index k) const { return active_[static_cast<std::size_t>(k)] == Bound::free; }
+  Bound& active(Eigen::Index k) { return active_[static_cast<std::size_t>(k)]; }
 
   Eigen::Index n_;
   Matrix tableau_;
   Vector x_, w_, column_;
-  std::vector<Held> held_;
-  static constexpr int max_changes_per_unknown = 20;
+  std::vector<Bound> active_;
+  static constexpr int max_changes_per_unknown = 20;  // chosen
   int changes_ = 0;
-  bool settled_ = true;
+  bool converged_ = true;
 };
 
 }  // namespace sim

@@ -19,8 +19,8 @@ using Joints = std::vector<JointReading>;
 
 }  // namespace
 
-struct Equilibrium::Inside {
-  Inside(const erp::Robot& robot, std::span<const double> longer_m) : model(robot) {
+struct Equilibrium::Implementation {
+  Implementation(const erp::Robot& robot, std::span<const double> longer_m) : model(robot) {
     for (std::size_t a = 0; a < robot.actuators.size(); ++a) {
       const erp::Actuator& actuator = robot.actuators[a];
       laws.push_back(TendonLaw::at_rest(actuator.tendon, actuator.spindle,
@@ -59,12 +59,12 @@ struct Equilibrium::Inside {
   }
 
   /// q ⊕ u.
-  Joints turned(Joints q, const VectorXd& u) const {
+  Joints displaced_by(Joints q, const VectorXd& u) const {
     for (std::size_t j = 0; j < q.size(); ++j) {
-      std::array<double, 3> way{};
+      std::array<double, 3> offset{};
       for (int d = 0; d < coordinates_of(q[j].type); ++d)
-        way[static_cast<std::size_t>(d)] = u[first_of(j) + d];
-      q[j].position = gone(q[j].type, q[j].position, way);
+        offset[static_cast<std::size_t>(d)] = u[first_of(j) + d];
+      q[j].position = displaced(q[j].type, q[j].position, offset);
     }
     return q;
   }
@@ -75,33 +75,35 @@ struct Equilibrium::Inside {
     return q;
   }
 
-  /// The coordinates that are not held by a stop under these torques.
+  /// The coordinates that no stop holds under these torques.
   std::vector<Index> movable(const Joints& q, const VectorXd& torque) const {
-    std::vector<Index> found;
+    std::vector<Index> movable_coordinates;
     for (std::size_t j = 0; j < q.size(); ++j) {
       const double angle = q[j].position[0];
-      const auto pressed = [&] {
-        const double up = -torque[first_of(j)];  // downhill
-        return (angle >= joint(j).max_rad && up > 0) || (angle <= joint(j).min_rad && up < 0);
+      const auto is_at_stop = [&] {
+        const double motion = -torque[first_of(j)];  // along which V decreases
+        return (angle >= joint(j).max_rad && motion > 0) ||
+               (angle <= joint(j).min_rad && motion < 0);
       };
-      if (q[j].type == erp::JointType::revolute && pressed()) continue;
-      for (int d = 0; d < coordinates_of(q[j].type); ++d) found.push_back(first_of(j) + d);
+      if (q[j].type == erp::JointType::revolute && is_at_stop()) continue;
+      for (int d = 0; d < coordinates_of(q[j].type); ++d)
+        movable_coordinates.push_back(first_of(j) + d);
     }
-    return found;
+    return movable_coordinates;
   }
 
   /// ∂(τ_G + Lᵀ f)/∂q for some of the coordinates; symmetric where the torques are zero.
-  MatrixXd slope(const Joints& q, const VectorXd& torque, const std::vector<Index>& among) {
-    constexpr double step_rad = 1e-6;
-    const auto n = static_cast<Index>(among.size());
-    MatrixXd found(n, n);
+  MatrixXd slope(const Joints& q, const VectorXd& torque, const std::vector<Index>& coordinates) {
+    constexpr double step_rad = 1e-6;  // chosen
+    const auto n = static_cast<Index>(coordinates.size());
+    MatrixXd stiffness(n, n);
     for (Index c = 0; c < n; ++c) {
       VectorXd u = VectorXd::Zero(torque.size());
-      u[among[static_cast<std::size_t>(c)]] = step_rad;
-      place(turned(q, u));
-      found.col(c) = (torque_Nm - torque)(among) / step_rad;
+      u[coordinates[static_cast<std::size_t>(c)]] = step_rad;
+      place(displaced_by(q, u));
+      stiffness.col(c) = (torque_Nm - torque)(coordinates) / step_rad;
     }
-    return (found + found.transpose()) / 2;
+    return (stiffness + stiffness.transpose()) / 2;
   }
 
   /// Limits hinges to their ranges.
@@ -112,9 +114,9 @@ struct Equilibrium::Inside {
     return within_range(std::move(q));
   }
 
-  /// One step that decreases V; returns false if none does.
-  bool go_down(Joints& q, const VectorXd& torque, const std::vector<Index>& among,
-               double& energy_J);
+  /// Takes one step that decreases V. Returns false if no step decreases it.
+  bool decrease_energy(Joints& q, const VectorXd& torque, const std::vector<Index>& coordinates,
+                       double& energy_J);
 
   Musculoskeletal model;
   std::vector<TendonLaw> laws;
@@ -123,45 +125,54 @@ struct Equilibrium::Inside {
   VectorXd torque_Nm, gravity_Nm, force_N;
 };
 
-bool Equilibrium::Inside::go_down(Joints& q, const VectorXd& torque,
-                                  const std::vector<Index>& among, double& energy_J) {
-  const MatrixXd stiff = slope(q, torque, among);
-  const double scale = stiff.diagonal().cwiseAbs().maxCoeff();
-  const auto n = static_cast<Index>(among.size());
-  for (int tries = 0; tries < 40; ++tries) {
-    const Eigen::LLT<MatrixXd> solver(stiff + damping * MatrixXd::Identity(n, n));
+bool Equilibrium::Implementation::decrease_energy(Joints& q, const VectorXd& torque,
+                                                  const std::vector<Index>& coordinates,
+                                                  double& energy_J) {
+  // chosen; damping relative to the largest stiffness
+  constexpr int max_attempts = 40;
+  constexpr double max_turn_rad = 0.5;  // small enough to count turns around pulleys
+  constexpr double first_damping = 1e-6, no_damping = 1e-9;
+  constexpr double damping_increase = 4, damping_decrease = 10;
+  const MatrixXd stiffness = slope(q, torque, coordinates);
+  const double scale = stiffness.diagonal().cwiseAbs().maxCoeff();
+  const auto n = static_cast<Index>(coordinates.size());
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
+    const Eigen::LLT<MatrixXd> solver(stiffness + damping * MatrixXd::Identity(n, n));
     if (solver.info() == Eigen::Success) {
       VectorXd u = VectorXd::Zero(torque.size());
-      u(among) = -solver.solve(VectorXd(torque(among)));
-      u *= std::min(1.0, 0.5 / u.cwiseAbs().maxCoeff());  // chosen: small enough to count turns
-      const Joints next = within_range(turned(q, u));
-      const double there_J = place(next);
-      if (there_J <= energy_J) {
-        q = next, energy_J = there_J, damping = damping > 1e-9 * scale ? damping / 10 : 0;
+      u(coordinates) = -solver.solve(VectorXd(torque(coordinates)));
+      u *= std::min(1.0, max_turn_rad / u.cwiseAbs().maxCoeff());
+      const Joints next = within_range(displaced_by(q, u));
+      const double next_energy_J = place(next);
+      if (next_energy_J <= energy_J) {
+        q = next, energy_J = next_energy_J,
+        damping = damping > no_damping * scale ? damping / damping_decrease : 0;
         return true;
       }
     }
-    damping = std::max(4 * damping, 1e-6 * scale);
+    damping = std::max(damping_increase * damping, first_damping * scale);
   }
   return false;
 }
 
 Equilibrium::Equilibrium(const erp::Robot& robot, std::span<const double> longer_m)
-    : inside_(std::make_unique<Inside>(robot, longer_m)) {}
+    : implementation_(std::make_unique<Implementation>(robot, longer_m)) {}
 Equilibrium::~Equilibrium() = default;
 Equilibrium::Equilibrium(Equilibrium&&) noexcept = default;
 
 Rest Equilibrium::find(std::span<const double> shaft_rad, const Pose& from) {
-  constexpr int most_steps = 100;
-  constexpr double balanced_Nm = 1e-8;
-  Inside& in = *inside_;
+  constexpr int max_steps = 100;                // chosen
+  constexpr double torque_tolerance_Nm = 1e-8;  // chosen
+  Implementation& in = *implementation_;
   in.shaft_rad = shaft_rad, in.damping = 0;
   Joints q = in.at(from);
   double energy_J = in.place(q);
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < max_steps; ++k) {
     const VectorXd torque = in.torque_Nm;
-    const auto among = in.movable(q, torque);
-    if (torque(among).norm() < balanced_Nm || !in.go_down(q, torque, among, energy_J)) break;
+    const auto coordinates = in.movable(q, torque);
+    if (torque(coordinates).norm() < torque_tolerance_Nm ||
+        !in.decrease_energy(q, torque, coordinates, energy_J))
+      break;
   }
   in.place(q);
   Rest rest;
@@ -172,18 +183,18 @@ Rest Equilibrium::find(std::span<const double> shaft_rad, const Pose& from) {
 }
 
 VectorXd Equilibrium::torque_Nm(std::span<const double> shaft_rad, const Pose& pose) {
-  inside_->shaft_rad = shaft_rad;
-  inside_->place(inside_->at(pose));
-  return inside_->torque_Nm;
+  implementation_->shaft_rad = shaft_rad;
+  implementation_->place(implementation_->at(pose));
+  return implementation_->torque_Nm;
 }
 
 MatrixXd Equilibrium::compliance_rad_per_Nm(std::span<const double> shaft_rad, const Pose& pose) {
   const VectorXd torque = torque_Nm(shaft_rad, pose);
-  const Joints q = inside_->at(pose);
-  const auto among = inside_->movable(q, torque);
+  const Joints q = implementation_->at(pose);
+  const auto coordinates = implementation_->movable(q, torque);
   MatrixXd compliance = MatrixXd::Zero(torque.size(), torque.size());
-  const MatrixXd stiff = inside_->slope(q, torque, among);
-  compliance(among, among) = MatrixXd(stiff.partialPivLu().inverse());
+  const MatrixXd stiffness = implementation_->slope(q, torque, coordinates);
+  compliance(coordinates, coordinates) = MatrixXd(stiffness.partialPivLu().inverse());
   return compliance;
 }
 

@@ -6,13 +6,13 @@
 
 #include "sim/model/skeleton/joint_path.hpp"
 
-/// Equilibrium pose of a robot with its shafts held: the minimum of
+/// Equilibrium pose of a robot with fixed shaft angles: the minimum of
 ///
 ///   V(q) = V_G(q) + Σ E_a(Δx_a),   Δx_a = l_a(q) − rest_a + r_a θ_a
 ///   0 = τ_G + Lᵀ f,   f_a = dE_a/dΔx_a
 ///
-/// found by Newton's method with numerical derivatives of the torques and Levenberg–Marquardt damping.
-/// Hinges stop at the ends of their ranges.
+/// found by Newton's method with numerical derivatives of the torques and Levenberg–Marquardt
+/// damping. Hinges stop at the ends of their ranges.
 /// Ignores friction, which may hold a robot away from this pose, and contacts between bones.
 namespace sim {
 
@@ -24,8 +24,9 @@ struct Rest {
 
 class Equilibrium {
  public:
-  /// `longer_m`: additional path length per actuator relative to robot.xml (the paper's L_K0); empty:
-  /// zero. Throws std::invalid_argument like Musculoskeletal, and for a robot with free bodies.
+  /// `longer_m`: additional path length per actuator relative to robot.xml (the paper's L_K0);
+  /// empty: zero. Throws std::invalid_argument like Musculoskeletal, and for a robot with free
+  /// bodies.
   explicit Equilibrium(const erp::Robot& robot, std::span<const double> longer_m = {});
   ~Equilibrium();
   Equilibrium(Equilibrium&&) noexcept;
@@ -38,8 +39,8 @@ class Equilibrium {
   Eigen::MatrixXd compliance_rad_per_Nm(std::span<const double> shaft_rad, const Pose& pose);
 
  private:
-  struct Inside;
-  std::unique_ptr<Inside> inside_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace sim

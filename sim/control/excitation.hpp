@@ -15,14 +15,15 @@ struct Excitation {
   std::vector<std::vector<double>> reference;
 };
 
-inline constexpr int excitation_kinds = 4;  ///< then the kinds repeat with other random values
+inline constexpr int excitation_kinds =
+    4;  ///< later recordings repeat the kinds with other random values
 
 /// Short description of the excitation of a recording.
 const char* excitation_name(const erp::Robot& robot, int recording);
 
-/// The excitation of a recording: slow motion between postures with dwells, oscillating tensions down
-/// to nearly slack, low and high co-contraction, or fast motion. Tension excitation is used only for
-/// robots with one joint.
+/// The excitation of a recording: slow motion between postures with dwells, oscillating tensions
+/// down to nearly slack, low and high co-contraction, or fast motion. Tension excitation is used
+/// only for robots with one joint.
 Excitation excitation(const erp::Robot& robot, int recording, double duration_s,
                       std::uint64_t seed);
 

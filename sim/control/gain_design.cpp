@@ -23,22 +23,23 @@ struct Discrete {
 };
 
 /// e^[A B; 0 0]t = [Φ Γ; 0 1], by scaling and squaring a Taylor series.
-Discrete hold(const ForceModel& model, double t) {
+Discrete discretized(const ForceModel& model, double t) {
+  constexpr int taylor_terms = 18;  // error below rounding for a norm below 1/8
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
   m.topLeftCorner<3, 3>() = model.a * t;
   m.topRightCorner<3, 1>() = model.b * t;
   const int squarings = std::max(0, static_cast<int>(std::ceil(std::log2(m.norm()))) + 3);
   m /= std::pow(2.0, squarings);
   Eigen::Matrix4d term = Eigen::Matrix4d::Identity(), sum = term;
-  for (int k = 1; k <= 18; ++k) term = term * m / k, sum += term;
+  for (int k = 1; k <= taylor_terms; ++k) term = term * m / k, sum += term;
   for (int k = 0; k < squarings; ++k) sum = sum * sum;
   return {sum.topLeftCorner<3, 3>(), sum.topRightCorner<3, 1>()};
 }
 
 /// The open-loop poles, with the slowest moved to −bandwidth.
 Poles default_poles(const ForceModel& model, double bandwidth_per_s) {
-  const auto own = model.a.eigenvalues();
-  Poles poles{own[0], own[1], own[2]};
+  const auto open_loop = model.a.eigenvalues();
+  Poles poles{open_loop[0], open_loop[1], open_loop[2]};
   std::sort(poles.begin(), poles.end(), [](auto x, auto y) { return std::abs(x) < std::abs(y); });
   if (poles[0].imag() != 0)
     throw std::invalid_argument(
@@ -47,11 +48,12 @@ Poles default_poles(const ForceModel& model, double bandwidth_per_s) {
   return poles;
 }
 
-Poles wanted_poles(const ForceModel& model, const DesignOptions& options) {
-  const bool given = std::any_of(options.force_poles_per_s.begin(), options.force_poles_per_s.end(),
-                                 [](auto p) { return p != std::complex<double>(); });
+Poles desired_poles(const ForceModel& model, const DesignOptions& options) {
+  const bool has_poles =
+      std::any_of(options.force_poles_per_s.begin(), options.force_poles_per_s.end(),
+                  [](auto p) { return p != std::complex<double>(); });
   const Poles poles =
-      given ? options.force_poles_per_s : default_poles(model, options.force_bandwidth_per_s);
+      has_poles ? options.force_poles_per_s : default_poles(model, options.force_bandwidth_per_s);
   for (const auto& pole : poles)
     if (!(pole.real() < 0))
       throw std::invalid_argument("force poles must be stable, got real part " +
@@ -99,15 +101,16 @@ ForceModel force_model(const erp::MotorType& m, const erp::Tendon& tendon, doubl
 
 ForceGains design_force(const ForceModel& model, const DesignOptions& options) {
   if (!(options.period_s > 0)) throw std::invalid_argument("period_s must be positive");
-  const auto [phi, gamma] = hold(model, options.period_s);
-  Matrix3d reach;
-  reach << gamma, phi * gamma, phi * phi * gamma;
-  const Matrix3d p = polynomial(phi, wanted_poles(model, options), options.period_s);
-  const Eigen::RowVector3d last = Eigen::RowVector3d::UnitZ();
+  const auto [phi, gamma] = discretized(model, options.period_s);
+  Matrix3d controllability;
+  controllability << gamma, phi * gamma, phi * phi * gamma;
+  const Matrix3d p = polynomial(phi, desired_poles(model, options), options.period_s);
+  const Eigen::RowVector3d last_row = Eigen::RowVector3d::UnitZ();
   ForceGains gains;
-  gains.feedback = reach.transpose().fullPivLu().solve(last.transpose()).transpose() * p;
-  const Matrix3d closed = Matrix3d::Identity() - phi + gamma * gains.feedback;
-  gains.prefilter_V_per_N = 1 / Vector3d(closed.fullPivLu().solve(gamma)).z();
+  gains.feedback =
+      controllability.transpose().fullPivLu().solve(last_row.transpose()).transpose() * p;
+  const Matrix3d closed_loop = Matrix3d::Identity() - phi + gamma * gains.feedback;
+  gains.prefilter_V_per_N = 1 / Vector3d(closed_loop.fullPivLu().solve(gamma)).z();
   return gains;
 }
 
@@ -115,12 +118,12 @@ RestingBand resting_band(const erp::MotorType& m, double radius_m, const ForceGa
                          double force_N) {
   const double n = m.gear_ratio, eta = m.gear_efficiency, k = m.torque_Nm_per_A;
   const double load = radius_m * force_N;
-  const double counted_on_A = load / (eta * n * k);
+  const double assumed_A = load / (eta * n * k);
   const double friction_A = (m.gear_coulomb_Nm / (eta * n) + m.rotor_coulomb_Nm) / k;
-  const double holds_A = (eta * (load - m.gear_coulomb_Nm) / n - m.rotor_coulomb_Nm) / k;
+  const double holding_A = (eta * (load - m.gear_coulomb_Nm) / n - m.rotor_coulomb_Nm) / k;
   const double volt_per_A = m.resistance_ohm + gains.feedback.x();
   return {volt_per_A * friction_A / gains.prefilter_V_per_N,
-          volt_per_A * (counted_on_A - holds_A) / gains.feedback.z()};
+          volt_per_A * (assumed_A - holding_A) / gains.feedback.z()};
 }
 
 namespace {
@@ -145,9 +148,10 @@ const erp::Potentiometer* potentiometer_of(const erp::Robot& robot, const erp::A
 }
 
 void set_stuck(EcuParameters& p, const erp::MotorType& motor, const erp::SensorType& sensors,
-               double share) {
+               double speed_fraction) {
   const SensorScale scale(motor, sensors);
-  const double speed = share * motor.supply_V / (motor.back_emf_V_s_per_rad * motor.gear_ratio);
+  const double speed =
+      speed_fraction * motor.supply_V / (motor.back_emf_V_s_per_rad * motor.gear_ratio);
   if (sensors.current_noise_A >= scale.current_A_per_count)
     set(p, ECU_PARAMETER_CURRENT_STUCK_SPEED, speed);
   if (sensors.tension_noise_N >= scale.tension_N_per_count)
@@ -185,7 +189,8 @@ void set_limits(EcuParameters& p, const erp::MotorType& motor, const erp::Sensor
 
 void set_motor(EcuParameters& p, const erp::MotorType& motor, double period_s) {
   const double back_emf = motor.back_emf_V_s_per_rad * motor.gear_ratio;
-  const double current_bandwidth_per_s = 0.3 / period_s;
+  constexpr double decay_per_period = 0.3;  // b · period, see the header
+  const double current_bandwidth_per_s = decay_per_period / period_s;
   set(p, ECU_PARAMETER_SUPPLY, motor.supply_V);
   set(p, ECU_PARAMETER_RESISTANCE, motor.resistance_ohm);
   set(p, ECU_PARAMETER_BACK_EMF, back_emf);
@@ -212,7 +217,7 @@ EcuParameters design_parameters(const erp::Robot& robot, const erp::Actuator& ac
   EcuParameters p{};
   set_converters(p, SensorScale(motor, sensors));
   set_limits(p, motor, sensors, actuator, options.line_travel_m);
-  set_stuck(p, motor, sensors, options.stuck_share);
+  set_stuck(p, motor, sensors, options.stuck_speed_fraction);
   if (const auto* wiper = potentiometer_of(robot, actuator)) set_wiper(p, *wiper);
   set_motor(p, motor, options.period_s);
   set_force(p, design_force(force_model(motor, actuator.tendon, r), options));

@@ -9,15 +9,15 @@
 ///   min ½ Σ (f − f_rest)² + ½ |τ_G + Jᵀ f|²/ε,  J = ∂L/∂q,  f ≥ f_min                       (1)
 ///   line change = L_T(q) − L_T(q0) − (Δx(f) − Δx(f0))
 ///
-/// q0, f0: the robot's starting pose and pretensions. With these line lengths the tensions at q are f,
-/// so the pose is an equilibrium under length control.
-/// ε is so small that the pose is held if tensions exist that hold it; otherwise (1) still has a unique
-/// solution. Solved on the dual: f = max(f_min, f_rest + J λ), τ_G + Jᵀ f = −ε λ, by Newton steps in λ.
+/// q0, f0: the robot's starting pose and pretensions. With these line lengths the tensions at q are
+/// f. The pose is then an equilibrium under length control. ε is so small that the pose is held if
+/// tensions exist that hold it; otherwise (1) still has a unique solution. Solved on the dual: f =
+/// max(f_min, f_rest + J λ), τ_G + Jᵀ f = −ε λ, by Newton steps in λ.
 namespace sim {
 
 struct HoldingOptions {
   double rest_N = 10;  ///< preferred tension of each muscle; chosen
-  double least_N = 5;  ///< lower bound, so that no tendon is slack; chosen
+  double least_N = 5;  ///< lower bound, which keeps tendons taut; chosen
 };
 
 struct Holding {
@@ -36,8 +36,8 @@ class PoseHolder {
   Holding hold(const Pose& pose, const HoldingOptions& options = {});
 
  private:
-  struct Inside;
-  std::unique_ptr<Inside> inside_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 /// For a single pose. Throws like PoseHolder.

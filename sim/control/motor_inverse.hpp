@@ -6,8 +6,8 @@
 ///   i = ((r F + µ_G ω + s τ_CG + J_G ω̇)/(e N) + µ_M N ω + s τ_CM + J_M N ω̇) / K_T
 ///   V = R i + K_E N ω                                              without inductance
 ///
-/// e is the gear's efficiency for the direction of power: η if the motor drives, 1/η if the load drives;
-/// s = sgn ω. Both are smoothed below a creep speed, where a shaft may also stick.
+/// e is the gear's efficiency for the direction of power: η if the motor drives, 1/η if the load
+/// drives; s = sgn ω. Both are smoothed below a creep speed, because a shaft may stick there.
 namespace sim {
 
 class MotorInverse {

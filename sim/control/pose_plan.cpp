@@ -11,12 +11,13 @@
 namespace sim {
 namespace {
 
-constexpr double unit_within = 1e-3;  // chosen: tolerance of a quaternion's norm
-constexpr double angle_within =
+constexpr double norm_tolerance = 1e-3;  // chosen: tolerance of a quaternion's norm
+constexpr double range_tolerance_rad =
     1e-2;  // chosen: recordings exceed the stops slightly because of noise
+constexpr double same_time_s = 1e-9;  // chosen: tolerance for rounded times
 constexpr double rounding_m = 1e-7, rounding_s = 1e-6, rounding_rad = 1e-6;  // for readable files
 
-/// Never −0.
+/// The multiple of `step` nearest to x; adding 0 avoids −0.
 double rounded(double x, double step) { return std::round(x / step) / std::round(1 / step) + 0.0; }
 
 /// The columns of a joint's position, in the order of its entries.
@@ -32,8 +33,9 @@ struct PoseColumn {
   const recording::Column* column;
 };
 
-/// Other columns of recordings that are ignored: sensors of ball joints, rotation of free bodies.
-bool of_no_use(const std::string& column, const erp::Robot& robot) {
+/// Columns of recordings that are not joint positions: sensors of ball joints, rotation of free
+/// bodies.
+bool is_ignored_column(const std::string& column, const erp::Robot& robot) {
   for (const erp::JointSensor& sensor : robot.joint_sensors)
     if (sensor.about && column == erp::sample_name(sensor) + ".angle_rad") return true;
   for (const erp::Joint& joint : robot.joints())
@@ -43,43 +45,45 @@ bool of_no_use(const std::string& column, const erp::Robot& robot) {
 
 /// Rejects a position that is invalid for its joint.
 void check_pose(const TimedPose& timed, std::size_t row, const std::vector<erp::Joint>& joints) {
-  const auto refuse = [&](const erp::Joint& joint, const std::string& what) {
+  const auto reject = [&](const erp::Joint& joint, const std::string& what) {
     throw std::invalid_argument("row " + std::to_string(row + 1) + ", joint " +
                                 xml::quote(joint.name) + ": " + what);
   };
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const erp::Joint& joint = joints[j];
     const auto& p = timed.pose[j];
-    const double size = std::hypot(std::hypot(p[0], p[1]), std::hypot(p[2], p[3]));
-    if (joint.type == erp::JointType::spherical && !(std::abs(size - 1) < unit_within))
-      refuse(joint, "its quaternion has norm " + xml::write_number(size) + "; normalise it");
+    const double norm = std::hypot(std::hypot(p[0], p[1]), std::hypot(p[2], p[3]));
+    if (joint.type == erp::JointType::spherical && !(std::abs(norm - 1) < norm_tolerance))
+      reject(joint, "its quaternion has norm " + xml::write_number(norm) + "; normalise it");
     if (joint.type != erp::JointType::revolute) continue;
-    if (!(p[0] >= joint.min_rad - angle_within && p[0] <= joint.max_rad + angle_within))
-      refuse(joint, xml::write_number(p[0]) + " rad is out of its range, " +
+    if (!(p[0] >= joint.min_rad - range_tolerance_rad &&
+          p[0] <= joint.max_rad + range_tolerance_rad))
+      reject(joint, xml::write_number(p[0]) + " rad is out of its range, " +
                         xml::write_number(joint.min_rad) + " … " +
                         xml::write_number(joint.max_rad));
   }
 }
 
 std::vector<PoseColumn> pose_columns(const recording::Table& table, const erp::Robot& robot) {
-  std::vector<std::string> known;
-  std::vector<PoseColumn> found;
+  std::vector<std::string> joint_columns;
+  std::vector<PoseColumn> columns;
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (std::size_t entry = 0; const char* signal : signals_of(joints[j])) {
-      known.push_back(joints[j].name + signal);
-      if (const auto* column = table.find(known.back())) found.push_back({j, entry, column});
+      joint_columns.push_back(joints[j].name + signal);
+      if (const auto* column = table.find(joint_columns.back()))
+        columns.push_back({j, entry, column});
       ++entry;
     }
   for (const recording::Column& column : table.columns) {
     const auto signal = recording::signal_of(column.name);
     const bool of_a_joint = signal == "angle_rad" || (signal.size() == 2 && signal[0] == 'q');
-    if (of_a_joint && std::ranges::find(known, column.name) == known.end() &&
-        !of_no_use(column.name, robot))
+    if (of_a_joint && std::ranges::find(joint_columns, column.name) == joint_columns.end() &&
+        !is_ignored_column(column.name, robot))
       throw std::invalid_argument("column " + xml::quote(column.name) + " belongs to no joint; " +
-                                  xml::did_you_mean(column.name, known));
+                                  xml::did_you_mean(column.name, joint_columns));
   }
-  return found;
+  return columns;
 }
 
 }  // namespace
@@ -91,12 +95,13 @@ std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot&
   const auto joints = robot.joints();
   std::vector<TimedPose> poses;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    TimedPose next{time->values[row], poses.empty() ? starting_pose(robot) : poses.back().pose};
+    TimedPose timed_pose{time->values[row],
+                         poses.empty() ? starting_pose(robot) : poses.back().pose};
     for (const PoseColumn& c : columns)
       if (const double value = c.column->values[row]; !std::isnan(value))
-        next.pose[c.joint][c.entry] = value;
-    check_pose(next, row, joints);
-    poses.push_back(next);
+        timed_pose.pose[c.joint][c.entry] = value;
+    check_pose(timed_pose, row, joints);
+    poses.push_back(timed_pose);
   }
   return poses;
 }
@@ -138,17 +143,17 @@ class Planner {
   /// Adds rows for both poses and for the samples between them.
   void move(const TimedPose& from, const TimedPose& to) {
     const JointPath path(joints_, {from, to});
-    std::vector<JointMotion> on_the_way;
-    for (int k = 1; from.time_s + k * options_.sample_s < to.time_s - 1e-9; ++k) {
+    std::vector<JointMotion> motions;
+    for (int k = 1; from.time_s + k * options_.sample_s < to.time_s - same_time_s; ++k) {
       const double time_s = from.time_s + k * options_.sample_s;
-      path.at(time_s, on_the_way);
+      path.at(time_s, motions);
       Pose pose;
-      for (const JointMotion& motion : on_the_way) pose.push_back(motion.now.position);
+      for (const JointMotion& motion : motions) pose.push_back(motion.now.position);
       hold(time_s, pose);
     }
     hold(to.time_s, to.pose);
   }
-  void rest(double time_s) { add(time_s, last_m_); }
+  void rest(double time_s) { add(time_s, last_line_m_); }
   LengthPlan plan() { return std::move(plan_); }
 
  private:
@@ -159,14 +164,14 @@ class Planner {
       columns[1 + 2 * k].values.push_back(static_cast<double>(erp::Mode::length));
       columns[2 + 2 * k].values.push_back(rounded(line_m[k], rounding_m));
     }
-    last_m_ = line_m;
+    last_line_m_ = line_m;
   }
 
   PoseHolder holder_;
   std::vector<erp::Joint> joints_;
   PlanOptions options_;
   LengthPlan plan_;
-  std::vector<double> last_m_;
+  std::vector<double> last_line_m_;
 };
 
 }  // namespace

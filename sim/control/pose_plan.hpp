@@ -7,7 +7,8 @@ namespace sim {
 
 /// The poses of a table, one per row: columns `<j>.angle_rad`, or `<j>.qw … <j>.qz` for a spherical
 /// joint. Joints without a column keep their starting position. Throws std::invalid_argument for a
-/// column that belongs to no joint, a value out of range (with row and joint), or a table without rows.
+/// column that belongs to no joint, a value out of range (with row and joint), or a table without
+/// rows.
 std::vector<TimedPose> poses_of(const recording::Table& table, const erp::Robot& robot);
 
 /// The inverse of poses_of: the table of poses, rounded to a microradian and a microsecond.
@@ -23,8 +24,8 @@ struct LengthPlan {
   double unbalanced_Nm = 0, at_s = 0;  ///< largest residual torque, and its time
 };
 
-/// A trajectory for the component `target`: the line lengths that hold each pose at its time, and
-/// between two poses those that hold the joints along a straight minimum-jerk trajectory.
+/// A trajectory of line lengths for the component `target`. It holds each pose at its time. Between
+/// two poses it holds the joints on a straight minimum-jerk trajectory.
 LengthPlan lengths_through(const erp::Robot& robot, const std::vector<TimedPose>& poses,
                            const PlanOptions& options = {});
 

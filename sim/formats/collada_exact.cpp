@@ -10,12 +10,12 @@ namespace {
 
 constexpr double rounding = 1e-9;  // chosen: for degrees, principal axes and poses in the world
 
-bool same(double a, double b, double scale) { return std::abs(a - b) <= rounding * scale; }
+bool nearly_equal(double a, double b, double scale) { return std::abs(a - b) <= rounding * scale; }
 
 template <std::size_t n>
-bool same(const std::array<double, n>& a, const std::array<double, n>& b, double scale) {
+bool nearly_equal(const std::array<double, n>& a, const std::array<double, n>& b, double scale) {
   for (std::size_t i = 0; i < n; ++i)
-    if (!same(a[i], b[i], scale)) return false;
+    if (!nearly_equal(a[i], b[i], scale)) return false;
   return true;
 }
 
@@ -24,63 +24,64 @@ xml::Vec3 direction(const xml::Vec3& v) {
   return length > 0 ? xml::Vec3{v[0] / length, v[1] / length, v[2] / length} : v;
 }
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void reject(const std::string& what) {
   throw std::invalid_argument(what +
                               ": another program changed the file; remove the <extra> of "
                               "profile ERP to import the skeleton alone");
 }
 
 template <class Item>
-const Item& named(const std::vector<Item>& items, const std::string& name) {
-  const auto found = std::ranges::find(items, name, &Item::name);
-  if (found == items.end())
-    refuse(std::string(Item::element) + " \"" + name +
+const Item& item_named(const std::vector<Item>& items, const std::string& name) {
+  const auto match = std::ranges::find(items, name, &Item::name);
+  if (match == items.end())
+    reject(std::string(Item::element) + " \"" + name +
            "\" of the extra is missing in the kinematics");
-  return *found;
+  return *match;
 }
 
 template <class Item>
-void expect_all(const std::vector<Item>& given, const std::vector<Item>& own) {
-  for (const Item& item : given)
-    if (std::ranges::find(own, item.name, &Item::name) == own.end())
-      refuse(std::string(Item::element) + " \"" + item.name + "\" is not in the extra");
+void expect_all(const std::vector<Item>& standard, const std::vector<Item>& exact) {
+  for (const Item& item : standard)
+    if (std::ranges::find(exact, item.name, &Item::name) == exact.end())
+      reject(std::string(Item::element) + " \"" + item.name + "\" is not in the extra");
 }
 
-void take(erp::Joint& own, const erp::Joint& given) {
-  const bool moves =
-      given.type != own.type || given.parent != own.parent || given.child != own.child;
-  if (moves) own.type = given.type, own.parent = given.parent, own.child = given.child;
-  if (!same(own.at_m, given.at_m, 1)) own.at_m = given.at_m;
-  if (given.type == erp::JointType::fixed) return;
-  if (!same(own.max_rad, given.max_rad, 1)) own.max_rad = given.max_rad;
-  if (given.type != erp::JointType::revolute) return;
-  if (!same(own.min_rad, given.min_rad, 1)) own.min_rad = given.min_rad;
-  if (!same(direction(own.axis), direction(given.axis), 1)) own.axis = given.axis;
+void merge(erp::Joint& exact, const erp::Joint& standard) {
+  const bool is_moved = standard.type != exact.type || standard.parent != exact.parent ||
+                        standard.child != exact.child;
+  if (is_moved)
+    exact.type = standard.type, exact.parent = standard.parent, exact.child = standard.child;
+  if (!nearly_equal(exact.at_m, standard.at_m, 1)) exact.at_m = standard.at_m;
+  if (standard.type == erp::JointType::fixed) return;
+  if (!nearly_equal(exact.max_rad, standard.max_rad, 1)) exact.max_rad = standard.max_rad;
+  if (standard.type != erp::JointType::revolute) return;
+  if (!nearly_equal(exact.min_rad, standard.min_rad, 1)) exact.min_rad = standard.min_rad;
+  if (!nearly_equal(direction(exact.axis), direction(standard.axis), 1)) exact.axis = standard.axis;
 }
 
 /// A changed mass replaces the mass of the solids and weights.
-void take(erp::Body& own, const erp::Body& given) {
-  const erp::Mass own_mass = mass_of(own), given_mass = mass_of(given);
-  const double inertia = std::max({given_mass.inertia_kg_m2[0], given_mass.inertia_kg_m2[1],
-                                   given_mass.inertia_kg_m2[2], own_mass.inertia_kg_m2[0]});
-  if (same(own_mass.mass_kg, given_mass.mass_kg, given_mass.mass_kg + rounding) &&
-      same(own_mass.com_m, given_mass.com_m, 1) &&
-      same(own_mass.inertia_kg_m2, given_mass.inertia_kg_m2, inertia))
+void merge(erp::Body& exact, const erp::Body& standard) {
+  const erp::Mass exact_mass = mass_of(exact), standard_mass = mass_of(standard);
+  const double inertia = std::max({standard_mass.inertia_kg_m2[0], standard_mass.inertia_kg_m2[1],
+                                   standard_mass.inertia_kg_m2[2], exact_mass.inertia_kg_m2[0]});
+  if (nearly_equal(exact_mass.mass_kg, standard_mass.mass_kg, standard_mass.mass_kg + rounding) &&
+      nearly_equal(exact_mass.com_m, standard_mass.com_m, 1) &&
+      nearly_equal(exact_mass.inertia_kg_m2, standard_mass.inertia_kg_m2, inertia))
     return;
-  own.density_kg_per_m3.reset();
-  std::erase_if(own.parts,
+  exact.density_kg_per_m3.reset();
+  std::erase_if(exact.parts,
                 [](const erp::Part& p) { return std::holds_alternative<erp::Weight>(p); });
-  own.mass_kg = given.mass_kg, own.com_m = given.com_m;
-  own.inertia_kg_m2 = given.inertia_kg_m2, own.products_kg_m2 = given.products_kg_m2;
+  exact.mass_kg = standard.mass_kg, exact.com_m = standard.com_m;
+  exact.inertia_kg_m2 = standard.inertia_kg_m2, exact.products_kg_m2 = standard.products_kg_m2;
 }
 
-void take_gravity(erp::Robot& robot, const xml::Vec3& given) {
-  if (same(robot.gravity_m_per_s2(), given, 10)) return;
+void merge_gravity(erp::Robot& robot, const xml::Vec3& standard) {
+  if (nearly_equal(robot.gravity_m_per_s2(), standard, 10)) return;
   for (erp::Skeleton& skeleton : robot.skeletons) skeleton.gravity_m_per_s2.reset();
-  robot.skeletons.front().gravity_m_per_s2 = given;
+  robot.skeletons.front().gravity_m_per_s2 = standard;
 }
 
-bool moved(const std::vector<erp::Joint>& joints, const std::string& body) {
+bool has_joint(const std::vector<erp::Joint>& joints, const std::string& body) {
   return std::ranges::find(joints, body, &erp::Joint::child) != joints.end();
 }
 
@@ -93,12 +94,13 @@ erp::Robot with_skeleton(erp::Robot robot, const erp::Robot& standard) {
   expect_all(joints, robot.joints());
   for (erp::Skeleton& skeleton : robot.skeletons) {
     for (erp::Body& body : skeleton.bodies) {
-      const erp::Body& given = named(bodies, body.name);
-      if (moved(joints, body.name)) take(body, given);  // the mass of a root is not used
+      const erp::Body& standard_body = item_named(bodies, body.name);
+      if (has_joint(joints, body.name))
+        merge(body, standard_body);  // the mass of a root is not used
     }
-    for (erp::Joint& joint : skeleton.joints) take(joint, named(joints, joint.name));
+    for (erp::Joint& joint : skeleton.joints) merge(joint, item_named(joints, joint.name));
   }
-  take_gravity(robot, standard.gravity_m_per_s2());
+  merge_gravity(robot, standard.gravity_m_per_s2());
   return robot;
 }
 

@@ -13,20 +13,20 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double unlimited = 3.14159;
+constexpr double unlimited = 3.14159;  // rad: half a turn, rounded down
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 Vec3 vec(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 /// The last part of a URL or sid path: "#kinematics/elbow" → "elbow".
-std::string last_of(const std::string& path) {
+std::string last_part(const std::string& path) {
   const auto cut = path.find_last_of("#/");
   return cut == std::string::npos ? path : path.substr(cut + 1);
 }
 
 std::string required_attribute(const Foreign& element, const char* attribute) {
   if (const auto value = element.attribute(attribute)) return *value;
-  element.refuse(std::string("has no ") + attribute, std::string("add ") + attribute + "=\"…\"");
+  element.reject(std::string("has no ") + attribute, std::string("add ") + attribute + "=\"…\"");
 }
 
 /// The product of <translate> and <rotate> in an element; lengths in the unit of the file.
@@ -40,7 +40,7 @@ Isometry3d placement(const Foreign& element) {
         pose = pose * Eigen::AngleAxisd(radians(v[3]), axis.normalized());
     }
     if (step.tag() == "matrix")
-      step.refuse("is not supported", "give the pose as <translate> and <rotate>");
+      step.reject("is not supported", "give the pose as <translate> and <rotate>");
   }
   return pose;
 }
@@ -61,7 +61,7 @@ JointKind kind_of(const Foreign& joint) {
     return kind;
   }
   if (turns.size() != 1 || !slides.empty())
-    joint.refuse("has " + std::to_string(turns.size()) + " <revolute> and " +
+    joint.reject("has " + std::to_string(turns.size()) + " <revolute> and " +
                      std::to_string(slides.size()) + " <prismatic>",
                  "use one <revolute>, three, or three of each");
   JointKind kind{erp::JointType::revolute, vec(turns[0].need("axis").numbers(3))};
@@ -89,8 +89,8 @@ class Document {
       meter_ = unit->number("meter");
     const auto up = asset ? asset->one("up_axis") : std::nullopt;
     const std::string axis = up ? up->text() : "Y_UP";
-    if (axis == "Y_UP") upright_ = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX());
-    if (axis == "X_UP") upright_ = Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitY());
+    if (axis == "Y_UP") to_z_up_ = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX());
+    if (axis == "X_UP") to_z_up_ = Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitY());
     for (const Foreign& library : root.all("library_joints"))
       for (const Foreign& joint : library.all("joint"))
         library_.emplace(required_attribute(joint, "id"), joint);
@@ -103,17 +103,17 @@ class Document {
   Foreign model() const {
     for (const Foreign& library : root_.all("library_kinematics_models"))
       if (const auto model = library.one("kinematics_model")) return *model;
-    root_.refuse("has no <kinematics_model>", "export one with kinematics (COLLADA 1.5)");
+    root_.reject("has no <kinematics_model>", "export one with kinematics (COLLADA 1.5)");
   }
 
   Linkage linkage() {
-    const Foreign own = model();
-    linkage_.name = own.attribute("name").value_or("robot");
-    const Foreign common = own.need("technique_common");
+    const Foreign kinematics = model();
+    linkage_.name = kinematics.attribute("name").value_or("robot");
+    const Foreign common = kinematics.need("technique_common");
     for (const Foreign& joint : common.all("joint"))
       joints_.emplace(required_attribute(joint, "sid"), joint);
-    for (const Foreign& instance : common.all("instance_joint")) use(instance);
-    for (const Foreign& link : common.all("link")) add(link, Isometry3d(upright_));
+    for (const Foreign& instance : common.all("instance_joint")) resolve(instance);
+    for (const Foreign& link : common.all("link")) add(link, Isometry3d(to_z_up_));
     return std::move(linkage_);
   }
 
@@ -122,7 +122,7 @@ class Document {
     for (const Foreign& library : root_.all("library_physics_scenes"))
       for (const Foreign& scene : library.all("physics_scene"))
         if (const auto common = scene.one("technique_common"); common && common->one("gravity")) {
-          const Vec3 g = meter_ * (upright_ * vec(common->need("gravity").numbers(3)));
+          const Vec3 g = meter_ * (to_z_up_ * vec(common->need("gravity").numbers(3)));
           return xml::Vec3{g.x(), g.y(), g.z()};
         }
     return {};
@@ -143,19 +143,19 @@ class Document {
   }
 
  private:
-  void use(const Foreign& instance) {
+  void resolve(const Foreign& instance) {
     const std::string url = required_attribute(instance, "url");
-    const auto found = library_.find(last_of(url));
-    if (found == library_.end())
-      instance.refuse("url=\"" + url + "\" names no joint", "define the joint in <library_joints>");
-    joints_.emplace(required_attribute(instance, "sid"), found->second);
+    const auto match = library_.find(last_part(url));
+    if (match == library_.end())
+      instance.reject("url=\"" + url + "\" names no joint", "define the joint in <library_joints>");
+    joints_.emplace(required_attribute(instance, "sid"), match->second);
   }
 
   /// Adds a link with its frame's pose in metres, and all its descendants.
   void add(const Foreign& link, const Isometry3d& parent) {
     const Isometry3d frame = parent * scaled(placement(link));
     const std::string name = link.attribute("name").value_or(required_attribute(link, "sid"));
-    linkage_.links.push_back(weighed(name, frame));
+    linkage_.links.push_back(link_of(name, frame));
     for (const Foreign& attachment : link.all("attachment_full")) {
       const Isometry3d at = frame * scaled(placement(attachment));
       const Foreign child = attachment.need("link");
@@ -167,13 +167,13 @@ class Document {
 
   void add_joint(const Foreign& attachment, const std::string& parent, const std::string& child,
                  const Isometry3d& at) {
-    const std::string sid = last_of(required_attribute(attachment, "joint"));
-    const auto found = joints_.find(sid);
-    if (found == joints_.end())
-      attachment.refuse("joint=\"" + sid + "\" names no joint of this model",
+    const std::string sid = last_part(required_attribute(attachment, "joint"));
+    const auto match = joints_.find(sid);
+    if (match == joints_.end())
+      attachment.reject("joint=\"" + sid + "\" names no joint of this model",
                         "add an <instance_joint sid=\"" + sid + "\">");
-    const JointKind kind = kind_of(found->second);
-    linkage_.joints.push_back({.name = found->second.attribute("name").value_or(sid),
+    const JointKind kind = kind_of(match->second);
+    linkage_.joints.push_back({.name = match->second.attribute("name").value_or(sid),
                                .parent = parent,
                                .child = child,
                                .type = kind.type,
@@ -183,15 +183,16 @@ class Document {
                                .max_rad = kind.max_rad});
   }
 
-  Link weighed(const std::string& name, const Isometry3d& frame) const {
+  Link link_of(const std::string& name, const Isometry3d& frame) const {
     Link link{.name = name};
-    const auto found = rigid_.find(name);
-    if (found == rigid_.end()) return link;
-    const Foreign body = found->second.need("technique_common");
+    const auto match = rigid_.find(name);
+    if (match == rigid_.end()) return link;
+    const Foreign body = match->second.need("technique_common");
     const auto dynamic = body.one("dynamic");
     if (!body.one("mass") || (dynamic && dynamic->text() == "false")) return link;
-    const auto moved = body.one("mass_frame");
-    const Isometry3d at = frame * (moved ? scaled(placement(*moved)) : Isometry3d::Identity());
+    const auto mass_frame = body.one("mass_frame");
+    const Isometry3d at =
+        frame * (mass_frame ? scaled(placement(*mass_frame)) : Isometry3d::Identity());
     const Vec3 principal = meter_ * meter_ * vec(body.need("inertia").numbers(3));
     link.mass_kg = body.need("mass").number();
     link.com_m = at.translation();
@@ -206,7 +207,7 @@ class Document {
 
   Foreign root_;
   double meter_ = 1;
-  Eigen::AngleAxisd upright_{0, Vec3::UnitX()};
+  Eigen::AngleAxisd to_z_up_{0, Vec3::UnitX()};
   std::map<std::string, Foreign> library_, joints_, rigid_;
   Linkage linkage_;
 };
@@ -217,10 +218,10 @@ erp::Robot from_collada(const std::string& file) {
   const xml::Element element = xml::read_document(file);
   const Foreign root(element);
   if (root.tag() != "COLLADA")
-    root.refuse("is not a COLLADA file", "the root element must be <COLLADA>");
+    root.reject("is not a COLLADA file", "the root element must be <COLLADA>");
   if (const std::string version = root.attribute("version").value_or("");
       !version.starts_with("1.5"))
-    root.refuse("version=\"" + version + "\" has no kinematics", "export COLLADA 1.5");
+    root.reject("version=\"" + version + "\" has no kinematics", "export COLLADA 1.5");
   Document document(root);
   erp::Robot standard = robot_of(document.linkage());
   if (const auto gravity = document.gravity_m_per_s2())

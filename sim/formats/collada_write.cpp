@@ -15,40 +15,41 @@ using xml::Tree;
 using xml::Vec3;
 using Vector = Eigen::Vector3d;
 
-std::string words(const Vec3& v) { return xml::Codec<Vec3>::write(v); }
-std::string words(double v) { return xml::write_number(v); }
+std::string text_of(const Vec3& v) { return xml::Codec<Vec3>::write(v); }
+std::string text_of(double v) { return xml::write_number(v); }
 double degrees(double rad) { return rad * 180 / std::numbers::pi; }
 Vector vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 Tree& add_turn(Tree& parent, const Eigen::AngleAxisd& turn) {
   const Vector& a = turn.axis();
-  return parent.add("rotate", words({a.x(), a.y(), a.z()}) + " " + words(degrees(turn.angle())));
+  return parent.add("rotate",
+                    text_of({a.x(), a.y(), a.z()}) + " " + text_of(degrees(turn.angle())));
 }
 
 void add_revolute(Tree& joint, int k, const Vec3& axis, double min_rad, double max_rad) {
-  Tree& own = joint.add("revolute").set("sid", "axis" + std::to_string(k));
-  own.add("axis", words(axis));
-  Tree& limits = own.add("limits");
-  limits.add("min", words(degrees(min_rad)));
-  limits.add("max", words(degrees(max_rad)));
+  Tree& node = joint.add("revolute").set("sid", "axis" + std::to_string(k));
+  node.add("axis", text_of(axis));
+  Tree& limits = node.add("limits");
+  limits.add("min", text_of(degrees(min_rad)));
+  limits.add("max", text_of(degrees(max_rad)));
 }
 
-/// A COLLADA joint may have several axes: a ball joint has three <revolute>, a free joint also three
-/// <prismatic>; a fixed joint has one <revolute> with the range 0 to 0.
+/// A COLLADA joint may have several axes: a ball joint has three <revolute>, a free joint also
+/// three <prismatic>. A fixed joint has one <revolute> with the range 0 to 0.
 void add_joint(Tree& library, const erp::Joint& joint) {
-  Tree& own = library.add("joint").set("id", joint_id(joint.name)).set("name", joint.name);
+  Tree& node = library.add("joint").set("id", joint_id(joint.name)).set("name", joint.name);
   const Vec3 unit[]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   switch (joint.type) {
     case erp::JointType::revolute:
-      return add_revolute(own, 0, joint.axis, joint.min_rad, joint.max_rad);
+      return add_revolute(node, 0, joint.axis, joint.min_rad, joint.max_rad);
     case erp::JointType::fixed:
-      return add_revolute(own, 0, unit[0], 0, 0);
+      return add_revolute(node, 0, unit[0], 0, 0);
     case erp::JointType::free:
       for (int k = 0; k < 3; ++k)
-        own.add("prismatic").set("sid", "slide" + std::to_string(k)).add("axis", words(unit[k]));
+        node.add("prismatic").set("sid", "slide" + std::to_string(k)).add("axis", text_of(unit[k]));
       [[fallthrough]];
     case erp::JointType::spherical:
-      for (int k = 0; k < 3; ++k) add_revolute(own, k, unit[k], -joint.max_rad, joint.max_rad);
+      for (int k = 0; k < 3; ++k) add_revolute(node, k, unit[k], -joint.max_rad, joint.max_rad);
   }
 }
 
@@ -64,52 +65,53 @@ void add_inertia(Tree& body, const erp::Mass& mass) {
     axes = solver.eigenvectors(), principal = solver.eigenvalues();
     if (axes.determinant() < 0) axes.col(0) *= -1;
   }
-  body.add("mass", words(mass.mass_kg));
+  body.add("mass", text_of(mass.mass_kg));
   Tree& frame = body.add("mass_frame");
-  frame.add("translate", words(mass.com_m));
+  frame.add("translate", text_of(mass.com_m));
   if (!axes.isIdentity(0)) add_turn(frame, Eigen::AngleAxisd(axes));
-  body.add("inertia", words({principal.x(), principal.y(), principal.z()}));
+  body.add("inertia", text_of({principal.x(), principal.y(), principal.z()}));
 }
 
 void add_shape(Tree& body, const erp::Sphere& sphere) {
   Tree& shape = body.add("shape");
-  shape.add("sphere").add("radius", words(sphere.radius_m));
-  shape.add("translate", words(sphere.at_m));
+  shape.add("sphere").add("radius", text_of(sphere.radius_m));
+  shape.add("translate", text_of(sphere.at_m));
 }
 void add_shape(Tree& body, const erp::Box& box) {
   Tree& shape = body.add("shape");
   shape.add("box").add("half_extents",
-                       words({box.size_m[0] / 2, box.size_m[1] / 2, box.size_m[2] / 2}));
-  shape.add("translate", words(box.at_m));
+                       text_of({box.size_m[0] / 2, box.size_m[1] / 2, box.size_m[2] / 2}));
+  shape.add("translate", text_of(box.at_m));
 }
 /// The axis of a COLLADA capsule is y.
 void add_shape(Tree& body, const erp::Capsule& capsule) {
   const Vector from = vec(capsule.from_m), line = vec(capsule.to_m) - from;
   const Vector middle = from + line / 2;
   Tree& shape = body.add("shape");
-  Tree& own = shape.add("capsule");
-  own.add("height", words(line.norm()));
-  own.add("radius", words({capsule.radius_m, capsule.radius_m, capsule.radius_m}));
-  shape.add("translate", words({middle.x(), middle.y(), middle.z()}));
+  Tree& node = shape.add("capsule");
+  node.add("height", text_of(line.norm()));
+  node.add("radius", text_of({capsule.radius_m, capsule.radius_m, capsule.radius_m}));
+  shape.add("translate", text_of({middle.x(), middle.y(), middle.z()}));
   if (line.norm() > 0)
     add_turn(shape, Eigen::AngleAxisd(Eigen::Quaterniond::FromTwoVectors(Vector::UnitY(), line)));
 }
 void add_shape(Tree&, const erp::Weight&) {}
 
-/// The schema requires a shape, so a body without solids has a sphere of radius 0.
+/// A body without solids has a sphere of radius 0, because the schema requires a shape.
 void add_rigid_body(Tree& model, const erp::Body& body) {
-  Tree& own = model.add("rigid_body").set("sid", body_id(body.name)).set("name", body.name);
-  Tree& common = own.add("technique_common");
+  Tree& node = model.add("rigid_body").set("sid", body_id(body.name)).set("name", body.name);
+  Tree& common = node.add("technique_common");
   const erp::Mass mass = mass_of(body);
   common.add("dynamic", mass.mass_kg > 0 ? "true" : "false");
   if (mass.mass_kg > 0) add_inertia(common, mass);
   for (const erp::Part& part : body.parts)
     std::visit([&](const auto& p) { add_shape(common, p); }, part);
   if (common.children.back().name != "shape")
-    common.add("shape").add("sphere").add("radius", words(0));
+    common.add("shape").add("sphere").add("radius", text_of(0));
 }
 
-/// Adds a prefix to the names, because COLLADA readers would interpret <joint> as their own element.
+/// Adds a prefix to the names, because COLLADA readers would interpret <joint> as their own
+/// element.
 Tree copy_of(const xml::Element& element) {
   Tree copy(erp_prefix + element.name);
   for (const auto& attribute : element.attributes) copy.set(attribute.name, attribute.value);
@@ -135,7 +137,7 @@ class Collada {
   }
 
  private:
-  /// A constant time stamp, so that the same robot gives the same file.
+  /// The time stamp is constant. Equal robots therefore give equal files.
   void add_asset() {
     Tree& asset = root_.add("asset");
     asset.add("contributor").add("authoring_tool", "erp");
@@ -170,7 +172,7 @@ class Collada {
     for (const erp::Joint& joint : joints_) {
       if (joint.parent != body.name) continue;
       Tree& attachment = link.add("attachment_full").set("joint", "kinematics/" + joint.name);
-      attachment.add("translate", words(joint.at_m));
+      attachment.add("translate", text_of(joint.at_m));
       for (const erp::Body& child : bodies_)
         if (child.name == joint.child) add_link(attachment, child);
     }
@@ -190,9 +192,9 @@ class Collada {
   /// Starting poses of the bodies.
   void add_node(Tree& parent, const erp::Body& body, const erp::Joint* joint) {
     Tree& node = parent.add("node").set("id", body_id(body.name)).set("name", body.name);
-    if (joint) node.add("translate", words(joint->at_m));
+    if (joint) node.add("translate", text_of(joint->at_m));
     if (joint && joint->type == erp::JointType::revolute && joint->initial_rad != 0)
-      node.add("rotate", words(joint->axis) + " " + words(degrees(joint->initial_rad)));
+      node.add("rotate", text_of(joint->axis) + " " + text_of(degrees(joint->initial_rad)));
     for (const erp::Joint& next : joints_)
       for (const erp::Body& child : bodies_)
         if (next.parent == body.name && child.name == next.child) add_node(node, child, &next);
@@ -206,7 +208,7 @@ class Collada {
       bodies.add("instance_rigid_body")
           .set("body", body_id(body.name))
           .set("target", "#" + body_id(body.name));
-    physics.add("technique_common").add("gravity", words(robot_.gravity_m_per_s2()));
+    physics.add("technique_common").add("gravity", text_of(robot_.gravity_m_per_s2()));
     Tree& kinematics = root_.add("library_kinematics_scenes").add("kinematics_scene");
     kinematics.set("id", "kinematics_scene");
     kinematics.add("instance_kinematics_model").set("url", "#kinematics");

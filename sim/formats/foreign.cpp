@@ -7,31 +7,31 @@
 namespace formats {
 
 std::vector<Foreign> Foreign::all(const std::string& tag) const {
-  std::vector<Foreign> found;
+  std::vector<Foreign> match;
   for (const xml::Element& child : element_->children)
-    if (child.name == tag) found.emplace_back(child);
-  return found;
+    if (child.name == tag) match.emplace_back(child);
+  return match;
 }
 
 std::optional<Foreign> Foreign::one(const std::string& tag) const {
-  const auto found = all(tag);
-  return found.empty() ? std::nullopt : std::optional(found.front());
+  const auto match = all(tag);
+  return match.empty() ? std::nullopt : std::optional(match.front());
 }
 
 Foreign Foreign::need(const std::string& tag) const {
   if (const auto child = one(tag)) return *child;
-  refuse("has no <" + tag + ">", "add one");
+  reject("has no <" + tag + ">", "add one");
 }
 
 std::optional<std::string> Foreign::attribute(const std::string& name) const {
-  const auto found = std::ranges::find(element_->attributes, name, &xml::Attribute::name);
-  if (found == element_->attributes.end()) return {};
-  return found->value;
+  const auto match = std::ranges::find(element_->attributes, name, &xml::Attribute::name);
+  if (match == element_->attributes.end()) return {};
+  return match->value;
 }
 
 std::string Foreign::name() const {
-  if (const auto given = attribute("name")) return *given;
-  refuse("has no name", "add name=\"…\"");
+  if (const auto value = attribute("name")) return *value;
+  reject("has no name", "add name=\"…\"");
 }
 
 std::string Foreign::text() const {
@@ -42,15 +42,15 @@ std::string Foreign::text() const {
 
 std::vector<double> Foreign::numbers(const std::string& name, std::size_t count) const {
   const auto text = attribute(name);
-  if (!text) refuse("has no " + name, "add " + name + "=\"…\"");
+  if (!text) reject("has no " + name, "add " + name + "=\"…\"");
   return parsed(*text, count, name + "=");
 }
 
 std::vector<double> Foreign::numbers(std::size_t count) const { return parsed(text(), count, ""); }
 
 double Foreign::number_in(const std::string& child, double default_value) const {
-  const auto found = one(child);
-  return found ? found->number() : default_value;
+  const auto match = one(child);
+  return match ? match->number() : default_value;
 }
 
 std::vector<double> Foreign::parsed(const std::string& text, std::size_t count,
@@ -58,17 +58,17 @@ std::vector<double> Foreign::parsed(const std::string& text, std::size_t count,
   std::vector<double> values;
   for (const std::string_view word : xml::split(text)) {
     double value = 0;
-    if (const auto refused = xml::read_number(word, value, xml::any))
-      refuse(what + xml::quote(text) + " " + refused->what, refused->remedy);
+    if (const auto error = xml::read_number(word, value, xml::any))
+      reject(what + xml::quote(text) + " " + error->what, error->remedy);
     values.push_back(value);
   }
   if (values.size() != count)
-    refuse(what + xml::quote(text) + " contains " + std::to_string(values.size()) + " numbers",
+    reject(what + xml::quote(text) + " contains " + std::to_string(values.size()) + " numbers",
            "give " + std::to_string(count));
   return values;
 }
 
-void Foreign::refuse(const std::string& what, const std::string& remedy) const {
+void Foreign::reject(const std::string& what, const std::string& remedy) const {
   throw xml::Errors({xml::error_in(element_->name, element_->place, what, remedy)});
 }
 

@@ -5,8 +5,8 @@
 
 #include "interfaces/xml/document.hpp"
 
-/// An XML element of another format. Unknown content is ignored. A required item that is missing or not
-/// a number is an error with its position in the file. Throws xml::Errors.
+/// An XML element of another format. Unknown content is ignored. A required item that is missing or
+/// not a number is an error with its position in the file. Throws xml::Errors.
 namespace formats {
 
 class Foreign {
@@ -18,6 +18,7 @@ class Foreign {
     return {element_->children.begin(), element_->children.end()};
   }
   const std::string& tag() const { return element_->name; }
+  /// Children with this tag: all; the first one, if any; the first one, which is required.
   std::vector<Foreign> all(const std::string& tag) const;
   std::optional<Foreign> one(const std::string& tag) const;
   Foreign need(const std::string& tag) const;
@@ -33,7 +34,8 @@ class Foreign {
   /// The number in a child's text, or the default if there is no such child.
   double number_in(const std::string& child, double default_value) const;
 
-  [[noreturn]] void refuse(const std::string& what, const std::string& remedy) const;
+  /// Throws xml::Errors with the position of this element.
+  [[noreturn]] void reject(const std::string& what, const std::string& remedy) const;
 
  private:
   std::vector<double> parsed(const std::string& text, std::size_t count,

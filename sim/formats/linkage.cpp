@@ -6,59 +6,59 @@
 namespace formats {
 namespace {
 
-constexpr double same_m = 1e-9, same_direction = 1e-9;
+constexpr double same_m = 1e-9, same_direction = 1e-9;  // chosen: rounding
 
-xml::Vec3 plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+xml::Vec3 array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 class Builder {
  public:
-  explicit Builder(Linkage linkage) : l_(std::move(linkage)) {}
+  explicit Builder(Linkage linkage) : linkage_(std::move(linkage)) {}
 
   erp::Robot robot() {
     join_balls();
     drop_frames();
     erp::Robot robot;
-    robot.name = l_.name;
+    robot.name = linkage_.name;
     erp::Skeleton skeleton;
     skeleton.gravity_m_per_s2 = xml::Vec3{0, 0, -9.81};
-    for (const Link& link : l_.links) skeleton.bodies.push_back(body_of(link));
-    for (const Connection& joint : l_.joints) skeleton.joints.push_back(joint_of(joint));
+    for (const Link& link : linkage_.links) skeleton.bodies.push_back(body_of(link));
+    for (const Connection& joint : linkage_.joints) skeleton.joints.push_back(joint_of(joint));
     robot.skeletons = {skeleton};
     return robot;
   }
 
  private:
-  Link* link(const std::string& name) {
-    const auto found = std::ranges::find(l_.links, name, &Link::name);
-    return found == l_.links.end() ? nullptr : &*found;
+  Link* find_link(const std::string& name) {
+    const auto match = std::ranges::find(linkage_.links, name, &Link::name);
+    return match == linkage_.links.end() ? nullptr : &*match;
   }
-  Connection* above(const std::string& link) {
-    const auto found = std::ranges::find(l_.joints, link, &Connection::child);
-    return found == l_.joints.end() ? nullptr : &*found;
+  Connection* parent_joint(const std::string& link) {
+    const auto match = std::ranges::find(linkage_.joints, link, &Connection::child);
+    return match == linkage_.joints.end() ? nullptr : &*match;
   }
-  bool massless(const std::string& name) {
-    const Link* found = link(name);
-    return found && found->mass_kg == 0;
+  bool is_massless(const std::string& name) {
+    const Link* match = find_link(name);
+    return match && match->mass_kg == 0;
   }
   void erase(const std::string& name) {
-    std::erase_if(l_.joints, [&](const Connection& j) { return j.child == name; });
-    std::erase_if(l_.links, [&](const Link& k) { return k.name == name; });
+    std::erase_if(linkage_.joints, [&](const Connection& j) { return j.child == name; });
+    std::erase_if(linkage_.links, [&](const Link& k) { return k.name == name; });
   }
 
-  static bool hinge(const Connection* joint, const Vec3& axis, const Vec3& at_m) {
+  static bool is_hinge(const Connection* joint, const Vec3& axis, const Vec3& at_m) {
     return joint && joint->type == erp::JointType::revolute &&
            (joint->axis - axis).norm() < same_direction && (joint->at_m - at_m).norm() < same_m;
   }
 
   /// Replaces three hinges about x, y, z in series by a ball joint, beginning at the last hinge.
   void join_balls() {
-    for (std::size_t k = 0; k < l_.joints.size(); ++k) {
-      Connection& z = l_.joints[k];
-      if (!hinge(&z, Vec3::UnitZ(), z.at_m) || !massless(z.parent)) continue;
-      const Connection* y = above(z.parent);
-      if (!hinge(y, Vec3::UnitY(), z.at_m) || !massless(y->parent)) continue;
-      const Connection* x = above(y->parent);
-      if (!hinge(x, Vec3::UnitX(), z.at_m)) continue;
+    for (std::size_t k = 0; k < linkage_.joints.size(); ++k) {
+      Connection& z = linkage_.joints[k];
+      if (!is_hinge(&z, Vec3::UnitZ(), z.at_m) || !is_massless(z.parent)) continue;
+      const Connection* y = parent_joint(z.parent);
+      if (!is_hinge(y, Vec3::UnitY(), z.at_m) || !is_massless(y->parent)) continue;
+      const Connection* x = parent_joint(y->parent);
+      if (!is_hinge(x, Vec3::UnitX(), z.at_m)) continue;
       const std::string first = y->parent, second = z.parent, parent = x->parent;
       z.type = erp::JointType::spherical;
       z.parent = parent;
@@ -68,17 +68,17 @@ class Builder {
     }
   }
 
-  /// Removes links that are fixed to another and have no mass: they are frames, not bodies.
+  /// Removes links without mass that are fixed to another link. They are frames, not bodies.
   void drop_frames() {
-    for (std::size_t k = 0; k < l_.links.size();) {
-      const std::string name = l_.links[k].name;
-      const Connection* joint = above(name);
-      if (!joint || joint->type != erp::JointType::fixed || l_.links[k].mass_kg > 0) {
+    for (std::size_t k = 0; k < linkage_.links.size();) {
+      const std::string name = linkage_.links[k].name;
+      const Connection* joint = parent_joint(name);
+      if (!joint || joint->type != erp::JointType::fixed || linkage_.links[k].mass_kg > 0) {
         ++k;
         continue;
       }
       const std::string parent = joint->parent;
-      for (Connection& other : l_.joints)
+      for (Connection& other : linkage_.joints)
         if (other.parent == name) other.parent = parent;
       erase(name);
       k = 0;
@@ -86,39 +86,39 @@ class Builder {
   }
 
   Vec3 origin(const std::string& name) {
-    const Connection* joint = above(name);
+    const Connection* joint = parent_joint(name);
     return joint ? joint->at_m : Vec3::Zero();
   }
 
   erp::Body body_of(const Link& link) {
     erp::Body body;
     body.name = link.name;
-    if (!above(link.name)) return body;
+    if (!parent_joint(link.name)) return body;
     const Eigen::Matrix3d& i = link.inertia_kg_m2;
     body.mass_kg = link.mass_kg;
-    body.com_m = plain(link.com_m - origin(link.name));
+    body.com_m = array_of(link.com_m - origin(link.name));
     body.inertia_kg_m2 = {i(0, 0), i(1, 1), i(2, 2)};
     body.products_kg_m2 = {i(0, 1), i(0, 2), i(1, 2)};
     return body;
   }
 
   erp::Joint joint_of(const Connection& joint) {
-    if (!link(joint.parent) || !link(joint.child))
+    if (!find_link(joint.parent) || !find_link(joint.child))
       throw std::invalid_argument("joint \"" + joint.name + "\" connects \"" + joint.parent +
                                   "\" and \"" + joint.child +
                                   "\"; at least one of them is not a link");
-    erp::Joint own;
-    own.name = joint.name, own.type = joint.type;
-    own.parent = joint.parent, own.child = joint.child;
-    own.at_m = plain(joint.at_m - origin(joint.parent));
-    if (joint.type == erp::JointType::revolute) own.axis = plain(joint.axis.normalized());
-    own.min_rad = joint.min_rad, own.max_rad = joint.max_rad;
-    own.initial_rad = std::clamp(0.0, joint.min_rad, joint.max_rad);
-    own.viscous_Nm_s_per_rad = joint.viscous_Nm_s_per_rad, own.coulomb_Nm = joint.coulomb_Nm;
-    return own;
+    erp::Joint result;
+    result.name = joint.name, result.type = joint.type;
+    result.parent = joint.parent, result.child = joint.child;
+    result.at_m = array_of(joint.at_m - origin(joint.parent));
+    if (joint.type == erp::JointType::revolute) result.axis = array_of(joint.axis.normalized());
+    result.min_rad = joint.min_rad, result.max_rad = joint.max_rad;
+    result.initial_rad = std::clamp(0.0, joint.min_rad, joint.max_rad);
+    result.viscous_Nm_s_per_rad = joint.viscous_Nm_s_per_rad, result.coulomb_Nm = joint.coulomb_Nm;
+    return result;
   }
 
-  Linkage l_;
+  Linkage linkage_;
 };
 
 }  // namespace

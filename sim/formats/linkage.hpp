@@ -6,8 +6,8 @@
 #include "interfaces/robot/robot.hpp"
 #include "sim/formats/foreign.hpp"
 
-/// The skeleton in the form of other formats: links and joints in the zero pose, in world coordinates.
-/// Their frames may be rotated; those of robot.xml are parallel.
+/// The skeleton in the form of other formats: links and joints in the zero pose, in world
+/// coordinates. Their frames may be rotated, whereas the frames of robot.xml are parallel.
 namespace formats {
 
 using Vec3 = Eigen::Vector3d;
@@ -33,9 +33,10 @@ struct Linkage {
   std::vector<Connection> joints;
 };
 
-/// The robot of a linkage, without motors and tendons. A link without mass that is fixed to another is
-/// merged with it. Three hinges about x, y, z through one point over links without mass become a ball
-/// joint. A root is fixed and its mass is ignored. Throws std::invalid_argument for an invalid joint.
+/// The robot of a linkage, without motors and tendons. A link without mass that is fixed to another
+/// link is merged with that link. Three hinges about x, y, z through one point over links without
+/// mass become a ball joint. A root is fixed and its mass is ignored. Throws std::invalid_argument
+/// for an invalid joint.
 erp::Robot robot_of(Linkage linkage);
 
 /// Positions of the bodies' frames in the world, all joints at zero, in the order of

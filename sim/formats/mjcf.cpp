@@ -15,9 +15,9 @@ namespace {
 using xml::Tree;
 using xml::Vec3;
 
-constexpr double side_reach = 1.5;  // position of the side site, in radii of the pulley
+constexpr double side_reach = 1.5;  // chosen: position of the side site, in radii of the pulley
 
-Vec3 along(const Vec3& from, const Vec3& direction, double distance) {
+Vec3 moved_along(const Vec3& from, const Vec3& direction, double distance) {
   const double length = std::hypot(direction[0], direction[1], direction[2]);
   Vec3 to = from;
   for (std::size_t i = 0; i < 3; ++i) to[i] += distance * direction[i] / length;
@@ -61,7 +61,7 @@ class Mjcf {
           .set("ctrllimited", true)
           .set("ctrlrange", std::vector<double>{0, actuator.max_tension_N});
     }
-    root_.add("keyframe").add("key").set("name", "start").set("qpos", start_);
+    root_.add("keyframe").add("key").set("name", "start").set("qpos", start_positions_);
     return xml::write_tree(root_);
   }
 
@@ -73,37 +73,38 @@ class Mjcf {
   }
 
   void add_body(Tree& parent, const erp::Body& body, const erp::Joint* joint) {
-    Tree& own = parent.add("body").set("name", body.name);
-    if (joint) own.set("pos", joint->at_m);
-    if (joint) add_joint(own, *joint);
+    Tree& node = parent.add("body").set("name", body.name);
+    if (joint) node.set("pos", joint->at_m);
+    if (joint) add_joint(node, *joint);
     if (const erp::Mass mass = mass_of(body); mass.mass_kg > 0)
-      own.add("inertial")
+      node.add("inertial")
           .set("pos", mass.com_m)
           .set("mass", mass.mass_kg)
           .set("fullinertia", inertia_of(mass));
-    tree_of_[body.name] = &own;
+    tree_of_[body.name] = &node;
     for (const erp::Body& child : bodies_)
-      if (const erp::Joint* next = joint_of(child); next && next->parent == body.name)
-        add_body(next->type == erp::JointType::free ? parent : own, child, next);
+      if (const erp::Joint* child_joint = joint_of(child);
+          child_joint && child_joint->parent == body.name)
+        add_body(child_joint->type == erp::JointType::free ? parent : node, child, child_joint);
   }
 
   void add_joint(Tree& body, const erp::Joint& joint) {
     if (joint.type == erp::JointType::fixed) return;
     if (joint.type == erp::JointType::free) return add_freedom(body, joint);
-    const bool ball = joint.type == erp::JointType::spherical;
-    Tree& own = body.add("joint").set("name", joint.name).set("type", ball ? "ball" : "hinge");
-    if (ball) start_.insert(start_.end(), {1, 0, 0, 0});
-    else own.set("axis", joint.axis), start_.push_back(joint.initial_rad);
-    own.set("limited", true)
-        .set("range", std::vector<double>{ball ? 0 : joint.min_rad, joint.max_rad})
+    const bool is_ball = joint.type == erp::JointType::spherical;
+    Tree& node = body.add("joint").set("name", joint.name).set("type", is_ball ? "ball" : "hinge");
+    if (is_ball) start_positions_.insert(start_positions_.end(), {1, 0, 0, 0});
+    else node.set("axis", joint.axis), start_positions_.push_back(joint.initial_rad);
+    node.set("limited", true)
+        .set("range", std::vector<double>{is_ball ? 0 : joint.min_rad, joint.max_rad})
         .set("damping", joint.viscous_Nm_s_per_rad)
         .set("frictionloss", joint.coulomb_Nm);
   }
 
   void add_freedom(Tree& body, const erp::Joint& joint) {
     body.add("freejoint").set("name", joint.name);
-    start_.insert(start_.end(), joint.at_m.begin(), joint.at_m.end());
-    start_.insert(start_.end(), {1, 0, 0, 0});
+    start_positions_.insert(start_positions_.end(), joint.at_m.begin(), joint.at_m.end());
+    start_positions_.insert(start_positions_.end(), {1, 0, 0, 0});
   }
 
   void route(Tree& tendons, const erp::Actuator& actuator) {
@@ -119,26 +120,26 @@ class Mjcf {
                                     " of its path is a pulley directly after a pulley, which MJCF "
                                     "does not support; add an <attach> between them");
       after_pulley = pulley != nullptr;
-      if (pulley) wrap(spatial, *pulley, name, middle_of(actuator, count - 1));
-      else pass(spatial, std::get<erp::Attach>(element), name);
+      if (pulley) wrap(spatial, *pulley, name, wrap_middle(actuator, count - 1));
+      else add_site(spatial, std::get<erp::Attach>(element), name);
     }
   }
 
-  void pass(Tree& spatial, const erp::Attach& attach, const std::string& name) {
+  void add_site(Tree& spatial, const erp::Attach& attach, const std::string& name) {
     tree_of_.at(attach.body)->add("site").set("name", name).set("pos", attach.at_m);
     spatial.add("site").set("site", name);
   }
 
   /// Direction of the middle of the wrap around a pulley with an axis, in the starting pose and the
   /// pulley's body frame. MJCF has no direction of wrapping, only a side.
-  Vec3 middle_of(const erp::Actuator& actuator, int element) const {
+  Vec3 wrap_middle(const erp::Actuator& actuator, int element) const {
     const sim::Routing routing(actuator.tendon, names_);
     const auto k = static_cast<std::size_t>(element);
     const sim::PathElement& pulley = routing.elements()[k];
     if (pulley.axis.isZero(0)) return {pulley.side.x(), pulley.side.y(), pulley.side.z()};
     const sim::PathShape shape = routing.solve(start_poses_);
-    const auto& turned = start_poses_[static_cast<std::size_t>(pulley.body)].rotation;
-    sim::Vec3 from = turned.transpose() * (shape.exit_m[k - 1] - shape.pulls[k].at_m);
+    const auto& body_rotation = start_poses_[static_cast<std::size_t>(pulley.body)].rotation;
+    sim::Vec3 from = body_rotation.transpose() * (shape.exit_m[k - 1] - shape.pulls[k].at_m);
     from -= pulley.axis.dot(from) * pulley.axis;
     const sim::Vec3 middle = Eigen::AngleAxisd(shape.around_rad[k] / 2, pulley.axis) * from;
     return {middle.x(), middle.y(), middle.z()};
@@ -159,7 +160,7 @@ class Mjcf {
     if (is_zero(side)) return;
     body.add("site")
         .set("name", name + "_side")
-        .set("pos", along(pulley.center_m, side, side_reach * pulley.radius_m));
+        .set("pos", moved_along(pulley.center_m, side, side_reach * pulley.radius_m));
     geom.set("sidesite", name + "_side");
   }
 
@@ -168,7 +169,7 @@ class Mjcf {
   std::vector<erp::Joint> joints_;
   Tree root_{"mujoco"};
   std::map<std::string, Tree*> tree_of_;
-  std::vector<double> start_;
+  std::vector<double> start_positions_;
   std::vector<std::string> names_;          ///< names of the bodies
   std::vector<sim::BodyPose> start_poses_;  ///< starting poses of the bodies
 };

@@ -11,9 +11,9 @@ namespace {
 using sim::Vec3;
 using xml::Tree;
 
-constexpr double height_px = 900, margin_px = 30, title_px = 40, gap_px = 60;
-constexpr double edge_px = 1.5, thinnest_px = 1.5;
-constexpr double bar_m = 0.1;  // length of the scale bar
+constexpr double height_px = 900, margin_px = 30, title_px = 40, gap_px = 60;  // chosen
+constexpr double edge_px = 1.5, min_width_px = 1.5;  // chosen: widths of lines
+constexpr double bar_m = 0.1;                        // length of the scale bar
 constexpr auto ink = "#333333";
 
 /// A view direction: world axes that point right, up, and towards the viewer.
@@ -54,9 +54,9 @@ std::vector<Stroke> sorted(std::vector<Stroke> strokes, const View& view) {
   return strokes;
 }
 
-class Paper {
+class Picture {
  public:
-  Paper(const std::vector<Stroke>& strokes, const std::string& name) {
+  Picture(const std::vector<Stroke>& strokes, const std::string& name) {
     std::array<Frame, views.size()> frames;
     double tallest = 0;
     for (std::size_t k = 0; k < views.size(); ++k) {
@@ -75,7 +75,7 @@ class Paper {
 
  private:
   void draw(const std::vector<Stroke>& strokes, const View& view, const Frame& frame, double x_px) {
-    words(x_px, 22, view.title, "start");
+    add_text(x_px, 22, view.title, "start");
     view_ = &view;
     left_px_ = x_px - frame.left * px_per_m_;
     below_px_ = height_px - margin_px - title_px / 2 + frame.bottom * px_per_m_;
@@ -87,19 +87,19 @@ class Paper {
   double y_of(const Vec3& point) const { return below_px_ - view_->up.dot(point) * px_per_m_; }
 
   void circle(const Stroke& stroke) {
-    Tree& own = root_.add("circle")
-                    .set("cx", x_of(stroke.points[0]))
-                    .set("cy", y_of(stroke.points[0]))
-                    .set("r", stroke.width_m / 2 * px_per_m_)
-                    .set("fill", stroke.fill)
-                    .set("stroke", stroke.edge ? stroke.edge : stroke.fill)
-                    .set("stroke-width", edge_px);
-    own.add("title", stroke.title);
+    Tree& element = root_.add("circle")
+                        .set("cx", x_of(stroke.points[0]))
+                        .set("cy", y_of(stroke.points[0]))
+                        .set("r", stroke.width_m / 2 * px_per_m_)
+                        .set("fill", stroke.fill)
+                        .set("stroke", stroke.edge ? stroke.edge : stroke.fill)
+                        .set("stroke-width", edge_px);
+    element.add("title", stroke.title);
   }
 
   /// The edge is drawn as a wider line below.
   void line(const Stroke& stroke) {
-    const double width = std::max(thinnest_px, stroke.width_m * px_per_m_);
+    const double width = std::max(min_width_px, stroke.width_m * px_per_m_);
     if (stroke.edge) trace(stroke, stroke.edge, width + edge_px);
     trace(stroke, stroke.fill, stroke.edge ? width - edge_px : width);
   }
@@ -108,17 +108,17 @@ class Paper {
     std::string points;
     for (const Vec3& point : stroke.points)
       points += std::to_string(x_of(point)) + "," + std::to_string(y_of(point)) + " ";
-    Tree& own = root_.add("polyline")
-                    .set("points", points)
-                    .set("stroke", colour)
-                    .set("stroke-width", width_px)
-                    .set("stroke-linecap", "round")
-                    .set("stroke-linejoin", "round")
-                    .set("fill", "none");
-    own.add("title", stroke.title);
+    Tree& element = root_.add("polyline")
+                        .set("points", points)
+                        .set("stroke", colour)
+                        .set("stroke-width", width_px)
+                        .set("stroke-linecap", "round")
+                        .set("stroke-linejoin", "round")
+                        .set("fill", "none");
+    element.add("title", stroke.title);
   }
 
-  Tree& words(double x, double y, const std::string& text, const char* anchor) {
+  Tree& add_text(double x, double y, const std::string& text, const char* anchor) {
     return root_.add("text", text)
         .set("x", x)
         .set("y", y)
@@ -131,8 +131,8 @@ class Paper {
   /// Adds name and scale bar, and sets the size of the picture.
   void finish(const std::string& name, double width) {
     const double y = height_px - 12, x = width - margin_px, length = bar_m * px_per_m_;
-    words(margin_px, y, name, "start").set("font-weight", "bold");
-    words(x - length / 2, y - 6, "0.1 m", "middle");
+    add_text(margin_px, y, name, "start").set("font-weight", "bold");
+    add_text(x - length / 2, y - 6, "0.1 m", "middle");
     root_.add("line")
         .set("x1", x - length)
         .set("x2", x)
@@ -150,6 +150,8 @@ class Paper {
 
 }  // namespace
 
-std::string to_svg(const erp::Robot& robot) { return Paper(strokes_of(robot), robot.name).text(); }
+std::string to_svg(const erp::Robot& robot) {
+  return Picture(strokes_of(robot), robot.name).text();
+}
 
 }  // namespace formats

@@ -63,10 +63,10 @@ class Scene {
                        0});
   }
   void add_part(int k, const erp::Box& b) {
-    const Vec3 at = vec(b.at_m), half = vec(b.size_m) / 2;
+    const Vec3 at = vec(b.at_m), half_m = vec(b.size_m) / 2;
     for (int axis = 0; axis < 3; ++axis)
       for (int corner = 0; corner < 4; ++corner) {
-        Vec3 from = half;
+        Vec3 from = half_m;
         from[(axis + 1) % 3] *= corner & 1 ? 1 : -1;
         from[(axis + 2) % 3] *= corner & 2 ? 1 : -1;
         Vec3 to = from;
@@ -80,7 +80,8 @@ class Scene {
     strokes.push_back({{point(k, vec(w.at_m))}, 2 * radius, weight_fill, bone_edge, "", 0});
   }
 
-  /// A body without a shape is drawn as lines from its joint to its centre of mass and to child joints.
+  /// A body without a shape is drawn as lines from its joint to its centre of mass and to child
+  /// joints.
   void add_bones(int k) {
     const sim::TreeBody& body = tree_.bodies[static_cast<std::size_t>(k)];
     if (body.joint < 0) return;

@@ -11,7 +11,7 @@ namespace {
 
 using xml::Tree;
 
-constexpr double unlimited = 3.14159;
+constexpr double unlimited = 3.14159;  // rad: half a turn, rounded down
 constexpr auto world_link = "world";
 constexpr const char* moments[]{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
 
@@ -49,9 +49,9 @@ void add_joint(Tree& model, const erp::Joint& joint) {
   const char* type = hinge                                     ? "revolute"
                      : joint.type == erp::JointType::spherical ? "ball"
                                                                : "fixed";
-  Tree& own = add_joint(model, joint.name, type, joint.parent, joint.child);
+  Tree& element = add_joint(model, joint.name, type, joint.parent, joint.child);
   if (!hinge) return;
-  Tree& axis = own.add("axis");
+  Tree& axis = element.add("axis");
   axis.add("xyz", words({joint.axis[0], joint.axis[1], joint.axis[2]}));
   Tree& limit = axis.add("limit");
   limit.add("lower", xml::write_number(joint.min_rad));
@@ -67,7 +67,7 @@ Eigen::Isometry3d pose_in(const Foreign& element) {
   const auto pose = element.one("pose");
   if (!pose) return Eigen::Isometry3d::Identity();
   if (const auto other = pose->attribute("relative_to"); other && !other->empty())
-    pose->refuse("relative_to=\"" + *other + "\" is not supported",
+    pose->reject("relative_to=\"" + *other + "\" is not supported",
                  "give the pose relative to the model, which is the default of SDF");
   return pose_of(pose->numbers(6));
 }
@@ -77,7 +77,7 @@ erp::JointType type_of(const Foreign& joint) {
   if (type == "revolute" || type == "continuous") return erp::JointType::revolute;
   if (type == "ball") return erp::JointType::spherical;
   if (type == "fixed") return erp::JointType::fixed;
-  joint.refuse("type=\"" + type + "\" is not supported", "use revolute, continuous, ball or fixed");
+  joint.reject("type=\"" + type + "\" is not supported", "use revolute, continuous, ball or fixed");
 }
 
 class Sdf {
@@ -87,46 +87,46 @@ class Sdf {
   }
 
   Linkage linkage() {
-    l_.name = model_.name();
-    for (const Foreign& link : model_.all("link")) l_.links.push_back(placed(link));
+    linkage_.name = model_.name();
+    for (const Foreign& link : model_.all("link")) linkage_.links.push_back(link_of(link));
     for (const Foreign& joint : model_.all("joint")) add(joint);
     std::vector<Link> floating;
-    for (const Link& link : l_.links)
-      if (link.name != world_link && !fixed_to_world_.contains(link.name) && !moved(link.name))
+    for (const Link& link : linkage_.links)
+      if (link.name != world_link && !fixed_to_world_.contains(link.name) && !has_joint(link.name))
         floating.push_back(link);
     for (const Link& link : floating) {
-      need_world();
-      l_.joints.push_back({.name = link.name + "_floats",
-                           .parent = world_link,
-                           .child = link.name,
-                           .type = erp::JointType::free,
-                           .at_m = poses_.at(link.name).translation()});
+      ensure_world_link();
+      linkage_.joints.push_back({.name = link.name + "_floats",
+                                 .parent = world_link,
+                                 .child = link.name,
+                                 .type = erp::JointType::free,
+                                 .at_m = poses_.at(link.name).translation()});
     }
-    return l_;
+    return linkage_;
   }
 
  private:
-  bool moved(const std::string& link) const {
-    return std::ranges::find(l_.joints, link, &Connection::child) != l_.joints.end();
+  bool has_joint(const std::string& link) const {
+    return std::ranges::find(linkage_.joints, link, &Connection::child) != linkage_.joints.end();
   }
-  void need_world() {
-    if (std::ranges::find(l_.links, world_link, &Link::name) == l_.links.end())
-      l_.links.push_back({.name = world_link});
+  void ensure_world_link() {
+    if (std::ranges::find(linkage_.links, world_link, &Link::name) == linkage_.links.end())
+      linkage_.links.push_back({.name = world_link});
   }
 
-  Link placed(const Foreign& element) const {
+  Link link_of(const Foreign& element) const {
     Link link{.name = element.name()};
     const auto inertial = element.one("inertial");
     if (!inertial) return link;
     const Eigen::Isometry3d at = poses_.at(link.name) * pose_in(*inertial);
     const Foreign i = inertial->need("inertia");
-    const auto of = [&](const char* name) { return i.number_in(name, 0); };
-    Eigen::Matrix3d own;
-    own << of("ixx"), of("ixy"), of("ixz"), of("ixy"), of("iyy"), of("iyz"), of("ixz"), of("iyz"),
-        of("izz");
+    const auto entry = [&](const char* name) { return i.number_in(name, 0); };
+    Eigen::Matrix3d inertia;
+    inertia << entry("ixx"), entry("ixy"), entry("ixz"), entry("ixy"), entry("iyy"), entry("iyz"),
+        entry("ixz"), entry("iyz"), entry("izz");
     link.mass_kg = inertial->need("mass").number();
     link.com_m = at.translation();
-    link.inertia_kg_m2 = at.linear() * own * at.linear().transpose();
+    link.inertia_kg_m2 = at.linear() * inertia * at.linear().transpose();
     return link;
   }
 
@@ -137,7 +137,7 @@ class Sdf {
                      .type = type_of(element)};
     const auto child = poses_.find(joint.child);
     if (child == poses_.end())
-      element.refuse("its child \"" + joint.child + "\" is not a link",
+      element.reject("its child \"" + joint.child + "\" is not a link",
                      "give the name of a link of the model");
     const Eigen::Isometry3d at = child->second * pose_in(element);
     joint.at_m = at.translation();
@@ -145,12 +145,12 @@ class Sdf {
       fixed_to_world_[joint.child] = true;
       return;
     }
-    if (joint.parent == world_link) need_world();
-    if (joint.type == erp::JointType::revolute) turn(joint, element.need("axis"), at);
-    l_.joints.push_back(joint);
+    if (joint.parent == world_link) ensure_world_link();
+    if (joint.type == erp::JointType::revolute) set_axis(joint, element.need("axis"), at);
+    linkage_.joints.push_back(joint);
   }
 
-  static void turn(Connection& joint, const Foreign& axis, const Eigen::Isometry3d& at) {
+  static void set_axis(Connection& joint, const Foreign& axis, const Eigen::Isometry3d& at) {
     const auto v = axis.need("xyz").numbers(3);
     joint.axis = at.linear() * Vec3(v[0], v[1], v[2]);
     if (const auto limit = axis.one("limit")) {
@@ -166,7 +166,7 @@ class Sdf {
   Foreign model_;
   std::map<std::string, Eigen::Isometry3d> poses_;
   std::map<std::string, bool> fixed_to_world_;
-  Linkage l_;
+  Linkage linkage_;
 };
 
 }  // namespace
@@ -190,7 +190,7 @@ std::string to_sdf(const erp::Robot& robot) {
 erp::Robot from_sdf(const std::string& file) {
   const xml::Element document = xml::read_document(file);
   const Foreign root(document);
-  if (root.tag() != "sdf") root.refuse("is not an SDF file", "the root element must be <sdf>");
+  if (root.tag() != "sdf") root.reject("is not an SDF file", "the root element must be <sdf>");
   return robot_of(Sdf(root.need("model")).linkage());
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using xml::Tree;
 
-constexpr double unlimited = 3.14159;
+constexpr double unlimited = 3.14159;  // rad: half a turn, rounded down
 constexpr auto world_link = "world";
 
 void add_link(Tree& root, const std::string& name, const erp::Mass& mass) {
@@ -36,16 +36,18 @@ Tree& add_joint(Tree& root, const std::string& name, const char* type, const std
 
 void add_hinge(Tree& root, const std::string& name, const std::string& parent,
                const std::string& child, const xml::Vec3& at_m, const xml::Vec3& axis,
-               const erp::Joint& like) {
+               const erp::Joint& source) {
   Tree& joint = add_joint(root, name, "revolute", parent, child, at_m);
   joint.add("axis").set("xyz", axis);
-  const bool ball = like.type == erp::JointType::spherical;
+  const bool is_ball = source.type == erp::JointType::spherical;
   joint.add("limit")
-      .set("lower", ball ? -like.max_rad : like.min_rad)
-      .set("upper", like.max_rad)
+      .set("lower", is_ball ? -source.max_rad : source.min_rad)
+      .set("upper", source.max_rad)
       .set("effort", 0)
       .set("velocity", 0);
-  joint.add("dynamics").set("damping", like.viscous_Nm_s_per_rad).set("friction", like.coulomb_Nm);
+  joint.add("dynamics")
+      .set("damping", source.viscous_Nm_s_per_rad)
+      .set("friction", source.coulomb_Nm);
 }
 
 /// A ball joint is written as three hinges about x, y, z over two links without mass.
@@ -89,10 +91,10 @@ void join_roots(Tree& root, const erp::Robot& robot) {
 Eigen::Isometry3d origin_of(const Foreign& element) {
   const auto origin = element.one("origin");
   if (!origin) return Eigen::Isometry3d::Identity();
-  std::vector<double> v(3), turn(3);
+  std::vector<double> v(3), rpy(3);
   if (origin->attribute("xyz")) v = origin->numbers("xyz", 3);
-  if (origin->attribute("rpy")) turn = origin->numbers("rpy", 3);
-  v.insert(v.end(), turn.begin(), turn.end());
+  if (origin->attribute("rpy")) rpy = origin->numbers("rpy", 3);
+  v.insert(v.end(), rpy.begin(), rpy.end());
   return pose_of(v);
 }
 
@@ -101,7 +103,7 @@ erp::JointType type_of(const Foreign& joint) {
   if (type == "revolute" || type == "continuous") return erp::JointType::revolute;
   if (type == "fixed") return erp::JointType::fixed;
   if (type == "floating") return erp::JointType::free;
-  joint.refuse("type=\"" + type + "\" is not supported",
+  joint.reject("type=\"" + type + "\" is not supported",
                "use revolute, continuous, fixed or floating");
 }
 
@@ -114,8 +116,8 @@ class Urdf {
 
   Linkage linkage() {
     Linkage linkage{root_.name(), {}, {}};
-    for (const Foreign& link : root_.all("link")) linkage.links.push_back(placed(link));
-    for (const Foreign& joint : root_.all("joint")) linkage.joints.push_back(placed_joint(joint));
+    for (const Foreign& link : root_.all("link")) linkage.links.push_back(link_from(link));
+    for (const Foreign& joint : root_.all("joint")) linkage.joints.push_back(joint_from(joint));
     return linkage;
   }
 
@@ -123,34 +125,34 @@ class Urdf {
   static std::string link_of(const Foreign& joint, const char* end) {
     const Foreign element = joint.need(end);
     if (const auto link = element.attribute("link")) return *link;
-    element.refuse("has no link", "add link=\"…\"");
+    element.reject("has no link", "add link=\"…\"");
   }
 
   Eigen::Isometry3d pose(const std::string& link, std::size_t depth = 0) const {
     const auto joint = joints_.find(link);
     if (joint == joints_.end()) return Eigen::Isometry3d::Identity();
     if (depth > joints_.size())
-      joint->second.refuse("is part of a loop",
+      joint->second.reject("is part of a loop",
                            "a skeleton must be a tree; remove one joint of the loop");
     return pose(link_of(joint->second, "parent"), depth + 1) * origin_of(joint->second);
   }
 
-  Link placed(const Foreign& element) const {
+  Link link_from(const Foreign& element) const {
     Link link{.name = element.name()};
     const auto inertial = element.one("inertial");
     if (!inertial) return link;
     const Eigen::Isometry3d at = pose(link.name) * origin_of(*inertial);
     const Foreign i = inertial->need("inertia");
-    Eigen::Matrix3d own;
-    own << i.number("ixx"), i.number("ixy"), i.number("ixz"), i.number("ixy"), i.number("iyy"),
+    Eigen::Matrix3d inertia;
+    inertia << i.number("ixx"), i.number("ixy"), i.number("ixz"), i.number("ixy"), i.number("iyy"),
         i.number("iyz"), i.number("ixz"), i.number("iyz"), i.number("izz");
     link.mass_kg = inertial->need("mass").number("value");
     link.com_m = at.translation();
-    link.inertia_kg_m2 = at.linear() * own * at.linear().transpose();
+    link.inertia_kg_m2 = at.linear() * inertia * at.linear().transpose();
     return link;
   }
 
-  Connection placed_joint(const Foreign& element) const {
+  Connection joint_from(const Foreign& element) const {
     Connection joint{.name = element.name(),
                      .parent = link_of(element, "parent"),
                      .child = link_of(element, "child"),
@@ -191,7 +193,7 @@ std::string to_urdf(const erp::Robot& robot) {
 erp::Robot from_urdf(const std::string& file) {
   const xml::Element document = xml::read_document(file);
   const Foreign root(document);
-  if (root.tag() != "robot") root.refuse("is not a URDF file", "the root element must be <robot>");
+  if (root.tag() != "robot") root.reject("is not a URDF file", "the root element must be <robot>");
   return robot_of(Urdf(root).linkage());
 }
 

@@ -8,8 +8,8 @@
 /// Loads that are attached to a simulated robot and detached again at given times.
 namespace sim {
 
-/// `<attached_load body="forearm" at_m="0 0 -0.26" mass_kg="0.2" at_s="1"/>` in the sim's config: a point
-/// mass, in the body's frame, that moves with the body from the start (paper, Fig. 7b).
+/// `<attached_load body="forearm" at_m="0 0 -0.26" mass_kg="0.2" at_s="1"/>` in the sim's config: a
+/// point mass, in the body's frame, that moves with the body from the start (paper, Fig. 7b).
 struct AttachedLoad {
   static constexpr auto element = "attached_load", former_element = "grasp";
   static constexpr auto meaning =
@@ -33,24 +33,25 @@ struct AttachedLoad {
 
 class AttachedLoads {
  public:
-  /// Throws std::invalid_argument for a body that the robot does not have or that cannot hold a load.
+  /// Throws std::invalid_argument for a body that the robot does not have or that cannot hold a
+  /// load.
   AttachedLoads(std::vector<AttachedLoad> list, World& world)
       : list_(std::move(list)), was_attached_(list_.size()) {
     for (const AttachedLoad& load : list_) world.attach({mass_of(load, world)});
     world.attach({});
   }
 
-  /// Attaches the loads that are due now to the world; returns those attached or detached by that.
+  /// Attaches and detaches loads according to the world's time. Returns those that changed.
   std::vector<const AttachedLoad*> update(World& world) {
     std::vector<const AttachedLoad*> changed;
-    std::vector<AttachedMass> now;
+    std::vector<AttachedMass> attached;
     for (std::size_t k = 0; k < list_.size(); ++k) {
       const bool is_attached = list_[k].is_attached(world.time_s());
       if (is_attached != was_attached_[k]) changed.push_back(&list_[k]);
       was_attached_[k] = is_attached;
-      if (is_attached) now.push_back(mass_of(list_[k], world));
+      if (is_attached) attached.push_back(mass_of(list_[k], world));
     }
-    if (!changed.empty()) world.attach(now);
+    if (!changed.empty()) world.attach(attached);
     return changed;
   }
 

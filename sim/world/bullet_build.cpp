@@ -15,15 +15,15 @@ btVector3 inertia_of(const erp::Mass& mass) {
 }  // namespace
 
 BulletSkeleton::Bullet::Bullet(const RobotTree& tree_of_robot, const Vec3& g,
-                               std::span<const std::string> lock)
+                               std::span<const std::string> locked_joints)
     : robot(tree_of_robot), gravity_m_per_s2(bt(g)) {
-  place_bodies(lock);
+  place_bodies(locked_joints);
   for (BulletTree& tree : trees) build(tree);
-  for (const erp::Joint& joint : robot.joints) joints.push_back(start_of(joint));
+  for (const erp::Joint& joint : robot.joints) joints.push_back(initial_reading(joint));
 }
 
-void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
-  for (const std::string& name : lock)
+void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> locked_joints) {
+  for (const std::string& name : locked_joints)
     if (std::none_of(robot.joints.begin(), robot.joints.end(),
                      [&](const erp::Joint& j) { return j.name == name; }))
       throw std::invalid_argument("cannot lock joint \"" + name +
@@ -37,7 +37,8 @@ void BulletSkeleton::Bullet::place_bodies(std::span<const std::string> lock) {
       continue;
     }
     const erp::Joint& joint = robot.joints[body.joint];
-    const bool locked = std::find(lock.begin(), lock.end(), joint.name) != lock.end();
+    const bool locked =
+        std::find(locked_joints.begin(), locked_joints.end(), joint.name) != locked_joints.end();
     if (joint.type == erp::JointType::free && !locked) {
       places.push_back({static_cast<int>(trees.size()), -1, false, first});
       trees.emplace_back().floating = static_cast<int>(k);
@@ -65,8 +66,9 @@ void BulletSkeleton::Bullet::build(BulletTree& tree) {
   b.finalizeMultiDof();
   b.setLinearDamping(0);
   b.setAngularDamping(0);
-  b.setMaxCoordinateVelocity(1e9);
-  b.setMaxAppliedImpulse(1e9);
+  constexpr double unlimited = 1e9;  // above every velocity and impulse of a robot
+  b.setMaxCoordinateVelocity(unlimited);
+  b.setMaxAppliedImpulse(unlimited);
   for (int link = 0; link < links; ++link)
     if (b.getLink(link).m_jointType == btMultibodyLink::eRevolute)
       b.setJointPos(link, robot.joints[robot.bodies[tree.links[link]].joint].initial_rad);
@@ -81,16 +83,16 @@ void BulletSkeleton::Bullet::add_link(BulletTree& tree, int link, int index) {
                                                 ? btVector3(0, 0, 0)
                                                 : bt(robot.bodies[body.parent].mass.com_m));
   const int parent = places[body.parent].link;
-  const btQuaternion same = btQuaternion::getIdentity();
+  const btQuaternion identity = btQuaternion::getIdentity();
   const btVector3 axis = bt(joint.axis).normalized();
   if (joint.type == erp::JointType::revolute && !places[index].locked)
-    tree.body->setupRevolute(link, mass, inertia, parent, same, axis, pivot, com);
+    tree.body->setupRevolute(link, mass, inertia, parent, identity, axis, pivot, com);
   else if (joint.type == erp::JointType::spherical && !places[index].locked)
-    tree.body->setupSpherical(link, mass, inertia, parent, same, pivot, com);
+    tree.body->setupSpherical(link, mass, inertia, parent, identity, pivot, com);
   else
     tree.body->setupFixed(
         link, mass, inertia, parent,
-        joint.type == erp::JointType::revolute ? btQuaternion(axis, -joint.initial_rad) : same,
+        joint.type == erp::JointType::revolute ? btQuaternion(axis, -joint.initial_rad) : identity,
         pivot, com);
 }
 

@@ -6,7 +6,7 @@
 #include "sim/world/bullet_headers.hpp"
 #include "sim/world/bullet_skeleton.hpp"
 
-/// The implementation of BulletSkeleton; included by its own sources only.
+/// Implementation of BulletSkeleton; included only by the sources of BulletSkeleton.
 namespace sim {
 
 /// One tree: its multibody and the body index of each link. The base is a root or a free body.
@@ -24,9 +24,9 @@ struct BulletPlace {
 };
 
 struct BulletSkeleton::Bullet {
-  Bullet(const RobotTree& robot, const Vec3& gravity, std::span<const std::string> lock);
+  Bullet(const RobotTree& robot, const Vec3& gravity, std::span<const std::string> locked_joints);
 
-  void place_bodies(std::span<const std::string> lock);
+  void place_bodies(std::span<const std::string> locked_joints);
   void build(BulletTree& tree);
   void add_link(BulletTree& tree, int link, int body);
   void place_link(const BulletPlace& place, const JointReading& reading);

@@ -16,18 +16,19 @@ void BulletSkeleton::Bullet::respond(const BulletTree& tree, Response& all) {
   btAlignedObjectArray<btMatrix3x3> scratch_m;
   b.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r, scratch_v, scratch_m, false,
                                                          false, false);
-  std::vector<int> ours;  // indices of the tree's coordinates among all
+  std::vector<int> coordinates;  // indices of the tree's coordinates among all
   for (const int body : tree.links)
     for (int d = 0; d < b.getLink(places[body].link).m_dofCount; ++d)
-      ours.push_back(places[body].first + d);
-  for (int d = 0; d < n; ++d) all.acceleration[ours[d]] = scratch_r[n + 6 + d];
-  std::vector<btScalar> unit(static_cast<std::size_t>(6 + n)), answer(unit.size());
+      coordinates.push_back(places[body].first + d);
+  for (int d = 0; d < n; ++d) all.acceleration[coordinates[d]] = scratch_r[n + 6 + d];
+  std::vector<btScalar> unit(static_cast<std::size_t>(6 + n)), response(unit.size());
   for (int d = 0; d < n; ++d) {
     std::fill(unit.begin(), unit.end(), 0.0);
     unit[static_cast<std::size_t>(6 + d)] = 1;
-    b.calcAccelerationDeltasMultiDof(unit.data(), answer.data(), scratch_r, scratch_v);
+    b.calcAccelerationDeltasMultiDof(unit.data(), response.data(), scratch_r, scratch_v);
     for (int e = 0; e < n; ++e)
-      all.inverse_inertia(ours[e], ours[d]) = answer[static_cast<std::size_t>(6 + e)];
+      all.inverse_inertia(coordinates[e], coordinates[d]) =
+          response[static_cast<std::size_t>(6 + e)];
   }
 }
 

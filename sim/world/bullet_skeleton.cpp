@@ -5,8 +5,8 @@
 namespace sim {
 
 BulletSkeleton::BulletSkeleton(const RobotTree& tree, const Vec3& gravity,
-                               std::span<const std::string> lock)
-    : bullet_(std::make_unique<Bullet>(tree, gravity, lock)) {}
+                               std::span<const std::string> locked_joints)
+    : bullet_(std::make_unique<Bullet>(tree, gravity, locked_joints)) {}
 
 BulletSkeleton::~BulletSkeleton() = default;
 
@@ -46,8 +46,8 @@ void BulletSkeleton::Bullet::place_link(const BulletPlace& place, const JointRea
   b.setJointVelMultiDof(place.link, reading.velocity_rad_per_s.data());
 }
 
-/// Bullet moves a base at its centre of mass. The base is set from its reading before each step, so that
-/// a restored state continues bit by bit.
+/// Bullet moves a base at its centre of mass. The base is set from its reading before each step, so
+/// that a restored state continues bit by bit.
 void BulletSkeleton::Bullet::place_base(const BulletTree& tree, const Vec3& turning,
                                         const Vec3& sliding) {
   const JointReading& reading = reading_of(tree.floating);

@@ -6,16 +6,17 @@
 #include "sim/model/actuator/noise.hpp"
 #include "sim/model/effects/acting.hpp"
 
-/// The bus between plant and ECUs, with its effects. Commands and frames arrive in the order in which
-/// they were sent, each after its delay; until a frame arrives, the previous one is used.
+/// The bus between plant and ECUs, with its effects. Commands and frames arrive in the order in
+/// which they were sent, each after its delay. Until a frame arrives, the previous one remains
+/// valid.
 namespace sim {
 
 class BusEffects {
  public:
   BusEffects() = default;
   BusEffects(effects::Acting acting, std::uint64_t seed)
-      : acting_(std::move(acting)), draw_(seed) {}
-  /// No effect acts: commands and frames need not pass through this class.
+      : acting_(std::move(acting)), random_(seed) {}
+  /// True: no effect acts, and commands and frames need not pass through this class.
   bool empty() const { return acting_.empty(); }
 
   /// Sends a command, at the time of the last frame sent.
@@ -26,20 +27,20 @@ class BusEffects {
   /// Sends a frame.
   void send_frame(const erp::EcuFrame& frame, double time_s);
   /// The newest frame that has arrived, or the first one ever sent.
-  const erp::EcuFrame& newest_frame() const { return frames_.front().what; }
+  const erp::EcuFrame& newest_frame() const { return frames_.front().message; }
 
  private:
-  template <class What>
+  template <class Message>
   struct InTransit {
     double due_s;
-    What what;
+    Message message;
   };
-  template <class What>
-  void enqueue(std::deque<InTransit<What>>& line, double due_s, const What& what) {
-    line.push_back({line.empty() ? due_s : std::max(due_s, line.back().due_s), what});
+  template <class Message>
+  void enqueue(std::deque<InTransit<Message>>& queue, double due_s, const Message& message) {
+    queue.push_back({queue.empty() ? due_s : std::max(due_s, queue.back().due_s), message});
   }
   effects::Acting acting_;
-  Noise draw_{0};
+  Noise random_{0};
   double now_s_ = 0;
   std::deque<InTransit<erp::EcuCommand>> commands_;
   erp::EcuCommand current_;

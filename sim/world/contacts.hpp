@@ -10,10 +10,10 @@
 ///
 ///   −n·(v_a − v_b) ≤ gap / dt,   f = max(0, G (−n·(v_a − v_b) − gap / dt))
 ///
-/// n from body b to body a at the points where two of their solids are nearest, which Bullet's GJK
-/// finds; v the velocities of these points. G and the correction of an overlap: set_stop in
-/// step_solver.hpp. One point per pair of solids, no friction, no restitution: bodies with flat faces
-/// may rock on them. A box is rounded by a tenth of its shortest edge, at most 1 mm.
+/// n: direction from body b to body a at the nearest points of two of their solids, found by
+/// Bullet's GJK; v: velocities of these points. G and the correction of an overlap: set_stop in
+/// step_solver.hpp. One point per pair of solids, no friction, no restitution: bodies with flat
+/// faces may rock on them. A box is rounded by a tenth of its shortest edge, at most 1 mm.
 namespace sim {
 
 class Contacts {
@@ -21,9 +21,9 @@ class Contacts {
   Contacts(const RobotTree& tree, const erp::Robot& robot);
   ~Contacts();
   /// The largest number of contacts that `find` can write: pairs of solids.
-  int most() const;
-  /// Writes the near contacts in the model's current posture into `forces`, which has room for `most`;
-  /// returns how many. No heap.
+  int max_count() const;
+  /// Writes the near contacts in the model's current posture to `forces`, which has room for
+  /// `max_count`. Returns their number. No heap.
   int find(const SkeletonModel& model, double dt_s, std::span<OneSidedForce> forces) const;
 
  private:

@@ -6,15 +6,15 @@
 namespace sim {
 namespace {
 
-constexpr double tick_s = 0.002;  // the firmware's period
+constexpr double tick_s = 0.002;  // period of the firmware
 
 template <class Items>
-std::size_t place_of(const Items& items, const std::string& name) {
-  const auto found =
+std::size_t index_of(const Items& items, const std::string& name) {
+  const auto match =
       std::ranges::find_if(items, [&](const auto& item) { return item.name == name; });
-  if (found == items.end())
+  if (match == items.end())
     throw std::invalid_argument("a sensor on \"" + name + "\", which the robot does not have");
-  return static_cast<std::size_t>(found - items.begin());
+  return static_cast<std::size_t>(match - items.begin());
 }
 
 }  // namespace
@@ -49,19 +49,20 @@ void Converters::add_analogs(const erp::Robot& robot, std::span<const effects::P
   for (const erp::JointSensor& s : robot.joint_sensors)
     analogs_.push_back({s.ecu,
                         s.input,
-                        place_of(joints, s.joint),
+                        index_of(joints, s.joint),
                         JointAngleSensor(s, ++seed, {acting, s.joint, effects::Seat::joint}),
                         {s.sampling, step_s},
                         0});
   for (const erp::Potentiometer& s : robot.potentiometers) {
-    const std::size_t actuator = place_of(robot.actuators, s.actuator);
+    const std::size_t actuator = index_of(robot.actuators, s.actuator);
     if (channels_[actuator].ecu == s.ecu) channels_[actuator].wiper = analogs_.size();
     analogs_.push_back(
         {s.ecu, s.input, actuator, PotentiometerSensor(s, ++seed), {s.sampling, step_s}, 0});
   }
 }
 
-/// Converters with their own timing sample at each step of the world, the others when the ECU reads.
+/// Converters with their own timing sample at each step of the world, the others when the ECU
+/// reads.
 void Converters::sample(const World& world, bool all) {
   const auto actuators = world.actuators();
   for (std::size_t k = 0; k < channels_.size(); ++k)
@@ -72,12 +73,12 @@ void Converters::sample(const World& world, bool all) {
       });
   for (Analog& analog : analogs_) {
     if (!all && !analog.readings.timed()) continue;
-    const auto see = [&]() -> std::int32_t {
+    const auto read = [&]() -> std::int32_t {
       if (auto* angle = std::get_if<JointAngleSensor>(&analog.sensor))
         return angle->read(world.joints()[analog.source], world.time_s());
       return std::get<PotentiometerSensor>(analog.sensor).read(actuators[analog.source].shaft_rad);
     };
-    analog.readings.offer(world.time_s(), see);
+    analog.readings.offer(world.time_s(), read);
   }
 }
 

@@ -11,10 +11,10 @@
 #include "sim/world/world.hpp"
 
 /// The interface between the world and the ECUs: each actuator's encoder, current and tension
-/// converters, the analog inputs, and the PWM stages. Independent of the firmware that uses them and
-/// of where it runs.
+/// converters, the analog inputs, and the PWM stages. Independent of the firmware that uses them
+/// and of where it runs.
 ///
-/// Effects of the robot on its sensors act here, and so do injected faults. Pure: no clock.
+/// Effects of the robot on its sensors and injected faults act here. No clock.
 namespace sim {
 
 class Converters {
@@ -36,8 +36,8 @@ class Converters {
     std::int32_t counts;
   };
 
-  /// `robot` with its effects taken out (effects::equip), `acting` these effects. Each sensor takes
-  /// its own noise seed from `seed`, which is incremented. Throws std::invalid_argument for less than
+  /// `robot`: without the effects `acting`, which effects::equip separates. The noise seed of each
+  /// sensor is the incremented `seed`. Throws std::invalid_argument for less than
   /// one substep and for a sensor on an unknown joint or actuator.
   Converters(const erp::Robot& robot, std::span<const effects::Placed> acting, int substeps,
              std::uint64_t& seed);

@@ -5,10 +5,10 @@
 
 /// A = L Lᵀ of a symmetric, positive definite matrix over the coordinates of a tree, parents first.
 ///
-/// Coordinates are eliminated from the last to the first, so that leaves come before the links that
-/// carry them: branches that are not coupled cause no fill-in in each other, and each row of L begins
-/// where A's does. Only the entries from there on are computed: for two arms, a neck and a spine with
-/// 38 coordinates this takes a fourth of the work.
+/// Coordinates are eliminated from the last to the first, so that leaves precede the links that
+/// carry them. Branches that are not coupled then cause no fill-in in each other, and the first
+/// non-zero entry of each row of L is that of A. Only the entries from there on are computed. For
+/// two arms, a neck and a spine with 38 coordinates, this takes a fourth of the computation.
 /// Source: Jennings 1966 (the envelope method); Featherstone 2005 (the order).
 namespace sim {
 
@@ -23,7 +23,7 @@ class EnvelopeCholesky {
     work_.setZero(size);
   }
 
-  /// Factorises A, of the size given. No heap.
+  /// Factorises A, which has the size of `resize`. No heap.
   void compute(const Eigen::MatrixXd& a) {
     const auto last = a.rows() - 1;
     for (Eigen::Index i = 0; i <= last; ++i) {
@@ -32,8 +32,9 @@ class EnvelopeCholesky {
       while (begin < i && row[begin] == 0) ++begin;
       begin_[at(i)] = begin;
       for (Eigen::Index j = begin; j < i; ++j)
-        lower_(i, j) = (row[j] - along(i, j, std::max(begin, begin_[at(j)]), j)) * inverse_[j];
-      lower_(i, i) = std::sqrt(row[i] - along(i, i, begin, i));
+        lower_(i, j) =
+            (row[j] - row_product(i, j, std::max(begin, begin_[at(j)]), j)) * inverse_[j];
+      lower_(i, i) = std::sqrt(row[i] - row_product(i, i, begin, i));
       inverse_[i] = 1 / lower_(i, i);
     }
   }
@@ -64,12 +65,12 @@ class EnvelopeCholesky {
     double sums[4]{};
     for (; n >= 4; n -= 4, a += 4, b += 4)
       for (int k = 0; k < 4; ++k) sums[k] += a[k] * b[k];
-    double rest = 0;
-    for (; n > 0; --n) rest += *a++ * *b++;
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest;
+    double remainder = 0;
+    for (; n > 0; --n) remainder += *a++ * *b++;
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]) + remainder;
   }
   static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
-  double along(Eigen::Index i, Eigen::Index j, Eigen::Index begin, Eigen::Index end) const {
+  double row_product(Eigen::Index i, Eigen::Index j, Eigen::Index begin, Eigen::Index end) const {
     return product(&lower_(i, begin), &lower_(j, begin), end - begin);
   }
   /// L⁻¹ of work_; leading zeros stay zero.
@@ -85,7 +86,7 @@ class EnvelopeCholesky {
   }
 
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> lower_;
-  std::vector<Eigen::Index> begin_;  ///< where each row begins
+  std::vector<Eigen::Index> begin_;  ///< first column of each row
   Eigen::VectorXd inverse_;          ///< 1 / L_ii
   mutable Eigen::VectorXd work_;
 };

@@ -18,8 +18,8 @@ wire_fault_kind wire_kind_of(FaultKind kind) {
 ExternalEcus::ExternalEcus(const erp::Robot& nominal, const Options& options)
     : wires_(options.port, options.lines), turn_(options.lockstep ? 1 : 0) {
   const auto [robot, acting] = effects::equip(nominal);
-  std::uint64_t from = options.seed << 16;
-  converters_ = std::make_unique<Converters>(robot, acting, 1, from);
+  std::uint64_t seed = options.seed << 16;
+  converters_ = std::make_unique<Converters>(robot, acting, 1, seed);
   voltage_V_.resize(converters_->channels().size());
   for (const int address : robot.ecus()) ecus_[address] = {};
 }
@@ -32,53 +32,56 @@ void ExternalEcus::inject(const FaultInjection* faults) {
 // ---- from the ECUs ----
 
 bool ExternalEcus::receive() {
-  wires_.receive([this](const auto& from, wire_kind kind, const wire_reader& message) {
-    process(from, kind, message);
+  wires_.receive([this](const auto& sender, wire_kind kind, const wire_reader& message) {
+    process(sender, kind, message);
   });
   answer_all();
   return turn_ != 0 &&
-         std::ranges::all_of(ecus_, [](const auto& one) { return one.second.awaits_turn; });
+         std::ranges::all_of(ecus_, [](const auto& entry) { return entry.second.waits_for_turn; });
 }
 
-void ExternalEcus::process(const PinWires::Peer& from, wire_kind kind, const wire_reader& message) {
+void ExternalEcus::process(const PinWires::Peer& sender, wire_kind kind,
+                           const wire_reader& message) {
   const auto ecu = ecus_.find(wire_ecu(&message));
   if ((kind != WIRE_DRIVE && kind != WIRE_SAMPLE) || ecu == ecus_.end()) return;
-  ecu->second.peer = from;
-  ecu->second.silent = 0;
+  ecu->second.peer = sender;
+  ecu->second.steps_since_message = 0;
   if (kind == WIRE_DRIVE) return wire_unpack_drive(&message, ecu->second.duty.data());
-  ecu->second.awaits_turn = turn_ != 0 && wire_sample_turn(&message) == turn_;
-  ecu->second.requested = !ecu->second.awaits_turn;
+  ecu->second.waits_for_turn = turn_ != 0 && wire_sample_turn(&message) == turn_;
+  ecu->second.requested = !ecu->second.waits_for_turn;
 }
 
 void ExternalEcus::begin_turn() {
   turn_ = turn_ == 255 ? 1 : static_cast<std::uint8_t>(turn_ + 1);
-  for (auto& [address, ecu] : ecus_) ecu.awaits_turn = false, ecu.requested = true;
+  for (auto& [address, ecu] : ecus_) ecu.waits_for_turn = false, ecu.requested = true;
   answer_all();
 }
 
 int ExternalEcus::alive() const {
   return static_cast<int>(std::ranges::count_if(
-      ecus_, [](const auto& one) { return one.second.silent < silent_steps; }));
+      ecus_, [](const auto& entry) { return entry.second.steps_since_message < silent_steps; }));
 }
 
 // ---- the robot ----
 
 double ExternalEcus::voltage_V(const Converters::Channel& channel) const {
   const Ecu& ecu = ecus_.at(channel.ecu);
-  if (ecu.silent >= silent_steps) return 0;
+  if (ecu.steps_since_message >= silent_steps) return 0;
   const int duty = ecu.duty[static_cast<std::size_t>(channel.number)];
   return channel.supply_V * std::clamp(duty, -ECU_DUTY_MAX, ECU_DUTY_MAX) / ECU_DUTY_MAX;
 }
 
-bool ExternalEcus::any_ecu_late() const {
-  return turn_ == 0 && std::ranges::any_of(ecus_, [](const auto& one) {
-           return one.second.silent > late_steps && one.second.silent < silent_steps;
+bool ExternalEcus::is_any_ecu_overdue() const {
+  return turn_ == 0 && std::ranges::any_of(ecus_, [](const auto& entry) {
+           return entry.second.steps_since_message > overdue_steps &&
+                  entry.second.steps_since_message < silent_steps;
          });
 }
 
 bool ExternalEcus::step(World& world) {
-  for (auto& [address, ecu] : ecus_) ecu.silent = std::min(ecu.silent + 1, silent_steps);
-  if (any_ecu_late()) return false;
+  for (auto& [address, ecu] : ecus_)
+    ecu.steps_since_message = std::min(ecu.steps_since_message + 1, silent_steps);
+  if (is_any_ecu_overdue()) return false;
   const auto channels = converters_->channels();
   for (std::size_t k = 0; k < channels.size(); ++k) voltage_V_[k] = voltage_V(channels[k]);
   if (faults_) send_faults(world.time_s());
@@ -98,7 +101,7 @@ void ExternalEcus::measure(const World& world) {
 
 void ExternalEcus::store_readings() {
   const auto readings_of = [this](int ecu) -> board_readings& {
-    return ecus_.at(ecu).readings_by_step[static_cast<std::size_t>(steps_ % kept_steps)];
+    return ecus_.at(ecu).readings_by_step[static_cast<std::size_t>(steps_ % stored_steps)];
   };
   for (const Converters::Channel& c : converters_->channels())
     readings_of(c.ecu).channel[c.number] = c.inputs;
@@ -111,15 +114,16 @@ void ExternalEcus::answer_all() {
     if (ecu.requested) answer(address, ecu);
 }
 
-/// Sends the readings of each period since the last ones sent; the current readings in lockstep and
-/// after a long silence.
+/// Sends the readings of each period since the last sent readings. In lockstep, and after a long
+/// time without messages, sends only the current readings.
 void ExternalEcus::answer(int address, Ecu& ecu) {
-  if (turn_ != 0 || steps_ - ecu.sent_step >= kept_steps) ecu.sent_step = steps_ - steps_a_tick;
-  std::array<std::uint8_t, WIRE_MESSAGE_MAX * kept_steps / steps_a_tick> bytes;
+  if (turn_ != 0 || steps_ - ecu.sent_step >= stored_steps) ecu.sent_step = steps_ - steps_per_tick;
+  std::array<std::uint8_t, WIRE_MESSAGE_MAX * stored_steps / steps_per_tick> bytes;
   unsigned size = 0;
-  for (std::int64_t due = 0; (due = ecu.sent_step + steps_a_tick) <= steps_;) {
-    ecu.sent_step = due;
-    board_readings& readings = ecu.readings_by_step[static_cast<std::size_t>(due % kept_steps)];
+  for (std::int64_t next_step = 0; (next_step = ecu.sent_step + steps_per_tick) <= steps_;) {
+    ecu.sent_step = next_step;
+    board_readings& readings =
+        ecu.readings_by_step[static_cast<std::size_t>(next_step % stored_steps)];
     readings.turn = turn_;
     size += wire_pack_readings(&bytes[size], static_cast<std::uint8_t>(address), &readings);
   }
@@ -128,17 +132,17 @@ void ExternalEcus::answer(int address, Ecu& ecu) {
 }
 
 void ExternalEcus::send_faults(double time_s) {
-  for (const FaultInjection::ProgramFault& one : faults_->program_faults(time_s, step_s)) {
-    const wire_fault message{static_cast<std::uint8_t>(wire_kind_of(one.kind)),
-                             static_cast<std::uint16_t>(one.periods)};
+  for (const FaultInjection::ProgramFault& fault : faults_->program_faults(time_s, step_s)) {
+    const wire_fault message{static_cast<std::uint8_t>(wire_kind_of(fault.kind)),
+                             static_cast<std::uint16_t>(fault.periods)};
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     const unsigned size =
-        wire_pack_fault(bytes.data(), static_cast<std::uint8_t>(one.ecu), &message);
-    send(ecus_.at(one.ecu), std::span(bytes).first(size));
+        wire_pack_fault(bytes.data(), static_cast<std::uint8_t>(fault.ecu), &message);
+    send(ecus_.at(fault.ecu), std::span(bytes).first(size));
   }
 }
 
-/// Sends to an ECU that has connected; others receive a later message.
+/// Sends to an ECU that has connected. An ECU that connects later receives later messages.
 void ExternalEcus::send(const Ecu& ecu, std::span<const std::uint8_t> bytes) {
   if (ecu.peer) wires_.send(*ecu.peer, bytes);
 }

@@ -10,30 +10,33 @@
 #include "sim/world/pin_wires.hpp"
 
 /// A simulated robot whose ECUs run as separate programs: processes of this machine, or a
-/// microcontroller in an emulator. Their converters and PWM stages are here; PinWires connects them.
-/// The duties of an ECU are applied from the next physics step on. The world runs in steps of 0.5 ms,
-/// so that the transmission delay is small compared with the period.
+/// microcontroller in an emulator. Their converters and PWM stages are here; PinWires connects
+/// them. The duties of an ECU are applied from the next physics step on. The world runs in steps of
+/// 0.5 ms, so that the transmission delay is small compared with the period.
 ///
 /// An ECU requests the readings of its next period and receives them when the world has reached it.
-/// After a late request it receives the readings of every missed period: a board samples at a constant
-/// rate whatever else this machine does, and a shaft measured after 2.5 ms instead of 2 would seem to
-/// turn a quarter too fast.
+/// If it requests them after that time, it receives the readings of every missed period. A board
+/// samples at a constant rate, independently of the load of this machine. A shaft measured after
+/// 2.5 ms instead of 2 ms would give a speed that is a quarter too high.
 ///
-/// In lockstep the world waits for all ECUs: each receives a reading and requests the next one when its
-/// host has answered; the last request advances the world by a period.
+/// In lockstep the world waits for all ECUs. Each ECU receives a reading, and requests the next one
+/// when its host has answered. The last request advances the world by a period.
 ///
-/// In real time the world also waits for a connected ECU that is late by half a period: a board has a
-/// processor of its own, and a delay of its process here must not act like a motor with an outdated
-/// duty. A PWM stage that receives nothing for 8 ms is off, because its ECU has lost power. While the
-/// world waits, no ECU receives readings; the wait ends before the other ECUs would look silent.
+/// In real time the world also waits for a connected ECU whose message is overdue by half a period.
+/// A real board has its own processor. A delay of its process on this machine must therefore not
+/// keep an outdated duty at the motor. A PWM stage without messages for 8 ms is off, because its
+/// ECU has lost power. While the world waits, no ECU receives readings. The wait ends before the
+/// other ECUs would count as disconnected.
 namespace sim {
 
 class ExternalEcus {
  public:
-  static constexpr int steps_a_tick = 4;
-  static constexpr double step_s = 0.002 / steps_a_tick;
-  static constexpr int kept_steps = 16;  ///< steps whose readings are stored
-  static constexpr int late_steps = 3 * steps_a_tick / 2, silent_steps = 4 * steps_a_tick;
+  static constexpr int steps_per_tick = 4;
+  static constexpr double step_s = 0.002 / steps_per_tick;
+  static constexpr int stored_steps = 16;  ///< steps whose readings are stored
+  /// Steps since the last message after which an ECU is overdue, and after which it is
+  /// disconnected.
+  static constexpr int overdue_steps = 3 * steps_per_tick / 2, silent_steps = 4 * steps_per_tick;
 
   struct Options {
     int port = 0;       ///< for datagrams
@@ -42,7 +45,7 @@ class ExternalEcus {
     bool lockstep = false;
   };
 
-  /// Throws as Converters and PinWires.
+  /// Throws like Converters and PinWires.
   ExternalEcus(const erp::Robot& robot, const Options& options);
 
   void inject(const FaultInjection* faults);
@@ -54,7 +57,7 @@ class ExternalEcus {
   void measure(const World& world);
   /// One step with the last received duties, then a new measurement. False: the world waits.
   bool step(World& world);
-  /// Number of ECUs received within the last 8 ms.
+  /// Number of ECUs with a message within the last 8 ms.
   int alive() const;
   std::uint64_t unreadable() const { return wires_.unreadable(); }
 
@@ -62,14 +65,14 @@ class ExternalEcus {
   struct Ecu {
     std::optional<PinWires::Peer> peer;
     std::array<std::int16_t, 2> duty{};
-    int silent = silent_steps;  ///< steps since its last message
-    bool requested = false;     ///< has requested the readings after those it has
-    bool awaits_turn = false;   ///< in lockstep: waits for the next turn
-    std::int64_t sent_step = -kept_steps;
-    std::array<board_readings, kept_steps> readings_by_step = {};  ///< of the last steps
+    int steps_since_message = silent_steps;  ///< steps since its last message
+    bool requested = false;                  ///< has requested readings that are not sent yet
+    bool waits_for_turn = false;             ///< in lockstep: waits for the next turn
+    std::int64_t sent_step = -stored_steps;
+    std::array<board_readings, stored_steps> readings_by_step = {};  ///< of the last steps
   };
   void process(const PinWires::Peer& from, wire_kind kind, const wire_reader& message);
-  bool any_ecu_late() const;
+  bool is_any_ecu_overdue() const;
   double voltage_V(const Converters::Channel& channel) const;
   void store_readings();
   void answer_all();

@@ -17,27 +17,27 @@ bool is_program_fault(FaultKind kind) {
 }  // namespace
 
 bool FaultInjection::needs_separate_ecus() const {
-  return std::ranges::any_of(list_,
-                             [](const Placed& one) { return is_program_fault(one.what.kind); });
+  return std::ranges::any_of(
+      list_, [](const Placed& placed) { return is_program_fault(placed.fault.kind); });
 }
 
 FaultInjection::FaultInjection(std::vector<InjectedFault> list, const erp::Robot& robot) {
   for (InjectedFault& fault : list) {
-    const auto found = std::ranges::find(robot.actuators, fault.on, &erp::Actuator::name);
-    if (found == robot.actuators.end())
+    const auto match = std::ranges::find(robot.actuators, fault.on, &erp::Actuator::name);
+    if (match == robot.actuators.end())
       throw std::invalid_argument("<fault on=\"" + fault.on +
                                   "\">: the robot has no such actuator");
-    const auto k = static_cast<std::size_t>(found - robot.actuators.begin());
-    list_.push_back({std::move(fault), k, found->ecu});
+    const auto k = static_cast<std::size_t>(match - robot.actuators.begin());
+    list_.push_back({std::move(fault), k, match->ecu});
   }
 }
 
 void FaultInjection::apply_fault(std::size_t k, double time_s, const SensorScale& scale,
                                  const ecu_inputs& last, ecu_inputs& inputs) const {
-  for (const Placed& one : list_) {
-    if (one.actuator != k || !is_on(one.what, time_s)) continue;
-    const auto counts = static_cast<std::uint16_t>(one.what.counts);
-    switch (one.what.kind) {
+  for (const Placed& placed : list_) {
+    if (placed.actuator != k || !is_active(placed.fault, time_s)) continue;
+    const auto counts = static_cast<std::uint16_t>(placed.fault.counts);
+    switch (placed.fault.kind) {
       case FaultKind::tension_open:
         inputs.tension_counts = static_cast<std::uint16_t>(scale.tension_counts_max);
         break;
@@ -73,26 +73,27 @@ void FaultInjection::apply_fault(std::size_t k, double time_s, const SensorScale
 }
 
 void FaultInjection::apply_fault(World& world) const {
-  for (const Placed& one : list_)
-    if (one.what.kind == FaultKind::tendon_snaps && world.time_s() >= one.what.at_s)
-      world.snap(one.actuator);
+  for (const Placed& placed : list_)
+    if (placed.fault.kind == FaultKind::tendon_snaps && world.time_s() >= placed.fault.at_s)
+      world.snap(placed.actuator);
 }
 
 std::vector<const InjectedFault*> FaultInjection::beginning(double time_s, double tick_s) const {
-  std::vector<const InjectedFault*> found;
-  for (const Placed& one : list_)
-    if (begins(one.what, time_s, tick_s)) found.push_back(&one.what);
-  return found;
+  std::vector<const InjectedFault*> beginning_faults;
+  for (const Placed& placed : list_)
+    if (begins(placed.fault, time_s, tick_s)) beginning_faults.push_back(&placed.fault);
+  return beginning_faults;
 }
 
 std::vector<FaultInjection::ProgramFault> FaultInjection::program_faults(double time_s,
                                                                          double tick_s) const {
-  std::vector<ProgramFault> due;
-  for (const Placed& one : list_)
-    if (begins(one.what, time_s, tick_s) && is_program_fault(one.what.kind))
-      due.push_back({one.what.kind, one.ecu,
-                     static_cast<int>(std::min(std::lround(one.what.for_s / tick_s), 65535L))});
-  return due;
+  std::vector<ProgramFault> program_faults_now;
+  for (const Placed& placed : list_)
+    if (begins(placed.fault, time_s, tick_s) && is_program_fault(placed.fault.kind))
+      program_faults_now.push_back(
+          {placed.fault.kind, placed.ecu,
+           static_cast<int>(std::min(std::lround(placed.fault.for_s / tick_s), 65535L))});
+  return program_faults_now;
 }
 
 }  // namespace sim

@@ -10,8 +10,8 @@
 #include "sim/model/actuator/sensors.hpp"
 #include "sim/world/world.hpp"
 
-/// Faults of a simulated robot, injected at given times, for training and for tests of the safe
-/// reaction.
+/// Faults of a simulated robot, injected at given times. They serve training and tests of the safe
+/// state.
 namespace sim {
 
 enum class FaultKind {
@@ -24,8 +24,8 @@ enum class FaultKind {
   over_current,   ///< Hall sensor at its rail
   hot,            ///< temperature reading of `counts`
   supply_low,     ///< supply reading of `counts`
-  tendon_snaps,   ///< exerts no tension any more
-  hang,           ///< separate ECU only: its program runs an endless loop
+  tendon_snaps,   ///< the tendon exerts no tension from then on
+  hang,           ///< separate ECU only: its program is in an endless loop
   busy,           ///< separate ECU only: work takes longer than a period
   bus_off         ///< separate ECU only: its CAN controller is in bus-off
 };
@@ -57,7 +57,7 @@ class FaultInjection {
   /// Changes the readings of actuator `k`'s ECU; `last` are its previous readings.
   void apply_fault(std::size_t k, double time_s, const SensorScale& scale, const ecu_inputs& last,
                    ecu_inputs& inputs) const;
-  /// Applies the faults of the world itself that are due.
+  /// Applies the faults of the world (snapped tendons) whose time has come.
   void apply_fault(World& world) const;
 
   struct ProgramFault {
@@ -75,15 +75,15 @@ class FaultInjection {
 
  private:
   struct Placed {
-    InjectedFault what;
+    InjectedFault fault;
     std::size_t actuator;
     int ecu;
   };
-  static bool begins(const InjectedFault& m, double time_s, double tick_s) {
-    return m.at_s >= time_s && m.at_s < time_s + tick_s;
+  static bool begins(const InjectedFault& injected, double time_s, double tick_s) {
+    return injected.at_s >= time_s && injected.at_s < time_s + tick_s;
   }
-  static bool is_on(const InjectedFault& m, double time_s) {
-    return time_s >= m.at_s && time_s < m.at_s + m.for_s;
+  static bool is_active(const InjectedFault& injected, double time_s) {
+    return time_s >= injected.at_s && time_s < injected.at_s + injected.for_s;
   }
   std::vector<Placed> list_;
 };

@@ -22,7 +22,7 @@ erp::ImuSample sample_of(const std::string& name, const ImuReading& reading) {
 
 Imus::Imus(const World& world, std::uint64_t seed, double interval_s) {
   const xml::Vec3 g = world.robot().gravity_m_per_s2();
-  std::uint64_t own_seed =
+  std::uint64_t unit_seed =
       (seed << 16) + (1u << 15);  // distinct from the seeds of the ECUs' sensors
   for (const erp::Imu& imu : world.robot().imus) {
     const auto body = std::ranges::find(world.body_names(), imu.body);
@@ -31,7 +31,7 @@ Imus::Imus(const World& world, std::uint64_t seed, double interval_s) {
                                   "\", which the robot does not have");
     units_.push_back({imu.name,
                       static_cast<std::size_t>(body - world.body_names().begin()),
-                      ImuSensor(imu, Vec3(g[0], g[1], g[2]), ++own_seed),
+                      ImuSensor(imu, Vec3(g[0], g[1], g[2]), ++unit_seed),
                       {imu.sampling, interval_s}});
   }
 }

@@ -28,26 +28,26 @@ void InternalModel::stop() {
 }
 
 void InternalModel::work(World& world) {
-  for (long seen = 0;;) {
+  for (long last_round = 0;;) {
     std::unique_lock lock(mutex_);
-    begin_.wait(lock, [&] { return stopping_ || round_ > seen; });
+    begin_.wait(lock, [&] { return stopping_ || round_ > last_round; });
     if (stopping_) return;
-    seen = round_;
+    last_round = round_;
     const Job job = job_;
     lock.unlock();
-    take_part(world, job);
+    run_candidates(world, job);
     lock.lock();
     if (--busy_ == 0) done_.notify_all();
   }
 }
 
-void InternalModel::take_part(World& world, const Job& job) {
+void InternalModel::run_candidates(World& world, const Job& job) {
   for (int k = next_++; k < job.candidates; k = next_++) try {
       world.restore(*job.from);
       (*job.play)(world, k);
     } catch (...) {
       const std::scoped_lock lock(mutex_);
-      if (!error_ || k < error_of_) error_ = std::current_exception(), error_of_ = k;
+      if (!error_ || k < error_candidate_) error_ = std::current_exception(), error_candidate_ = k;
     }
 }
 

@@ -11,14 +11,14 @@
 
 #include "sim/world/world.hpp"
 
-/// The simulator as an internal model: N candidates are simulated from one state in parallel worlds.
-/// For model-predictive controllers, calibration, diagnosis and learning.
+/// The simulator as an internal model: N candidates are simulated from one state in parallel
+/// worlds. For model-predictive controllers, calibration, diagnosis and learning.
 ///
 ///   sim::InternalModel model(robot);
 ///   auto ends = model.ahead(world.save(), candidates, 50, 0.001);   // 50 ms ahead
 ///
-/// One world per thread; each candidate starts with the state restored into its world, so the results
-/// are the same, bit by bit, for any number of threads.
+/// One world per thread. The state is restored before each candidate. The results are therefore
+/// equal, bit by bit, for any number of threads.
 namespace sim {
 
 class InternalModel {
@@ -32,9 +32,9 @@ class InternalModel {
 
   int threads() const { return static_cast<int>(workers_.size()); }
 
-  /// Calls play(world, k) for each k = 0 … candidates − 1, in a world in state `from`, in any order, in
-  /// parallel on all threads. Returns when all calls have returned; rethrows the exception of the
-  /// lowest k. To be called by one thread at a time, and not from within `play`.
+  /// Calls play(world, k) for each k = 0 … candidates − 1, in a world in state `from`, in any
+  /// order, in parallel on all threads. Returns when all calls have returned; rethrows the
+  /// exception of the lowest k. Call it from one thread at a time, and not from `play`.
   void each(const WorldState& from, int candidates, const std::function<void(World&, int)>& play);
 
   /// The final state of each candidate, with its voltages held constant.
@@ -50,7 +50,7 @@ class InternalModel {
   };
   void stop();
   void work(World& world);
-  void take_part(World& world, const Job& job);
+  void run_candidates(World& world, const Job& job);
 
   std::vector<std::unique_ptr<World>> worlds_;
   std::vector<std::thread> workers_;
@@ -62,7 +62,7 @@ class InternalModel {
   bool stopping_ = false;
   std::atomic<int> next_ = 0;
   std::exception_ptr error_;
-  int error_of_ = 0;  ///< candidate of the exception
+  int error_candidate_ = 0;  ///< candidate of the exception
 };
 
 }  // namespace sim

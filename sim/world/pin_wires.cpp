@@ -16,15 +16,15 @@ namespace {
 
 int listen_on(int port) {
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  sockaddr_in here{};
-  here.sin_family = AF_INET;
-  here.sin_port = htons(static_cast<std::uint16_t>(port));
-  here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (fd < 0 || ::bind(fd, reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0) {
-    const std::string why = std::strerror(errno);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (fd < 0 || ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    const std::string reason = std::strerror(errno);
     if (fd >= 0) ::close(fd);
-    throw std::runtime_error("cannot listen for ECUs on port " + std::to_string(port) + ": " + why +
-                             "; give another converter_port");
+    throw std::runtime_error("cannot listen for ECUs on port " + std::to_string(port) + ": " +
+                             reason + "; give another converter_port");
   }
   return fd;
 }
@@ -33,9 +33,9 @@ int open_line(const std::string& device) {
   const int fd = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   termios raw{};
   if (fd < 0 || ::tcgetattr(fd, &raw) != 0) {
-    const std::string why = std::strerror(errno);
+    const std::string reason = std::strerror(errno);
     if (fd >= 0) ::close(fd);
-    throw std::runtime_error("converter_lines: cannot open " + device + ": " + why +
+    throw std::runtime_error("converter_lines: cannot open " + device + ": " + reason +
                              "; give a serial device, for example /dev/ttyUSB0");
   }
   ::cfmakeraw(&raw);
@@ -47,8 +47,8 @@ int open_line(const std::string& device) {
 }  // namespace
 
 PinWires::PinWires(int port, const std::string& lines) {
-  std::istringstream words(lines);
-  for (std::string device; words >> device;) lines_[open_line(device)] = {};
+  std::istringstream list(lines);
+  for (std::string device; list >> device;) lines_[open_line(device)] = {};
   if (port > 0) socket_ = listen_on(port);
 }
 
@@ -64,12 +64,12 @@ std::vector<int> PinWires::descriptors() const {
   return all;
 }
 
-void PinWires::receive(const Take& take) {
-  if (socket_ >= 0) receive_datagrams(take);
-  for (const auto& [line, reader] : lines_) receive_line(line, take);
+void PinWires::receive(const OnMessage& on_message) {
+  if (socket_ >= 0) receive_datagrams(on_message);
+  for (const auto& [line, reader] : lines_) receive_line(line, on_message);
 }
 
-void PinWires::receive_datagrams(const Take& take) {
+void PinWires::receive_datagrams(const OnMessage& on_message) {
   std::array<std::uint8_t, 2048> datagram;
   sockaddr_in from{};
   socklen_t size = sizeof from;
@@ -77,16 +77,16 @@ void PinWires::receive_datagrams(const Take& take) {
                                       reinterpret_cast<sockaddr*>(&from), &size)) >= 0;) {
     wire_reader& reader = senders_[{from.sin_addr.s_addr, from.sin_port}];
     for (const std::uint8_t byte : std::span(datagram).first(static_cast<std::size_t>(n)))
-      if (const wire_kind kind = wire_take(&reader, byte)) take(from, kind, reader);
+      if (const wire_kind kind = wire_take(&reader, byte)) on_message(from, kind, reader);
   }
 }
 
-void PinWires::receive_line(int line, const Take& take) {
+void PinWires::receive_line(int line, const OnMessage& on_message) {
   std::array<std::uint8_t, 2048> bytes;
   wire_reader& reader = lines_.at(line);
   for (ssize_t n = 0; (n = ::read(line, bytes.data(), bytes.size())) > 0;)
     for (const std::uint8_t byte : std::span(bytes).first(static_cast<std::size_t>(n)))
-      if (const wire_kind kind = wire_take(&reader, byte)) take(line, kind, reader);
+      if (const wire_kind kind = wire_take(&reader, byte)) on_message(line, kind, reader);
 }
 
 void PinWires::send(const Peer& to, std::span<const std::uint8_t> bytes) {

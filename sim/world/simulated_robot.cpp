@@ -9,13 +9,13 @@ SimulatedRobot::SimulatedRobot(const erp::Robot& robot, const erp::Robot& config
     : robot_(robot), world_(robot), ecus_(robot, {.seed = seed}) {
   for (const erp::Actuator& a : configured.actuators)
     units_.emplace_back(configured.motor_of(a), configured.sensors_of(a), a.spindle);
-  give_gains(configured);
+  send_gains(configured);
   send(std::vector<SetPoint>(units_.size()));
 }
 
-void SimulatedRobot::give_gains(const erp::Robot& configured) {
+void SimulatedRobot::send_gains(const erp::Robot& configured) {
   for (const erp::Actuator& a : configured.actuators) {
-    const auto gains = design_parameters(configured, a, {.stuck_share = 0});
+    const auto gains = design_parameters(configured, a, {.stuck_speed_fraction = 0});
     erp::EcuParameter message;
     for (std::size_t k = 0; k < gains.size(); ++k)
       erp::append(message.values,
@@ -31,11 +31,12 @@ void SimulatedRobot::send(std::span<const SetPoint> set_points) {
   for (std::size_t a = 0; a < set_points.size(); ++a) {
     const erp::Actuator& actuator = robot_.actuators[a];
     const auto& [mode, reference] = set_points[a];
-    const bool off = mode == erp::Mode::off;
-    erp::append(message.channels, erp::EcuChannelCommand{
-                                      std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
-                                      std::uint8_t(off ? ECU_REQUEST_ARM : EcuUnits::request(mode)),
-                                      off ? 0 : units_[a].setpoint(mode, reference)});
+    const bool is_off = mode == erp::Mode::off;
+    erp::append(
+        message.channels,
+        erp::EcuChannelCommand{std::uint8_t(actuator.ecu), std::uint8_t(actuator.channel),
+                               std::uint8_t(is_off ? ECU_REQUEST_ARM : EcuUnits::request(mode)),
+                               is_off ? 0 : units_[a].setpoint(mode, reference)});
   }
   ecus_.receive(message);
 }

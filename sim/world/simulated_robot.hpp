@@ -17,15 +17,15 @@ struct SetPoint {
   double reference = 0;  ///< V, m, A or N
 };
 
-/// The motion is not finite.
+/// Error: the motion is not finite.
 struct NotFinite : std::runtime_error {
   NotFinite() : runtime_error("the simulated motion is not finite") {}
 };
 
 class SimulatedRobot {
  public:
-  /// Starts at the initial pose, at pretension, with ECUs armed with the gains that the plant would
-  /// send for `configured`. Keeps references to the robots. Throws as World does.
+  /// Starts at the initial pose and at pretension. The ECUs are armed and have the gains that the
+  /// plant would send for `configured`. Keeps references to the robots. Throws like World.
   SimulatedRobot(const erp::Robot& robot, const erp::Robot& configured, std::uint64_t seed);
   explicit SimulatedRobot(const erp::Robot& robot, std::uint64_t seed = 1)
       : SimulatedRobot(robot, robot, seed) {}
@@ -40,7 +40,7 @@ class SimulatedRobot {
   const EcuUnits& units(std::size_t actuator) const { return units_[actuator]; }
 
  private:
-  void give_gains(const erp::Robot& configured);
+  void send_gains(const erp::Robot& configured);
   void send(std::span<const SetPoint> set_points);
 
   const erp::Robot& robot_;

@@ -16,12 +16,12 @@ struct VirtualEcus::Setup {
 VirtualEcus::VirtualEcus(const erp::Robot& nominal, const VirtualEcuOptions& options)
     : VirtualEcus(Setup(nominal, options)) {}
 
-VirtualEcus::VirtualEcus(Setup&& m)
-    : converters_(m.equipped.robot, m.equipped.acting, m.options.substeps, m.seed),
+VirtualEcus::VirtualEcus(Setup&& setup)
+    : converters_(setup.equipped.robot, setup.equipped.acting, setup.options.substeps, setup.seed),
       firmware_(converters_.channels().size()),
       voltage_V_(firmware_.size(), 0.0),
-      bus_(effects::Acting(m.equipped.acting, m.equipped.robot.name, effects::Seat::robot),
-           ++m.seed) {
+      bus_(effects::Acting(setup.equipped.acting, setup.equipped.robot.name, effects::Seat::robot),
+           ++setup.seed) {
   for (ecu_channel& channel : firmware_) {
     ecu_init(&channel);
     channel_pointers_.push_back(&channel);

@@ -9,27 +9,27 @@
 #include "sim/world/world.hpp"
 
 /// The ECUs of a simulated robot: firmware/core on one channel per actuator, between the world's
-/// sensors and its motors. Pure: no clock, no bus; a tick is 2 ms of the world's time.
+/// sensors and its motors. No clock, no bus. A tick is 2 ms of the world's time.
 ///
-///   measure -> counts -> ecu_tick -> duty -> V = duty / 1023 · supply, held over the tick ->
+///   measure -> counts -> ecu_tick -> duty -> V = duty / 1023 · supply, constant over the tick ->
 ///   measure
 ///
 /// World::save does not contain the state of ECUs and sensors.
 ///
 /// Effects of the robot on its sensors and its bus act here.
 ///
-/// A duty of 0 shorts the motor (it brakes), as the H-bridge of the ECU does.
+/// A duty of 0 shorts the motor, which brakes, like the H-bridge of the ECU.
 namespace sim {
 
 struct VirtualEcuOptions {
-  int substeps = 2;        ///< physics steps per tick: 2 is 1 kHz
+  int substeps = 2;        ///< physics steps per tick; 2: 1 kHz
   std::uint64_t seed = 1;  ///< of the sensor noise; each sensor derives its own from it
 };
 
 class VirtualEcus {
  public:
-  /// Throws as effects::equip, and std::invalid_argument for less than one substep and for a sensor on
-  /// an unknown joint or actuator.
+  /// Throws like effects::equip, and std::invalid_argument for less than one substep and for a
+  /// sensor on an unknown joint or actuator.
   explicit VirtualEcus(const erp::Robot& robot, const VirtualEcuOptions& options = {});
   VirtualEcus(const VirtualEcus&) = delete;
   VirtualEcus& operator=(const VirtualEcus&) = delete;
@@ -41,7 +41,7 @@ class VirtualEcus {
   void receive(const erp::EcuCommand& command);
   void receive(const erp::EcuParameter& parameters);
 
-  /// Reads all converters; needed only before the first frame, because `tick` does it as well.
+  /// Reads all converters. Needed only before the first frame, because `tick` also reads them.
   void measure(const World& world);
   /// One control period: runs the firmware on the last measurement, advances the world, measures.
   void tick(World& world);

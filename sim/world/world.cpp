@@ -29,8 +29,8 @@ void World::reset() {
   readings_.assign(chains_.size(), {});
   attached_.clear();
   make_solver();
-  time_s_ = time_rest_s_ = 0;
-  unconverged_ = 0, finite_ = true;
+  time_s_ = time_remainder_s_ = 0;
+  unconverged_steps_ = 0, finite_ = true;
   read();
   make_ropes();
   read_tensions();
@@ -69,10 +69,12 @@ void World::make_solver() {
   const int n = model_->coordinates();
   limits_ = std::make_unique<JointLimits>(*model_, tree_.joints);
   contacts_ = std::make_unique<Contacts>(tree_, robot_);
-  forces_.resize(chains_.size() + static_cast<std::size_t>(limits_->most() + contacts_->most()));
+  forces_.resize(chains_.size() +
+                 static_cast<std::size_t>(limits_->max_count() + contacts_->max_count()));
   for (OneSidedForce& force : forces_) force.row.reserve(static_cast<std::size_t>(n));
   solver_ = std::make_unique<StepSolver>(n, static_cast<int>(forces_.size()), frictions);
-  for (auto* vector : {&row_, &velocity_, &momentum_, &driven_, &middle_}) vector->setZero(n);
+  for (auto* vector : {&row_, &velocity_, &momentum_, &right_side_, &mid_velocity_})
+    vector->setZero(n);
   inertia_factor_.resize(n);
 }
 
@@ -92,7 +94,7 @@ void World::read() {
   }
 }
 
-double World::tension_now_N(std::size_t k) {
+double World::current_tension_N(std::size_t k) {
   const Chain& chain = chains_[k];
   if (chain.rope) return chain.rope->tension_N();
   if (chain.snapped) return 0;
@@ -100,46 +102,47 @@ double World::tension_now_N(std::size_t k) {
   const double speed = chain.state.speed_rad_per_s;
   if (chain.effects.empty())
     return chain.tendon.tension_N(chain.shape.length_m, rate, chain.state.shaft_rad, speed);
-  const Line line = line_of(k, 0);
+  const LineState line = line_state(k, 0);
   if (line.stretch_m <= 0) return 0;
   const double stretching_m_per_s = line.path_slope * rate + chain.wound.slope * speed;
-  return std::max(0.0, chain.tendon.spring.force_N(line.stretch_m) + line.pull.value +
+  return std::max(0.0, chain.tendon.spring.force_N(line.stretch_m) + line.effects_pull.value +
                            chain.tendon.damping_N_s_per_m * stretching_m_per_s);
 }
 
 void World::read_tensions() {
-  for (std::size_t k = 0; k < chains_.size(); ++k) readings_[k].tension_N = tension_now_N(k);
+  for (std::size_t k = 0; k < chains_.size(); ++k) readings_[k].tension_N = current_tension_N(k);
 }
 
-void World::pull(std::size_t k, double dt_s) {
+void World::set_tendon_force(std::size_t k, double dt_s) {
   Chain& chain = chains_[k];
   OneSidedForce& force = forces_[k];
   force.row.clear();
   if (chain.rope) return void(force.start_N = 0);
   length_gradient(chain.shape, chain.levers, *model_, row_);
-  const Line line = line_of(k, dt_s);
+  const LineState line = line_state(k, dt_s);
   if (line.path_slope != 1) row_ *= line.path_slope;
   for (const int d : chain.levers.coordinates)
     if (row_[d] != 0) force.row.push_back({d, row_[d]});
-  const double winding = chain.wound.slope * chain.state.speed_rad_per_s;
+  const double winding_m_per_s = chain.wound.slope * chain.state.speed_rad_per_s;
   StretchedTendon tendon =
-      stretched(chain.tendon, line.stretch_m, row_.dot(model_->velocity()) + winding, winding);
-  tendon.spring_N += line.pull.value, tendon.stiffness_N_per_m += line.pull.slope;
+      stretched(chain.tendon, line.stretch_m, row_.dot(model_->velocity()) + winding_m_per_s,
+                winding_m_per_s);
+  tendon.spring_N += line.effects_pull.value, tendon.stiffness_N_per_m += line.effects_pull.slope;
   Implicitness theta{options_.theta, options_.theta};
   if (options_.theta == 0)
     theta = implicitness_of(tendon, inertia_factor_.inverse_norm2(row_), dt_s);
   pull_implicitly(tendon, theta, dt_s, force);
 }
 
-/// Forces of the tendons (if they are springs), the joint limits and the contacts.
+/// Forces of the joint limits, the contacts and, with `springs`, the tendons.
 void World::find_forces(double dt_s, bool springs) {
   const std::size_t tendons = springs ? chains_.size() : 0;
   if (springs && options_.theta == 0) inertia_factor_.compute(inertia_);
-  for (std::size_t k = 0; k < tendons; ++k) pull(k, dt_s);
+  for (std::size_t k = 0; k < tendons; ++k) set_tendon_force(k, dt_s);
   force_count_ = tendons;
-  const auto rest = [this] { return std::span(forces_).subspan(force_count_); };
-  force_count_ += static_cast<std::size_t>(limits_->find(joints(), inertia_, dt_s, rest()));
-  force_count_ += static_cast<std::size_t>(contacts_->find(*model_, dt_s, rest()));
+  const auto free_forces = [this] { return std::span(forces_).subspan(force_count_); };
+  force_count_ += static_cast<std::size_t>(limits_->find(joints(), inertia_, dt_s, free_forces()));
+  force_count_ += static_cast<std::size_t>(contacts_->find(*model_, dt_s, free_forces()));
 }
 
 /// Computes v⁺, with springs or with given tensions.
@@ -147,12 +150,12 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
   const Eigen::VectorXd& v = model_->velocity();
   model_->inertia(inertia_);
   find_forces(dt_s, tension_N.empty());
-  affect_joints();
+  set_joint_friction();
   solver_->begin(inertia_, std::span(forces_).first(force_count_), dt_s);
   momentum_.noalias() = inertia_ * v;
   for (std::size_t k = 0; k < tension_N.size(); ++k) {
     length_gradient(chains_[k].shape, chains_[k].levers, *model_, row_);
-    momentum_ -= dt_s * tension_N[k] * line_of(k, dt_s).path_slope * row_;
+    momentum_ -= dt_s * tension_N[k] * line_state(k, dt_s).path_slope * row_;
   }
   if (tension_N.empty()) add_rope_impulses(dt_s);
   for (JointEffects& joint : joint_effects_)
@@ -160,9 +163,9 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
   velocity_ = v;
   if (!finite_) return velocity_.setZero(), void();
   apply_bias(dt_s);
-  solver_->approach(driven_, velocity_);  // v¹ need not be exact
+  solver_->approach(right_side_, velocity_);  // v¹; an estimate is sufficient
   apply_bias(dt_s);
-  if (!solver_->solve(driven_, velocity_)) ++unconverged_;
+  if (!solver_->solve(right_side_, velocity_)) ++unconverged_steps_;
   if (velocity_.allFinite()) return;
   finite_ = false;
   velocity_.setZero();
@@ -170,9 +173,9 @@ void World::solve(double dt_s, std::span<const double> tension_N) {
 
 /// H v − dt b, with b at the mean of v and the current estimate of v⁺.
 void World::apply_bias(double dt_s) {
-  middle_ = 0.5 * (model_->velocity() + velocity_);
-  model_->bias(middle_, bias_);
-  driven_ = momentum_ - dt_s * bias_;
+  mid_velocity_ = 0.5 * (model_->velocity() + velocity_);
+  model_->bias(mid_velocity_, bias_);
+  right_side_ = momentum_ - dt_s * bias_;
 }
 
 void World::check_size(std::span<const double> inputs, const char* what) const {
@@ -208,28 +211,30 @@ void World::move(double dt_s) {
   move_ropes(dt_s);
 }
 
-/// Compensated summation (Kahan 1965): after an hour of 1 ms steps the time is still exact to rounding.
+/// Compensated summation (Kahan 1965): after an hour of 1 ms steps the time is still exact to
+/// rounding.
 void World::advance_time(double dt_s) {
-  const double step_s = dt_s - time_rest_s_, next_s = time_s_ + step_s;
-  time_rest_s_ = (next_s - time_s_) - step_s;
+  const double step_s = dt_s - time_remainder_s_, next_s = time_s_ + step_s;
+  time_remainder_s_ = (next_s - time_s_) - step_s;
   time_s_ = next_s;
 }
 
 void World::attach(std::vector<AttachedMass> attached) {
-  for (const AttachedMass& one : attached) {
-    const int joint = tree_.bodies.at(static_cast<std::size_t>(one.body)).joint;
+  for (const AttachedMass& mass : attached) {
+    const int joint = tree_.bodies.at(static_cast<std::size_t>(mass.body)).joint;
     const auto type =
         joint < 0 ? erp::JointType::fixed : tree_.joints[static_cast<std::size_t>(joint)].type;
     if (type != erp::JointType::revolute && type != erp::JointType::spherical)
-      throw std::invalid_argument("body \"" + tree_.names[static_cast<std::size_t>(one.body)] +
+      throw std::invalid_argument("body \"" + tree_.names[static_cast<std::size_t>(mass.body)] +
                                   "\" cannot hold a load: no hinge or ball joint moves it");
   }
   attached_ = std::move(attached);
   for (std::size_t k = 0; k < tree_.bodies.size(); ++k) {
     erp::Mass mass = tree_.bodies[k].mass;
-    for (const AttachedMass& one : attached_)
-      if (one.body == static_cast<int>(k))
-        mass = erp::combined({mass, {one.mass_kg, {one.at_m[0], one.at_m[1], one.at_m[2]}, {}}});
+    for (const AttachedMass& added : attached_)
+      if (added.body == static_cast<int>(k))
+        mass = erp::combined(
+            {mass, {added.mass_kg, {added.at_m[0], added.at_m[1], added.at_m[2]}, {}}});
     model_->set_mass(static_cast<int>(k), mass);
   }
   model_->place(joints());

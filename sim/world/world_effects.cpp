@@ -22,9 +22,9 @@ effects::ChainSample World::sample(std::size_t k, double dt_s) const {
   return s;
 }
 
-World::Line World::line_of(std::size_t k, double dt_s) {
+World::LineState World::line_state(std::size_t k, double dt_s) {
   Chain& chain = chains_[k];
-  constexpr double slack_m = -1;
+  constexpr double slack_m = -1;  // any negative stretch
   if (chain.snapped) return {slack_m, 1, {}};
   if (chain.effects.empty())
     return {chain.tendon.stretch_m(chain.shape.length_m, chain.state.shaft_rad), 1, {}};
@@ -46,23 +46,24 @@ void World::turn_motor(std::size_t k, double voltage_V, double tension_N, double
   }
   effects::ChainSample s = sample(k, dt_s);
   s.voltage_V = voltage_V;
-  constexpr double noticeable = 1e-4;
-  const double ohm = chain.effects.resistance_ohm(chain.cold_ohm, s);
-  if (std::abs(ohm / chain.motor.type().resistance_ohm - 1) > noticeable)
-    set_winding_resistance(chain, ohm);
+  constexpr double min_relative_change = 1e-4;  // chosen: a new motor costs time
+  const double resistance_ohm = chain.effects.resistance_ohm(chain.cold_ohm, s);
+  if (std::abs(resistance_ohm / chain.motor.type().resistance_ohm - 1) > min_relative_change)
+    set_winding_resistance(chain, resistance_ohm);
   const double r = chain.motor.spindle_radius_m();
   s.load_Nm = chain.wound.slope * chain.effects.motor_side_N(tension_N, s);
   const double aged_Nm = chain.effects.aged_Nm(s);
   const MotorLoad load{s.load_Nm / r, chain.effects.friction_Nm(1, s) + aged_Nm,
                        chain.effects.friction_Nm(-1, s) + aged_Nm, chain.effects.rotor_Nm(s)};
-  const double late_V = chain.effects.delayed_voltage_V(voltage_V, s);
-  chain.state = sim::step(chain.motor, chain.state, chain.effects.voltage_V(late_V, s), load, dt_s);
+  const double delayed_V = chain.effects.delayed_voltage_V(voltage_V, s);
+  chain.state =
+      sim::step(chain.motor, chain.state, chain.effects.voltage_V(delayed_V, s), load, dt_s);
 }
 
 /// Replaces the motor by one with another winding resistance.
-void World::set_winding_resistance(Chain& chain, double ohm) const {
+void World::set_winding_resistance(Chain& chain, double resistance_ohm) const {
   erp::MotorType type = chain.motor.type();
-  type.resistance_ohm = ohm;
+  type.resistance_ohm = resistance_ohm;
   chain.motor = Motor(type, chain.motor.spindle_radius_m(), options_.usual_step_s);
 }
 
@@ -70,12 +71,13 @@ void World::restore_effects(Chain& chain, std::span<const effects::Memory>& memo
   if (chain.effects.empty()) return;
   chain.effects.restore(memories);
   chain.wound = {memories.front()[0], memories.front()[1]};
-  if (const double ohm = memories.front()[2]; ohm != chain.motor.type().resistance_ohm)
-    set_winding_resistance(chain, ohm);
+  if (const double resistance_ohm = memories.front()[2];
+      resistance_ohm != chain.motor.type().resistance_ohm)
+    set_winding_resistance(chain, resistance_ohm);
   memories = memories.subspan(1);
 }
 
-void World::affect_joints() {
+void World::set_joint_friction() {
   for (JointEffects& joint : joint_effects_) {
     const double speed = model_->velocity().segment(joint.first, joint.dofs).norm();
     solver_->set_coulomb(joint.friction, joint.coulomb_Nm + joint.acting.joint_friction_Nm(speed));
@@ -87,12 +89,12 @@ Eigen::VectorXd World::torque_of(JointEffects& joint) const {
   const JointReading& reading = joints()[static_cast<std::size_t>(joint.joint)];
   if (joint.dofs == 1)
     return Eigen::VectorXd::Constant(1, joint.acting.joint_torque(reading.position[0]).value);
-  const Eigen::Vector3d turned(angle_rad(reading, erp::AxisName::x),
-                               angle_rad(reading, erp::AxisName::y),
-                               angle_rad(reading, erp::AxisName::z));
-  const double angle = turned.norm();
+  const Eigen::Vector3d rotation_vector(angle_rad(reading, erp::AxisName::x),
+                                        angle_rad(reading, erp::AxisName::y),
+                                        angle_rad(reading, erp::AxisName::z));
+  const double angle = rotation_vector.norm();
   const Eigen::Vector3d axis =
-      angle > 0 ? Eigen::Vector3d(turned / angle) : Eigen::Vector3d::Zero();
+      angle > 0 ? Eigen::Vector3d(rotation_vector / angle) : Eigen::Vector3d::Zero();
   return axis * joint.acting.joint_torque(angle).value;
 }
 

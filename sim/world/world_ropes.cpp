@@ -1,5 +1,5 @@
-#include "sim/model/actuator/with_actuator_name.hpp"
 #include "sim/model/actuator/path_line.hpp"
+#include "sim/model/actuator/with_actuator_name.hpp"
 #include "sim/world/world.hpp"
 
 /// Tendons modelled as ropes.
@@ -19,7 +19,7 @@ void World::make_ropes() {
 
 /// Places the rope along its path, at rest.
 void World::lay_rope(std::size_t k, std::optional<double> pretension_N) {
-  constexpr double arc_step_rad = 0.05;
+  constexpr double arc_step_rad = 0.05;  // chosen
   Chain& chain = chains_[k];
   if (!chain.rope) return;
   chain.rope->lay(path_line(chain.routing, chain.shape, arc_step_rad), chain.state.shaft_rad);
@@ -31,8 +31,8 @@ void World::add_rope_impulses(double dt_s) {
   for (const Chain& chain : chains_) {
     if (!chain.rope) continue;
     for (const BodyForce& force : chain.rope->forces()) {
-      const Vec6 given = dt_s * wrench(force.at_m, force.force_N);
-      for (const int d : model_->movers(force.body)) momentum_[d] += model_->axis(d).dot(given);
+      const Vec6 impulse = dt_s * wrench(force.at_m, force.force_N);
+      for (const int d : model_->movers(force.body)) momentum_[d] += model_->axis(d).dot(impulse);
     }
   }
 }

@@ -3,12 +3,13 @@
 
 #include "sim/world/world.hpp"
 
-/// The state of a world: what a later step depends on.
+/// The state of a world: all values on which a later step depends.
 namespace sim {
 
 WorldState World::save() const {
-  WorldState state{time_s_, time_rest_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}, {},
-                   {},      attached_};
+  WorldState state{
+      time_s_, time_remainder_s_, {joints().begin(), joints().end()}, {}, {}, {}, {}, {},
+      {},      attached_};
   for (const Chain& chain : chains_) {
     state.motors.push_back(chain.state);
     state.snapped.push_back(chain.snapped);
@@ -31,7 +32,7 @@ void World::restore(const WorldState& state) {
       std::ssize(state.ropes) != std::ranges::count_if(chains_, &Chain::has_rope) ||
       state.effects.size() != save().effects.size())
     throw std::invalid_argument("the state belongs to a different robot");
-  time_s_ = state.time_s, time_rest_s_ = state.time_rest_s;
+  time_s_ = state.time_s, time_remainder_s_ = state.time_remainder_s;
   auto rope = state.ropes.begin();
   std::span<const effects::Memory> memories = state.effects;
   for (std::size_t k = 0; k < chains_.size(); ++k) {

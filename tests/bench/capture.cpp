@@ -1,5 +1,6 @@
-// Duration of motion capture for a pair of images, and error of its joint angles: the arm moves through its figure at 100
-// pairs per second, with noise and bone lengths of configs/arm/motion_capture.xml.
+// Duration of motion capture for a pair of images, and error of its joint angles: the arm moves
+// through its figure at 100 pairs per second, with noise and bone lengths of
+// configs/arm/motion_capture.xml.
 #include <cstdio>
 #include <numbers>
 
@@ -26,7 +27,8 @@ struct Errors {
   void take(const capture::Captured& found, std::span<const sim::JointReading> truth) {
     for (std::size_t j = 0; j < truth.size(); ++j) {
       if (!found.known[j]) continue;
-      const auto way = sim::way_between(truth[j].type, truth[j].position, found.joints[j].position);
+      const auto way =
+          sim::displacement(truth[j].type, truth[j].position, found.joints[j].position);
       square_rad2[j] += way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
       ++known[j];
     }

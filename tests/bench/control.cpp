@@ -1,4 +1,5 @@
-// Duration of a cycle of the joint controllers, and comparison of the quadratic program with CGAL's solver.
+// Duration of a cycle of the joint controllers, and comparison of the quadratic program with CGAL's
+// solver.
 #include <CGAL/MP_Float.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
@@ -41,8 +42,8 @@ struct Oscillation {
     const double s = std::sin(3 * time_s), c = 3 * std::cos(3 * time_s);
     motions.clear();
     for (const auto& joint : names.list()) {
-      sim::JointMotion motion{sim::start_of(joint), {}};
-      motion.now.position = sim::gone(joint.type, motion.now.position, {0.1 * s, 0.1 * s, 0});
+      sim::JointMotion motion{sim::initial_reading(joint), {}};
+      motion.now.position = sim::displaced(joint.type, motion.now.position, {0.1 * s, 0.1 * s, 0});
       motion.now.velocity_rad_per_s = {0.1 * c, 0.1 * c, 0};
       motion.acceleration_rad_per_s2 = {-0.9 * s, -0.9 * s, 0};
       motions.push_back(motion);
@@ -98,12 +99,12 @@ std::vector<Program> programs(const erp::Robot& robot, int count) {
 }
 
 /// The same program for CGAL:  min ½ fᵀ f − f°ᵀ f  with  Lᵀ f = −τ,  low ≤ f ≤ high.
-VectorXd by_cgal(const Program& program, const sim::ObjectiveTerms& likes) {
+VectorXd by_cgal(const Program& program, const sim::ObjectiveTerms& terms) {
   CGAL::Quadratic_program<double> qp(CGAL::EQUAL, true, 0, true, 0);
   const int n = static_cast<int>(program.l.rows()), m = static_cast<int>(program.l.cols());
   for (int a = 0; a < n; ++a) {
-    qp.set_l(a, true, likes.low_N[a]), qp.set_u(a, true, likes.high_N[a]);
-    qp.set_d(a, a, 1), qp.set_c(a, -likes.preferred_N[a]);
+    qp.set_l(a, true, terms.low_N[a]), qp.set_u(a, true, terms.high_N[a]);
+    qp.set_d(a, a, 1), qp.set_c(a, -terms.preferred_N[a]);
     for (int d = 0; d < m; ++d) qp.set_a(a, d, program.l(a, d));
   }
   for (int d = 0; d < m; ++d) qp.set_b(d, -program.torque[d]);
@@ -119,16 +120,17 @@ VectorXd by_cgal(const Program& program, const sim::ObjectiveTerms& likes) {
 
 void program_row(const std::string& name) {
   const erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/" + name + "/robot.xml");
-  const sim::ObjectiveTerms likes = sim::objective_terms(robot, sim::TensionObjective::least_tension, 5);
+  const sim::ObjectiveTerms terms =
+      sim::objective_terms(robot, sim::TensionObjective::least_tension, 5);
   const auto all = programs(robot, 20);
-  sim::TensionShare share(likes, static_cast<int>(all[0].l.cols()));
+  sim::TensionDistribution distribution(terms, static_cast<int>(all[0].l.cols()));
   Times ours, cgal;
   double difference_N = 0;
   int solved = 0;
   for (const Program& program : all) {
     VectorXd f, g;
-    ours.take([&] { f = share.share(program.l, program.torque); });
-    cgal.take([&] { g = by_cgal(program, likes); });
+    ours.take([&] { f = distribution.distribute(program.l, program.torque); });
+    cgal.take([&] { g = by_cgal(program, terms); });
     if (g.hasNaN()) continue;
     ++solved;
     difference_N = std::max(difference_N, (f - g).cwiseAbs().maxCoeff());

@@ -30,7 +30,7 @@ void step_ours(benchmark::State& state, const erp::Robot& robot) {
 }
 
 void step_mujoco(benchmark::State& state, const erp::Robot& robot) {
-  const peer::Mujoco peer(robot);
+  const reference::Mujoco peer(robot);
   for (std::size_t k = 0; k < robot.actuators.size(); ++k)
     peer.data->ctrl[k] = robot.actuators[k].tendon.pretension_N;
   for (auto _ : state) mj_step(peer.model.get(), peer.data.get());

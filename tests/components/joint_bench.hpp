@@ -19,7 +19,7 @@ struct JointBench {
   explicit JointBench(const std::string& config)
       : robot(erp::read_robot(ERP_SOURCE_DIR "/configs/" + config)) {
     std::vector<sim::JointMotion> still;
-    for (const auto& joint : names.list()) still.push_back({sim::start_of(joint), {}});
+    for (const auto& joint : names.list()) still.push_back({sim::initial_reading(joint), {}});
     names.write(still, target.message);
     for (const auto& sample : erp::samples(target->joints)) {
       erp::JointStateSample now{};

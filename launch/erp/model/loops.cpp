@@ -19,7 +19,7 @@ namespace shaping = sim::loop_shaping;
 void place(sim::Musculoskeletal& model, const sim::Pose& pose) {
   std::vector<sim::JointReading> readings;
   for (std::size_t j = 0; j < pose.size(); ++j) {
-    readings.push_back(sim::start_of(model.tree().joints[j]));
+    readings.push_back(sim::initial_reading(model.tree().joints[j]));
     readings.back().position = pose[j];
   }
   model.place(readings);
@@ -29,7 +29,7 @@ bool print_posture(const std::string& name, const shaping::LoopCheck& check, std
   const bool stable = check.slowest_per_s < 0;
   out << fmt::format("{:<10} {:>8} {:>14.2f} {:>13.2f}   ", name,
                      stable ? fmt::format("{:.3f}", check.margin) : "unstable", check.slowest_per_s,
-                     check.most_sensitive);
+                     check.max_sensitivity);
   for (const double hz : check.crossover_Hz) out << fmt::format(" {:.2f}", hz);
   out << '\n';
   return stable;

@@ -25,7 +25,7 @@ erp::JointType type_of(int dof) {
 
 /// The rotation vector u of q₁ ⊖ q₀.
 std::array<double, 3> difference(int dof, const Position& from, const Position& to) {
-  return sim::way_between(type_of(dof), from, to);
+  return sim::displacement(type_of(dof), from, to);
 }
 
 /// The joint angle, or the rotation vector of a ball joint from its zero pose.

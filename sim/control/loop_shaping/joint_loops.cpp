@@ -18,8 +18,8 @@ namespace {
 
 constexpr double to_rad_per_s = 2 * std::numbers::pi;
 
-StateSpace repeated(const StateSpace& one, Index times) {
-  return side_by_side(std::vector<StateSpace>(static_cast<std::size_t>(times), one));
+StateSpace repeated(const StateSpace& system, Index times) {
+  return side_by_side(std::vector<StateSpace>(static_cast<std::size_t>(times), system));
 }
 
 /// From joint torques to joint angles.
@@ -42,18 +42,19 @@ StateSpace bones(Musculoskeletal& model) {
 /// Actuator dynamics: from commanded to actual torque.
 StateSpace torque_dynamics(const JointShape& shape) {
   const double lag = 1 / shape.smooth_s, pade = 2 / shape.delay_s;
-  const StateSpace follows = first_order(0, lag, lag);
-  return in_series(in_series(first_order(-1, pade, pade), follows), follows);
+  const StateSpace lag_filter = first_order(0, lag, lag);
+  return in_series(in_series(first_order(-1, pade, pade), lag_filter), lag_filter);
 }
 
 /// k (s + ω_i)/s · (s + z)/(s + α ω_c), for a corner of friction µ/h
 StateSpace one_weight(const JointShape& shape, double friction_per_s) {
   const double wc = to_rad_per_s * shape.crossover_Hz, wi = to_rad_per_s * shape.integral_Hz;
   const double zero = std::max(wc / shape.lead, friction_per_s);
-  const StateSpace bare = in_series(first_order(1, wi, 0), first_order(1, zero, wc * shape.lead));
+  const StateSpace unscaled =
+      in_series(first_order(1, wi, 0), first_order(1, zero, wc * shape.lead));
   const double plant_gain = std::abs(response(torque_dynamics(shape), wc)(0, 0)) / (wc * wc);
-  const double k = 1 / (std::abs(response(bare, wc)(0, 0)) * plant_gain);
-  return in_series(bare, constant(MatrixXd::Constant(1, 1, k)));
+  const double k = 1 / (std::abs(response(unscaled, wc)(0, 0)) * plant_gain);
+  return in_series(unscaled, constant(MatrixXd::Constant(1, 1, k)));
 }
 
 }  // namespace
@@ -117,11 +118,11 @@ JointLoops joint_loops(Musculoskeletal& model, const JointShape& shape) {
 
 MatrixXd JointLoops::holding() const {
   const Index first = robust.controller.states(), n = shape.states(), m = shape.outputs();
-  MatrixXd rests(n + m, n), unit_outputs = MatrixXd::Zero(n + m, m);
-  rests << shape.a, shape.c;
+  MatrixXd equations(n + m, n), unit_outputs = MatrixXd::Zero(n + m, m);
+  equations << shape.a, shape.c;
   unit_outputs.bottomRows(m).setIdentity();
   MatrixXd states = MatrixXd::Zero(first + n, m);
-  states.bottomRows(n) = rests.completeOrthogonalDecomposition().solve(unit_outputs);
+  states.bottomRows(n) = equations.completeOrthogonalDecomposition().solve(unit_outputs);
   return states;
 }
 
@@ -134,34 +135,35 @@ namespace {
 /// Highest frequency at which the loop gain of joint `j` is 1, Hz.
 double crossover_Hz(const std::vector<MatrixXcd>& inverse_closed, const std::vector<double>& w,
                     Index j) {
-  double found = 0;
+  double highest_Hz = 0;
   for (std::size_t k = 0; k < w.size(); ++k) {
     const std::complex<double> loop = 1.0 / inverse_closed[k](j, j) - 1.0;  // S_jj = 1/(1 + L_j)
-    if (std::abs(loop) >= 1) found = w[k] / to_rad_per_s;
+    if (std::abs(loop) >= 1) highest_Hz = w[k] / to_rad_per_s;
   }
-  return found;
+  return highest_Hz;
 }
 
 }  // namespace
 
 LoopCheck checked(const JointLoops& loops) {
   const StateSpace& plant = loops.plant;
-  constexpr double low = 0.01, high = 1000;
+  constexpr double low_rad_per_s = 0.01, high_rad_per_s = 1000;
   constexpr int count = 400;
   const StateSpace controller = loops.controller();
   std::vector<double> w;
   std::vector<MatrixXcd> sensitivity;
   const Index n = plant.outputs();
-  LoopCheck check{margin_of(in_series(loops.weight(), plant), loops.robust.controller, low, high),
+  LoopCheck check{margin_of(in_series(loops.weight(), plant), loops.robust.controller,
+                            low_rad_per_s, high_rad_per_s),
                   slowest_pole_per_s(closed(plant, controller)),
                   0,
                   {}};
   for (int k = 0; k < count; ++k) {
-    w.push_back(low * std::pow(high / low, k / (count - 1.0)));
+    w.push_back(low_rad_per_s * std::pow(high_rad_per_s / low_rad_per_s, k / (count - 1.0)));
     const MatrixXcd loop = response(plant, w.back()) * response(controller, w.back());
     sensitivity.push_back((MatrixXcd::Identity(n, n) + loop).inverse());
-    check.most_sensitive = std::max(
-        check.most_sensitive, Eigen::JacobiSVD<MatrixXcd>(sensitivity.back()).singularValues()[0]);
+    check.max_sensitivity = std::max(
+        check.max_sensitivity, Eigen::JacobiSVD<MatrixXcd>(sensitivity.back()).singularValues()[0]);
   }
   for (Index j = 0; j < n; ++j) check.crossover_Hz.push_back(crossover_Hz(sensitivity, w, j));
   return check;

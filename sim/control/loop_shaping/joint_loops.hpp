@@ -17,9 +17,9 @@
 ///   K  = W₁ K∞
 ///
 /// K∞ is designed in one posture; A is updated with the posture. The inertia about a joint varies
-/// strongly, for example that of the forearm's rotation with the elbow angle, and no constant A keeps a
-/// margin in all postures (on seven_dof, 0.01 of 0.39 remain). G does not contain gravity, which is
-/// compensated online.
+/// strongly, for example that of the forearm's rotation with the elbow angle, and with a constant A
+/// some postures have nearly no margin (on seven_dof, 0.01 instead of 0.39). G does not contain
+/// gravity, which is compensated online.
 namespace sim::loop_shaping {
 
 /// `<loops crossover_Hz="2.5"/>`, a file.
@@ -83,7 +83,7 @@ JointLoops joint_loops(Musculoskeletal& model, const JointShape& shape);
 struct LoopCheck {
   double margin;                     ///< remaining ε
   double slowest_per_s;              ///< largest real part of the closed loop's poles
-  double most_sensitive;             ///< largest singular value of (1 + G K)⁻¹
+  double max_sensitivity;            ///< largest singular value of (1 + G K)⁻¹
   std::vector<double> crossover_Hz;  ///< of each joint's loop with the other loops closed
 };
 LoopCheck checked(const JointLoops& loops);

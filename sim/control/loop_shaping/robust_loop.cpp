@@ -22,9 +22,9 @@ RobustLoop stabilised(const StateSpace& shaped, double gamma_factor) {
   const MatrixXd x = riccati(a, b * b.transpose(), c.transpose() * c);
   const MatrixXd z = riccati(a.transpose(), c.transpose() * c, b * b.transpose());
   const MatrixXd xz = x * z;
-  const double least =
+  const double min_gamma =
       std::sqrt(1 + Eigen::EigenSolver<MatrixXd>(xz, false).eigenvalues().real().maxCoeff());
-  const double gamma = gamma_factor * least, square = gamma * gamma;
+  const double gamma = gamma_factor * min_gamma, square = gamma * gamma;
   const Index n = a.rows();
   const MatrixXd l = (1 - square) * MatrixXd::Identity(n, n) + xz;
   const MatrixXd gain = square * l.transpose().partialPivLu().solve(z * c.transpose());
@@ -32,7 +32,7 @@ RobustLoop stabilised(const StateSpace& shaped, double gamma_factor) {
   return {{a - b * b.transpose() * x + gain * c, gain, -b.transpose() * x,
            MatrixXd::Zero(shaped.inputs(), shaped.outputs())},
           1 / gamma,
-          1 / least};
+          1 / min_gamma};
 }
 
 double margin_of(const StateSpace& plant, const StateSpace& controller, double low_rad_per_s,
@@ -42,12 +42,12 @@ double margin_of(const StateSpace& plant, const StateSpace& controller, double l
     const double w = low_rad_per_s * std::pow(high_rad_per_s / low_rad_per_s, k / (count - 1.0));
     const MatrixXcd g = response(plant, w), h = response(controller, w);
     const Index m = g.rows(), n = g.cols();
-    MatrixXcd into(m, m + n), out(n + m, m);
-    into << MatrixXcd::Identity(m, m), g;
-    out << h, MatrixXcd::Identity(m, m);
-    const MatrixXcd closes = MatrixXcd::Identity(m, m) + g * h;
-    const MatrixXcd all = out * closes.partialPivLu().solve(into);
-    worst = std::max(worst, Eigen::JacobiSVD<MatrixXcd>(all).singularValues()[0]);
+    MatrixXcd right(m, m + n), left(n + m, m);
+    right << MatrixXcd::Identity(m, m), g;
+    left << h, MatrixXcd::Identity(m, m);
+    const MatrixXcd return_difference = MatrixXcd::Identity(m, m) + g * h;
+    const MatrixXcd closed_loop = left * return_difference.partialPivLu().solve(right);
+    worst = std::max(worst, Eigen::JacobiSVD<MatrixXcd>(closed_loop).singularValues()[0]);
   }
   return 1 / worst;
 }

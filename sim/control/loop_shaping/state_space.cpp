@@ -15,23 +15,23 @@ StateSpace constant(const MatrixXd& gain) {
 }
 
 StateSpace first_order(double k1, double k0, double pole_per_s) {
-  const auto one = [](double value) { return MatrixXd::Constant(1, 1, value); };
-  return {one(-pole_per_s), one(1), one(k0 - k1 * pole_per_s), one(k1)};
+  const auto scalar = [](double value) { return MatrixXd::Constant(1, 1, value); };
+  return {scalar(-pole_per_s), scalar(1), scalar(k0 - k1 * pole_per_s), scalar(k1)};
 }
 
-StateSpace in_series(const StateSpace& first, const StateSpace& then) {
-  const Index m = first.states(), n = then.states();
-  StateSpace both;
-  both.a = MatrixXd::Zero(m + n, m + n);
-  both.a.topLeftCorner(m, m) = first.a;
-  both.a.bottomLeftCorner(n, m) = then.b * first.c;
-  both.a.bottomRightCorner(n, n) = then.a;
-  both.b = MatrixXd(m + n, first.inputs());
-  both.b << first.b, then.b * first.d;
-  both.c = MatrixXd(then.outputs(), m + n);
-  both.c << then.d * first.c, then.c;
-  both.d = then.d * first.d;
-  return both;
+StateSpace in_series(const StateSpace& first, const StateSpace& second) {
+  const Index m = first.states(), n = second.states();
+  StateSpace series;
+  series.a = MatrixXd::Zero(m + n, m + n);
+  series.a.topLeftCorner(m, m) = first.a;
+  series.a.bottomLeftCorner(n, m) = second.b * first.c;
+  series.a.bottomRightCorner(n, n) = second.a;
+  series.b = MatrixXd(m + n, first.inputs());
+  series.b << first.b, second.b * first.d;
+  series.c = MatrixXd(second.outputs(), m + n);
+  series.c << second.d * first.c, second.c;
+  series.d = second.d * first.d;
+  return series;
 }
 
 namespace {
@@ -47,8 +47,9 @@ void append(MatrixXd& blocks, const MatrixXd& block) {
 
 StateSpace side_by_side(std::span<const StateSpace> systems) {
   StateSpace all;
-  for (const StateSpace& one : systems)
-    append(all.a, one.a), append(all.b, one.b), append(all.c, one.c), append(all.d, one.d);
+  for (const StateSpace& system : systems)
+    append(all.a, system.a), append(all.b, system.b), append(all.c, system.c),
+        append(all.d, system.d);
   return all;
 }
 
@@ -74,12 +75,12 @@ StateSpace closed(const StateSpace& plant, const StateSpace& controller) {
 Sampled::Sampled(const StateSpace& system, double period_s)
     : state_(Eigen::VectorXd::Zero(system.states())), next_(state_) {
   const Index n = system.states();
-  const MatrixXd one = MatrixXd::Identity(n, n), half = 0.5 * period_s * system.a;
-  const MatrixXd ahead = (one - half).inverse();
-  discrete_.a = (one + half) * ahead;
-  discrete_.b = period_s * ahead * system.b;
-  discrete_.c = system.c * ahead;
-  discrete_.d = system.d + 0.5 * period_s * system.c * ahead * system.b;
+  const MatrixXd identity = MatrixXd::Identity(n, n), half = 0.5 * period_s * system.a;
+  const MatrixXd inverse = (identity - half).inverse();
+  discrete_.a = (identity + half) * inverse;
+  discrete_.b = period_s * inverse * system.b;
+  discrete_.c = system.c * inverse;
+  discrete_.d = system.d + 0.5 * period_s * system.c * inverse * system.b;
   output_ = Eigen::VectorXd::Zero(system.outputs());
 }
 

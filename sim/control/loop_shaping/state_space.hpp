@@ -19,8 +19,8 @@ struct StateSpace {
 StateSpace constant(const Eigen::MatrixXd& gain);
 /// (k₁ s + k₀)/(s + p), with one input and one output.
 StateSpace first_order(double k1, double k0, double pole_per_s);
-/// Series connection: the output of `first` is the input of `then`.
-StateSpace in_series(const StateSpace& first, const StateSpace& then);
+/// Series connection: the output of `first` is the input of `second`.
+StateSpace in_series(const StateSpace& first, const StateSpace& second);
 /// Parallel systems without coupling, with all inputs and all outputs.
 StateSpace side_by_side(std::span<const StateSpace> systems);
 /// C (jω − A)⁻¹ B + D.
@@ -42,7 +42,7 @@ class Sampled {
   /// Returns y at this instant and advances the state by one period.
   const Eigen::VectorXd& step(const Eigen::VectorXd& u);
   /// Sets the state to an equilibrium, A x = 0.
-  void begin(const Eigen::VectorXd& rest) { state_ = rest; }
+  void begin(const Eigen::VectorXd& equilibrium) { state_ = equilibrium; }
 
  private:
   StateSpace discrete_;

@@ -10,7 +10,7 @@ double joint_load_Nm(const erp::Robot& robot, std::size_t joint) {
   const RobotTree tree(robot);
   SkeletonModel model(tree, {0, 0, 0});
   std::vector<JointReading> start;
-  for (const erp::Joint& j : tree.joints) start.push_back(start_of(j));
+  for (const erp::Joint& j : tree.joints) start.push_back(initial_reading(j));
   model.place(start);
   const int axis = model.first_of(static_cast<int>(joint));
   double sum_Nm = 0;

@@ -30,7 +30,7 @@ Plant::Plant(const erp::Robot& nominal, const HiddenEffects& hidden_effects)
     if (const auto& name = tree_.joints[k].name; name.ends_with("_bows"))
       joint_effects_[k].spring =
           1 / hidden_effects.bodies.at(name.substr(0, name.size() - 5)).bend_rad_per_Nm;
-  for (const erp::Joint& joint : tree_.joints) joints_.push_back(start_of(joint));
+  for (const erp::Joint& joint : tree_.joints) joints_.push_back(initial_reading(joint));
   model_.place(joints_);
   for (std::size_t a = 0; a < nominal.actuators.size(); ++a)
     chains_.push_back(chain_of(nominal, a, hidden_effects.chains[a]));

@@ -37,7 +37,8 @@ class SensorModel {
   }
 
  private:
-  /// Angle of the ray from the centre of the disc, which circles the axis, to the reading head at (1, 0).
+  /// Angle of the ray from the centre of the disc, which circles the axis, to the reading head at
+  /// (1, 0).
   double ray_rad(double angle) const {
     const double s = std::sin(angle), c = std::cos(angle);
     return std::atan2(q_.sine_rad * s + q_.cosine_rad * c, 1 - q_.sine_rad * c + q_.cosine_rad * s);
@@ -67,7 +68,7 @@ Unit make_unit(const erp::Robot& robot, const erp::Actuator& actuator, const Cha
             {q.tension, sensors.tension_noise_N, s.tension_N_per_count, 0,
              s.tension_N_per_count * (s.tension_counts_max - s.tension_zero_counts)}};
   ecu_init(&unit.ecu);
-  const auto gains = design_parameters(robot, actuator, {.stuck_share = 0});
+  const auto gains = design_parameters(robot, actuator, {.stuck_speed_fraction = 0});
   for (std::size_t k = 0; k < gains.size(); ++k)
     ecu_parameter(&unit.ecu, static_cast<std::uint8_t>(k), gains[k], k + 1 == gains.size());
   ecu_command(&unit.ecu, ECU_REQUEST_ARM, 0);

@@ -134,7 +134,7 @@ namespace {
 ecu_channel configured(const erp::Robot& robot, const erp::Actuator& actuator) {
   ecu_channel ecu{};
   ecu_init(&ecu);
-  const auto gains = design_parameters(robot, actuator, {.stuck_share = 0});
+  const auto gains = design_parameters(robot, actuator, {.stuck_speed_fraction = 0});
   for (std::size_t k = 0; k < gains.size(); ++k)
     ecu_parameter(&ecu, std::uint8_t(k), gains[k], k + 1 == gains.size());
   ecu_command(&ecu, ECU_REQUEST_ARM, 0);

@@ -31,8 +31,8 @@ void fill_forward(Signal& signal) {
     if (std::isnan(signal[k - 1])) signal[k - 1] = signal[k];
 }
 
-/// The Gauss-Newton step of the unknowns at one row. `slope`: ∂F̂/∂q, N/rad, tendons × unknowns. Empty: the tendons do
-/// not determine the pose there.
+/// The Gauss-Newton step of the unknowns at one row. `slope`: ∂F̂/∂q, N/rad, tendons × unknowns.
+/// Empty: the tendons do not determine the pose there.
 Eigen::VectorXd step_at(std::size_t row, const std::vector<ChainTrace>& here,
                         const Eigen::Ref<const Eigen::MatrixXd>& slope) {
   Eigen::VectorXd difference_N(slope.rows());
@@ -94,7 +94,7 @@ void PoseSearch::change(std::vector<JointSignals>& signals, Change each) const {
 
 void PoseSearch::start(std::vector<JointSignals>& signals, std::size_t rows) const {
   for (const std::size_t j : missing_) {
-    const JointReading start = start_of(joints_[j]);
+    const JointReading start = initial_reading(joints_[j]);
     if (joints_[j].type == erp::JointType::revolute)
       signals[j].angle_rad.assign(rows, start.position[0]);
     if (joints_[j].type == erp::JointType::spherical)

@@ -41,7 +41,7 @@ bool was_measured(const JointSignals& joint, erp::JointType type) {
 
 Skeletal::Skeletal(const erp::Robot& robot) : tree_(robot), model_(tree_, gravity_of(robot)) {
   std::vector<JointReading> start;
-  for (const erp::Joint& joint : tree_.joints) start.push_back(start_of(joint));
+  for (const erp::Joint& joint : tree_.joints) start.push_back(initial_reading(joint));
   model_.place(start);
   for (const erp::Actuator& actuator : robot.actuators) {
     loads_.push_back(-1);
@@ -77,7 +77,7 @@ std::vector<std::size_t> Skeletal::crossed_by(std::size_t actuator) const {
 }
 
 JointReading Skeletal::reading(const JointSignals& joint, std::size_t j, std::size_t row) const {
-  JointReading reading = start_of(tree_.joints[j]);
+  JointReading reading = initial_reading(tree_.joints[j]);
   if (!was_measured(joint, reading.type)) return reading;
   if (reading.type == erp::JointType::revolute) reading.position[0] = joint.angle_rad[row];
   if (reading.type == erp::JointType::spherical)
@@ -104,7 +104,7 @@ PathTrace Skeletal::path_by_table(std::size_t actuator, const Signal& angle_rad)
                   Signal(angle_rad.size(), recording::not_taken)};
   if (low > high) return trace;
   std::vector<JointReading> posture;
-  for (const erp::Joint& joint : tree_.joints) posture.push_back(start_of(joint));
+  for (const erp::Joint& joint : tree_.joints) posture.push_back(initial_reading(joint));
   const auto points = static_cast<std::size_t>((high - low) / spacing_rad) + 2;
   std::vector<double> length(points), wrap(points);
   for (std::size_t n = 0; n < points; ++n) {
@@ -166,7 +166,7 @@ Motion Skeletal::motion(std::span<const JointSignals> joints, const Bump& bump,
                         std::size_t row) const {
   Motion motion{{}, Eigen::VectorXd::Zero(model_.coordinates()), true};
   for (std::size_t j = 0; j < tree_.joints.size(); ++j) {
-    JointReading r = start_of(tree_.joints[j]);
+    JointReading r = initial_reading(tree_.joints[j]);
     const int first = model_.first_of(static_cast<int>(j));
     if (r.type == erp::JointType::revolute) {
       const Signal& angle = joints[j].angle_rad;

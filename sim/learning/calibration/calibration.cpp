@@ -19,17 +19,17 @@ namespace {
 /// Mean joint errors in degrees, over training poses and over check poses.
 std::vector<training_loop::Metric> errors_of(const Candidate& candidate, const PoseSet& poses) {
   constexpr double degree = std::numbers::pi / 180;
-  std::vector<training_loop::Metric> all;
-  const auto add = [&](const char* of, std::span<const StillPose> part) {
-    if (part.empty()) return;
-    const PoseErrors errors = pose_errors(candidate, part);
+  std::vector<training_loop::Metric> metrics;
+  const auto add = [&](const char* suffix, std::span<const StillPose> subset) {
+    if (subset.empty()) return;
+    const PoseErrors errors = pose_errors(candidate, subset);
     std::size_t k = 0;
     for (const erp::Joint& joint : candidate.robot.joints())
       if (coordinates_of(joint.type) > 0)
-        all.push_back({joint.name + of, errors.mean_rad[k++] / degree});
+        metrics.push_back({joint.name + suffix, errors.mean_rad[k++] / degree});
   };
   add(".learned_deg", poses.learn), add(".checked_deg", poses.check);
-  return all;
+  return metrics;
 }
 
 }  // namespace
@@ -47,9 +47,9 @@ void Calibration::update_best(const Eigen::VectorXd& x, double error_rad) {
 }
 
 std::vector<training_loop::Metric> Calibration::metrics() const {
-  auto all = errors_;
-  all.push_back({"evaluated_poses", static_cast<double>(evaluated_poses())});
-  return all;
+  auto metrics = errors_;
+  metrics.push_back({"evaluated_poses", static_cast<double>(evaluated_poses())});
+  return metrics;
 }
 
 }  // namespace sim::calibration

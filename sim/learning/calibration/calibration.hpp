@@ -21,7 +21,7 @@ double error_rad(const Task& task, const Eigen::VectorXd& x);
 /// evaluated.
 class Calibration : public training_loop::Training {
  public:
-  /// Throws as Equilibrium does for the robot of robot.xml.
+  /// Throws like Equilibrium for the robot of robot.xml.
   explicit Calibration(Task task);
 
   /// Mean joint errors of the best candidate in degrees, over training poses and over check poses;
@@ -35,7 +35,7 @@ class Calibration : public training_loop::Training {
   virtual long evaluated_poses() const = 0;
 
  protected:
-  /// Reports an evaluated candidate; keeps it if it is the best so far.
+  /// Stores an evaluated candidate if it is the best so far.
   void update_best(const Eigen::VectorXd& x, double error_rad);
 
  private:

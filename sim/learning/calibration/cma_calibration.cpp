@@ -98,11 +98,11 @@ std::string CmaCalibration::state() const {
 
 void CmaCalibration::restore(const std::string& text, const std::string& file) {
   const auto state = xml::parse<State>(text, file);
-  bool same = state.seed == std::to_string(impl_->options.seed) &&
-              std::ssize(state.list) == impl_->options.offspring + 1;
+  bool is_same_search = state.seed == std::to_string(impl_->options.seed) &&
+                        std::ssize(state.list) == impl_->options.offspring + 1;
   for (const SavedPoint& saved : state.list)
-    same = same && std::ssize(saved.x) == task().parameters.size();
-  expect_same_search(same, file);
+    is_same_search = is_same_search && std::ssize(saved.x) == task().parameters.size();
+  expect_same_search(is_same_search, file);
   std::istringstream algorithm(state.algorithm);
   boost::archive::text_iarchive(algorithm) >> impl_->algorithm;
   for (std::size_t k = 1; k < state.list.size(); ++k)

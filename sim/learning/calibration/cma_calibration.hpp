@@ -8,7 +8,7 @@ namespace sim::calibration {
 
 /// Calibration by covariance matrix adaptation, pagmo's CMA-ES (Hansen 2006). A round is one
 /// generation, with the population size, initial step size and bounds of the evolution strategy.
-/// pagmo evaluates candidates one after the other, so a pool does not make it faster.
+/// pagmo evaluates candidates one after the other. A pool therefore does not make it faster.
 class CmaCalibration : public Calibration {
  public:
   explicit CmaCalibration(Task task, const EvolutionOptions& options = {});

@@ -10,8 +10,8 @@ namespace {
 
 /// x reflected at ± bound until it lies inside.
 double reflected(double x, double bound) {
-  const double turn = 4 * bound, t = std::fmod(std::fmod(x + bound, turn) + turn, turn);
-  return (t <= 2 * bound ? t : turn - t) - bound;
+  const double period = 4 * bound, t = std::fmod(std::fmod(x + bound, period) + period, period);
+  return (t <= 2 * bound ? t : period - t) - bound;
 }
 
 }  // namespace
@@ -37,14 +37,15 @@ Individual Evolution::mutated(std::uint64_t number) const {
   auto random =
       training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(generation_), number);
   std::normal_distribution<double> normal;
-  std::uniform_int_distribution<std::size_t> any(0, parents_.size() - 1);
-  const Individual &parent = parents_[any(random)], &other = parents_[any(random)];
+  std::uniform_int_distribution<std::size_t> any_parent(0, parents_.size() - 1);
+  const Individual &parent = parents_[any_parent(random)], &other = parents_[any_parent(random)];
   Individual child{(parent.x + other.x) / 2, parent.sigma};
   const double n = static_cast<double>(child.x.size());
-  const double own = 1 / std::sqrt(2 * std::sqrt(n)), common = normal(random) / std::sqrt(2 * n);
+  const double individual_rate = 1 / std::sqrt(2 * std::sqrt(n)),
+               common_factor = normal(random) / std::sqrt(2 * n);
   for (Eigen::Index i = 0; i < child.x.size(); ++i) {
     child.sigma[i] = std::sqrt(parent.sigma[i] * other.sigma[i]);
-    child.sigma[i] *= std::exp(common + own * normal(random));
+    child.sigma[i] *= std::exp(common_factor + individual_rate * normal(random));
     child.x[i] = reflected(child.x[i] + child.sigma[i] * normal(random), options_.bound);
   }
   return child;

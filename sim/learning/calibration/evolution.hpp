@@ -9,13 +9,13 @@
 ///   σ'_i = σ_i exp(τ' N(0,1) + τ N_i(0,1)),   x'_i = x_i + σ'_i N_i(0,1)
 ///   τ' = 1/√(2n),  τ = 1/√(2√n)
 ///
-/// The parents of a generation are the µ best of the λ offspring of the generation before; parents
-/// do not survive. An offspring's x is the mean of two parents', its σ their geometric mean
-/// (intermediate recombination, Schwefel); without it step sizes would only decrease. Values
+/// The parents of a generation are the µ best of the λ offspring of the previous generation.
+/// Parents do not survive. An offspring's x is the mean of two parents', its σ their geometric mean
+/// (intermediate recombination, Schwefel). Without it, step sizes would only decrease. Values
 /// outside the bounds are reflected.
 ///
-/// Each offspring has its own random stream, from seed, generation and number. So results do not
-/// depend on threads.
+/// Each offspring has its own random stream, from seed, generation and number. The results
+/// therefore do not depend on the number of threads.
 namespace sim::calibration {
 
 struct Individual {
@@ -41,7 +41,7 @@ class Evolution {
   const std::vector<Individual>& parents() const { return parents_; }
   /// λ new individuals, not evaluated yet.
   std::vector<Individual> offspring() const;
-  /// Takes the evaluated offspring; the µ best become parents. Ties keep the order.
+  /// Makes the µ best of the evaluated offspring the parents. Equal errors keep their order.
   void select(std::vector<Individual> evaluated);
 
  private:

@@ -48,12 +48,12 @@ std::string EvolutionCalibration::state() const {
 
 void EvolutionCalibration::restore(const std::string& text, const std::string& file) {
   const auto state = xml::parse<State>(text, file);
-  bool same =
+  bool is_same_search =
       state.seed == std::to_string(options_.seed) && std::ssize(state.list) == options_.parents + 1;
   for (std::size_t k = 0; k < state.list.size(); ++k)
-    same = same && std::ssize(state.list[k].x) == task().parameters.size() &&
-           (k == 0 || state.list[k].sigma.size() == state.list[k].x.size());
-  expect_same_search(same, file);
+    is_same_search = is_same_search && std::ssize(state.list[k].x) == task().parameters.size() &&
+                     (k == 0 || state.list[k].sigma.size() == state.list[k].x.size());
+  expect_same_search(is_same_search, file);
   std::vector<Individual> parents;
   for (std::size_t k = 1; k < state.list.size(); ++k) {
     const SavedPoint& saved = state.list[k];

@@ -11,8 +11,8 @@
 namespace sim::calibration {
 namespace {
 
-constexpr int most_steps = 12;
-constexpr double least_decrease = 1e-3;  // relative decrease of the cost by a round
+constexpr int max_attempts = 12;       // chosen
+constexpr double min_decrease = 1e-3;  // chosen: relative decrease of the cost by a round
 
 /// `list` holds the current point, then the best candidate so far.
 struct State {
@@ -44,9 +44,9 @@ NewtonCalibration::NewtonCalibration(Task task, const NewtonOptions& options)
 
 double NewtonCalibration::cost(const Eigen::VectorXd& x) const {
   try {
-    const auto of = by_torques_ ? torques_Nm : turns_rad;
-    const auto left = of(task().parameters.at(x), task().poses.learn);
-    return (left / sigma()).squaredNorm() + x.squaredNorm();
+    const auto residuals_of = by_torques_ ? torques_Nm : turns_rad;
+    const auto residual = residuals_of(task().parameters.at(x), task().poses.learn);
+    return (residual / sigma()).squaredNorm() + x.squaredNorm();
   } catch (const std::invalid_argument&) {
     return std::numeric_limits<double>::infinity();
   }
@@ -60,29 +60,29 @@ void NewtonCalibration::round(const Pool& pool) {
 }
 
 void NewtonCalibration::step(const Pool& pool) {
-  const auto of = by_torques_ ? torques : turns;
-  const Residuals at = of(task().parameters, x_, task().poses.learn, pool);
+  const auto residuals_of = by_torques_ ? torques : turns;
+  const Residuals at = residuals_of(task().parameters, x_, task().poses.learn, pool);
   const Eigen::MatrixXd slope = at.slope / sigma();
-  const Eigen::VectorXd downhill = -(slope.transpose() * at.value / sigma() + x_);
+  const Eigen::VectorXd descent = -(slope.transpose() * at.value / sigma() + x_);
   const Eigen::MatrixXd curvature = slope.transpose() * slope;
   const double before = cost_;
   ++evaluated_;
-  for (int steps = 0; steps < most_steps && cost_ == before; ++steps) {
+  for (int attempt = 0; attempt < max_attempts && cost_ == before; ++attempt) {
     Eigen::MatrixXd damped = curvature;
     damped.diagonal().array() += 1 + damping_;
-    const Eigen::VectorXd next = x_ + damped.llt().solve(downhill);
-    const double there = cost(next);
+    const Eigen::VectorXd candidate = x_ + damped.llt().solve(descent);
+    const double next_cost = cost(candidate);
     ++evaluated_;
-    if (there < cost_) x_ = next, cost_ = there, damping_ /= 10;
+    if (next_cost < cost_) x_ = candidate, cost_ = next_cost, damping_ /= 10;
     else damping_ *= 10;
   }
   update_best(x_, error_rad(task(), x_)), ++evaluated_;
 }
 
-/// If the step has not reduced the cost enough: switches from torques to angles, then restarts with
-/// kicks until done.
+/// If the step has not reduced the cost enough: switches from torques to angles, later restarts
+/// from random points until done.
 void NewtonCalibration::continue_from(double before) {
-  if (before - cost_ >= least_decrease * before) return;  // false if the cost is infinite
+  if (before - cost_ >= min_decrease * before) return;  // false if the cost is infinite
   if (by_torques_) return switch_to_angles(x_);
   done_ = restarts_ == options_.restarts || best_error_rad() < options_.sigma_rad;
   if (done_) return;
@@ -90,7 +90,7 @@ void NewtonCalibration::continue_from(double before) {
       training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(++restarts_));
   std::normal_distribution<double> normal(0, options_.kick);
   Eigen::VectorXd x = best();
-  for (double& each : x) each += normal(random);
+  for (double& value : x) value += normal(random);
   switch_to_angles(x);
 }
 

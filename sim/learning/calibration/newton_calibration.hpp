@@ -18,13 +18,13 @@ struct NewtonOptions {
 ///   S(x) = |r(x)|²/σ² + |x|²            (JᵀJ/σ² + 1 + λ) u = −(Jᵀ r/σ² + x)
 ///
 /// In the first phase r is the torque needed to hold the candidate in the robot's poses, which is
-/// smooth in x far from the solution. When its steps no longer reduce S, r becomes the rotation
-/// from the robot's poses to the candidate's. The prior |x|² keeps undetermined parameters near
-/// robot.xml.
+/// also smooth in x far from the solution. When its steps no longer reduce S, r becomes the
+/// rotation from the robot's poses to the candidate's. The prior |x|² keeps undetermined parameters
+/// near robot.xml.
 ///
-/// Slack tendons, lines that lift off pulleys, and joint stops make S non-smooth, and steps end
-/// early. The search then restarts from the best point plus a random kick, until the pose error is
-/// below `sigma_rad`.
+/// Slack tendons, lines that lift off pulleys, and joint stops make S non-smooth, and the
+/// search may stop early. It then restarts from the best point plus a random offset, until the pose
+/// error is below `sigma_rad`.
 class NewtonCalibration : public Calibration {
  public:
   explicit NewtonCalibration(Task task, const NewtonOptions& options = {});

@@ -11,8 +11,8 @@ namespace sim::calibration {
 namespace {
 
 /// A tendon's first or last point.
-erp::Attach* end_of(erp::Tendon& tendon, bool last) {
-  return std::get_if<erp::Attach>(last ? &tendon.path.back() : &tendon.path.front());
+erp::Attach* end_of(erp::Tendon& tendon, bool is_last) {
+  return std::get_if<erp::Attach>(is_last ? &tendon.path.back() : &tendon.path.front());
 }
 
 /// Length offsets by actuator; their effects are removed from the robot.
@@ -36,7 +36,7 @@ double largest_offset_m() {
 
 int count(Quantity what) { return what == Quantity::attachments ? 6 : 1; }
 
-bool clash(const std::vector<Parameter>& list, std::size_t actuator, Quantity what) {
+bool is_chosen(const std::vector<Parameter>& list, std::size_t actuator, Quantity what) {
   return std::ranges::any_of(
       list, [&](const Parameter& p) { return p.actuator == actuator && p.what == what; });
 }
@@ -49,11 +49,11 @@ Parameters::Parameters(erp::Robot robot, const Choice& choice)
 }
 
 void Parameters::choose(const Vary& vary) {
-  bool found = false;
+  bool has_actuator = false;
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a) {
     if (vary.on != "*" && vary.on != robot_.actuators[a].name) continue;
-    found = true;
-    if (clash(list_, a, vary.what))
+    has_actuator = true;
+    if (is_chosen(list_, a, vary.what))
       throw xml::Errors(
           {{vary.place,
             "this quantity is chosen twice for actuator \"" + robot_.actuators[a].name + "\"",
@@ -61,7 +61,7 @@ void Parameters::choose(const Vary& vary) {
     for (int axis = 0; axis < count(vary.what); ++axis)
       list_.push_back({a, vary.what, axis, vary.spread});
   }
-  if (!found)
+  if (!has_actuator)
     throw xml::Errors(
         {{vary.place, "robot \"" + robot_.name + "\" has no actuator \"" + vary.on + "\"",
           "name one of its actuators, or \"*\""}});
@@ -86,17 +86,17 @@ Candidate Parameters::at(const Eigen::VectorXd& x) const {
   Candidate candidate{robot_, length_offset_m_};
   for (std::size_t k = 0; k < list_.size(); ++k) {
     const Parameter& p = list_[k];
-    const double off = p.spread * x[static_cast<Eigen::Index>(k)];
+    const double offset = p.spread * x[static_cast<Eigen::Index>(k)];
     erp::Actuator& actuator = candidate.robot.actuators[p.actuator];
-    if (p.what == Quantity::length) candidate.length_offset_m[p.actuator] += off;
-    if (p.what == Quantity::stiffness) actuator.tendon.stiffness_N_per_m *= std::exp(off);
-    if (p.what == Quantity::radius) actuator.spindle.radius_m *= std::exp(off);
+    if (p.what == Quantity::length) candidate.length_offset_m[p.actuator] += offset;
+    if (p.what == Quantity::stiffness) actuator.tendon.stiffness_N_per_m *= std::exp(offset);
+    if (p.what == Quantity::radius) actuator.spindle.radius_m *= std::exp(offset);
     if (p.what == Quantity::attachments)
-      end_of(actuator.tendon, p.axis >= 3)->at_m[static_cast<std::size_t>(p.axis % 3)] += off;
+      end_of(actuator.tendon, p.axis >= 3)->at_m[static_cast<std::size_t>(p.axis % 3)] += offset;
   }
-  static const double most_m = largest_offset_m();
+  static const double max_offset_m = largest_offset_m();
   for (std::size_t a = 0; a < candidate.length_offset_m.size(); ++a)
-    if (std::abs(candidate.length_offset_m[a]) > most_m)
+    if (std::abs(candidate.length_offset_m[a]) > max_offset_m)
       throw std::invalid_argument(
           "actuator \"" + robot_.actuators[a].name +
           "\": the length offset exceeds the limit of the effect tendon_length_offset");

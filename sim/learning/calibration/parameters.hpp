@@ -6,7 +6,7 @@
 #include "interfaces/robot/robot.hpp"
 
 /// The uncertain parameters of a robot as normalised numbers x_i (paper, 4.4): 0 is the value of
-/// robot.xml, 1 is off by the expected spread.
+/// robot.xml, 1 differs from it by the expected spread.
 ///
 ///   attachments   A, B: first and last point of a tendon    x_i m, each of three axes
 ///   length        L_K0                                      m, added to the length from robot.xml:
@@ -62,7 +62,7 @@ struct Candidate {
 
 class Parameters {
  public:
-  /// Begins at the robot's line lengths; its other effects are kept. Throws xml::Errors for an
+  /// Begins at the robot's line lengths; its other effects do not change. Throws xml::Errors for an
   /// actuator that does not exist or is chosen twice.
   Parameters(erp::Robot robot, const Choice& choice);
 

@@ -15,19 +15,20 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// The movable joints that each actuator's muscle crosses, as indices into off_rad.
-std::vector<std::vector<std::size_t>> crossed_by(const erp::Robot& robot) {
+std::vector<std::vector<std::size_t>> crossed_joints(const erp::Robot& robot) {
+  constexpr double min_arm_m = 1e-6;  // chosen: above rounding
   Musculoskeletal model(robot);
   const auto joints = model.tree().joints;
   std::vector<std::vector<std::size_t>> crossed(robot.actuators.size());
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const int dofs = coordinates_of(joints[j].type);
     if (dofs == 0) continue;
     const int first = model.skeleton().first_of(static_cast<int>(j));
     for (std::size_t a = 0; a < crossed.size(); ++a)
-      if (model.jacobian().block(static_cast<Index>(a), first, 1, dofs).norm() > 1e-6)
-        crossed[a].push_back(place);
-    ++place;
+      if (model.jacobian().block(static_cast<Index>(a), first, 1, dofs).norm() > min_arm_m)
+        crossed[a].push_back(index);
+    ++index;
   }
   return crossed;
 }
@@ -43,25 +44,26 @@ VectorXd scaled(const Parameters& parameters, const VectorXd& drawn, const Vecto
   return x;
 }
 
-/// One draw, scaled until its errors are as requested; nullopt if the scale would exceed its limit.
+/// One draw, scaled until it has the requested errors. nullopt if the scale would exceed its limit.
 std::optional<VectorXd> scaled_to_errors(const Parameters& parameters,
                                          std::span<const StillPose> poses,
                                          std::span<const double> off_rad, const VectorXd& drawn,
                                          const std::vector<std::vector<std::size_t>>& crossed) {
-  constexpr int most_rounds = 30;
-  constexpr double near = 0.05, soft = 0.3, most_scale = 1.5;
+  // chosen
+  constexpr double ratio_tolerance = 0.05, exponent = 0.3, max_scale = 1.5, min_error_rad = 1e-4;
+  constexpr int max_rounds = 30;
   VectorXd by_joint = VectorXd::Constant(std::ssize(off_rad), 0.5);
-  for (int round = 0; round < most_rounds && by_joint.maxCoeff() < most_scale; ++round) {
+  for (int round = 0; round < max_rounds && by_joint.maxCoeff() < max_scale; ++round) {
     const VectorXd x = scaled(parameters, drawn, by_joint, crossed);
-    const auto off = pose_errors(parameters.at(x), poses).mean_rad;
-    bool there = true;
+    const auto error_rad = pose_errors(parameters.at(x), poses).mean_rad;
+    bool is_reached = true;
     for (std::size_t j = 0; j < off_rad.size(); ++j) {
       if (std::isnan(off_rad[j])) continue;
-      const double ratio = off_rad[j] / std::max(off[j], 1e-4);
-      there = there && std::abs(ratio - 1) < near;
-      by_joint[static_cast<Index>(j)] *= std::clamp(std::pow(ratio, soft), 0.7, 1.4);
+      const double ratio = off_rad[j] / std::max(error_rad[j], min_error_rad);
+      is_reached = is_reached && std::abs(ratio - 1) < ratio_tolerance;
+      by_joint[static_cast<Index>(j)] *= std::clamp(std::pow(ratio, exponent), 0.7, 1.4);
     }
-    if (there) return x;
+    if (is_reached) return x;
   }
   return std::nullopt;
 }
@@ -70,9 +72,9 @@ std::optional<VectorXd> scaled_to_errors(const Parameters& parameters,
 
 VectorXd perturbed(const Parameters& parameters, std::span<const StillPose> poses,
                    std::span<const double> off_rad, std::uint64_t seed) {
-  constexpr std::uint64_t most_draws = 100;
-  const auto crossed = crossed_by(parameters.start().robot);
-  for (std::uint64_t draw = 0; draw < most_draws; ++draw) try {
+  constexpr std::uint64_t max_draws = 100;  // chosen
+  const auto crossed = crossed_joints(parameters.start().robot);
+  for (std::uint64_t draw = 0; draw < max_draws; ++draw) try {
       auto random = training_loop::random_stream(seed, draw);
       std::normal_distribution<double> normal;
       VectorXd drawn(parameters.size());

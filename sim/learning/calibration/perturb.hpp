@@ -11,8 +11,8 @@ namespace sim::calibration {
 ///
 ///   x_k = s_a n_k,   s_a = (Π_j s_j)^(1/J) over the J joints that a's muscle crosses
 ///
-/// until the mean error of each joint over the poses is within 5 % of the requested one. If that
-/// needs s > 1.5, the parameters are drawn again, because such a model is implausible. `off_rad`:
+/// until the mean error of each joint over the poses is within 5 % of the requested one. If this
+/// needs s > 1.5, the model is implausible, and the parameters are drawn again. `off_rad`:
 /// requested error of each movable joint; NaN: any. Throws std::runtime_error if a hundred draws
 /// fail.
 Eigen::VectorXd perturbed(const Parameters& parameters, std::span<const StillPose> poses,

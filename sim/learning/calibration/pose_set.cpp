@@ -12,47 +12,47 @@ namespace {
 
 using Joints = std::vector<JointReading>;
 
-double apart_rad(erp::JointType type, const std::array<double, 4>& a,
-                 const std::array<double, 4>& b) {
-  const auto way = way_between(type, a, b);
-  return std::hypot(way[0], way[1], way[2]);
+double angle_between_rad(erp::JointType type, const std::array<double, 4>& a,
+                         const std::array<double, 4>& b) {
+  const auto u = displacement(type, a, b);
+  return std::hypot(u[0], u[1], u[2]);
 }
 
-double most_apart_rad(const Joints& a, const Pose& b) {
-  double most = 0;
+double largest_angle_rad(const Joints& a, const Pose& b) {
+  double largest_rad = 0;
   for (std::size_t j = 0; j < a.size(); ++j)
-    most = std::max(most, apart_rad(a[j].type, a[j].position, b[j]));
-  return most;
+    largest_rad = std::max(largest_rad, angle_between_rad(a[j].type, a[j].position, b[j]));
+  return largest_rad;
 }
 
 /// The rows of one interval at rest, summed relative to its first row.
 class StillInterval {
  public:
   StillInterval(double time_s, const Joints& joints, std::size_t actuators)
-      : begin_s_(time_s), first_(joints), off_(joints.size()), shaft_(actuators) {}
+      : begin_s_(time_s), first_(joints), sum_(joints.size()), shaft_(actuators) {}
 
-  bool holds(const Joints& joints, double turns_rad) const {
+  bool contains(const Joints& joints, double turns_rad) const {
     for (std::size_t j = 0; j < joints.size(); ++j)
-      if (apart_rad(joints[j].type, first_[j].position, joints[j].position) > turns_rad)
+      if (angle_between_rad(joints[j].type, first_[j].position, joints[j].position) > turns_rad)
         return false;
     return true;
   }
   void add(double time_s, const Joints& joints, const std::vector<double>& shaft_rad) {
     end_s_ = time_s, ++rows_;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const auto way = way_between(joints[j].type, first_[j].position, joints[j].position);
-      for (std::size_t d = 0; d < 3; ++d) off_[j][d] += way[d];
+      const auto u = displacement(joints[j].type, first_[j].position, joints[j].position);
+      for (std::size_t d = 0; d < 3; ++d) sum_[j][d] += u[d];
     }
     for (std::size_t a = 0; a < shaft_.size(); ++a) shaft_[a] += shaft_rad[a];
   }
-  double lasted_s() const { return end_s_ - begin_s_; }
+  double duration_s() const { return end_s_ - begin_s_; }
   StillPose mean() const {
     StillPose still{begin_s_, shaft_, {}};
     for (double& angle : still.shaft_rad) angle /= rows_;
     for (std::size_t j = 0; j < first_.size(); ++j) {
-      auto way = off_[j];
-      for (double& turn : way) turn /= rows_;
-      still.pose.push_back(gone(first_[j].type, first_[j].position, way));
+      auto u = sum_[j];
+      for (double& component : u) component /= rows_;
+      still.pose.push_back(displaced(first_[j].type, first_[j].position, u));
     }
     return still;
   }
@@ -60,7 +60,7 @@ class StillInterval {
  private:
   double begin_s_, end_s_ = begin_s_, rows_ = 0;
   Joints first_;
-  std::vector<std::array<double, 3>> off_;
+  std::vector<std::array<double, 3>> sum_;
   std::vector<double> shaft_;
 };
 
@@ -79,18 +79,18 @@ std::vector<StillPose> still_poses(const recording::Table& table, const erp::Rob
   Joints joints;
   std::vector<double> shaft_rad(shafts.size());
   const auto end = [&] {
-    if (!interval || interval->lasted_s() < options.still_s) return;
+    if (!interval || interval->duration_s() < options.still_s) return;
     const StillPose still = interval->mean();
-    Joints there = joints;
-    for (std::size_t j = 0; j < there.size(); ++j) there[j].position = still.pose[j];
-    if (poses.empty() || most_apart_rad(there, poses.back().pose) > options.apart_rad)
+    Joints mean_joints = joints;
+    for (std::size_t j = 0; j < mean_joints.size(); ++j) mean_joints[j].position = still.pose[j];
+    if (poses.empty() || largest_angle_rad(mean_joints, poses.back().pose) > options.apart_rad)
       poses.push_back(still);
   };
   for (std::size_t row = 0; row < table.rows(); ++row) {
     for (std::size_t a = 0; a < shafts.size(); ++a) shaft_rad[a] = shafts[a]->values[row];
-    const bool known = !std::isnan(std::accumulate(shaft_rad.begin(), shaft_rad.end(), 0.0));
-    if (!recorded.read(row, joints) || !known) continue;
-    if (!interval || !interval->holds(joints, options.turns_rad)) {
+    const bool is_complete = !std::isnan(std::accumulate(shaft_rad.begin(), shaft_rad.end(), 0.0));
+    if (!recorded.read(row, joints) || !is_complete) continue;
+    if (!interval || !interval->contains(joints, options.turns_rad)) {
       end();
       interval.emplace(time_s[row], joints, shafts.size());
     }
@@ -111,14 +111,14 @@ PoseSet split(std::vector<StillPose> poses) {
 }
 
 PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> poses,
-                          std::span<const Pose> there) {
+                          std::span<const Pose> candidate_poses) {
   PoseErrors errors;
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (coordinates_of(joints[j].type) == 0) continue;
     double sum_rad = 0;
     for (std::size_t k = 0; k < poses.size(); ++k)
-      sum_rad += apart_rad(joints[j].type, there[k][j], poses[k].pose[j]);
+      sum_rad += angle_between_rad(joints[j].type, candidate_poses[k][j], poses[k].pose[j]);
     errors.mean_rad.push_back(sum_rad / static_cast<double>(poses.size()));
     errors.mean_of_all_rad += errors.mean_rad.back();
   }
@@ -128,10 +128,10 @@ PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> po
 
 PoseErrors pose_errors(const Candidate& candidate, std::span<const StillPose> poses) {
   Equilibrium equilibrium(candidate.robot, candidate.length_offset_m);
-  std::vector<Pose> rests;
+  std::vector<Pose> equilibria;
   for (const StillPose& still : poses)
-    rests.push_back(equilibrium.find(still.shaft_rad, still.pose).pose);
-  return errors_between(candidate.robot, poses, rests);
+    equilibria.push_back(equilibrium.find(still.shaft_rad, still.pose).pose);
+  return errors_between(candidate.robot, poses, equilibria);
 }
 
 }  // namespace sim::calibration

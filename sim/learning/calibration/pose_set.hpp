@@ -19,7 +19,7 @@ struct StillPose {
 struct StillOptions {
   double still_s = 0.5;      ///< minimum duration at rest; the pose is the mean over it; chosen
   double turns_rad = 0.005;  ///< largest joint motion that counts as rest; chosen
-  double apart_rad = 0.02;   ///< a pose nearer than that to the one before is a repetition; chosen
+  double apart_rad = 0.02;  ///< a pose nearer than this to the previous one is a repetition; chosen
 };
 /// The poses at rest of a recording, in the order of time. Throws std::invalid_argument if the
 /// table lacks the columns of a joint or actuator, or if the robot is never at rest.
@@ -38,9 +38,9 @@ struct PoseErrors {
   std::vector<double> mean_rad;  ///< mean angle between the two, by movable joint
   double mean_of_all_rad = 0;
 };
-/// `there`: the candidate's pose for each of `poses`.
+/// `candidate_poses`: the candidate's pose for each of `poses`.
 PoseErrors errors_between(const erp::Robot& robot, std::span<const StillPose> poses,
-                          std::span<const Pose> there);
+                          std::span<const Pose> candidate_poses);
 /// Errors of the candidate's static equilibria at the shaft angles of each pose.
 PoseErrors pose_errors(const Candidate& candidate, std::span<const StillPose> poses);
 

@@ -26,8 +26,8 @@ inline Eigen::VectorXd vector(const std::vector<double>& x) {
 }
 
 /// Throws std::invalid_argument unless the checkpoint belongs to the same search.
-inline void expect_same_search(bool same, const std::string& file) {
-  if (!same)
+inline void expect_same_search(bool is_same_search, const std::string& file) {
+  if (!is_same_search)
     throw std::invalid_argument(file +
                                 ": was written with another seed, population or choice of "
                                 "parameters; resume with the same");

@@ -12,22 +12,22 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// The vectors of all poses, one after the other.
-VectorXd stacked(const std::vector<VectorXd>& parts) {
-  const Index each = parts.front().size();
-  VectorXd all(each * std::ssize(parts));
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    all.segment(each * static_cast<Index>(k), each) = parts[k];
+VectorXd stacked(const std::vector<VectorXd>& vectors) {
+  const Index size = vectors.front().size();
+  VectorXd all(size * std::ssize(vectors));
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+    all.segment(size * static_cast<Index>(k), size) = vectors[k];
   return all;
 }
 
 VectorXd turn_between(const erp::Robot& robot, const Pose& from, const Pose& to) {
-  std::vector<double> turn;
+  std::vector<double> turns;
   const auto joints = robot.joints();
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto way = way_between(joints[j].type, from[j], to[j]);
-    turn.insert(turn.end(), way.begin(), way.begin() + coordinates_of(joints[j].type));
+    const auto u = displacement(joints[j].type, from[j], to[j]);
+    turns.insert(turns.end(), u.begin(), u.begin() + coordinates_of(joints[j].type));
   }
-  return Eigen::Map<VectorXd>(turn.data(), std::ssize(turn));
+  return Eigen::Map<VectorXd>(turns.data(), std::ssize(turns));
 }
 
 struct Rests {
@@ -39,15 +39,15 @@ struct Rests {
 Rests rests_of(const Candidate& candidate, std::span<const StillPose> poses, bool compliance) {
   Equilibrium equilibrium(candidate.robot, candidate.length_offset_m);
   Rests rests;
-  std::vector<VectorXd> turn;
+  std::vector<VectorXd> turns;
   for (const StillPose& still : poses) {
     const Pose rest = equilibrium.find(still.shaft_rad, still.pose).pose;
-    turn.push_back(turn_between(candidate.robot, still.pose, rest));
+    turns.push_back(turn_between(candidate.robot, still.pose, rest));
     rests.pose.push_back(rest);
     if (compliance)
       rests.compliance.push_back(equilibrium.compliance_rad_per_Nm(still.shaft_rad, rest));
   }
-  rests.turn_rad = stacked(turn);
+  rests.turn_rad = stacked(turns);
   return rests;
 }
 
@@ -55,22 +55,24 @@ Rests rests_of(const Candidate& candidate, std::span<const StillPose> poses, boo
 VectorXd pose_change(const Candidate& candidate, std::span<const StillPose> poses,
                      const Rests& rests) {
   Equilibrium equilibrium(candidate.robot, candidate.length_offset_m);
-  std::vector<VectorXd> turn;
+  std::vector<VectorXd> turns;
   for (std::size_t k = 0; k < poses.size(); ++k)
-    turn.push_back(rests.compliance[k] * -equilibrium.torque_Nm(poses[k].shaft_rad, rests.pose[k]));
-  return stacked(turn);
+    turns.push_back(rests.compliance[k] *
+                    -equilibrium.torque_Nm(poses[k].shaft_rad, rests.pose[k]));
+  return stacked(turns);
 }
 
 /// ∂f/∂x of a function f(candidate), one column per parameter. Uses the backward difference if the
 /// forward candidate is invalid. Throws std::invalid_argument if both are.
-template <class Of>
-MatrixXd slope_of(const Parameters& parameters, const VectorXd& x, const Pool& pool, Of of) {
+template <class Function>
+MatrixXd slope_of(const Parameters& parameters, const VectorXd& x, const Pool& pool,
+                  Function function) {
   constexpr double step = 1e-4;  // of a parameter's spread
-  const VectorXd here = of(parameters.at(x));
-  const auto quotient = [&](std::size_t k, double along) {
+  const VectorXd value = function(parameters.at(x));
+  const auto quotient = [&](std::size_t k, double step_x) {
     VectorXd varied = x;
-    varied[static_cast<Index>(k)] += along;
-    const VectorXd slope = (of(parameters.at(varied)) - here) / along;
+    varied[static_cast<Index>(k)] += step_x;
+    const VectorXd slope = (function(parameters.at(varied)) - value) / step_x;
     return Pool::Numbers(slope.begin(), slope.end());
   };
   const auto columns = pool.map(static_cast<std::size_t>(x.size()), [&](std::size_t k) {
@@ -80,7 +82,7 @@ MatrixXd slope_of(const Parameters& parameters, const VectorXd& x, const Pool& p
       return quotient(k, -step);
     }
   });
-  MatrixXd slope(here.size(), x.size());
+  MatrixXd slope(value.size(), x.size());
   for (std::size_t k = 0; k < columns.size(); ++k)
     slope.col(static_cast<Index>(k)) =
         Eigen::Map<const VectorXd>(columns[k].data(), std::ssize(columns[k]));
@@ -111,8 +113,8 @@ VectorXd torques_Nm(const Candidate& candidate, std::span<const StillPose> poses
 
 Residuals torques(const Parameters& parameters, const VectorXd& x, std::span<const StillPose> poses,
                   const Pool& pool) {
-  const auto of = [&](const Candidate& candidate) { return torques_Nm(candidate, poses); };
-  return {of(parameters.at(x)), slope_of(parameters, x, pool, of)};
+  const auto function = [&](const Candidate& candidate) { return torques_Nm(candidate, poses); };
+  return {function(parameters.at(x)), slope_of(parameters, x, pool, function)};
 }
 
 Identified identified(const MatrixXd& slope, double sigma_rad) {

@@ -10,8 +10,7 @@
 ///
 ///   dq/dx = −(∂τ/∂q)⁻¹ ∂τ/∂x
 ///
-/// with both derivatives by difference quotients at the equilibrium, so no equilibrium is searched
-/// again.
+/// Both derivatives are difference quotients at the equilibrium. No equilibrium is searched again.
 namespace sim::calibration {
 
 /// Residuals of all poses, one after the other, by coordinate: four per pose on the arm.
@@ -20,14 +19,15 @@ struct Residuals {
   Eigen::MatrixXd slope;  ///< derivative by x: one column per parameter
 };
 
-/// Rotations from the robot's poses to the candidate's equilibria, in rad. Throws as Equilibrium.
+/// Rotations from the robot's poses to the candidate's equilibria, in rad. Throws like Equilibrium.
 Eigen::VectorXd turns_rad(const Candidate& candidate, std::span<const StillPose> poses);
-/// The same with derivatives. The pool distributes the parameters.
+/// The rotations with their derivatives. The pool distributes the parameters over its workers.
 Residuals turns(const Parameters& parameters, const Eigen::VectorXd& x,
                 std::span<const StillPose> poses, const Pool& pool);
 
-/// τ(q, x) in the robot's poses, in Nm; zero for the robot itself. No equilibrium is searched, so
-/// torques are smooth where the equilibrium jumps from one minimum of the potential to another.
+/// τ(q, x) in the robot's poses, in Nm; zero for the robot itself. No equilibrium is searched. The
+/// torques are therefore smooth where the equilibrium jumps from one minimum of the potential to
+/// another.
 Eigen::VectorXd torques_Nm(const Candidate& candidate, std::span<const StillPose> poses);
 Residuals torques(const Parameters& parameters, const Eigen::VectorXd& x,
                   std::span<const StillPose> poses, const Pool& pool);

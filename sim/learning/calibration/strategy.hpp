@@ -16,7 +16,7 @@ struct StrategyOptions {
   double bound = 3;    ///< of both: largest distance from robot.xml, in spreads
 };
 
-/// Throws as Calibration, and std::invalid_argument for a strategy that was not built.
+/// Throws like Calibration, and std::invalid_argument for a strategy that was not built.
 std::unique_ptr<Calibration> make_calibration(Task task, const StrategyOptions& options);
 
 }  // namespace sim::calibration

@@ -13,9 +13,9 @@
 ///
 ///   s = s̄ + W⁻¹Hᵀ (H W⁻¹Hᵀ)⁻¹ (X_d − X̄)
 ///
-/// W⁻¹ is the variance of the scales in the base, by drive. Neighbours must be near in s too: a
-/// redundant arm reaches one place with many scales, and the average of two of them leads
-/// elsewhere.
+/// W⁻¹ is the variance of the scales in the base, by drive. Neighbours must also be near in s. A
+/// redundant arm reaches one place with many scales, and the average of two of them leads to
+/// another place.
 namespace sim::experience {
 
 struct Experience {
@@ -38,15 +38,15 @@ class Base {
   Eigen::MatrixXd influence(int start, const Eigen::Vector3d& place_m) const;
   /// H_all.
   Eigen::MatrixXd influence(int start) const;
-  /// W⁻¹, V² s².
+  /// W⁻¹: variance of the scales by drive, V² s².
   Eigen::VectorXd freedom(int start) const;
   /// Scales that bring the hand from a start to a place. Zero if the base has no experience of that
   /// start.
   Eigen::VectorXd inverse(int start, const Eigen::Vector3d& target_m) const;
 
  private:
-  struct Line;
-  Line line_near(int start, const Eigen::Vector3d& place_m) const;
+  struct LocalModel;
+  LocalModel local_model(int start, const Eigen::Vector3d& place_m) const;
 
   Eigen::Index drives_ = 0;
   std::vector<Experience> all_;

@@ -8,32 +8,35 @@
 namespace sim::experience {
 namespace {
 
-void expect(bool right, const xml::Place& place, const std::string& what) {
-  if (!right)
+void expect(bool is_valid, const xml::Place& place, const std::string& what) {
+  if (!is_valid)
     throw std::invalid_argument(place.file + ":" + std::to_string(place.line) + ": " + what);
 }
 
-std::string unequal(std::size_t found, std::ptrdiff_t expected, const std::string& of) {
-  return std::to_string(found) + " numbers, but there are " + std::to_string(expected) + " " + of;
+std::string count_mismatch(std::size_t actual, std::ptrdiff_t expected, const std::string& items) {
+  return std::to_string(actual) + " numbers, but there are " + std::to_string(expected) + " " +
+         items;
 }
 
 }  // namespace
 
 Base base_of(const BaseFile& file) {
-  std::vector<Experience> all;
+  std::vector<Experience> experiences;
   for (const ExperienceRow& row : file.experiences.all)
-    all.push_back(
+    experiences.push_back(
         {row.start,
          Eigen::Map<const Eigen::VectorXd>(row.scales_Vs.data(), std::ssize(row.scales_Vs)),
          vec(row.end_m)});
-  return {std::ssize(file.drives.all), std::move(all)};
+  return {std::ssize(file.drives.all), std::move(experiences)};
 }
 
 std::vector<ExperienceRow> rows_of(const Base& base) {
   std::vector<ExperienceRow> rows;
-  for (const Experience& one : base.all())
-    rows.push_back(
-        {{}, one.start, {one.scales_Vs.begin(), one.scales_Vs.end()}, numbers(one.end_m)});
+  for (const Experience& experience : base.all())
+    rows.push_back({{},
+                    experience.start,
+                    {experience.scales_Vs.begin(), experience.scales_Vs.end()},
+                    numbers(experience.end_m)});
   return rows;
 }
 
@@ -44,10 +47,10 @@ void check(const BaseFile& file, Eigen::Index muscles) {
          "an <experience_base> has at least one <drive> and one <start>");
   for (const StartRow& start : file.starts.all)
     expect(std::ssize(start.line_m) == muscles, start.place,
-           unequal(start.line_m.size(), muscles, "muscles; use the base of this robot"));
+           count_mismatch(start.line_m.size(), muscles, "muscles; use the base of this robot"));
   for (const ExperienceRow& row : file.experiences.all) {
     expect(row.scales_Vs.size() == file.drives.all.size(), row.place,
-           unequal(row.scales_Vs.size(), std::ssize(file.drives.all), "drives"));
+           count_mismatch(row.scales_Vs.size(), std::ssize(file.drives.all), "drives"));
     expect(row.start < std::ssize(file.starts.all), row.place,
            "start " + std::to_string(row.start) + ", but there are " +
                std::to_string(file.starts.all.size()) + ", counted from 0");
@@ -66,7 +69,7 @@ Reach reach_with(const BaseFile& file, int start, const Eigen::Vector3d& target_
 }
 
 double peak_V(const BaseFile& file, const Eigen::VectorXd& scales_Vs) {
-  constexpr double sample_s = 0.01;
+  constexpr double sample_s = 0.01;  // chosen
   const Patterns patterns(file.bursts.all);
   const Eigen::MatrixXd drives =
       matrix_of(file.drives.all, std::ssize(file.starts.all.front().line_m));
@@ -76,7 +79,7 @@ double peak_V(const BaseFile& file, const Eigen::VectorXd& scales_Vs) {
   return peak;
 }
 
-/// Voltages are proportional to a common factor of the scales, so one division suffices.
+/// Voltages are proportional to a common factor of the scales: one division suffices.
 Eigen::VectorXd within_voltage(const BaseFile& file, const Eigen::VectorXd& scales_Vs) {
   const double peak = peak_V(file, scales_Vs);
   return peak > file.pattern_V ? Eigen::VectorXd(scales_Vs * (file.pattern_V / peak)) : scales_Vs;

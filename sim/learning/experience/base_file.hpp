@@ -3,7 +3,7 @@
 #include "sim/learning/experience/reach.hpp"
 #include "sim/model/skeleton/hand.hpp"
 
-/// Everything that a reach needs, as a file: `<experience_base>`.
+/// All data of a reach, as a file: `<experience_base>`.
 namespace sim::experience {
 
 /// A starting posture: `<start line_m="…"/>`, line lengths by actuator.

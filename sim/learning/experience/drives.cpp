@@ -6,10 +6,11 @@ namespace sim::experience {
 namespace {
 
 Drive drive(const std::string& name, const Eigen::VectorXd& shortening) {
-  const double most = shortening.cwiseAbs().maxCoeff();
+  const double largest = shortening.cwiseAbs().maxCoeff();
   Drive drive{.name = name, .shares = {shortening.begin(), shortening.end()}};
-  if (most > 0)
-    for (double& share : drive.shares) share = share == 0 ? 0 : share / most;
+  if (largest > 0)
+    for (double& muscle_share : drive.shares)
+      muscle_share = muscle_share == 0 ? 0 : muscle_share / largest;
   return drive;
 }
 
@@ -18,7 +19,7 @@ Drive drive(const std::string& name, const Eigen::VectorXd& shortening) {
 std::vector<Drive> drives_of(const erp::Robot& robot) {
   Musculoskeletal model(robot);
   std::vector<JointReading> start;
-  for (const erp::Joint& joint : model.tree().joints) start.push_back(start_of(joint));
+  for (const erp::Joint& joint : model.tree().joints) start.push_back(initial_reading(joint));
   model.place(start);
   std::vector<Drive> drives;
   for (std::size_t j = 0; j < start.size(); ++j) {

@@ -38,8 +38,8 @@ class Fuzzy final : public Feedback {
     } catch (const fl::Exception& e) {
       throw std::invalid_argument(file + ": " + e.getWhat());
     }
-    std::string why;
-    if (!engine_->isReady(&why)) throw std::invalid_argument(file + ": " + why);
+    std::string reason;
+    if (!engine_->isReady(&reason)) throw std::invalid_argument(file + ": " + reason);
   }
   VectorXd drives_V(const Vector3d& off_m, const Vector3d& off_m_per_s) const override {
     Vector3d fuzzy_V;
@@ -68,8 +68,8 @@ std::unique_ptr<Feedback> linear_feedback(const Base& base, int start, const Vec
 
 std::unique_ptr<Feedback> fuzzy_feedback(const Base& base, int start, const std::string& fll_file) {
   MatrixXd jacobi = weighted_inverse(base.influence(start), base.freedom(start));
-  const double most = jacobi.cwiseAbs().maxCoeff();
-  if (most > 0) jacobi /= most;
+  const double largest = jacobi.cwiseAbs().maxCoeff();
+  if (largest > 0) jacobi /= largest;
   return std::make_unique<Fuzzy>(std::move(jacobi), fll_file);
 }
 

@@ -21,8 +21,8 @@ class Motors {
           {MotorInverse(robot.motor_of(a), a.spindle.radius_m, creep_rad_per_s),
            1 / (robot.motor_of(a).back_emf_V_s_per_rad * robot.motor_of(a).gear_ratio)});
   }
-  /// A voltage command is added to the voltage that holds the tension: the shaft turns as fast as
-  /// without load.
+  /// A voltage command is added to the voltage that holds the tension. The shaft then turns as fast
+  /// as without load.
   EcuReference ecu_reference(std::size_t muscle, const MuscleCommand& command,
                              double tension_N) const {
     const double value = command.by_muscle[static_cast<Eigen::Index>(muscle)];

@@ -32,13 +32,13 @@ double Patterns::at(Role role, double time_s) const {
 
 Eigen::VectorXd voltages_V(const Patterns& patterns, const Eigen::MatrixXd& drives,
                            const Eigen::VectorXd& scales_Vs, double time_s) {
-  const double wound = patterns.at(Role::agonist, time_s);
-  const double paid_out = patterns.at(Role::antagonist, time_s);
+  const double agonist_per_s = patterns.at(Role::agonist, time_s);
+  const double antagonist_per_s = patterns.at(Role::antagonist, time_s);
   Eigen::VectorXd voltage_V = Eigen::VectorXd::Zero(drives.rows());
   for (Index m = 0; m < drives.rows(); ++m)
     for (Index d = 0; d < drives.cols(); ++d) {
       const double scale = scales_Vs[d] * drives(m, d);
-      voltage_V[m] += scale * (scale > 0 ? wound : paid_out);
+      voltage_V[m] += scale * (scale > 0 ? agonist_per_s : antagonist_per_s);
     }
   return voltage_V;
 }

@@ -6,13 +6,13 @@
 #include "sim/learning/experience/feedback.hpp"
 #include "sim/learning/experience/patterns.hpp"
 
-/// One reach over time. The simulator without a bus and a live graph run the same code. Pure: time
-/// is an argument.
+/// One reach over time. The simulator without a bus and a live graph run the same code. Time is an
+/// argument.
 ///
-///   way      the ECUs' length laws move the lines to the start and hold them there
-///   pattern  the scaled voltage patterns, then zero voltage while the arm settles
-///   correct  feedback on the offset of the hand
-///   rest     zero voltage: the gears hold
+///   approach  the ECUs' length laws move the lines to the start and hold them there
+///   pattern   the scaled voltage patterns, then zero voltage while the arm settles
+///   correct   feedback on the offset of the hand
+///   rest      zero voltage: the gears hold the shafts
 ///
 /// Voltages are relative to the voltage that keeps each shaft still under its tension
 /// (sim/control/motor_inverse.hpp): 0 holds the shaft, and the integral over time is the line wound
@@ -56,37 +56,38 @@ class Reach {
   /// The reach begins at the first `step`. `drives` is muscles × drives.
   Reach(Patterns patterns, Eigen::MatrixXd drives, const ReachTimes& times, Plan plan);
 
-  /// Takes the current line lengths and, if known, the hand position. Times increase.
+  /// Returns the command for the current line lengths and, if known, the hand position. Times
+  /// increase.
   MuscleCommand step(double time_s, const Eigen::VectorXd& line_m,
                      const std::optional<Eigen::Vector3d>& hand_m);
 
   bool done() const { return phase_ == Phase::rest; }
   const Plan& plan() const { return plan_; }
-  /// Mean hand position at the end of each phase; nullopt if it was not known.
-  const std::optional<Eigen::Vector3d>& began_m() const { return began_; }
-  const std::optional<Eigen::Vector3d>& settled_m() const { return settled_; }
-  const std::optional<Eigen::Vector3d>& corrected_m() const { return corrected_; }
-  bool limited() const { return limited_; }  ///< a feedback voltage was limited to `feedback_V`
+  /// Mean hand position at the end of each phase; nullopt if the hand was not visible.
+  const std::optional<Eigen::Vector3d>& began_m() const { return at_start_m_; }
+  const std::optional<Eigen::Vector3d>& settled_m() const { return at_settled_m_; }
+  const std::optional<Eigen::Vector3d>& corrected_m() const { return at_corrected_m_; }
+  bool limited() const { return is_limited_; }  ///< a feedback voltage was limited to `feedback_V`
 
  private:
-  enum class Phase { way, pattern, correct, rest };
-  void next();
-  double length_s() const;
+  enum class Phase { approach, pattern, correct, rest };
+  void next_phase();
+  double phase_length_s() const;
   void track_hand(double time_s, const std::optional<Eigen::Vector3d>& hand_m);
-  MuscleCommand guide(double into_s) const;
+  MuscleCommand lines_to_start(double phase_s) const;
   MuscleCommand correct();
 
   Patterns patterns_;
   Eigen::MatrixXd drives_;
   ReachTimes times_;
   Plan plan_;
-  Phase phase_ = Phase::way;
+  Phase phase_ = Phase::approach;
   double begin_s_ = 0, last_s_ = 0;
-  bool begun_ = false, limited_ = false;
+  bool is_running_ = false, is_limited_ = false;
   Eigen::VectorXd from_line_m_;
   Eigen::Vector3d sum_m_ = Eigen::Vector3d::Zero(), rate_m_per_s_ = Eigen::Vector3d::Zero();
   int count_ = 0;
-  std::optional<Eigen::Vector3d> hand_m_, began_, settled_, corrected_;
+  std::optional<Eigen::Vector3d> hand_m_, at_start_m_, at_settled_m_, at_corrected_m_;
 };
 
 }  // namespace sim::experience

@@ -6,7 +6,7 @@
 #include "sim/learning/experience/reach.hpp"
 #include "sim/model/skeleton/hand.hpp"
 
-/// How experience is acquired, as a file: `<acquisition> <hand …/> <zone …/> <burst …/> … </…>`.
+/// Acquisition of experience, as a file: `<acquisition> <hand …/> <zone …/> <burst …/> … </…>`.
 namespace sim::experience {
 
 struct Task {

@@ -8,8 +8,8 @@ namespace sim::muscle_networks {
 
 struct BabbleOptions {
   double duration_s = 300;
-  double every_s = 0.7;  ///< interval between draws; chosen so that limbs move noticeably
-  double least_N = 4;    ///< no tendon goes slack
+  double every_s = 0.7;  ///< interval between draws; chosen: limbs move noticeably
+  double least_N = 4;    ///< smallest force, which keeps the tendons taut
   double mean_N = 15;    ///< above `least_N`; most muscles pull weakly, few strongly
   double share = 0.5;    ///< upper limit, relative to the muscle's maximum tension
   std::uint64_t seed = 1;

@@ -22,10 +22,10 @@ PostureInputs inputs_of(const erp::Robot& robot) {
 
 MatrixXd inputs_at(const PostureInputs& inputs, const LengthSamples& samples) {
   MatrixXd x(inputs.size(), static_cast<Index>(samples.joints.size()));
-  VectorXd one;
+  VectorXd input;
   for (std::size_t k = 0; k < samples.joints.size(); ++k) {
-    inputs.read(samples.joints[k], one);
-    x.col(static_cast<Index>(k)) = one;
+    inputs.read(samples.joints[k], input);
+    x.col(static_cast<Index>(k)) = input;
   }
   return x;
 }
@@ -38,9 +38,10 @@ std::vector<double> numbers(const auto& matrix) {
 
 LearnedMuscles learn(const erp::Robot& robot, const LengthSamples& samples,
                      const LearnOptions& options) {
+  constexpr Index samples_per_weight = 3;  // chosen
   const PostureInputs inputs = inputs_of(robot);
   const Index weights = options.units * (inputs.size() + 2) + 1;
-  if (static_cast<Index>(samples.joints.size()) < 3 * weights)
+  if (static_cast<Index>(samples.joints.size()) < samples_per_weight * weights)
     throw std::invalid_argument(std::to_string(samples.joints.size()) +
                                 " samples are too few for networks with " +
                                 std::to_string(weights) + " weights; give longer recordings");
@@ -69,29 +70,29 @@ LearnedMuscles learn(const erp::Robot& robot, const LengthSamples& samples,
 LearnedLengths::LearnedLengths(const erp::Robot& robot, const LearnedMuscles& learned)
     : inputs_(inputs_of(robot)) {
   for (const erp::Actuator& actuator : robot.actuators) {
-    const auto found = std::ranges::find(learned.list, actuator.name, &LearnedMuscle::name);
+    const auto muscle = std::ranges::find(learned.list, actuator.name, &LearnedMuscle::name);
     const Index columns = inputs_.size() + 1;
-    if (learned.robot != robot.name || found == learned.list.end() ||
-        std::ssize(found->hidden) != found->units * columns ||
-        std::ssize(found->output) != found->units + 1)
+    if (learned.robot != robot.name || muscle == learned.list.end() ||
+        std::ssize(muscle->hidden) != muscle->units * columns ||
+        std::ssize(muscle->output) != muscle->units + 1)
       throw std::invalid_argument(learned.place.file + ": was learned on robot \"" + learned.robot +
                                   "\" or lacks muscle \"" + actuator.name + "\" of \"" +
                                   robot.name + "\"; run erp model muscles on this robot");
-    muscles_.push_back({{Eigen::Map<const MatrixXd>(found->hidden.data(), found->units, columns),
-                         Eigen::Map<const VectorXd>(found->output.data(), found->units + 1)},
-                        found->centre_m,
-                        found->spread_m});
+    muscles_.push_back({{Eigen::Map<const MatrixXd>(muscle->hidden.data(), muscle->units, columns),
+                         Eigen::Map<const VectorXd>(muscle->output.data(), muscle->units + 1)},
+                        muscle->centre_m,
+                        muscle->spread_m});
   }
   const Musculoskeletal model(robot);
-  moved_by_.resize(static_cast<std::size_t>(inputs_.coordinates()));
+  joint_of_coordinate_.resize(static_cast<std::size_t>(inputs_.coordinates()));
   for (std::size_t j = 0; j < model.tree().joints.size(); ++j)
     if (const int first = model.skeleton().first_of(static_cast<int>(j)); first >= 0)
       for (int d = 0; d < coordinates_of(model.tree().joints[j].type); ++d)
-        moved_by_[static_cast<std::size_t>(first + d)] = {j, d};
-  moved_.resize(model.tree().joints.size());
+        joint_of_coordinate_[static_cast<std::size_t>(first + d)] = {j, d};
+  varied_joints_.resize(model.tree().joints.size());
   const auto muscles = static_cast<Index>(muscles_.size());
   x_.resize(inputs_.size()), dy_dx_.resize(inputs_.size());
-  length_m_.resize(muscles), ahead_m_.resize(muscles);
+  length_m_.resize(muscles), forward_length_m_.resize(muscles);
   slopes_.resize(inputs_.size(), inputs_.coordinates());
   jacobian_.resize(muscles, inputs_.coordinates());
 }
@@ -117,18 +118,19 @@ const MatrixXd& LearnedLengths::jacobian(std::span<const JointReading> joints) {
 
 const MatrixXd& LearnedLengths::jacobian_by_difference(std::span<const JointReading> joints,
                                                        double step_rad) {
-  std::ranges::copy(joints, moved_.begin());
-  for (std::size_t c = 0; c < moved_by_.size(); ++c) {
-    const auto [joint, turn] = moved_by_[c];
-    std::array<double, 3> way{};
+  std::ranges::copy(joints, varied_joints_.begin());
+  for (std::size_t c = 0; c < joint_of_coordinate_.size(); ++c) {
+    const auto [joint, dof] = joint_of_coordinate_[c];
+    std::array<double, 3> u{};
     const auto at = joints[joint].position;
-    way[static_cast<std::size_t>(turn)] = step_rad;
-    moved_[joint].position = gone(joints[joint].type, at, way);
-    ahead_m_ = length_m(moved_);
-    way[static_cast<std::size_t>(turn)] = -step_rad;
-    moved_[joint].position = gone(joints[joint].type, at, way);
-    jacobian_.col(static_cast<Index>(c)) = (ahead_m_ - length_m(moved_)) / (2 * step_rad);
-    moved_[joint].position = at;
+    u[static_cast<std::size_t>(dof)] = step_rad;
+    varied_joints_[joint].position = displaced(joints[joint].type, at, u);
+    forward_length_m_ = length_m(varied_joints_);
+    u[static_cast<std::size_t>(dof)] = -step_rad;
+    varied_joints_[joint].position = displaced(joints[joint].type, at, u);
+    jacobian_.col(static_cast<Index>(c)) =
+        (forward_length_m_ - length_m(varied_joints_)) / (2 * step_rad);
+    varied_joints_[joint].position = at;
   }
   return jacobian_;
 }

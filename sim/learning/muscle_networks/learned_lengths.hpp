@@ -7,8 +7,8 @@
 #include "sim/learning/muscle_networks/perceptron.hpp"
 #include "sim/learning/muscle_networks/posture_inputs.hpp"
 
-/// Tendon lengths over postures, learned from samples: one perceptron per muscle (paper, 5.3). The
-/// derivative of the lengths, the muscle Jacobian, is what is used; a constant in the lengths is
+/// Tendon lengths over postures, learned from samples: one perceptron per muscle (paper, 5.3). Only
+/// the derivative of the lengths is used, the muscle Jacobian. A constant of the lengths is
 /// unknown.
 namespace sim::muscle_networks {
 
@@ -55,8 +55,8 @@ struct LearnOptions {
   FitOptions fit;
   std::function<void(std::size_t done, std::size_t of)> progress = [](std::size_t, std::size_t) {};
 };
-/// Fits the networks muscle by muscle. Throws std::invalid_argument for too few samples, and as
-/// PostureInputs.
+/// Fits the networks muscle by muscle. Throws std::invalid_argument for too few samples, and
+/// like PostureInputs.
 LearnedMuscles learn(const erp::Robot& robot, const LengthSamples& samples,
                      const LearnOptions& options = {});
 
@@ -68,7 +68,7 @@ class LearnedLengths {
 
   /// ∂l/∂q, muscles × coordinates, by the networks' own derivative. No heap.
   const Eigen::MatrixXd& jacobian(std::span<const JointReading> joints);
-  /// The same by the central difference quotient over ± `step_rad` of each coordinate. No heap.
+  /// ∂l/∂q by the central difference quotient over ± `step_rad` of each coordinate. No heap.
   const Eigen::MatrixXd& jacobian_by_difference(std::span<const JointReading> joints,
                                                 double step_rad = 0.01);
   const Eigen::VectorXd& length_m(std::span<const JointReading> joints);
@@ -81,9 +81,9 @@ class LearnedLengths {
   PostureInputs inputs_;
   std::vector<Muscle> muscles_;
   /// By coordinate: joint and its degree of freedom.
-  std::vector<std::pair<std::size_t, int>> moved_by_;
-  std::vector<JointReading> moved_;
-  Eigen::VectorXd x_, dy_dx_, length_m_, ahead_m_;
+  std::vector<std::pair<std::size_t, int>> joint_of_coordinate_;
+  std::vector<JointReading> varied_joints_;
+  Eigen::VectorXd x_, dy_dx_, length_m_, forward_length_m_;
   Eigen::MatrixXd slopes_, jacobian_;
 };
 

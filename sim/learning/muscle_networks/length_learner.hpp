@@ -7,12 +7,12 @@ namespace sim::muscle_networks {
 /// Learns corrections to known tendon lengths l_base online, sample by sample:
 ///
 ///   l = l_base(q) + Cᵀ φ(x) + noise,    φ(x) = tanh(W x + b) and a constant; W, b random and fixed
-///   P = (σ_C/σ_noise)² initially, so that the correction stays near 0 where there are no samples
+///   P = (σ_C/σ_noise)² initially: the correction stays near 0 where there are no samples
 ///   k = P φ/(λ + φᵀ P φ),   C ← C + k (l − l_base − Cᵀ φ)ᵀ,   P ← (P − k φᵀ P)/λ
 ///
 /// Recursive least squares with forgetting factor λ. All muscles share P, because they share φ. The
 /// Jacobian is ∂l_base/∂q + Cᵀ ∂φ/∂x ∂x/∂q. Samples of a posture that has hardly changed are
-/// skipped, so that resting does not forget.
+/// skipped: a robot at rest then does not forget other postures.
 class LengthLearner {
  public:
   struct Options {
@@ -27,7 +27,7 @@ class LengthLearner {
 
   /// Adds a sample: path lengths minus l_base, up to a constant per muscle. False: the sample was
   /// skipped. No heap.
-  bool add_sample(std::span<const JointReading> joints, const Eigen::VectorXd& beside_base_m);
+  bool add_sample(std::span<const JointReading> joints, const Eigen::VectorXd& correction_m);
   /// Cᵀ ∂φ/∂x ∂x/∂q, to be added to the base's Jacobian. No heap.
   const Eigen::MatrixXd& jacobian(std::span<const JointReading> joints);
   std::size_t samples() const { return samples_; }
@@ -39,8 +39,8 @@ class LengthLearner {
   Options options_;
   Eigen::MatrixXd weights_;  ///< [W b]
   Eigen::MatrixXd p_, c_;    ///< P; C, units + 1 × muscles
-  Eigen::VectorXd x_, last_x_, phi_, gain_, left_m_;
-  Eigen::MatrixXd slopes_, bends_, jacobian_;
+  Eigen::VectorXd x_, last_x_, phi_, gain_, residual_m_;
+  Eigen::MatrixXd slopes_, feature_slopes_, jacobian_;
   std::size_t samples_ = 0;
 };
 

@@ -33,13 +33,13 @@ LengthSamples samples_of(const erp::Robot& robot, const Table& table,
                      TendonLaw::at_rest(actuator.tendon, actuator.spindle, 0)});
   LengthSamples samples;
   std::vector<Eigen::VectorXd> lengths;
-  std::vector<JointReading> now;
+  std::vector<JointReading> posture;
   Eigen::VectorXd length_m(static_cast<Eigen::Index>(lines.size()));
   for (std::size_t row = 0; row < table.rows(); row += options.every) {
     for (std::size_t a = 0; a < lines.size(); ++a)
       length_m[static_cast<Eigen::Index>(a)] = lines[a].path_m(row, options.taut_N);
-    if (!joints.read(row, now) || !length_m.allFinite()) continue;
-    samples.joints.push_back(now), lengths.push_back(length_m);
+    if (!joints.read(row, posture) || !length_m.allFinite()) continue;
+    samples.joints.push_back(posture), lengths.push_back(length_m);
   }
   samples.length_m.resize(length_m.size(), static_cast<Eigen::Index>(lengths.size()));
   for (std::size_t k = 0; k < lengths.size(); ++k)

@@ -29,12 +29,13 @@ void Perceptron::gradient(const VectorXd& x, VectorXd& dy_dx) const {
 Perceptron Perceptron::drawn(Index inputs, Index units, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> place(-1, 1);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
   Perceptron net{MatrixXd(units, inputs + 1), VectorXd::Zero(units + 1)};
   for (Index k = 0; k < units; ++k) {
-    VectorXd at(inputs);
-    for (Index i = 0; i < inputs; ++i) net.hidden(k, i) = normal(random), at[i] = place(random);
-    net.hidden(k, inputs) = -net.hidden.row(k).head(inputs).dot(at);  // inflection point at `at`
+    VectorXd inflection(inputs);
+    for (Index i = 0; i < inputs; ++i)
+      net.hidden(k, i) = normal(random), inflection[i] = coordinate(random);
+    net.hidden(k, inputs) = -net.hidden.row(k).head(inputs).dot(inflection);
   }
   return net;
 }
@@ -65,7 +66,7 @@ struct Residuals : Eigen::DenseFunctor<double> {
     net.hidden.reshaped() = w.head(net.hidden.size());
     net.output = w.tail(net.output.size());
   }
-  double share() const { return 1 / std::sqrt(static_cast<double>(y.size())); }
+  double sample_weight() const { return 1 / std::sqrt(static_cast<double>(y.size())); }
   /// tanh(W x + b) of all samples: units × samples.
   MatrixXd hidden_outputs() const {
     return ((net.hidden.leftCols(net.inputs()) * x).colwise() + net.hidden.col(net.inputs()))
@@ -75,8 +76,9 @@ struct Residuals : Eigen::DenseFunctor<double> {
   int operator()(const VectorXd& w, VectorXd& residuals) {
     unpack(w);
     residuals.head(y.size()) =
-        share() * ((net.output.head(net.units()).transpose() * hidden_outputs()).transpose() - y +
-                   VectorXd::Constant(y.size(), net.output[net.units()]));
+        sample_weight() *
+        ((net.output.head(net.units()).transpose() * hidden_outputs()).transpose() - y +
+         VectorXd::Constant(y.size(), net.output[net.units()]));
     residuals.tail(w.size()) = decay * w;
     return 0;
   }
@@ -87,13 +89,13 @@ struct Residuals : Eigen::DenseFunctor<double> {
     slopes.setZero(n + w.size(), w.size());
     for (Index k = 0; k < units; ++k) {
       const VectorXd slope =
-          share() * net.output[k] * (1 - t.row(k).array().square()).matrix().transpose();
+          sample_weight() * net.output[k] * (1 - t.row(k).array().square()).matrix().transpose();
       for (Index i = 0; i < inputs; ++i)
         slopes.col(i * units + k).head(n) = slope.cwiseProduct(x.row(i).transpose());
       slopes.col(inputs * units + k).head(n) = slope;
-      slopes.col((inputs + 1) * units + k).head(n) = share() * t.row(k).transpose();
+      slopes.col((inputs + 1) * units + k).head(n) = sample_weight() * t.row(k).transpose();
     }
-    slopes.col(w.size() - 1).head(n).setConstant(share());
+    slopes.col(w.size() - 1).head(n).setConstant(sample_weight());
     slopes.bottomRows(w.size()).diagonal().setConstant(decay);
     return 0;
   }
@@ -105,7 +107,7 @@ double fit(Perceptron& net, const MatrixXd& x, const VectorXd& y, const FitOptio
   Residuals residuals(net, x, y, options.decay);
   VectorXd w = Residuals::packed(net);
   Eigen::LevenbergMarquardt<Residuals> search(residuals);
-  search.setMaxfev(options.most_steps);
+  search.setMaxfev(options.max_steps);
   search.minimize(w);
   residuals.unpack(w);
   net = residuals.net;

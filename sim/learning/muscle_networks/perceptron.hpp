@@ -21,7 +21,7 @@ struct Perceptron {
 };
 
 struct FitOptions {
-  int most_steps = 200;
+  int max_steps = 200;  ///< evaluations; chosen
   double decay = 1e-7;  ///< weight of the sum of squared weights, relative to the mean square error
 };
 /// Levenberg–Marquardt on the mean square error. `x`: inputs × samples. Returns the

@@ -15,9 +15,9 @@ PostureInputs::PostureInputs(std::span<const erp::Joint> joints, const SkeletonM
     if (joint.type == erp::JointType::free)
       throw std::invalid_argument("joint \"" + joint.name +
                                   "\" is free: lengths cannot be learned over a free joint");
-    const bool ball = joint.type == erp::JointType::spherical;
-    parts_.push_back({j, size_, first, ball});
-    size_ += ball ? 9 : 2;
+    const bool is_ball = joint.type == erp::JointType::spherical;
+    parts_.push_back({j, size_, first, is_ball});
+    size_ += is_ball ? 9 : 2;
   }
 }
 
@@ -25,7 +25,7 @@ void PostureInputs::read(std::span<const JointReading> joints, Eigen::VectorXd& 
   x.resize(size_);
   for (const Part& part : parts_) {
     const auto& q = joints[part.joint].position;
-    if (part.ball)
+    if (part.is_ball)
       x.segment<9>(part.input) =
           Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix().reshaped();
     else x[part.input] = std::cos(q[0]), x[part.input + 1] = std::sin(q[0]);
@@ -35,7 +35,7 @@ void PostureInputs::read(std::span<const JointReading> joints, Eigen::VectorXd& 
 void PostureInputs::slopes(const Eigen::VectorXd& x, Eigen::MatrixXd& dx_dq) const {
   dx_dq.setZero(size_, coordinates_);
   for (const Part& part : parts_) {
-    if (!part.ball) {
+    if (!part.is_ball) {
       dx_dq(part.input, part.coordinate) = -x[part.input + 1];
       dx_dq(part.input + 1, part.coordinate) = x[part.input];
       continue;

@@ -11,8 +11,8 @@
 ///   revolute   x = (cos q, sin q)
 ///   spherical  x = the nine entries of its rotation matrix R, column by column
 ///
-/// The squared distance between points on two bodies is linear in these inputs, so the length of a
-/// straight muscle is easy to learn.
+/// The squared distance between points on two bodies is linear in these inputs. The length of a
+/// straight muscle is therefore easy to learn.
 namespace sim::muscle_networks {
 
 class PostureInputs {
@@ -32,7 +32,7 @@ class PostureInputs {
   struct Part {
     std::size_t joint;
     int input, coordinate;
-    bool ball;
+    bool is_ball;
   };
   std::vector<Part> parts_;
   int size_ = 0, coordinates_ = 0;

@@ -13,13 +13,13 @@
 namespace sim::muscle_networks {
 namespace {
 
-/// Uniform in a ball of radius `most_rad`.
-std::array<double, 3> turn_within(double most_rad, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> each(-most_rad, most_rad);
+/// Uniform in a ball of radius `max_rad`.
+std::array<double, 3> random_rotation(double max_rad, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> component(-max_rad, max_rad);
   for (;;)
-    if (const std::array turn{each(random), each(random), each(random)};
-        std::hypot(turn[0], turn[1], turn[2]) <= most_rad)
-      return turn;
+    if (const std::array rotation{component(random), component(random), component(random)};
+        std::hypot(rotation[0], rotation[1], rotation[2]) <= max_rad)
+      return rotation;
 }
 
 /// Durations of motions that the motors can follow.
@@ -27,37 +27,39 @@ class Pace {
  public:
   Pace(const erp::Robot& robot, double share) : model_(robot) {
     for (const erp::Actuator& actuator : robot.actuators)
-      most_m_per_s_.push_back(
+      max_m_per_s_.push_back(
           share * top_line_speed_m_per_s(robot.motor_of(actuator), actuator.spindle.radius_m));
   }
 
   /// Computed from the change of each tendon's path, linearised at the middle of the motion.
   double duration_s(const Pose& from, const Pose& to) {
-    constexpr double least_s = 0.2, swing = 1.5;  // chosen; swing: ratio of top to mean speed
+    constexpr double min_s = 0.2, top_over_mean_speed = 1.5;  // chosen
     std::vector<JointReading> middle;
     Eigen::VectorXd u(model_.coordinates());
     const auto& joints = model_.tree().joints;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      auto way = way_between(joints[j].type, from[j], to[j]);
+      auto joint_u = displacement(joints[j].type, from[j], to[j]);
       const int first = model_.skeleton().first_of(static_cast<int>(j));
       for (int d = 0; d < coordinates_of(joints[j].type); ++d) {
-        u[first + d] = way[static_cast<std::size_t>(d)];
-        way[static_cast<std::size_t>(d)] /= 2;
+        u[first + d] = joint_u[static_cast<std::size_t>(d)];
+        joint_u[static_cast<std::size_t>(d)] /= 2;
       }
-      middle.push_back({.type = joints[j].type, .position = gone(joints[j].type, from[j], way)});
+      middle.push_back(
+          {.type = joints[j].type, .position = displaced(joints[j].type, from[j], joint_u)});
     }
     model_.place(middle);
     const Eigen::VectorXd change_m = model_.jacobian() * u;
-    double duration_s = least_s;
-    for (std::size_t a = 0; a < most_m_per_s_.size(); ++a)
+    double duration_s = min_s;
+    for (std::size_t a = 0; a < max_m_per_s_.size(); ++a)
       duration_s = std::max(
-          duration_s, swing * std::abs(change_m[static_cast<Eigen::Index>(a)]) / most_m_per_s_[a]);
+          duration_s,
+          top_over_mean_speed * std::abs(change_m[static_cast<Eigen::Index>(a)]) / max_m_per_s_[a]);
     return duration_s;
   }
 
  private:
   Musculoskeletal model_;
-  std::vector<double> most_m_per_s_;
+  std::vector<double> max_m_per_s_;
 };
 
 /// A sequence of poses, each far from those passed before.
@@ -87,8 +89,8 @@ class PoseSequence {
       if (distance_per_time > best_rad_per_s && in_range(next))
         best = next, best_rad_per_s = distance_per_time;
     }
-    constexpr double halt_s = 0.1;  // chosen; after a halt the path to the next pose is straight
-    poses_.push_back(best ? *best : TimedPose{poses_.back().time_s + halt_s, poses_.back().pose});
+    constexpr double pause_s = 0.1;  // chosen; after a pause the path to the next pose is straight
+    poses_.push_back(best ? *best : TimedPose{poses_.back().time_s + pause_s, poses_.back().pose});
   }
 
  private:
@@ -97,7 +99,7 @@ class PoseSequence {
     for (const TimedPose& passed : poses_) {
       double square = 0;
       for (std::size_t j = 0; j < joints_.size(); ++j)
-        for (const double d : way_between(joints_[j].type, passed.pose[j], pose[j]))
+        for (const double d : displacement(joints_[j].type, passed.pose[j], pose[j]))
           square += d * d;
       nearest = std::min(nearest, std::sqrt(square));
     }
@@ -105,9 +107,9 @@ class PoseSequence {
   }
   /// Checks only the last poses, because a new pose hardly changes the path before them.
   bool in_range(const TimedPose& next) const {
-    constexpr std::size_t counts = 5;  // chosen
-    std::vector<TimedPose> end(poses_.end() - std::ptrdiff_t(std::min(poses_.size(), counts)),
-                               poses_.end());
+    constexpr std::size_t checked_poses = 5;  // chosen
+    std::vector<TimedPose> end(
+        poses_.end() - std::ptrdiff_t(std::min(poses_.size(), checked_poses)), poses_.end());
     end.push_back(next);
     return !leaves_range(JointPath(joints_, end, Via::through), joints_);
   }
@@ -130,29 +132,31 @@ Workspace::Workspace(const erp::Robot& robot, const WorkspaceOptions& options)
       random_(options.seed) {}
 
 Pose Workspace::draw() {
-  for (int draws = 0; draws < 1000; ++draws)
-    if (const Pose pose = anywhere(); held(pose)) return pose;
+  constexpr int max_draws = 1000;  // chosen
+  for (int attempt = 0; attempt < max_draws; ++attempt)
+    if (const Pose pose = random_posture(); is_held(pose)) return pose;
   throw std::runtime_error(
       "the muscles of robot \"" + robot_.name +
       "\" hold none of a thousand random postures; run `erp model balance` to see what is missing");
 }
 
-Pose Workspace::anywhere() {
+Pose Workspace::random_posture() {
   Pose pose = start_;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const erp::Joint& joint = joints_[j];
     if (joint.type == erp::JointType::revolute) {
       const double middle = (joint.min_rad + joint.max_rad) / 2;
-      const double reach = std::max(0.0, joint.max_rad - middle - options_.margin_rad);
-      pose[j][0] = std::uniform_real_distribution(middle - reach, middle + reach)(random_);
+      const double half_range_rad = std::max(0.0, joint.max_rad - middle - options_.margin_rad);
+      pose[j][0] =
+          std::uniform_real_distribution(middle - half_range_rad, middle + half_range_rad)(random_);
     }
     if (joint.type == erp::JointType::spherical)
-      pose[j] = gone(joint.type, start_[j], turn_within(options_.ball_rad, random_));
+      pose[j] = displaced(joint.type, start_[j], random_rotation(options_.ball_rad, random_));
   }
   return pose;
 }
 
-bool Workspace::held(const Pose& pose) {
+bool Workspace::is_held(const Pose& pose) {
   const Holding holding = holder_.hold(pose);
   if (!(holding.unbalanced_Nm <= options_.left_Nm)) return false;
   for (std::size_t a = 0; a < robot_.actuators.size(); ++a)

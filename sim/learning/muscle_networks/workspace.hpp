@@ -18,7 +18,7 @@ struct WorkspaceOptions {
 
 class Workspace {
  public:
-  /// Throws std::invalid_argument as PoseHolder does.
+  /// Throws std::invalid_argument like PoseHolder.
   explicit Workspace(const erp::Robot& robot, const WorkspaceOptions& options = {});
 
   /// Draws postures uniformly in joint angles and, for ball joints, in the rotation vector, until
@@ -26,8 +26,8 @@ class Workspace {
   Pose draw();
 
  private:
-  Pose anywhere();
-  bool held(const Pose& pose);
+  Pose random_posture();
+  bool is_held(const Pose& pose);
 
   erp::Robot robot_;
   WorkspaceOptions options_;
@@ -48,8 +48,8 @@ struct JointMotionOptions {
 };
 
 /// Joint motion: a sequence of poses that `joint_target` passes through without stopping, beginning
-/// at the robot's start. Each pose is drawn from the workspace far from the poses passed before;
-/// the motors' speed limits the pace.
+/// at the robot's start. Each pose is drawn from the workspace, far from all previous poses.
+/// The duration of a motion is limited by the speed of the motors.
 recording::Table joint_motion(const erp::Robot& robot, const JointMotionOptions& options = {});
 
 }  // namespace sim::muscle_networks

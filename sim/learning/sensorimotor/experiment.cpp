@@ -8,7 +8,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// The k-th of `count` equally spaced values in −half … half; 0 if there is only one.
-double line(int k, int count, double half) {
+double spaced(int k, int count, double half) {
   return count == 1 ? 0 : half * (2.0 * k / (count - 1) - 1);
 }
 
@@ -27,8 +27,8 @@ std::vector<Goal> goals_of(const Experiment& experiment, Eigen::Index senses) {
   for (const Grid& grid : experiment.grids)
     for (int row = 0; row < grid.rows; ++row)
       for (int column = 0; column < grid.columns; ++column)
-        add(grid.place, Eigen::Vector2d(line(column, grid.columns, grid.half_width),
-                                        line(row, grid.rows, grid.half_height)));
+        add(grid.place, Eigen::Vector2d(spaced(column, grid.columns, grid.half_width),
+                                        spaced(row, grid.rows, grid.half_height)));
   for (const GoalAt& goal : experiment.goals)
     add(goal.place, Eigen::Map<const VectorXd>(goal.at.data(), std::ssize(goal.at)));
   return goals;

@@ -18,7 +18,7 @@ class Eye {
   Eye(const cameras::ViewConfig& view, const RobotTree& tree);
 
   Eigen::Index senses() const { return 2 * std::ssize(cameras_); }
-  /// Bodies in the order of RobotTree. nullopt if the marker is not in every image.
+  /// The senses; `bodies` in the order of RobotTree. nullopt if the marker is not in every image.
   std::optional<Eigen::VectorXd> see(std::span<const BodyPose> bodies) const;
   /// The senses of a pixel of one camera.
   Eigen::Vector2d sense(std::size_t camera, const cameras::Pixel& pixel) const;

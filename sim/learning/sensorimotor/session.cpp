@@ -15,16 +15,17 @@ Session::Session(const SessionOptions& options, LearnedMap learned, std::vector<
 }
 
 void Session::see(double time_s, const VectorXd& senses) {
-  if (last_.size() == senses.size() && (phase_ == Phase::twitch || phase_ == Phase::pause))
-    learned_.associate(motors_, senses - last_);
-  last_ = senses;
+  if (last_senses_.size() == senses.size() && (phase_ == Phase::twitch || phase_ == Phase::pause))
+    learned_.associate(motors_, senses - last_senses_);
+  last_senses_ = senses;
   if (time_s < end_s_ - options_.mean_s || phase_ == Phase::done) return;
-  sum_ = count_++ ? VectorXd(sum_ + senses) : senses;
+  sum_of_senses_ = count_++ ? VectorXd(sum_of_senses_ + senses) : senses;
 }
 
 const VectorXd& Session::motors_N(double time_s) {
-  if (!begun_) begun_ = true, begin(options_.twitches > 0 ? Phase::pause : Phase::relax, time_s);
-  while (phase_ != Phase::done && time_s >= end_s_) next(end_s_);
+  if (!is_running_)
+    is_running_ = true, begin(options_.twitches > 0 ? Phase::pause : Phase::relax, time_s);
+  while (phase_ != Phase::done && time_s >= end_s_) next_phase(end_s_);
   return motors_;
 }
 
@@ -37,7 +38,7 @@ void Session::begin(Phase phase, double time_s) {
                                              : options_.reach_s);
 }
 
-void Session::next(double time_s) {
+void Session::next_phase(double time_s) {
   switch (phase_) {
     case Phase::twitch:
       learned_.twitched(motors_);
@@ -57,24 +58,24 @@ void Session::next(double time_s) {
 void Session::begin_twitch(double time_s) {
   auto random =
       training_loop::random_stream(options_.seed, static_cast<std::uint64_t>(twitches_++));
-  std::uniform_int_distribution<Index> any(0, motors_.size() - 1);
-  std::uniform_real_distribution<double> share(0.5, 1);
-  const Index muscle = any(random);
-  motors_[muscle] = share(random) * options_.twitch_N;
+  std::uniform_int_distribution<Index> any_muscle(0, motors_.size() - 1);
+  std::uniform_real_distribution<double> force_fraction(0.5, 1);
+  const Index muscle = any_muscle(random);
+  motors_[muscle] = force_fraction(random) * options_.twitch_N;
   begin(Phase::twitch, time_s);
 }
 
-/// Restarts the trial if the marker was not seen during the averaging time.
-bool Session::was_seen(double time_s) {
+/// Restarts the trial if the marker was not visible during the averaging time.
+bool Session::marker_was_visible(double time_s) {
   if (count_ > 0) return true;
-  ++unseen_;
+  ++invisible_;
   begin(Phase::relax, time_s);
   return false;
 }
 
 void Session::end_relaxing(double time_s) {
-  if (!was_seen(time_s)) return;
-  start_ = sum_ / count_;
+  if (!marker_was_visible(time_s)) return;
+  start_ = sum_of_senses_ / count_;
   desired_ = goals_[goal_].target - start_;
   motors_ = learned_.motors_N(goals_[goal_].alpha, desired_);
   if (motors_.maxCoeff() > options_.most_N) {
@@ -85,8 +86,8 @@ void Session::end_relaxing(double time_s) {
 }
 
 void Session::end_reaching(double time_s) {
-  if (!was_seen(time_s)) return;
-  learn(goals_[goal_], desired_, sum_ / count_ - start_, options_.reach);
+  if (!marker_was_visible(time_s)) return;
+  learn(goals_[goal_], desired_, sum_of_senses_ / count_ - start_, options_.reach);
   if (++trials_ == options_.trials) trials_ = 0, ++goal_;
   begin(goal_ < goals_.size() ? Phase::relax : Phase::done, time_s);
 }

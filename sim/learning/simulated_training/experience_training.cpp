@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 bool play(Reach& reach, const erp::Robot& robot, const HandConfig& hand_config, double noise_m,
           std::uint64_t seed, HandTrack* track) {
-  constexpr double tick_s = 0.002;
+  constexpr double tick_s = 0.002;  // period of the ECUs
   SimulatedRobot simulated(robot, seed);
   const Motors motors(robot);
   const Hand hand(hand_config, simulated.world().body_names());
@@ -28,9 +28,9 @@ bool play(Reach& reach, const erp::Robot& robot, const HandConfig& hand_config, 
   for (const erp::Actuator& a : robot.actuators) tension_N.push_back(a.tendon.pretension_N);
   for (int k = 0; !reach.done(); ++k) {
     const Vector3d hand_m = hand.in(simulated.world().poses());
-    const Vector3d seen_m =
+    const Vector3d measured_m =
         hand_m + noise_m * Vector3d(noise.normal(), noise.normal(), noise.normal());
-    const MuscleCommand command = reach.step(tick_s * k, line_m, seen_m);
+    const MuscleCommand command = reach.step(tick_s * k, line_m, measured_m);
     for (std::size_t m = 0; m < set_points.size(); ++m) {
       const auto [mode, reference] = motors.ecu_reference(m, command, tension_N[m]);
       set_points[m] = {mode, reference};
@@ -74,8 +74,8 @@ Reach ExperienceTraining::reach(int start, const Vec3& target_m,
                     std::move(feedback));
 }
 
-/// Runs a trial. Returns its scales, the place reached and its offset from the target; empty: an ECU
-/// tripped.
+/// Runs a trial. Returns its scales, the place reached and its offset from the target; empty: an
+/// ECU tripped.
 std::vector<double> ExperienceTraining::run_trial(std::size_t index) const {
   auto random = training_loop::random_stream(seed(), static_cast<std::uint64_t>(rounds()), index);
   const int start = static_cast<int>(index / 2 % file_.starts.all.size());
@@ -97,12 +97,12 @@ std::vector<double> ExperienceTraining::run_trial(std::size_t index) const {
 
 void ExperienceTraining::round(const Pool& pool) {
   const auto drives = std::ssize(file_.drives.all);
-  const auto all =
+  const auto results =
       pool.map(static_cast<std::size_t>(task_.batch), [&](std::size_t k) { return run_trial(k); });
   Vec3 sum_m = Vec3::Zero();
   int count = 0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const auto& numbers = all[k];
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const auto& numbers = results[k];
     if (numbers.empty()) {
       ++tripped_;
       continue;

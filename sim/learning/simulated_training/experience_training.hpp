@@ -16,25 +16,26 @@ struct HandTrack {
 };
 
 /// Runs a reach on a simulated robot with its ECUs; the hand position is measured with noise.
-/// False: an ECU tripped. Throws as World does.
+/// Returns false if an ECU tripped. Throws like World.
 bool play(experience::Reach& reach, const erp::Robot& robot, const HandConfig& hand, double noise_m,
           std::uint64_t seed, HandTrack* track = nullptr);
 
 /// The base starts empty. Each round reaches for random targets of the zone with the current
 /// inverse model, every second trial with noise on its scales. Each trial is stored with the place
-/// that the hand reached. So the base grows in the region where it is used ("goal babbling": Rolf,
-/// Steil, Gienger 2010), with one solution for each place although a redundant arm has many.
+/// that the hand reached. The base therefore grows in the region where it is used ("goal babbling":
+/// Rolf, Steil, Gienger 2010). It has one solution for each place, although a redundant arm has
+/// many.
 class ExperienceTraining : public training_loop::Training {
  public:
-  /// Throws std::invalid_argument as drives_of, Hand, Patterns and, of the starts, hold_pose do.
+  /// Throws std::invalid_argument like drives_of, Hand, Patterns and, for the starts, hold_pose.
   ExperienceTraining(const erp::Robot& robot, const experience::Task& task,
                      const std::vector<Pose>& starts);
 
   void round(const Pool& pool) override;
   int rounds() const override { return file_.rounds; }
   bool done() const override { return rounds() >= task_.rounds; }
-  /// Mean settled offsets of the last round's trials without noise and without feedback; NaN before
-  /// the first round.
+  /// Mean offset from the target in the last round's trials without noise and without feedback; NaN
+  /// before the first round.
   std::vector<training_loop::Metric> metrics() const override;
   /// An `<experience_base>`.
   std::string state() const override;

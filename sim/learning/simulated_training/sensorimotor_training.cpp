@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 
 void play(Session& session, const erp::Robot& robot, const Eye& eye, double noise_px,
           std::uint64_t seed) {
-  constexpr double tick_s = 0.002;
-  constexpr int image_ticks = 5;
+  constexpr double tick_s = 0.002;  // period of the ECUs
+  constexpr int image_ticks = 5;    // 100 Hz
   SimulatedRobot simulated(robot, seed);
   Noise noise(seed);
   std::vector<SetPoint> set_points(robot.actuators.size());
@@ -39,28 +39,31 @@ void play(Session& session, const erp::Robot& robot, const Eye& eye, double nois
 
 std::vector<GoalAt> reachable_goals(const erp::Robot& robot, const Eye& eye, const GoalDraw& draw,
                                     const Pool& pool) {
-  constexpr int ticks = 1000, most_draws = 100;
-  const auto seen = [&](std::size_t goal, std::uint64_t again) -> std::optional<VectorXd> {
-    auto random = training_loop::random_stream(draw.seed, goal, again);
-    std::uniform_int_distribution<std::size_t> any(0, robot.actuators.size() - 1);
+  constexpr int ticks = 1000, max_draws = 100;  // 2 s; chosen
+  const auto marker_senses = [&](std::size_t goal,
+                                 std::uint64_t attempt) -> std::optional<VectorXd> {
+    auto random = training_loop::random_stream(draw.seed, goal, attempt);
+    std::uniform_int_distribution<std::size_t> any_muscle(0, robot.actuators.size() - 1);
     std::uniform_real_distribution<double> force_N(0, draw.most_N);
     std::vector<SetPoint> set_points;
     for (const erp::Actuator& a : robot.actuators)
       set_points.push_back({erp::Mode::force, a.tendon.pretension_N});
-    for (int k = 0; k < draw.muscles; ++k) set_points[any(random)].reference += force_N(random);
+    for (int k = 0; k < draw.muscles; ++k)
+      set_points[any_muscle(random)].reference += force_N(random);
     SimulatedRobot simulated(robot, random());
     for (int k = 0; k < ticks; ++k) simulated.tick(set_points);
     return eye.see(simulated.world().poses());
   };
-  const auto all = pool.map(static_cast<std::size_t>(draw.count), [&](std::size_t goal) {
-    for (std::uint64_t again = 0; again < most_draws; ++again)
-      if (const auto at = seen(goal, again)) return Pool::Numbers(at->begin(), at->end());
+  const auto results = pool.map(static_cast<std::size_t>(draw.count), [&](std::size_t goal) {
+    for (std::uint64_t attempt = 0; attempt < max_draws; ++attempt)
+      if (const auto at = marker_senses(goal, attempt))
+        return Pool::Numbers(at->begin(), at->end());
     throw std::runtime_error(
         "in a hundred draws the marker was never in every image; turn the "
         "cameras to where it goes");
   });
   std::vector<GoalAt> goals;
-  for (const auto& at : all) goals.push_back({{}, at});
+  for (const auto& at : results) goals.push_back({{}, at});
   return goals;
 }
 
@@ -99,11 +102,11 @@ std::vector<double> SensorimotorTraining::run_trial(std::size_t goal) const {
 void SensorimotorTraining::round(const Pool& pool) {
   if (rounds_ == 0) twitch();
   else {
-    const auto all = pool.map(goals_.size(), [&](std::size_t k) { return run_trial(k); });
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      goals_[k].alpha = Eigen::Map<const VectorXd>(all[k].data(), eye_.senses());
-      goals_[k].errors.push_back(all[k][static_cast<std::size_t>(eye_.senses())]);
-      limited_ += static_cast<int>(all[k].back());
+    const auto results = pool.map(goals_.size(), [&](std::size_t k) { return run_trial(k); });
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      goals_[k].alpha = Eigen::Map<const VectorXd>(results[k].data(), eye_.senses());
+      goals_[k].errors.push_back(results[k][static_cast<std::size_t>(eye_.senses())]);
+      limited_ += static_cast<int>(results[k].back());
     }
   }
   ++rounds_;

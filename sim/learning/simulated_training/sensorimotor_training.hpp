@@ -8,7 +8,7 @@
 namespace sim::simulated_training {
 
 /// Runs a session on a simulated robot with its ECUs, which run their force laws; one frame of
-/// images each 10 ms. Muscles at rest pull with their pretension. Throws as World does.
+/// images each 10 ms. Muscles at rest pull with their pretension. Throws like World.
 void play(sensorimotor::Session& session, const erp::Robot& robot, const sensorimotor::Eye& eye,
           double noise_px, std::uint64_t seed);
 
@@ -27,7 +27,7 @@ std::vector<sensorimotor::GoalAt> reachable_goals(const erp::Robot& robot,
 /// simulation.
 class SensorimotorTraining : public training_loop::Training {
  public:
-  /// Throws as Eye and goals_of do.
+  /// Throws like Eye and goals_of.
   SensorimotorTraining(const erp::Robot& robot, const cameras::ViewConfig& view,
                        const sensorimotor::Experiment& experiment);
 

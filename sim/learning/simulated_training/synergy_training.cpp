@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 bool play(Trial& trial, const erp::Robot& robot, const HandConfig& hand_config,
           const std::vector<std::size_t>& muscles, std::uint64_t seed) try {
-  constexpr double tick_s = 0.002;
+  constexpr double tick_s = 0.002;  // period of the ECUs
   SimulatedRobot simulated(robot, seed);
   const Hand hand(hand_config, simulated.world().body_names());
   std::vector<SetPoint> set_points(robot.actuators.size(), {erp::Mode::length, 0});
@@ -45,7 +45,7 @@ SynergyTraining::SynergyTraining(const erp::Robot& robot, const Task& task,
 }
 
 /// Runs each rough plan to find the place that it reaches. Plans from which the hand does not
-/// return are left out.
+/// return are not stored.
 void SynergyTraining::add_rough_plans(const std::vector<Pose>& poses) {
   PoseHolder holder(robot_);
   bank_ = Bank(task_.options, {});
@@ -85,9 +85,9 @@ SynergyTraining::PlannedTrial SynergyTraining::plan_trial(std::size_t index) con
 
 /// Returns whether the trial struck and the credit; if the hand returned, also the plan's value and
 /// its place.
-std::vector<double> SynergyTraining::run_trial(PlannedTrial one) const {
-  Trial trial(one.plan, task_.times, task_.noise, one.random());
-  const TrialResult result = play_trial(trial, one.target_m, one.random());
+std::vector<double> SynergyTraining::run_trial(PlannedTrial planned) const {
+  Trial trial(planned.plan, task_.times, task_.noise, planned.random());
+  const TrialResult result = play_trial(trial, planned.target_m, planned.random());
   std::vector<double> numbers{result.outcome.struck ? 1.0 : 0.0, result.credit};
   if (!result.plan) return numbers;
   const Vec3& at_m = result.plan->at_m;
@@ -99,22 +99,24 @@ void SynergyTraining::round(const Pool& pool) {
   const auto count = static_cast<std::size_t>(task_.batch);
   std::vector<PlannedTrial> trials;
   for (std::size_t k = 0; k < count; ++k) trials.push_back(plan_trial(k));
-  const auto all = pool.map(count, [&](std::size_t k) { return run_trial(trials[k]); });
+  const auto results = pool.map(count, [&](std::size_t k) { return run_trial(trials[k]); });
   struck_ = returned_ = reward_ = 0;
-  std::vector<MotorPlan> fresh;
+  std::vector<MotorPlan> new_plans;
   for (std::size_t k = 0; k < count; ++k) {
     PlannedTrial& trial = trials[k];
-    const bool returned = all[k].size() > 2;
-    bank_.credit(trial.blend.credits, all[k][1]);
-    if (k % 2 == 0) struck_ += all[k][0], reward_ += all[k][1], returned_ += returned;
+    const bool returned = results[k].size() > 2;
+    bank_.credit(trial.blend.credits, results[k][1]);
+    if (k % 2 == 0) struck_ += results[k][0], reward_ += results[k][1], returned_ += returned;
     if (!returned) continue;
-    trial.plan.value = all[k][2], trial.plan.at_m = {all[k][3], all[k][4], all[k][5]};
-    if (task_.zone.holds(trial.plan.at_m, task_.margin_m)) fresh.push_back(std::move(trial.plan));
+    trial.plan.value = results[k][2],
+    trial.plan.at_m = {results[k][3], results[k][4], results[k][5]};
+    if (task_.zone.contains(trial.plan.at_m, task_.margin_m))
+      new_plans.push_back(std::move(trial.plan));
   }
-  for (MotorPlan& plan : fresh) bank_.add(std::move(plan));
+  for (MotorPlan& plan : new_plans) bank_.add(std::move(plan));
   bank_.trim();
-  const int plain = (task_.batch + 1) / 2;
-  struck_ /= plain, returned_ /= plain, reward_ /= plain;
+  const int unvaried_count = (task_.batch + 1) / 2;
+  struck_ /= unvaried_count, returned_ /= unvaried_count, reward_ /= unvaried_count;
   ++file_.rounds;
 }
 

@@ -8,7 +8,7 @@
 namespace sim::simulated_training {
 
 /// Runs a trial, return included, on a simulated robot with its ECUs. False: the trial was aborted
-/// because an ECU tripped or the motion was not finite. Throws as World does.
+/// because an ECU tripped or the motion was not finite. Throws like World.
 bool play(synergy::Trial& trial, const erp::Robot& robot, const HandConfig& hand,
           const std::vector<std::size_t>& muscles, std::uint64_t seed);
 
@@ -17,16 +17,16 @@ bool play(synergy::Trial& trial, const erp::Robot& robot, const HandConfig& hand
 /// one from which the hand did not return.
 class SynergyTraining : public training_loop::Training {
  public:
-  /// Begins with one rough plan for each pose, computed by statics. Throws std::invalid_argument as
-  /// PoseHolder, Hand and actuators_of do.
+  /// Begins with one rough plan for each pose, computed by statics. Throws std::invalid_argument
+  /// like PoseHolder, Hand and actuators_of.
   SynergyTraining(const erp::Robot& robot, const synergy::Task& task,
                   const std::vector<Pose>& poses);
 
   void round(const Pool& pool) override;
   int rounds() const override { return file_.rounds; }
   bool done() const override { return rounds() >= task_.rounds; }
-  /// Of the last round's plans that were not varied: share that struck, share from which the hand
-  /// returned, mean reward; NaN before the first round.
+  /// Of the last round's plans that were not varied: fraction that struck, fraction from which the
+  /// hand returned, mean reward; NaN before the first round.
   std::vector<training_loop::Metric> metrics() const override;
   /// A `<synergy_bank>`.
   std::string state() const override;
@@ -47,7 +47,7 @@ class SynergyTraining : public training_loop::Training {
  private:
   struct PlannedTrial;
   PlannedTrial plan_trial(std::size_t index) const;
-  std::vector<double> run_trial(PlannedTrial one) const;
+  std::vector<double> run_trial(PlannedTrial planned) const;
   synergy::TrialResult play_trial(synergy::Trial& trial, const Vec3& target_m,
                                   std::uint64_t seed) const;
   void add_rough_plans(const std::vector<Pose>& poses);

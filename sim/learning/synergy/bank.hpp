@@ -6,7 +6,7 @@
 #include "interfaces/xml/fields.hpp"
 #include "sim/learning/synergy/plan.hpp"
 
-/// The stored motor plans, and how new plans are blended from them (paper, 5.5).
+/// The stored motor plans, and new plans blended from them (paper, 5.5).
 ///
 ///   β_k ∝ v_k² exp(−|x − x_k|²/(2 σ²)),   Σ β_k = 1
 ///   plan = Σ γ_k plan_k,   γ_k = β_k (1 + (x_k − x̄)ᵀ (S + ε σ²)⁻¹ (x − x̄))
@@ -15,9 +15,8 @@
 /// x is the target, x_k the place that the hand reached with plan k, r the reward of the trial; x̄
 /// and S are the mean and scatter of the x_k weighted by β. γ corrects for plans that do not
 /// surround a target evenly: for a linear robot Σ γ_k plan_k reaches the target. Extrapolation is
-/// not linear, so |x − x̄| is limited to
-/// `max_extrapolation_m`. σ is `basis_m`, or the distance to the fourth
-/// nearest plan if that is larger.
+/// not linear: |x − x̄| is limited to `max_extrapolation_m`. σ is `basis_m`, or the distance to the
+/// fourth nearest plan if that distance is larger.
 namespace sim::synergy {
 
 struct BankOptions {
@@ -91,10 +90,10 @@ class Bank {
 };
 
 /// A random variation of a plan.
-MotorPlan varied(MotorPlan plan, const Exploration& by, std::mt19937_64& random);
+MotorPlan varied(MotorPlan plan, const Exploration& exploration, std::mt19937_64& random);
 
 /// Number of synergies in the plans' weights: uncentred principal components that explain the given
-/// share of their sum of squares.
-int components(const Bank& bank, double share);
+/// fraction of their sum of squares.
+int components(const Bank& bank, double fraction);
 
 }  // namespace sim::synergy

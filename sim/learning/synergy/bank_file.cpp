@@ -6,7 +6,7 @@
 namespace sim::synergy {
 namespace {
 
-[[noreturn]] void refuse(const xml::Place& place, const std::string& what) {
+[[noreturn]] void reject(const xml::Place& place, const std::string& what) {
   throw std::invalid_argument(place.file + ":" + std::to_string(place.line) + ": " + what);
 }
 
@@ -42,21 +42,21 @@ std::string text_of(BankFile file, const Bank& bank) {
 
 std::vector<std::size_t> actuators_of(const std::vector<LearnedMuscle>& muscles,
                                       const erp::Robot& robot) {
-  std::vector<std::size_t> found;
+  std::vector<std::size_t> actuators;
   for (const LearnedMuscle& learned : muscles) {
-    const auto at = std::ranges::find(robot.actuators, learned.muscle, &erp::Actuator::name);
-    if (at == robot.actuators.end())
-      refuse(learned.place, "the robot has no muscle \"" + learned.muscle + "\"");
-    found.push_back(static_cast<std::size_t>(at - robot.actuators.begin()));
+    const auto actuator = std::ranges::find(robot.actuators, learned.muscle, &erp::Actuator::name);
+    if (actuator == robot.actuators.end())
+      reject(learned.place, "the robot has no muscle \"" + learned.muscle + "\"");
+    actuators.push_back(static_cast<std::size_t>(actuator - robot.actuators.begin()));
   }
-  return found;
+  return actuators;
 }
 
 void check(const BankFile& file) {
-  if (file.plans.all.empty()) refuse(file.place, "a <synergy_bank> has at least one <plan>");
+  if (file.plans.all.empty()) reject(file.place, "a <synergy_bank> has at least one <plan>");
   for (const PlanRow& row : file.plans.all)
     if (row.weights_m.size() != file.muscles.all.size())
-      refuse(row.place, std::to_string(row.weights_m.size()) + " weights, but there are " +
+      reject(row.place, std::to_string(row.weights_m.size()) + " weights, but there are " +
                             std::to_string(file.muscles.all.size()) + " <learned> muscles");
 }
 

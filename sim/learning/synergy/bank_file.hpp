@@ -9,11 +9,11 @@
 #include "sim/learning/synergy/trial.hpp"
 #include "sim/model/skeleton/hand.hpp"
 
-/// Everything that a trial needs, as a file: `<synergy_bank>`.
+/// All data of a trial, as a file: `<synergy_bank>`.
 namespace sim::synergy {
 
-/// `<learned muscle="right_biceps"/>`: a muscle that plans have a weight for. The lines of the
-/// others keep their length.
+/// `<learned muscle="right_biceps"/>`: a muscle for which plans have a weight. The lines of
+/// other muscles keep their length.
 struct LearnedMuscle {
   static constexpr auto element = "learned", former_element = "learnt", plural = "muscles";
   static constexpr auto meaning = "Muscle that takes part.";

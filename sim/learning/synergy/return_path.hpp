@@ -4,15 +4,15 @@
 #include "interfaces/xml/fields.hpp"
 #include "sim/model/skeleton/joint_path.hpp"
 
-/// Moves lines back to where they started: wound-up lines are paid out first, then the others are
-/// wound up.
+/// Moves lines back to their starting lengths: wound-up lines are paid out first, then the others
+/// are wound up.
 ///
 ///   l_m(t) = l_m(0) (1 − p(2 t/T))          for wound-up lines, l_m(0) < 0
 ///   l_m(t) = l_m(0) (1 − p(2 t/T − 1))      for paid-out lines
 ///
-/// p rises from 0 to 1 with minimum jerk. If all lines return together, antagonists pull against
-/// muscles that still hold. That dislocated the torso, whose shoulder blades only muscles hold,
-/// after one plan in six.
+/// p rises from 0 to 1 with minimum jerk. If all lines returned together, antagonists would pull
+/// against muscles that are still tense. This dislocated the torso after one plan in six, because
+/// only muscles hold its shoulder blades.
 namespace sim::synergy {
 
 struct TrialTimes {
@@ -34,9 +34,11 @@ class ReturnPath {
       : times_(times), begin_s_(begin_s), from_m_(std::move(from_m)) {}
 
   Eigen::VectorXd at(double time_s) const {
-    const double half = 2 * (time_s - begin_s_) / times_.return_s;
-    const double paid_out = least_jerk(half).done, wound_up = least_jerk(half - 1).done;
-    return from_m_.unaryExpr([&](double m) { return m * (1 - (m < 0 ? paid_out : wound_up)); });
+    const double half_periods = 2 * (time_s - begin_s_) / times_.return_s;
+    const double paid_out_fraction = minimum_jerk(half_periods).fraction,
+                 wound_up_fraction = minimum_jerk(half_periods - 1).fraction;
+    return from_m_.unaryExpr(
+        [&](double m) { return m * (1 - (m < 0 ? paid_out_fraction : wound_up_fraction)); });
   }
   /// True when the lines are back and the rest time `hold_s` has passed.
   bool done(double time_s) const { return time_s - begin_s_ > times_.return_s + times_.hold_s; }

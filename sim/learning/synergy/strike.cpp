@@ -9,6 +9,9 @@
 namespace sim::synergy {
 namespace {
 
+constexpr double mean_s = 0.05;      // chosen: reduces the tremor of single points
+constexpr double rest_mean_s = 0.2;  // chosen
+
 /// Distance of the surfaces of the hand's sphere and the bottle's capsule.
 double gap_m(const BottleConfig& bottle, const Vec3& bottle_m, const Vec3& hand_m) {
   const double half_m = std::max(0.0, 0.5 * bottle.height_m - bottle.radius_m);
@@ -24,16 +27,17 @@ double speed_m_per_s(const HandPath& path, std::size_t k) {
          (path.sample_s * static_cast<double>(after - before));
 }
 
-/// Means over 50 ms each, which reduce the tremor of single points.
-std::vector<Vec3> every_50_ms(const HandPath& path, double end_s) {
-  const auto every = static_cast<std::size_t>(std::lround(0.05 / path.sample_s));
+/// Means over `mean_s` each.
+std::vector<Vec3> averaged_path(const HandPath& path, double end_s) {
+  const auto samples_per_mean = static_cast<std::size_t>(std::lround(mean_s / path.sample_s));
   std::vector<Vec3> means_m;
-  for (std::size_t k = 0; k + every <= path.at_m.size() && double(k) * path.sample_s < end_s;
-       k += every) {
+  for (std::size_t k = 0;
+       k + samples_per_mean <= path.at_m.size() && double(k) * path.sample_s < end_s;
+       k += samples_per_mean) {
     const auto begin = path.at_m.begin() + static_cast<std::ptrdiff_t>(k);
-    means_m.push_back(
-        std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(every), Vec3(Vec3::Zero())) /
-        double(every));
+    means_m.push_back(std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(samples_per_mean),
+                                      Vec3(Vec3::Zero())) /
+                      double(samples_per_mean));
   }
   return means_m;
 }
@@ -51,7 +55,7 @@ double jerks(const std::vector<Vec3>& at_m) {
 Outcome evaluate(const BottleConfig& bottle, const Vec3& bottle_m, const HandPath& path,
                  double end_s) {
   Outcome outcome;
-  int after = 0, stayed = 0;
+  int samples_after_end = 0, stayed = 0;
   for (std::size_t k = 0; k < path.at_m.size(); ++k) {
     const double time_s = path.sample_s * static_cast<double>(k);
     const double gap = gap_m(bottle, bottle_m, path.at_m[k]);
@@ -61,29 +65,30 @@ Outcome evaluate(const BottleConfig& bottle, const Vec3& bottle_m, const HandPat
       outcome.strike_speed_m_per_s = speed_m_per_s(path, k);
     }
     if (time_s < end_s) continue;
-    ++after;
+    ++samples_after_end;
     if ((path.at_m[k] - bottle_m).norm() <= bottle.zone_m) ++stayed;
   }
-  outcome.stayed = after > 0 ? static_cast<double>(stayed) / after : 0;
+  outcome.stayed = samples_after_end > 0 ? static_cast<double>(stayed) / samples_after_end : 0;
   outcome.reward = (outcome.struck ? 1 : 0) + bottle.zone_reward * outcome.stayed;
   return outcome;
 }
 
 Vec3 rest_of(const HandPath& path) {
-  const auto most = static_cast<std::size_t>(std::lround(0.2 / path.sample_s));
-  const std::size_t count = std::min(path.at_m.size(), std::max<std::size_t>(1, most));
+  const auto last_samples = static_cast<std::size_t>(std::lround(rest_mean_s / path.sample_s));
+  const std::size_t count = std::min(path.at_m.size(), std::max<std::size_t>(1, last_samples));
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = path.at_m.size() - count; k < path.at_m.size(); ++k) sum += path.at_m[k];
   return count > 0 ? Vec3(sum / static_cast<double>(count)) : sum;
 }
 
 double relative_jerk(const HandPath& path, double end_s) {
-  std::vector<Vec3> at_m = every_50_ms(path, end_s), least_m;
+  std::vector<Vec3> at_m = averaged_path(path, end_s), reference_m;
   if (at_m.size() < 4) return 0;
-  const Vec3 way_m = at_m.back() - at_m.front();
+  const Vec3 displacement_m = at_m.back() - at_m.front();
   for (std::size_t k = 0; k < at_m.size(); ++k)
-    least_m.push_back(way_m * least_jerk(double(k) / double(at_m.size() - 1)).done);
-  return jerks(at_m) / std::max(jerks(least_m), 1e-12);
+    reference_m.push_back(displacement_m *
+                          minimum_jerk(double(k) / double(at_m.size() - 1)).fraction);
+  return jerks(at_m) / std::max(jerks(reference_m), 1e-12);
 }
 
 }  // namespace sim::synergy

@@ -7,7 +7,7 @@
 
 /// The reward of a trial: for striking a bottle, and for staying near it (paper, 5.5 and Fig. 10).
 ///
-///   r = [struck] + zone_reward · (share of the time after the signal's end with the hand in the zone)
+///   r = [struck] + zone_reward · (fraction of the time after the signal with the hand in the zone)
 ///
 /// A bottle is an upright capsule, the hand a sphere. A strike is a geometric overlap; the bottle
 /// does not move.
@@ -47,7 +47,7 @@ struct Outcome {
   double nearest_m = HUGE_VAL;
   double strike_s = 0;              ///< time of the first strike, since the plan began
   double strike_speed_m_per_s = 0;  ///< speed of the hand at the strike
-  double stayed = 0;  ///< share of the time after the signal's end with the hand in the zone
+  double stayed = 0;  ///< fraction of the time after the signal's end with the hand in the zone
   double reward = 0;
 };
 /// `end_s` is the signal's end. An empty path strikes nothing.

@@ -17,28 +17,30 @@ Trial::Trial(MotorPlan plan, const TrialTimes& times, double noise, std::uint64_
 }
 
 void Trial::add_noise(double dt_s) {
-  constexpr double correlated_s = 0.1;  // chosen
-  const double decay = std::exp(-dt_s / correlated_s);
-  const double fresh = noise_ * std::sqrt(1 - decay * decay);
-  for (double& n : noises_) n = decay * n + fresh * normal_(random_);
+  constexpr double correlation_s = 0.1;  // chosen
+  const double decay = std::exp(-dt_s / correlation_s);
+  const double new_noise = noise_ * std::sqrt(1 - decay * decay);
+  for (double& n : noises_) n = decay * n + new_noise * normal_(random_);
 }
 
 const VectorXd& Trial::step(double time_s) {
-  if (!begun_) begun_ = true, begin_s_ = last_s_ = time_s;
-  if (!way_ && into_s(time_s) > end_s() + times_.watch_s) way_.emplace(times_, time_s, line_m_);
-  if (way_) {
-    done_ = way_->done(time_s);
-    return line_m_ = way_->at(time_s);
+  if (!is_running_) is_running_ = true, begin_s_ = last_s_ = time_s;
+  if (!return_path_ && elapsed_s(time_s) > end_s() + times_.watch_s)
+    return_path_.emplace(times_, time_s, line_m_);
+  if (return_path_) {
+    done_ = return_path_->done(time_s);
+    return line_m_ = return_path_->at(time_s);
   }
   add_noise(time_s - last_s_);
   last_s_ = time_s;
-  return line_m_ = -plan_.signal.at(into_s(time_s)) *
+  return line_m_ = -plan_.signal.at(elapsed_s(time_s)) *
                    plan_.weights_m.cwiseProduct(VectorXd::Ones(noises_.size()) + noises_);
 }
 
 void Trial::see(double time_s, const Eigen::Vector3d& hand_m) {
-  last_m_ = hand_m;
-  if (!begun_ || way_ || into_s(time_s) < path_.sample_s * static_cast<double>(path_.at_m.size()))
+  last_hand_m_ = hand_m;
+  if (!is_running_ || return_path_ ||
+      elapsed_s(time_s) < path_.sample_s * static_cast<double>(path_.at_m.size()))
     return;
   path_.at_m.push_back(hand_m);
 }
@@ -52,8 +54,8 @@ TrialResult result_of(const Trial& trial, const BottleConfig& bottle, const Eige
   result.credit = result.outcome.reward;
   MotorPlan& plan = result.plan.emplace(trial.plan());
   plan.at_m = rest_of(trial.path());
-  const double missed = (plan.at_m - target_m).norm() / bottle.zone_m;
-  plan.value = std::exp(-2 * missed * missed) *
+  const double relative_distance = (plan.at_m - target_m).norm() / bottle.zone_m;
+  plan.value = std::exp(-2 * relative_distance * relative_distance) *
                evaluate(bottle, plan.at_m, trial.path(), trial.end_s()).reward;
   return result;
 }

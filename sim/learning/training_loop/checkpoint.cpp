@@ -7,12 +7,12 @@
 namespace sim::training_loop {
 
 void write_checkpoint(const std::string& file, const std::string& text) {
-  const std::string fresh = file + ".new";
+  const std::string new_file = file + ".new";
   {
-    std::ofstream out(fresh, std::ios::binary);
-    if (!(out << text << std::flush)) throw std::invalid_argument(fresh + ": cannot be written");
+    std::ofstream out(new_file, std::ios::binary);
+    if (!(out << text << std::flush)) throw std::invalid_argument(new_file + ": cannot be written");
   }
-  std::filesystem::rename(fresh, file);
+  std::filesystem::rename(new_file, file);
 }
 
 }  // namespace sim::training_loop

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <random>
 
-/// Independent random streams, so that results do not depend on the order in which draws are made.
+/// Independent random streams. Results then do not depend on the order of the draws.
 namespace sim::training_loop {
 
 /// The generator of a seed and up to two numbers, for instance a round and an index in it. Streams
@@ -11,8 +11,8 @@ inline std::mt19937_64 random_stream(std::uint64_t seed, std::uint64_t round = 0
                                      std::uint64_t index = 0) {
   const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
   const auto high = [](std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); };
-  std::seed_seq all{low(seed), high(seed), low(round), high(round), low(index), high(index)};
-  return std::mt19937_64(all);
+  std::seed_seq sequence{low(seed), high(seed), low(round), high(round), low(index), high(index)};
+  return std::mt19937_64(sequence);
 }
 
 }  // namespace sim::training_loop

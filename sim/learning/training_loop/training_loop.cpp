@@ -82,8 +82,8 @@ void run(Training& training, const LoopOptions& options, const Pool& pool) {
   while (training.rounds() < options.rounds && !training.done()) {
     training.round(pool);
     if (pool.first()) folder.add(training);
-    const bool on = !pool.first() || options.on_round(training);
-    if (pool.broadcast(on ? "on" : "") != "on") return;
+    const bool continues = !pool.first() || options.on_round(training);
+    if (pool.broadcast(continues ? "on" : "") != "on") return;
   }
 }
 

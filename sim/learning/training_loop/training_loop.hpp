@@ -8,8 +8,8 @@
 /// Training in rounds: run, checkpoint, resume, metrics. Independent of what is trained.
 ///
 /// The state after a round depends only on the state before it and on the round's number (random
-/// numbers come from `random_stream.hpp`), on one thread or many. So a run that was killed
-/// continues to the same curve.
+/// numbers come from `random_stream.hpp`), on one thread or many. A resumed run therefore gives the
+/// same curve.
 namespace sim::training_loop {
 
 struct Metric {
@@ -43,7 +43,7 @@ struct LoopOptions {
 };
 
 /// Trains until `rounds` rounds are complete or the training is done. After each round one row is
-/// added to the curve, then state.xml is replaced. Both files are complete at any time. The first
+/// added to the curve, then state.xml is replaced. Both files are always complete. The first
 /// process of the pool writes them. Throws std::invalid_argument if the folder holds a run and
 /// `resume` is false, or holds none and `resume` is true; also what `restore` throws.
 void run(Training& training, const LoopOptions& options, const Pool& pool = Threads());

@@ -22,6 +22,7 @@ struct EcuUnits {
   double shaft_rad(std::int32_t encoder_counts) const {
     return encoder_counts * shaft_rad_per_count;
   }
+  /// Change of the line length since power-on; negative: wound up.
   double line_m(double shaft) const { return -radius_m * shaft; }
   double tension_N(std::uint16_t counts) const {
     return (counts - tension_zero_counts) * tension_N_per_count;

@@ -7,11 +7,13 @@
 
 /// Reading of an inertial measurement unit (IMU) on a body, in the body's axes.
 ///
-///   f = Rᵀ ((v − v₋)/(t − t₋) − g) + noise     specific force: the mean since the last sample;
-///   ω = Rᵀ ω_world + noise                       v: velocity of the IMU, v₋ at the last sample
+///   f = Rᵀ ((v − v₋)/(t − t₋) − g) + noise     mean specific force since the last sample
+///   ω = Rᵀ ω_world + noise
 ///
-/// Both are rounded to q = 2 range / 2^bits and saturate at ± range. At the first sample v = v₋, so the
-/// reading is −g.
+/// v: velocity of the IMU; v₋: its value at the last sample.
+///
+/// Both are rounded to q = 2 range / 2^bits and saturate at ± range. At the first sample v = v₋, so
+/// the reading is −g.
 /// Ignores: bias and its drift, scale and axis errors, the unit's own bandwidth.
 namespace sim {
 
@@ -26,7 +28,8 @@ class ImuSensor {
   ImuReading sample(double time_s, const BodyPose& pose, const BodyTwist& twist);
 
  private:
-  Vec3 disturbed(const Vec3& value, double noise, double range);
+  /// The value with noise, rounded and saturated.
+  Vec3 converted(const Vec3& value, double noise, double range);
   erp::Imu imu_;
   Vec3 gravity_, velocity_m_per_s_ = Vec3::Zero();
   double time_s_ = 0;

@@ -33,14 +33,14 @@ Motor::Branch Motor::branch(double e) const {
   return {system, system.exponential(usual_step_s_), e, inertia};
 }
 
-double Motor::dry_Nm(const MotorLoad& load, int direction) const {
-  const double more = direction > 0 ? load.more_up_Nm : load.more_down_Nm;
-  return std::max(0.0, type_.gear_coulomb_Nm + more);
+double Motor::dry_friction_Nm(const MotorLoad& load, int direction) const {
+  const double extra_Nm = direction > 0 ? load.extra_winding_Nm : load.extra_unwinding_Nm;
+  return std::max(0.0, type_.gear_coulomb_Nm + extra_Nm);
 }
 
 Vec2 Motor::input(const Branch& b, double voltage_V, const MotorLoad& load, int direction) const {
   const double friction = direction * (b.efficiency * type_.gear_ratio * type_.rotor_coulomb_Nm +
-                                       dry_Nm(load, direction));
+                                       dry_friction_Nm(load, direction));
   const double rotor = b.efficiency * type_.gear_ratio * load.rotor_Nm;
   return {voltage_V / type_.inductance_H,
           -(friction + rotor + radius_m_ * load.tension_N) / b.inertia_kg_m2};
@@ -50,7 +50,7 @@ double Motor::mesh_constant(const MotorLoad& load, int direction) const {
   const double n = type_.gear_ratio;
   return -n * type_.gear_inertia_kg_m2 * (direction * type_.rotor_coulomb_Nm + load.rotor_Nm) +
          type_.rotor_inertia_kg_m2 * n * n *
-             (direction * dry_Nm(load, direction) + radius_m_ * load.tension_N);
+             (direction * dry_friction_Nm(load, direction) + radius_m_ * load.tension_N);
 }
 
 bool Motor::drives(const MotorState& x, const MotorLoad& load, int direction) const {
@@ -60,18 +60,18 @@ bool Motor::drives(const MotorState& x, const MotorLoad& load, int direction) co
 }
 
 Motor::Band Motor::band(const MotorLoad& load) const {
-  // Breakaway: ω = 0, dω/dt = 0, so that T = X and the power's direction follows from X.
+  // Breakaway: ω = 0, dω/dt = 0. Then T = X, and the direction of power follows from X.
   const double n = type_.gear_ratio, eta = type_.gear_efficiency;
-  const double up = radius_m_ * load.tension_N + dry_Nm(load, 1);
-  const double down = radius_m_ * load.tension_N - dry_Nm(load, -1);
+  const double up = radius_m_ * load.tension_N + dry_friction_Nm(load, 1);
+  const double down = radius_m_ * load.tension_N - dry_friction_Nm(load, -1);
   const double e_up = up >= 0 ? eta : 1 / eta, e_down = down > 0 ? 1 / eta : eta;
   return {(down / (e_down * n) - type_.rotor_coulomb_Nm + load.rotor_Nm) / type_.torque_Nm_per_A,
           (up / (e_up * n) + type_.rotor_coulomb_Nm + load.rotor_Nm) / type_.torque_Nm_per_A};
 }
 
 int Motor::breakaway(double current_A, const MotorLoad& load) const {
-  const Band sticks = band(load);
-  return current_A > sticks.high_A ? 1 : current_A < sticks.low_A ? -1 : 0;
+  const Band sticking = band(load);
+  return current_A > sticking.high_A ? 1 : current_A < sticking.low_A ? -1 : 0;
 }
 
 /// One step as a sequence of motions and rests.
@@ -83,15 +83,15 @@ class MotorRun {
 
   /// A step of the usual length without events: one multiplication. Returns false, with the state
   /// unchanged, if there are events.
-  bool plain_step() {
+  bool step_without_events() {
     if (x_.speed_rad_per_s == 0 || remaining_s_ != motor_.usual_step_s_) return false;
     const int direction = x_.speed_rad_per_s > 0 ? 1 : -1;
     const bool drives = motor_.drives(x_, load_, direction);
     const Motor::Branch& b = motor_.branches_[drives];
     const PlaneMotion motion = slide_motion(b, direction);
     const MotorState end = moved(motion, motion.at(b.usual_step), remaining_s_);
-    const bool turns = motion.rate({1, 0}).y() * motion.rate(b.usual_step).y() < 0;
-    if (turns || end.speed_rad_per_s * direction <= 0) return false;
+    const bool speed_has_extremum = motion.rate({1, 0}).y() * motion.rate(b.usual_step).y() < 0;
+    if (speed_has_extremum || end.speed_rad_per_s * direction <= 0) return false;
     if (motor_.drives(end, load_, direction) != drives) return false;
     x_ = end;
     return true;
@@ -124,7 +124,7 @@ class MotorRun {
 
  private:
   enum class Event { none, stop, power_reversal };
-  static constexpr int max_events = 16;
+  static constexpr int max_events = 16;  // chosen: limits the time of a step
 
   PlaneMotion slide_motion(const Motor::Branch& b, int direction) const {
     return {b.system,
@@ -158,8 +158,8 @@ class MotorRun {
   }
   void rest_for(double t_s) { x_.current_A = resting_current_A(t_s), remaining_s_ -= t_s; }
 
-  /// Rests until the current leaves the friction band or the step ends. Returns the direction of the
-  /// following motion, 0 for none.
+  /// Rests until the current leaves the friction band or the step ends. Returns the direction of
+  /// the following motion, 0 for none.
   int rest() {
     const auto [low_A, high_A] = motor_.band(load_);
     const double end_A = voltage_V_ / motor_.type_.resistance_ohm;
@@ -185,7 +185,7 @@ class MotorRun {
 MotorState step(const Motor& motor, MotorState state, double voltage_V, const MotorLoad& load,
                 double dt_s) {
   MotorRun run(motor, state, voltage_V, load, dt_s);
-  return run.plain_step() ? run.state() : run.run();
+  return run.step_without_events() ? run.state() : run.run();
 }
 
 }  // namespace sim

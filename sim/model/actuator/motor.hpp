@@ -16,13 +16,14 @@
 ///   T = e (N τ_m J_G + J_M N² X) / J,   τ_m = K_T i − µ_M N ω − s τ_CM,   X = µ_G ω + s τ_CG + r F
 ///
 /// T is the mesh torque on the output. Its sign does not depend on e, and at T = 0 both branches
-/// agree, so the branch is unique and the gear never generates energy. Eq. 3 is the case e = η.
-/// The back-driven branch is an addition: the paper gives eq. 3 only for a motor that drives the load.
+/// agree, so the branch is unique and the gear never generates energy. Eq. 3 is the case e = η. The
+/// back-driven branch is an addition: the paper gives eq. 3 only for a motor that drives the load.
 ///
 /// At ω = 0 the shaft sticks (only L di/dt = V − R i) until the current leaves the band
 ///   N e₋ (K_T i + τ_CM) ≥ r F − τ_CG   and   N η (K_T i − τ_CM) ≤ r F + τ_CG.
 ///
-/// Additional friction and torques (MotorLoad) are inputs of a step and constant over it, like V and F.
+/// Additional friction and torques (MotorLoad) are inputs of a step and constant over it, like V
+/// and F.
 /// Ignores: saturation, cogging, heating, backlash, the Stribeck effect.
 namespace sim {
 
@@ -39,9 +40,9 @@ inline double top_line_speed_m_per_s(const erp::MotorType& type, double spindle_
 
 /// Loads on the gearbox shaft during a step.
 struct MotorLoad {
-  double tension_N = 0;                     ///< F
-  double more_up_Nm = 0, more_down_Nm = 0;  ///< added to τ_CG winding up and unwinding
-  double rotor_Nm = 0;                      ///< torque against winding up, on the motor's shaft
+  double tension_N = 0;                                 ///< F
+  double extra_winding_Nm = 0, extra_unwinding_Nm = 0;  ///< added to τ_CG winding up and unwinding
+  double rotor_Nm = 0;  ///< torque against winding up, on the motor's shaft
 };
 
 /// A motor's constants with precomputed matrices. Throws std::invalid_argument if the equations are
@@ -72,7 +73,7 @@ class Motor {
   };
   Branch branch(double efficiency) const;
   /// τ_CG in a direction.
-  double dry_Nm(const MotorLoad& load, int direction) const;
+  double dry_friction_Nm(const MotorLoad& load, int direction) const;
   Vec2 input(const Branch& branch, double voltage_V, const MotorLoad& load, int direction) const;
   Band band(const MotorLoad& load) const;
   /// T's sign as a linear function p·(i, ω) + k, times `direction`.
@@ -84,8 +85,8 @@ class Motor {
   Vec2 mesh_slope_;
 };
 
-/// The state after dt_s at constant voltage and load. Exact for any dt_s ≥ 0, friction included: stops,
-/// breakaways and changes of the power direction are located within the step.
+/// The state after dt_s at constant voltage and load. Exact for any dt_s ≥ 0, friction included:
+/// stops, breakaways and changes of the power direction are located within the step.
 MotorState step(const Motor& motor, MotorState state, double voltage_V, const MotorLoad& load,
                 double dt_s);
 inline MotorState step(const Motor& motor, const MotorState& state, double voltage_V,

@@ -15,9 +15,9 @@ struct Levers {
 
 Levers levers_of(const Routing& routing, const SkeletonModel& model);
 
-/// ∂L/∂q of a path (paper, eq. 7), one entry per coordinate of the model. The model must be placed in
-/// the posture for which `shape` was solved. J v is dL/dt, and −F Jᵀ are the torques of tension F.
-/// Analytic, by virtual work, from the pulls at the path's points and pulleys. Exactly zero for
+/// ∂L/∂q of a path (paper, eq. 7), one entry per coordinate of the model. The model must be placed
+/// in the posture for which `shape` was solved. J v is dL/dt, and −F Jᵀ are the torques of tension
+/// F. Analytic, by virtual work, from the pulls at the path's points and pulleys. Exactly zero for
 /// coordinates that do not change the length.
 inline void length_gradient(const PathShape& shape, const Levers& levers,
                             const SkeletonModel& model, Eigen::VectorXd& row) {
@@ -25,9 +25,9 @@ inline void length_gradient(const PathShape& shape, const Levers& levers,
   for (std::size_t k = 0; k < levers.of_element.size(); ++k) {
     const PathPull& pull = shape.pulls[k];
     if (pull.direction.isZero(0) && pull.moment_m.isZero(0)) continue;
-    Vec6 given = wrench(pull.at_m, -pull.direction);
-    given.head<3>() -= pull.moment_m;
-    for (const int d : levers.of_element[k]) row[d] += model.axis(d).dot(given);
+    Vec6 wrench_of_pull = wrench(pull.at_m, -pull.direction);
+    wrench_of_pull.head<3>() -= pull.moment_m;
+    for (const int d : levers.of_element[k]) row[d] += model.axis(d).dot(wrench_of_pull);
   }
 }
 

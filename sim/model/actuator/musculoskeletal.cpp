@@ -23,9 +23,9 @@ Musculoskeletal::Musculoskeletal(const erp::Robot& robot)
   const auto actuators = static_cast<Eigen::Index>(robot.actuators.size());
   length_m_.setZero(actuators);
   jacobian_.setZero(actuators, coordinates());
-  std::vector<JointReading> start;
-  for (const erp::Joint& joint : tree_.joints) start.push_back(start_of(joint));
-  place(start);
+  std::vector<JointReading> start_posture;
+  for (const erp::Joint& joint : tree_.joints) start_posture.push_back(initial_reading(joint));
+  place(start_posture);
 }
 
 void Musculoskeletal::place(std::span<const JointReading> joints) {

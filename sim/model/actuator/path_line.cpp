@@ -16,9 +16,9 @@ void add_arc(std::vector<Vec3>& line, const PathShape& shape, std::size_t k, dou
   const Vec3 rise = axis.dot(shape.exit_m[k] - shape.entry_m[k]) * axis;
   const int steps = 1 + static_cast<int>(shape.wrapped_rad[k] / step_rad);
   for (int i = 0; i <= steps; ++i) {
-    const double share = static_cast<double>(i) / steps;
-    const Eigen::AngleAxisd turn(share * shape.wrapped_rad[k], axis);
-    line.push_back(center + along + turn * (in - along) + share * rise);
+    const double fraction = static_cast<double>(i) / steps;
+    const Eigen::AngleAxisd turn(fraction * shape.wrapped_rad[k], axis);
+    line.push_back(center + along + turn * (in - along) + fraction * rise);
   }
 }
 
@@ -33,14 +33,15 @@ std::vector<Vec3> path_line(const Routing& routing, const PathShape& shape, doub
   return line;
 }
 
-Vec3 along_line(std::span<const Vec3> line, double share) {
-  double length = 0;
-  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-  double left = share * length;
+Vec3 point_on_line(std::span<const Vec3> line, double fraction) {
+  double length_m = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) length_m += (line[i] - line[i - 1]).norm();
+  double remaining_m = fraction * length_m;
   for (std::size_t i = 1; i < line.size(); ++i) {
-    const double step = (line[i] - line[i - 1]).norm();
-    if (left <= step && step > 0) return line[i - 1] + left / step * (line[i] - line[i - 1]);
-    left -= step;
+    const double step_m = (line[i] - line[i - 1]).norm();
+    if (remaining_m <= step_m && step_m > 0)
+      return line[i - 1] + remaining_m / step_m * (line[i] - line[i - 1]);
+    remaining_m -= step_m;
   }
   return line.back();
 }

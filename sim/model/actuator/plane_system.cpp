@@ -25,9 +25,10 @@ PlaneExponential PlaneSystem::exponential(double t) const {
     const double decay = std::exp(mean_ * t);
     return {decay * std::cos(root_ * t), decay * std::sin(root_ * t) / root_};
   }
-  const double slow = std::exp((mean_ + root_) * t);
+  const double slow_mode = std::exp((mean_ + root_) * t);
   const double complement = -std::expm1(-2 * root_ * t);  // 1 − e^(−2√q t)
-  return {slow * (1 - 0.5 * complement), root_ > 0 ? slow * complement / (2 * root_) : slow * t};
+  return {slow_mode * (1 - 0.5 * complement),
+          root_ > 0 ? slow_mode * complement / (2 * root_) : slow_mode * t};
 }
 
 std::optional<double> PlaneSystem::first_zero(double u, double w, double after) const {
@@ -47,19 +48,25 @@ std::optional<double> PlaneSystem::first_zero(double u, double w, double after) 
 
 PlaneMotion::PlaneMotion(const PlaneSystem& system, const Vec2& x0, const Vec2& input)
     : system_(system),
-      rest_(-(system.a_inverse() * input)),
-      offset_(x0 - rest_),
+      limit_(-(system.a_inverse() * input)),
+      offset_(x0 - limit_),
       rate_(system.a() * x0 + input) {}
 
 namespace {
+
+constexpr int max_iterations = 100;  // chosen
+constexpr double rounding = 1e-15;   // relative width of the interval at which the search ends
+constexpr int bisection_every = 3;   // chosen: guarantees that the interval shrinks
+
 /// The root of a function that falls from ≥ 0 at `low` to < 0 at `high`, by bisection and secant.
 template <class Function>
 double falling_root(const Function& g, double low, double high) {
   double g_low = g(low), g_high = g(high);
-  for (int i = 0; i < 100 && high - low > 1e-15 * high; ++i) {
+  for (int i = 0; i < max_iterations && high - low > rounding * high; ++i) {
     const double secant = low + (high - low) * g_low / (g_low - g_high);
-    const bool inside = i % 3 != 2 && secant > low && secant < high;
-    const double t = inside ? secant : 0.5 * (low + high);
+    const bool use_secant =
+        i % bisection_every != bisection_every - 1 && secant > low && secant < high;
+    const double t = use_secant ? secant : 0.5 * (low + high);
     const double g_t = g(t);
     if (g_t >= 0) low = t, g_low = g_t;
     else high = t, g_high = g_t;
@@ -73,16 +80,16 @@ std::optional<double> PlaneMotion::first_fall(const Vec2& p, double k, double t_
   const auto g = [&](double t) { return p.dot(at(t)) + k; };
   // ġ = c p·ẋ0 + s p·(A − m I) ẋ0: between its zeros g is monotone.
   const double u = p.dot(rate_), w = p.dot(system_.shifted() * rate_);
-  const bool from_zero = !(p.dot(rest_ + offset_) + k > 0);
+  const bool starts_at_zero = !(p.dot(limit_ + offset_) + k > 0);
   double low = 0;
   while (true) {
-    const auto turn = system_.first_zero(u, w, low);
-    const double high = turn && *turn < t_end ? *turn : t_end;
+    const auto extremum = system_.first_zero(u, w, low);
+    const double high = extremum && *extremum < t_end ? *extremum : t_end;
     if (g(high) < 0) {
       // If g(0) = 0, a zero at the very start is due to rounding and is skipped.
-      const bool dips_at_start = from_zero && low == 0 && high < t_end;
+      const bool dips_at_start = starts_at_zero && low == 0 && high < t_end;
       if (!dips_at_start || g(t_end) < 0)
-        return from_zero && low == 0 ? 0.0 : falling_root(g, low, high);
+        return starts_at_zero && low == 0 ? 0.0 : falling_root(g, low, high);
     }
     if (high >= t_end) return std::nullopt;
     low = high;

@@ -47,12 +47,12 @@ class PlaneMotion {
  public:
   PlaneMotion(const PlaneSystem& system, const Vec2& x0, const Vec2& input);
 
-  Vec2 at(const PlaneExponential& e) const { return rest_ + system_.apply(e, offset_); }
+  Vec2 at(const PlaneExponential& e) const { return limit_ + system_.apply(e, offset_); }
   Vec2 at(double t_s) const { return at(system_.exponential(t_s)); }
   Vec2 rate(const PlaneExponential& e) const { return system_.apply(e, rate_); }
   /// ∫ x dt from 0 to t, where x(t) is `end`.
   Vec2 integral(const Vec2& end, double t_s) const {
-    return rest_ * t_s + system_.a_inverse() * (end - rest_ - offset_);
+    return limit_ * t_s + system_.a_inverse() * (end - limit_ - offset_);
   }
   /// The first t in (0, t_end] where g = p·x + k, with g(0) ≥ 0, falls below zero. If g(0) = 0, g
   /// must rise above zero first; if it decreases at once, the result is 0.
@@ -60,7 +60,7 @@ class PlaneMotion {
 
  private:
   const PlaneSystem& system_;
-  Vec2 rest_, offset_, rate_;  ///< x∞, x0 − x∞, ẋ(0)
+  Vec2 limit_, offset_, rate_;  ///< x∞, x0 − x∞, ẋ(0)
 };
 
 }  // namespace sim

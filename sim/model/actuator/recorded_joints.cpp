@@ -8,9 +8,9 @@ namespace sim {
 using recording::Table;
 
 const recording::Column& column_of(const Table& table, const std::string& name) {
-  const recording::Column* found = table.find(name);
-  if (!found) throw std::invalid_argument("the recording has no column " + name);
-  return *found;
+  const recording::Column* column = table.find(name);
+  if (!column) throw std::invalid_argument("the recording has no column " + name);
+  return *column;
 }
 
 RecordedJoints::RecordedJoints(const erp::Robot& robot, const Table& table) {
@@ -26,10 +26,10 @@ RecordedJoints::RecordedJoints(const erp::Robot& robot, const Table& table) {
 
 bool RecordedJoints::read(std::size_t row, std::vector<JointReading>& joints) const {
   joints.clear();
-  for (const Columns& one : columns_) {
-    joints.push_back(start_of(one.joint));
-    for (std::size_t k = 0; k < one.entries.size(); ++k) {
-      joints.back().position[k] = one.entries[k]->values[row];
+  for (const Columns& columns : columns_) {
+    joints.push_back(initial_reading(columns.joint));
+    for (std::size_t k = 0; k < columns.entries.size(); ++k) {
+      joints.back().position[k] = columns.entries[k]->values[row];
       if (std::isnan(joints.back().position[k])) return false;
     }
   }

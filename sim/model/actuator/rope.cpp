@@ -12,11 +12,11 @@ namespace {
 
 constexpr int max_iterations = 60;           // chosen
 constexpr int iterations_with_release = 20;  // chosen: later, contacts are not released
-constexpr double at_rest_m = 1e-9;           // chosen: step at which the iteration ends
-constexpr double converged_m = 1e-5;         // chosen: a larger last step counts as failed
-constexpr double fastest_m_per_s = 100;      // chosen: far above speeds of a real rope
-constexpr double longest_step_m = 0.02;      // chosen: limit of a node's Newton step
-constexpr int most_nodes = 200;
+constexpr double step_tolerance_m = 1e-9;    // chosen: step at which the iteration ends
+constexpr double converged_step_m = 1e-5;    // chosen: a larger last step counts as failed
+constexpr double max_speed_m_per_s = 100;    // chosen: far above speeds of a real rope
+constexpr double max_newton_step_m = 0.02;   // chosen: limit of a node's Newton step
+constexpr int max_nodes = 200;               // chosen: limits the time of a step
 
 }  // namespace
 
@@ -28,9 +28,9 @@ Rope::Rope(const erp::Rope& rope, const TendonLaw& law, const Routing& routing,
       radius_m_(rope.radius_m),
       friction_(rope.friction) {
   if (!(rope.mass_kg > 0)) throw std::invalid_argument("mass_kg of a rope must be positive");
-  if (rope.nodes < 2 || rope.nodes > most_nodes)
-    throw std::invalid_argument("nodes of a rope must be 2 to 200, got " +
-                                std::to_string(rope.nodes));
+  if (rope.nodes < 2 || rope.nodes > max_nodes)
+    throw std::invalid_argument("nodes of a rope must be 2 to " + std::to_string(max_nodes) +
+                                ", got " + std::to_string(rope.nodes));
   for (const PathElement& pulley : routing.elements())
     if (pulley.radius_m > 0)
       solids.push_back({pulley.body, pulley.at_m, pulley.at_m, pulley.radius_m});
@@ -70,22 +70,22 @@ void Rope::require_fine(double length_m) const {
 void Rope::lay(std::span<const Vec3> line, double shaft_rad) {
   const auto n = segments();
   for (std::size_t i = 0; i <= n; ++i)
-    state_.nodes_m[i] = along_line(line, static_cast<double>(i) / static_cast<double>(n));
+    state_.nodes_m[i] = point_on_line(line, static_cast<double>(i) / static_cast<double>(n));
   std::ranges::fill(state_.velocities_m_per_s, Vec3::Zero());
   state_.rest_m = state_.line_m - law_.radius_m * shaft_rad;
   const double tension_N = law_.spring.force_N(length_m() - state_.rest_m);
   std::ranges::fill(state_.tension_N, tension_N);
   for (Node& node : nodes_) node = {};
-  balance(0);
+  update_bone_forces(0);
 }
 
 void Rope::settle(std::span<const BodyPose> poses, double shaft_rad,
                   std::optional<double> pretension_N) {
-  constexpr int max_steps = 500;  // chosen
-  constexpr double step_s = 0.001;
-  const std::vector<BodyTwist> still(poses.size());
+  constexpr int max_steps = 500;    // chosen
+  constexpr double step_s = 0.001;  // chosen
+  const std::vector<BodyTwist> resting(poses.size());
   for (int k = 0; k < max_steps; ++k) {
-    step({poses, still, Vec3::Zero()}, shaft_rad, step_s);
+    step({poses, resting, Vec3::Zero()}, shaft_rad, step_s);
     if (pretension_N)
       state_.line_m = length_m() - law_.spring.stretch_m(*pretension_N) + law_.radius_m * shaft_rad;
   }
@@ -111,37 +111,38 @@ double Rope::length_m() const {
 void Rope::step(const Surroundings& around, double shaft_rad, double dt_s) {
   begin(around, shaft_rad, dt_s);
   double moved_m = 0;
-  bool rests = false;
-  for (int turn = 0; turn < max_iterations && !rests; ++turn) {
-    touch(around, dt_s, turn == 0);
+  bool converged = false;
+  for (int iteration = 0; iteration < max_iterations && !converged; ++iteration) {
+    touch(around, dt_s, iteration == 0);
     stretch();
     stiffen(dt_s);
     solve();
     moved_m = apply_step();
-    rests = moved_m < at_rest_m;
+    converged = moved_m < step_tolerance_m;
     stretch();
-    rests = !update_contacts(dt_s, turn < iterations_with_release) && rests;
+    converged = !update_contacts(dt_s, iteration < iterations_with_release) && converged;
   }
-  end(around, moved_m < converged_m, dt_s);
+  end(around, moved_m < converged_step_m, dt_s);
 }
 
 /// Computes the free motion of the nodes and the linearised law of each segment.
 void Rope::begin(const Surroundings& around, double shaft_rad, double dt_s) {
   auto& x = state_.nodes_m;
   const auto n = segments();
-  const double parts = static_cast<double>(n);
+  const double segment_count = static_cast<double>(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double stretch = (x[i + 1] - x[i]).norm() - state_.rest_m / parts;
-    const double whole = parts * stretch;  // stretch of the tendon if all segments had this stretch
-    const double slope = law_.spring.slope_N_per_m(whole);
-    const double force = whole > 0 ? law_.spring.force_N(whole) : slope * whole;
-    segments_[i].compliance_m_per_N = 1 / (parts * (slope + law_.damping_N_s_per_m / dt_s));
+    const double stretch = (x[i + 1] - x[i]).norm() - state_.rest_m / segment_count;
+    const double tendon_stretch_m = segment_count * stretch;  // if all segments had this stretch
+    const double slope = law_.spring.slope_N_per_m(tendon_stretch_m);
+    const double force =
+        tendon_stretch_m > 0 ? law_.spring.force_N(tendon_stretch_m) : slope * tendon_stretch_m;
+    segments_[i].compliance_m_per_N = 1 / (segment_count * (slope + law_.damping_N_s_per_m / dt_s));
     segments_[i].offset_m = stretch - segments_[i].compliance_m_per_N * force;
   }
   state_.rest_m = state_.line_m - law_.radius_m * shaft_rad;
   start_m_ = x;
   for (std::size_t i = 1; i < n; ++i) {
-    nodes_[i].on = 0, nodes_[i].drag_kg_per_s = 0;
+    nodes_[i].contact_count = 0, nodes_[i].drag_kg_per_s = 0;
     nodes_[i].free_m = x[i] + dt_s * state_.velocities_m_per_s[i] + dt_s * dt_s * around.gravity;
   }
   x.front() = point(ends_[0], around.poses), x.back() = point(ends_[1], around.poses);
@@ -159,9 +160,10 @@ void Rope::stretch() {
     state_.tension_N[i] = std::max(0.0, (length - rest - s.offset_m) / s.compliance_m_per_N);
     s.stiffness.setZero();
     if (state_.tension_N[i] == 0) continue;
-    const Eigen::Matrix3d own = s.along * s.along.transpose();
-    s.stiffness = own / s.compliance_m_per_N + state_.tension_N[i] / std::max(length, at_rest_m) *
-                                                   (Eigen::Matrix3d::Identity() - own);
+    const Eigen::Matrix3d lengthwise = s.along * s.along.transpose();
+    s.stiffness = lengthwise / s.compliance_m_per_N +
+                  state_.tension_N[i] / std::max(length, step_tolerance_m) *
+                      (Eigen::Matrix3d::Identity() - lengthwise);
   }
 }
 
@@ -171,25 +173,25 @@ void Rope::stiffen(double dt_s) {
   const double inertia = node_kg_ / (dt_s * dt_s);
   for (std::size_t i = 1; i < segments(); ++i) {
     Node& node = nodes_[i];
-    node.own = segments_[i - 1].stiffness + segments_[i].stiffness;
-    node.own.diagonal().array() += inertia + node.drag_kg_per_s / dt_s;
-    node.after = -segments_[i].stiffness;
-    node.right = pull_on(i) - inertia * (x[i] - node.free_m) -
-                 node.drag_kg_per_s / dt_s * (x[i] - node.carried_m);
+    node.diagonal_block = segments_[i - 1].stiffness + segments_[i].stiffness;
+    node.diagonal_block.diagonal().array() += inertia + node.drag_kg_per_s / dt_s;
+    node.upper_block = -segments_[i].stiffness;
+    node.right_side = tension_force(i) - inertia * (x[i] - node.free_m) -
+                      node.drag_kg_per_s / dt_s * (x[i] - node.carried_m);
     stay_outside(node);
   }
   for (std::size_t i = 1; i < segments(); ++i) {
     Node& node = nodes_[i];
-    node.right -= node.own * node.step;
-    if (i > 1) node.right += segments_[i - 1].stiffness * nodes_[i - 1].step;
-    if (i + 1 < segments()) node.right += segments_[i].stiffness * nodes_[i + 1].step;
+    node.right_side -= node.diagonal_block * node.step;
+    if (i > 1) node.right_side += segments_[i - 1].stiffness * nodes_[i - 1].step;
+    if (i + 1 < segments()) node.right_side += segments_[i].stiffness * nodes_[i + 1].step;
   }
   for (std::size_t i = 1; i < segments(); ++i) {
     Node& node = nodes_[i];
-    const Eigen::Matrix3d& p = node.across;
-    node.right = p * node.right;
-    node.own = p * node.own * p + inertia * (Eigen::Matrix3d::Identity() - p);
-    if (i + 1 < segments()) node.after = p * node.after * nodes_[i + 1].across;
+    const Eigen::Matrix3d& p = node.projection;
+    node.right_side = p * node.right_side;
+    node.diagonal_block = p * node.diagonal_block * p + inertia * (Eigen::Matrix3d::Identity() - p);
+    if (i + 1 < segments()) node.upper_block = p * node.upper_block * nodes_[i + 1].projection;
   }
 }
 
@@ -200,46 +202,50 @@ void Rope::solve() {
     Node& node = nodes_[i];
     if (i > 1) {
       const Node& before = nodes_[i - 1];
-      const Eigen::Matrix3d share =
-          before.after.transpose() * before.own;  // node.own is already inverted
-      node.right -= share * before.right;
-      node.own -= share * before.after;
+      const Eigen::Matrix3d factor =
+          before.upper_block.transpose() *
+          before.diagonal_block;  // node.diagonal_block is already inverted
+      node.right_side -= factor * before.right_side;
+      node.diagonal_block -= factor * before.upper_block;
     }
-    node.own = node.own.inverse().eval();
+    node.diagonal_block = node.diagonal_block.inverse().eval();
   }
   Vec3 next = Vec3::Zero();
   for (std::size_t i = n - 1; i >= 1; --i) {
     Node& node = nodes_[i];
-    next = node.own * (node.right - (i + 1 < n ? Vec3(node.after * next) : Vec3(Vec3::Zero())));
+    next = node.diagonal_block *
+           (node.right_side - (i + 1 < n ? Vec3(node.upper_block * next) : Vec3(Vec3::Zero())));
     node.step += next;
   }
 }
 
-Vec3 Rope::pull_on(std::size_t node) const {
+Vec3 Rope::tension_force(std::size_t node) const {
   return state_.tension_N[node] * segments_[node].along -
          state_.tension_N[node - 1] * segments_[node - 1].along;
 }
 
-/// Applies the Newton step, scaled down if the step of a node is too long. Returns the longest step.
+/// Applies the Newton step, scaled down if the step of a node is too long. Returns the longest
+/// step.
 double Rope::apply_step() {
-  double farthest = 0;
+  double longest_step_m = 0;
   for (std::size_t i = 1; i < segments(); ++i)
-    farthest = std::max(farthest, nodes_[i].step.lpNorm<Eigen::Infinity>());
-  const double share = std::min(1.0, longest_step_m / std::max(farthest, at_rest_m));
-  for (std::size_t i = 1; i < segments(); ++i) state_.nodes_m[i] += share * nodes_[i].step;
-  return farthest;
+    longest_step_m = std::max(longest_step_m, nodes_[i].step.lpNorm<Eigen::Infinity>());
+  const double scale =
+      std::min(1.0, max_newton_step_m / std::max(longest_step_m, step_tolerance_m));
+  for (std::size_t i = 1; i < segments(); ++i) state_.nodes_m[i] += scale * nodes_[i].step;
+  return longest_step_m;
 }
 
-void Rope::end(const Surroundings& around, bool rests, double dt_s) {
-  double fastest = 0;
+void Rope::end(const Surroundings& around, bool converged, double dt_s) {
+  double highest_speed_m_per_s = 0;
   for (std::size_t i = 0; i <= segments(); ++i) {
     state_.velocities_m_per_s[i] = (state_.nodes_m[i] - start_m_[i]) / dt_s;
-    fastest = std::max(fastest, state_.velocities_m_per_s[i].norm());
-    if (!state_.nodes_m[i].allFinite()) fastest = 2 * fastest_m_per_s;
+    highest_speed_m_per_s = std::max(highest_speed_m_per_s, state_.velocities_m_per_s[i].norm());
+    if (!state_.nodes_m[i].allFinite()) highest_speed_m_per_s = 2 * max_speed_m_per_s;
   }
-  const bool ran_away = fastest > fastest_m_per_s;
-  if (!rests || ran_away) ++state_.failed_steps;
-  if (!ran_away) return balance(dt_s);
+  const bool diverged = highest_speed_m_per_s > max_speed_m_per_s;
+  if (!converged || diverged) ++state_.failed_steps;
+  if (!diverged) return update_bone_forces(dt_s);
   const std::array<Vec3, 2> straight{point(ends_[0], around.poses), point(ends_[1], around.poses)};
   lay(straight, (state_.line_m - state_.rest_m) / law_.radius_m);
 }

@@ -17,15 +17,15 @@
 ///   x⁺ = argmin Σ_nodes m/n |x − x°|² / 2dt² + Σ_segments ∫ T dC,   x° = x + dt v + dt² g
 ///   C = |x_i+1 − x_i| − rest,   T = max(0, F(C₋) + (n κ + n D/dt)(C − C₋))      C₋ before the step
 ///
-/// The step is implicit, hence stable for any κ, and convex. It is solved by Newton's method with a block
-/// tridiagonal matrix of 3×3 blocks. A node that would enter solids (at most three) slides on their
-/// surfaces with regularised Coulomb friction: a drag µ N / max(|v|, v₀). Below v₀ = 0.1 mm/s the rope
-/// creeps where it should stick.
+/// The step is implicit, hence stable for any κ, and convex. It is solved by Newton's method with a
+/// block tridiagonal matrix of 3×3 blocks. A node that would enter solids (at most three) slides on
+/// their surfaces with regularised Coulomb friction: a drag µ N / max(|v|, v₀). Below v₀ = 0.1 mm/s
+/// the rope creeps where it should stick.
 ///
-/// The tension at the ends and the contact force of each node act on the bones one step late. This is
-/// unstable if the line is too stiff for the mass that it moves (κ dt² ≥ m). The watchdog
-/// (`failed_steps`) counts the steps in which the solver did not converge or a node moved faster than
-/// 100 m/s; the rope is then reset to a straight line.
+/// The tension at the ends and the contact force of each node act on the bones with a delay of one
+/// step. This is unstable if the line is too stiff for the mass that it moves (κ dt² ≥ m). The
+/// watchdog (`failed_steps`) counts the steps in which the solver did not converge or a node moved
+/// faster than 100 m/s; the rope is then reset to a straight line.
 ///
 /// Ignores: bending, twist, the rope's thickness except as a distance from solids, other ropes, and
 /// contacts between two nodes. The nodes must therefore be dense: see `require_fine`.
@@ -56,19 +56,19 @@ struct Surroundings {
 class Rope {
  public:
   /// The rope collides with `solids`, except those of an end's own body that contain that end, and
-  /// with the pulleys of its path. Throws std::invalid_argument for a mass that is not positive or a
-  /// number of nodes outside 2 … 200.
+  /// with the pulleys of its path. Throws std::invalid_argument for a mass that is not positive or
+  /// a number of nodes outside 2 … 200.
   Rope(const erp::Rope& rope, const TendonLaw& law, const Routing& routing,
        std::vector<Solid> solids);
 
   /// Throws std::invalid_argument if a rope of that length could pass through a solid, because the
-  /// distance of its nodes exceeds the smallest radius or half edge. The message states the required
-  /// number of nodes.
+  /// distance of its nodes exceeds the smallest radius or half edge. The message states the
+  /// required number of nodes.
   void require_fine(double length_m) const;
   /// Places the rope along a line from end to end, at rest, with the tension of the tendon's law.
   void lay(std::span<const Vec3> line_m, double shaft_rad);
-  /// Lets the rope come to rest with the bodies held. With a pretension, it sets the line length so
-  /// that the tension at rest equals the pretension.
+  /// Steps the rope until it rests, with the bodies fixed. With a pretension, it sets the line
+  /// length so that the tension at rest equals the pretension.
   void settle(std::span<const BodyPose> poses, double shaft_rad,
               std::optional<double> pretension_N = {});
   /// Advances the rope by dt_s to the new state of the bodies and the shaft. No heap.
@@ -89,7 +89,7 @@ class Rope {
   struct Touch {
     const Solid* solid = nullptr;
     Vec3 normal = Vec3::Zero();
-    double above_m = 0;  ///< distance from the surface; negative: inside
+    double distance_m = 0;  ///< from the surface; negative: inside
     double push_N = 0;
   };
   /// Working data of a node during a step.
@@ -98,13 +98,13 @@ class Rope {
     Vec3 carried_m = Vec3::Zero();  ///< position if it moved with the solid it touches
     double drag_kg_per_s = 0;
     std::array<Touch, 3> touches;
-    std::size_t on = 0;                                    ///< number of contacts
-    Eigen::Matrix3d across = Eigen::Matrix3d::Identity();  ///< projection onto the surfaces
-    // a row of Newton's system: own Δx + after Δx_next = right
-    Eigen::Matrix3d own = Eigen::Matrix3d::Zero(), after = Eigen::Matrix3d::Zero();
-    Vec3 right = Vec3::Zero(), step = Vec3::Zero();
-    std::span<Touch> touching() { return {touches.data(), on}; }
-    std::span<const Touch> touching() const { return {touches.data(), on}; }
+    std::size_t contact_count = 0;                             ///< number of contacts
+    Eigen::Matrix3d projection = Eigen::Matrix3d::Identity();  ///< projection onto the surfaces
+    // a row of Newton's system: diagonal_block Δx + upper_block Δx_next = right_side
+    Eigen::Matrix3d diagonal_block = Eigen::Matrix3d::Zero(), upper_block = Eigen::Matrix3d::Zero();
+    Vec3 right_side = Vec3::Zero(), step = Vec3::Zero();
+    std::span<Touch> touching() { return {touches.data(), contact_count}; }
+    std::span<const Touch> touching() const { return {touches.data(), contact_count}; }
   };
   struct Segment {
     double compliance_m_per_N, offset_m;  ///< T = (C − offset) / compliance
@@ -115,18 +115,19 @@ class Rope {
   Vec3 point(const PathElement& end, std::span<const BodyPose> poses) const;
   void begin(const Surroundings& around, double shaft_rad, double dt_s);
   void touch(const Surroundings& around, double dt_s, bool at_start);
-  void touch(Node& node, const Vec3& at, std::span<const BodyPose> poses, double nearer_m) const;
+  void touch(Node& node, const Vec3& at, std::span<const BodyPose> poses,
+             double new_contact_m) const;
   static void stay_outside(Node& node);
   void stretch();
   void stiffen(double dt_s);
   void solve();
-  Vec3 pull_on(std::size_t node) const;
+  Vec3 tension_force(std::size_t node) const;
   double apply_step();
   Vec3 contact_force(std::size_t node, double dt_s) const;
-  static double press(Node& node, const Vec3& held);
+  static double distribute_contact_force(Node& node, const Vec3& force_N);
   bool update_contacts(double dt_s, bool may_release);
-  void end(const Surroundings& around, bool rests, double dt_s);
-  void balance(double dt_s);
+  void end(const Surroundings& around, bool converged, double dt_s);
+  void update_bone_forces(double dt_s);
 
   std::array<PathElement, 2> ends_;
   std::vector<Solid> solids_;

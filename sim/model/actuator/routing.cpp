@@ -9,12 +9,15 @@ namespace sim {
 
 namespace {
 
+constexpr int max_iterations = 200;         // chosen
+constexpr double converged_step_m = 1e-15;  // rounding of positions of about 1 m
+
 int index_of(const std::string& body, std::span<const std::string> names) {
-  const auto found = std::find(names.begin(), names.end(), body);
-  if (found == names.end())
+  const auto position = std::find(names.begin(), names.end(), body);
+  if (position == names.end())
     throw std::invalid_argument("a tendon is attached to body \"" + body +
                                 "\", which the robot does not have");
-  return static_cast<int>(found - names.begin());
+  return static_cast<int>(position - names.begin());
 }
 
 PathElement element_of(const erp::Pulley& pulley, std::span<const std::string> names) {
@@ -29,11 +32,11 @@ PathElement element_of(const erp::Pulley& pulley, std::span<const std::string> n
   return element;
 }
 
-Wrap wrapped(const PathElement& pulley, const Eigen::Matrix3d& turned, const Vec3& a, const Vec3& b,
-             double last_rad) {
+Wrap wrapped(const PathElement& pulley, const Eigen::Matrix3d& body_rotation, const Vec3& a,
+             const Vec3& b, double last_rad) {
   const double r = pulley.radius_m;
-  if (pulley.axis.isZero(0)) return wrap_sphere(a, b, r, turned * pulley.side);
-  const Vec3 axis = turned * pulley.axis;
+  if (pulley.axis.isZero(0)) return wrap_sphere(a, b, r, body_rotation * pulley.side);
+  const Vec3 axis = body_rotation * pulley.axis;
   return pulley.cylinder ? wrap_cylinder(a, b, r, axis, last_rad)
                          : wrap_sphere_about(a, b, r, axis, last_rad);
 }
@@ -106,11 +109,11 @@ void Routing::wrap_between(PathShape& shape, std::span<const BodyPose> poses,
                            std::span<const double> last_rad, int first, int last) const {
   // Gauss–Seidel: each pulley between the tangent points of its neighbours, until convergence.
   const bool single = last == first + 2;
-  for (int turn = 0; turn < 200; ++turn) {
-    double moved = 0;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    double moved_m = 0;
     for (int k = first + 1; k < last; ++k)
-      moved = std::max(moved, wrap_one(shape, poses, last_rad[static_cast<std::size_t>(k)], k));
-    if (single || moved < 1e-15) break;
+      moved_m = std::max(moved_m, wrap_one(shape, poses, last_rad[static_cast<std::size_t>(k)], k));
+    if (single || moved_m < converged_step_m) break;
   }
 }
 
@@ -125,8 +128,8 @@ double Routing::wrap_one(PathShape& shape, std::span<const BodyPose> poses, doub
                             shape.entry_m[after] - center, last_rad);
   const Vec3 entry = wrap.touches ? Vec3(center + wrap.entry_m) : center;
   const Vec3 exit = wrap.touches ? Vec3(center + wrap.exit_m) : center;
-  const double moved = std::max((entry - shape.entry_m[k]).lpNorm<Eigen::Infinity>(),
-                                (exit - shape.exit_m[k]).lpNorm<Eigen::Infinity>());
+  const double moved_m = std::max((entry - shape.entry_m[k]).lpNorm<Eigen::Infinity>(),
+                                  (exit - shape.exit_m[k]).lpNorm<Eigen::Infinity>());
   shape.entry_m[k] = entry;
   shape.exit_m[k] = exit;
   shape.touches[k] = wrap.touches;
@@ -135,7 +138,7 @@ double Routing::wrap_one(PathShape& shape, std::span<const BodyPose> poses, doub
   shape.around_rad[k] = wrap.around_rad;
   shape.about[k] = wrap.about;
   shape.inside[k] = wrap.inside;
-  return moved;
+  return moved_m;
 }
 
 void Routing::pull(PathShape& shape) const {

@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 /// The nearest count, saturated at the limits.
-double convert(double value, double per_count, double low, double high) {
+double quantized(double value, double per_count, double low, double high) {
   return std::clamp(std::round(value / per_count), low, high);
 }
 }  // namespace
@@ -40,20 +40,20 @@ ActuatorCounts ActuatorSensors::read(double shaft_rad, double current_A, double 
   double current = current_A + current_noise_A_ * noise_.normal();
   double tension = tension_N + tension_noise_N_ * noise_.normal();
   if (!effects_.empty()) {
-    const effects::SensorSample now{time_s, time_s - read_s_, gear_ratio_};
-    shaft = effects_.read(effects::Sense::shaft, shaft, now);
-    current = effects_.read(effects::Sense::current, current, now);
-    tension = effects_.read(effects::Sense::tension, tension, now);
-    read_s_ = time_s;
+    const effects::SensorSample sample{time_s, time_s - last_read_s_, gear_ratio_};
+    shaft = effects_.read(effects::Sense::shaft, shaft, sample);
+    current = effects_.read(effects::Sense::current, current, sample);
+    tension = effects_.read(effects::Sense::tension, tension, sample);
+    last_read_s_ = time_s;
   }
-  return {
-      static_cast<std::int32_t>(std::floor(shaft / scale_.shaft_rad_per_count + 0.5)),
-      static_cast<std::int16_t>(convert(current, scale_.current_A_per_count,
-                                        -scale_.current_counts_max - 1, scale_.current_counts_max)),
-      static_cast<std::uint16_t>(scale_.tension_zero_counts +
-                                 convert(tension, scale_.tension_N_per_count,
-                                         -scale_.tension_zero_counts,
-                                         scale_.tension_counts_max - scale_.tension_zero_counts))};
+  return {static_cast<std::int32_t>(std::floor(shaft / scale_.shaft_rad_per_count + 0.5)),
+          static_cast<std::int16_t>(quantized(current, scale_.current_A_per_count,
+                                              -scale_.current_counts_max - 1,
+                                              scale_.current_counts_max)),
+          static_cast<std::uint16_t>(
+              scale_.tension_zero_counts +
+              quantized(tension, scale_.tension_N_per_count, -scale_.tension_zero_counts,
+                        scale_.tension_counts_max - scale_.tension_zero_counts))};
 }
 
 double angle_rad(const JointReading& joint, std::optional<erp::AxisName> about) {
@@ -75,21 +75,24 @@ JointAngleSensor::JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t
       effects_(std::move(effects)) {}
 
 std::int32_t JointAngleSensor::read(const JointReading& joint, double time_s) {
-  double seen = effects_.sensor_shaft_rad(angle_rad(joint, about_)) + noise_rad_ * noise_.normal();
+  double measured_rad =
+      effects_.sensor_shaft_rad(angle_rad(joint, about_)) + noise_rad_ * noise_.normal();
   if (!effects_.empty()) {
-    seen = effects_.read(effects::Sense::joint, seen, {time_s, time_s - read_s_, 1});
-    read_s_ = time_s;
+    measured_rad =
+        effects_.read(effects::Sense::joint, measured_rad, {time_s, time_s - last_read_s_, 1});
+    last_read_s_ = time_s;
   }
   return static_cast<std::int32_t>(
-      std::round(std::clamp(seen, min_rad_, max_rad_) / rad_per_count_));
+      std::round(std::clamp(measured_rad, min_rad_, max_rad_) / rad_per_count_));
 }
 
 PotentiometerSensor::PotentiometerSensor(const erp::Potentiometer& sensor, std::uint64_t seed)
     : sensor_(sensor), rad_per_count_(sensor.range_rad / ((1 << sensor.bits) - 1)), noise_(seed) {}
 
 std::int32_t PotentiometerSensor::read(double shaft_rad) {
-  const double seen = sensor_.start_rad - shaft_rad + sensor_.noise_rad * noise_.normal();
-  return static_cast<std::int32_t>(convert(seen, rad_per_count_, 0, (1 << sensor_.bits) - 1));
+  const double measured_rad = sensor_.start_rad - shaft_rad + sensor_.noise_rad * noise_.normal();
+  return static_cast<std::int32_t>(
+      quantized(measured_rad, rad_per_count_, 0, (1 << sensor_.bits) - 1));
 }
 
 }  // namespace sim

@@ -35,7 +35,8 @@ struct ActuatorCounts {
   std::uint16_t tension = 0;
 };
 
-/// Converters of one actuator. `effects`: the effects on this actuator; only those on sensors are used.
+/// Converters of one actuator. `effects`: the effects on this actuator; only those on sensors are
+/// used.
 class ActuatorSensors {
  public:
   ActuatorSensors(const erp::MotorType& motor, const erp::SensorType& sensors, std::uint64_t seed,
@@ -48,11 +49,11 @@ class ActuatorSensors {
   double gear_ratio_, current_noise_A_, tension_noise_N_;
   Noise noise_;
   effects::Acting effects_;
-  double read_s_ = 0;
+  double last_read_s_ = 0;
 };
 
-/// A joint angle sensor. `effects`: the effects on this joint; only play and effects on its sensor are
-/// used.
+/// A joint angle sensor. `effects`: the effects on this joint; only play and effects on its sensor
+/// are used.
 class JointAngleSensor {
  public:
   JointAngleSensor(const erp::JointSensor& sensor, std::uint64_t seed,
@@ -64,7 +65,7 @@ class JointAngleSensor {
   std::optional<erp::AxisName> about_;
   Noise noise_;
   effects::Acting effects_;
-  double read_s_ = 0;
+  double last_read_s_ = 0;
 };
 
 /// An absolute potentiometer on the gearbox shaft.
@@ -79,8 +80,8 @@ class PotentiometerSensor {
   Noise noise_;
 };
 
-/// The angle that a joint sensor measures: the angle of a revolute joint, or the component `about` of
-/// the rotation vector (length up to π) from the parent's to the child's axes.
+/// The angle that a joint sensor measures: the angle of a revolute joint, or the component `about`
+/// of the rotation vector (length up to π) from the parent's to the child's axes.
 double angle_rad(const JointReading& joint, std::optional<erp::AxisName> about);
 
 }  // namespace sim

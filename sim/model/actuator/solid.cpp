@@ -10,24 +10,25 @@ namespace {
 Clearance from_line(const Solid& solid, const Vec3& point) {
   const Vec3 line = solid.to_m - solid.from_m;
   const double length2 = line.squaredNorm();
-  const double share =
+  const double fraction =
       length2 > 0 ? std::clamp(line.dot(point - solid.from_m) / length2, 0.0, 1.0) : 0.0;
-  const Vec3 away = point - solid.from_m - share * line;
-  const double distance = away.norm();
-  if (distance > 0) return {distance - solid.radius_m, away / distance};
+  const Vec3 from_segment = point - solid.from_m - fraction * line;
+  const double distance = from_segment.norm();
+  if (distance > 0) return {distance - solid.radius_m, from_segment / distance};
   return {-solid.radius_m, length2 > 0 ? line.unitOrthogonal() : Vec3::UnitZ()};
 }
 
 Clearance from_box(const Solid& solid, const Vec3& point) {
   const Vec3 at = point - solid.from_m;
-  const Vec3 beyond = at.cwiseAbs() - solid.half_m;
-  const Vec3 out = beyond.cwiseMax(0.0);
+  const Vec3 over_edge = at.cwiseAbs() - solid.half_m;
+  const Vec3 outside = over_edge.cwiseMax(0.0);
   const auto signs = [&](int i) { return at[i] < 0 ? -1.0 : 1.0; };
-  const double distance = out.norm();
+  const double distance = outside.norm();
   if (distance > 0)
-    return {distance, Vec3(out[0] * signs(0), out[1] * signs(1), out[2] * signs(2)) / distance};
+    return {distance,
+            Vec3(outside[0] * signs(0), outside[1] * signs(1), outside[2] * signs(2)) / distance};
   Eigen::Index nearest = 0;
-  const double depth = beyond.maxCoeff(&nearest);
+  const double depth = over_edge.maxCoeff(&nearest);
   return {depth, Vec3::Unit(nearest) * signs(static_cast<int>(nearest))};
 }
 

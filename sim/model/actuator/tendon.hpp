@@ -11,8 +11,8 @@
 ///
 /// L_T length of the path, L_K of the kite line, L_R of the spring at rest; r spindle radius,
 /// θ, ω angle and speed of the gearbox shaft, positive winding up. Only the sum L_K0 + L_R
-/// matters; it is `rest_m` here. A slack tendon (Δx ≤ 0) has no tension at any rate. This differs from
-/// the paper, where the damper acts on a slack tendon as well.
+/// matters; it is `rest_m` here. A slack tendon (Δx ≤ 0) has no tension at any rate. The
+/// paper's equation differs: there the damper also acts on a slack tendon.
 ///
 /// Ignores: mass and bending of the line, layers on the spindle, hysteresis.
 namespace sim {
@@ -37,7 +37,8 @@ struct TendonLaw {
   }
   /// Change of L_K since the start; negative: wound up.
   double line_m(double shaft_rad) const { return -radius_m * shaft_rad; }
-  /// L_T of a taut tendon with spring force `spring_N`: the path length from the actuator's own sensors.
+  /// L_T of a taut tendon with spring force `spring_N`: the path length from the actuator's own
+  /// sensors.
   double length_m(double spring_N, double shaft_rad) const {
     return rest_m + line_m(shaft_rad) + spring.stretch_m(spring_N);
   }

@@ -6,7 +6,7 @@
 namespace sim::cameras {
 namespace {
 
-double stretched(const CameraConfig& c, double square) {
+double distortion(const CameraConfig& c, double square) {
   return 1 + square * (c.k1 + square * c.k2);
 }
 
@@ -29,24 +29,27 @@ Camera::Camera(const CameraConfig& config)
 }
 
 std::optional<Pixel> Camera::project(const Vec3& world_m) const {
-  constexpr double nearest_m = 1e-3;
-  const Vec3 seen = axes_.transpose() * (world_m - at_m_);
-  if (seen.z() < nearest_m) return std::nullopt;
-  const Pixel flat = seen.head<2>() / seen.z();
-  return Pixel(config_.focal_px * stretched(config_, flat.squaredNorm()) * flat + centre_);
+  constexpr double min_depth_m = 1e-3;  // chosen
+  const Vec3 in_camera = axes_.transpose() * (world_m - at_m_);
+  if (in_camera.z() < min_depth_m) return std::nullopt;
+  const Pixel undistorted = in_camera.head<2>() / in_camera.z();
+  return Pixel(config_.focal_px * distortion(config_, undistorted.squaredNorm()) * undistorted +
+               centre_);
 }
 
-/// Inverts the distortion by fixed-point iteration until a step is below 1e-12 of the focal length. For
+/// Inverts the distortion by fixed-point iteration until a step is below the tolerance. For
 /// common lenses each step at least halves the error.
 Vec3 Camera::ray(const Pixel& pixel) const {
-  const Pixel bent = (pixel - centre_) / config_.focal_px;
-  Pixel flat = bent;
-  for (int k = 0; k < 20; ++k) {
-    const Pixel before = flat;
-    flat = bent / stretched(config_, before.squaredNorm());
-    if ((flat - before).squaredNorm() < 1e-24) break;
+  constexpr int max_iterations = 20;   // chosen
+  constexpr double tolerance = 1e-12;  // of the focal length
+  const Pixel distorted = (pixel - centre_) / config_.focal_px;
+  Pixel undistorted = distorted;
+  for (int k = 0; k < max_iterations; ++k) {
+    const Pixel before = undistorted;
+    undistorted = distorted / distortion(config_, before.squaredNorm());
+    if ((undistorted - before).squaredNorm() < tolerance * tolerance) break;
   }
-  return (axes_ * Vec3(flat.x(), flat.y(), 1)).normalized();
+  return (axes_ * Vec3(undistorted.x(), undistorted.y(), 1)).normalized();
 }
 
 }  // namespace sim::cameras

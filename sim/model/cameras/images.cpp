@@ -6,8 +6,12 @@
 namespace sim::cameras {
 namespace {
 
+constexpr int rays_per_side = 3, rays_per_pixel = rays_per_side * rays_per_side;  // chosen
+constexpr double reach_factor = 1.5;  // chosen: radius of the drawn square over radius of the ball
+constexpr double margin_px = 2;       // chosen
+
 /// Shortest distance between two segments (Ericson 2005, 5.1.9).
-double apart_m(const Vec3& p, const Vec3& to_p, const Vec3& q, const Vec3& to_q) {
+double segment_distance_m(const Vec3& p, const Vec3& to_p, const Vec3& q, const Vec3& to_q) {
   const Vec3 d = to_p - p, e = to_q - q, r = p - q;
   const double a = d.squaredNorm(), b = e.squaredNorm(), f = e.dot(r), c = d.dot(r), g = d.dot(e);
   const double determinant = a * b - g * g;
@@ -29,11 +33,11 @@ Painter::Painter(const Camera& camera, const Light& light, std::uint64_t seed)
       static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height);
   image_.pixels.resize(size), brightness_.resize(size), noise_.resize(2 * size);
   std::normal_distribution<float> normal(0, static_cast<float>(light.noise));
-  for (float& one : noise_) one = normal(random_);
+  for (float& brightness : noise_) brightness = normal(random_);
 }
 
 const Image& Painter::paint(std::span<const Ball> balls, std::span<const Bone> bones) {
-  std::ranges::fill(brightness_, static_cast<float>(light_.ground));
+  std::ranges::fill(brightness_, static_cast<float>(light_.background));
   for (const Ball& ball : balls) draw(ball, bones);
   const std::size_t from =
       std::uniform_int_distribution<std::size_t>(0, brightness_.size())(random_);
@@ -46,18 +50,24 @@ const Image& Painter::paint(std::span<const Ball> balls, std::span<const Bone> b
 void Painter::draw(const Ball& ball, std::span<const Bone> bones) {
   const auto centre = camera_.project(ball.at_m);
   if (!centre) return;
-  const double far_m = (ball.at_m - camera_.at_m()).norm();
-  const double reach = 1.5 * camera_.config().focal_px * ball.radius_m / far_m + 2;
-  const auto within = [](double x, int size) { return std::clamp(static_cast<int>(x), 0, size); };
-  for (int v = within(centre->y() - reach, image_.height);
-       v < within(centre->y() + reach + 1, image_.height); ++v)
-    for (int u = within(centre->x() - reach, image_.width);
-         u < within(centre->x() + reach + 1, image_.width); ++u) {
-      int hits = 0;
-      for (int k = 0; k < 9; ++k)
-        hits += lit(ball, bones, Pixel(u + (k % 3 - 1) / 3.0, v + (k / 3 - 1) / 3.0));
+  const double distance_m = (ball.at_m - camera_.at_m()).norm();
+  const double reach_px =
+      reach_factor * camera_.config().focal_px * ball.radius_m / distance_m + margin_px;
+  const auto pixel_index = [](double x, int size) {
+    return std::clamp(static_cast<int>(x), 0, size);
+  };
+  for (int v = pixel_index(centre->y() - reach_px, image_.height);
+       v < pixel_index(centre->y() + reach_px + 1, image_.height); ++v)
+    for (int u = pixel_index(centre->x() - reach_px, image_.width);
+         u < pixel_index(centre->x() + reach_px + 1, image_.width); ++u) {
+      int lit_rays = 0;
+      for (int k = 0; k < rays_per_pixel; ++k)
+        lit_rays +=
+            lit(ball, bones,
+                Pixel(u + (k % rays_per_side - 1) / 3.0, v + (k / rays_per_side - 1) / 3.0));
       float& pixel = brightness_[static_cast<std::size_t>(v * image_.width + u)];
-      const double bright = light_.ground + hits / 9.0 * (light_.ball - light_.ground);
+      const double bright = light_.background + lit_rays / static_cast<double>(rays_per_pixel) *
+                                                    (light_.ball - light_.background);
       pixel = std::max(pixel, static_cast<float>(bright));
     }
 }
@@ -68,7 +78,7 @@ bool Painter::lit(const Ball& ball, std::span<const Bone> bones, const Pixel& pi
   if ((to_ball - along_m * ray).norm() > ball.radius_m) return false;
   const Vec3 end = camera_.at_m() + along_m * ray;
   return std::ranges::none_of(bones, [&](const Bone& bone) {
-    return apart_m(camera_.at_m(), end, bone.from_m, bone.to_m) < bone.radius_m;
+    return segment_distance_m(camera_.at_m(), end, bone.from_m, bone.to_m) < bone.radius_m;
   });
 }
 

@@ -6,8 +6,8 @@
 
 #include "sim/model/cameras/camera.hpp"
 
-/// Infrared images of a robot with reflecting balls: bright spots on a dark background, some occluded
-/// by bones.
+/// Infrared images of a robot with reflecting balls: bright spots on a dark background, some
+/// occluded by bones.
 namespace sim::cameras {
 
 /// Eight bits per pixel, row by row.
@@ -27,12 +27,12 @@ struct Bone {
 };
 
 struct Light {
-  double ground = 12, ball = 210;  ///< mean brightness of background and balls, 0 … 255
-  double noise = 4;                ///< standard deviation
+  double background = 12, ball = 210;  ///< mean brightness of background and balls, 0 … 255
+  double noise = 4;                    ///< standard deviation
 };
 
-/// Renders balls with nine rays per pixel. The noise is generated once and added to each image with a
-/// random shift.
+/// Renders balls with nine rays per pixel. The noise is generated once and added to each image with
+/// a random shift.
 class Painter {
  public:
   Painter(const Camera& camera, const Light& light, std::uint64_t seed);

@@ -20,8 +20,8 @@ struct MarkerConfig {
   }
 };
 
-/// `<camera_view>`, a file: cameras and markers, for the component that detects markers and for programs that
-/// predict its images.
+/// `<camera_view>`, a file: cameras and markers, for the component that detects markers and for
+/// programs that predict its images.
 struct ViewConfig {
   static constexpr auto element = "camera_view";
   static constexpr auto meaning = "Cameras and markers.";

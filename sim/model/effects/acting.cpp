@@ -25,43 +25,43 @@ Acting::Acting(std::span<const Placed> all, const std::string& on, Seat seat) {
   for (const Placed& placed : all)
     if (placed.on == on && about(placed.effect).seat == seat) {
       items_.push_back({placed.effect, {}});
-      types_ |= Types(1) << placed.effect.index();
+      types_ |= TypeSet(1) << placed.effect.index();
     }
   empty_ = items_.empty();
 }
 
 namespace {
 
-/// The effects of the library that `Use` accepts, one bit per effect type.
-template <class Use, class... Effects>
-Types taken_by(std::type_identity<std::variant<Effects...>>) {
-  constexpr std::array taken{std::is_invocable_v<Use&, Effects&, Memory&>...};
-  static_assert(taken.size() <= Types().size());
-  Types bits;
-  for (std::size_t k = 0; k < taken.size(); ++k) bits[k] = taken[k];
+/// The effects of the library that `Function` accepts, one bit per effect type.
+template <class Function, class... Effects>
+TypeSet accepted_by(std::type_identity<std::variant<Effects...>>) {
+  constexpr std::array accepted{std::is_invocable_v<Function&, Effects&, Memory&>...};
+  static_assert(accepted.size() <= TypeSet().size());
+  TypeSet bits;
+  for (std::size_t k = 0; k < accepted.size(); ++k) bits[k] = accepted[k];
   return bits;
 }
 
 }  // namespace
 
-/// Calls `use(effect, memory)` for each of `items` that `use` accepts.
-template <class Use>
-void Acting::each(auto&& items, Use use) {
-  static const Types taken = taken_by<Use>(std::type_identity<AnyEffect>{});
-  if ((taken & types_).none()) return;
+/// Calls `function(effect, memory)` for each of `items` that `function` accepts.
+template <class Function>
+void Acting::each(auto&& items, Function function) {
+  static const TypeSet accepted = accepted_by<Function>(std::type_identity<AnyEffect>{});
+  if ((accepted & types_).none()) return;
   for (Item& item : items) {
-    if (!taken[item.effect.index()]) continue;
+    if (!accepted[item.effect.index()]) continue;
     std::visit(
         [&](auto& effect) {
-          if constexpr (std::is_invocable_v<Use&, decltype(effect), Memory&>)
-            use(effect, item.memory);
+          if constexpr (std::is_invocable_v<Function&, decltype(effect), Memory&>)
+            function(effect, item.memory);
         },
         item.effect);
   }
 }
-template <class Use>
-void Acting::each(Use use) {
-  each(items_, use);
+template <class Function>
+void Acting::each(Function function) {
+  each(items_, function);
 }
 
 void Acting::save(std::vector<Memory>& memories) const {
@@ -97,12 +97,12 @@ double Acting::delayed_voltage_V(double volts, const ChainSample& s) {
   return volts;
 }
 
-double Acting::resistance_ohm(double ohm, const ChainSample& s) {
+double Acting::resistance_ohm(double winding_ohm, const ChainSample& s) {
   each(
-      [&](auto& e, Memory& m) requires requires { e.resistance_ohm(ohm, s, m); } {
-        ohm = e.resistance_ohm(ohm, s, m);
+      [&](auto& e, Memory& m) requires requires { e.resistance_ohm(winding_ohm, s, m); } {
+        winding_ohm = e.resistance_ohm(winding_ohm, s, m);
       });
-  return ohm;
+  return winding_ohm;
 }
 
 double Acting::rotor_Nm(const ChainSample& s) {
@@ -146,8 +146,8 @@ Sloped Acting::pull(const ChainSample& s) {
   Sloped sum;
   each(
       [&](auto& e, Memory& m) requires requires { e.pull(s, m); } {
-        const Sloped one = e.pull(s, m);
-        sum.value += one.value, sum.slope += one.slope;
+        const Sloped term = e.pull(s, m);
+        sum.value += term.value, sum.slope += term.slope;
       });
   return sum;
 }
@@ -173,8 +173,8 @@ Sloped Acting::joint_torque(double angle_rad) {
   Sloped sum;
   each(
       [&](auto& e, Memory&) requires requires { e.joint_torque(angle_rad); } {
-        const Sloped one = e.joint_torque(angle_rad);
-        sum.value += one.value, sum.slope += one.slope;
+        const Sloped term = e.joint_torque(angle_rad);
+        sum.value += term.value, sum.slope += term.slope;
       });
   return sum;
 }
@@ -216,12 +216,12 @@ bool Acting::acts_on(Sense sense) const {
 }
 
 double Acting::averaged(Sense sense, const SensorSample& s) {
-  double share = 0;
+  double weight = 0;
   each(
       [&](auto& e, Memory&) requires requires { e.averaged(s); } {
-        if (e.sense == sense) share = std::max(share, e.averaged(s));
+        if (e.sense == sense) weight = std::max(weight, e.averaged(s));
       });
-  return share;
+  return weight;
 }
 
 double Acting::command_delay_s(const Draw& draw) {

@@ -14,7 +14,7 @@ namespace sim::effects {
 struct Placed;
 
 /// A set of types of effects, by their index in the library.
-using Types = std::bitset<128>;
+using TypeSet = std::bitset<128>;
 
 class Acting {
  public:
@@ -37,7 +37,7 @@ class Acting {
   double voltage_V(double volts, const ChainSample& s);
   double driver_delay_s();
   double delayed_voltage_V(double volts, const ChainSample& s);
-  double resistance_ohm(double ohm, const ChainSample& s);
+  double resistance_ohm(double winding_ohm, const ChainSample& s);
   double rotor_Nm(const ChainSample& s);
   double friction_Nm(int direction, const ChainSample& s);
   double aged_Nm(const ChainSample& s);
@@ -55,6 +55,7 @@ class Acting {
   double undo(Sense sense, double reading, const SensorSample& s);
   /// Whether any effect acts on this sensor.
   bool acts_on(Sense sense) const;
+  /// The largest weight of the effects on this sensor, see `averaged` in effect.hpp.
   double averaged(Sense sense, const SensorSample& s);
   double command_delay_s(const Draw& draw);
   double frame_delay_s(const Draw& draw);
@@ -62,12 +63,12 @@ class Acting {
 
  private:
   struct Item;
-  template <class Use>
-  void each(auto&& items, Use use);
-  template <class Use>
-  void each(Use use);
+  template <class Function>
+  void each(auto&& items, Function function);
+  template <class Function>
+  void each(Function function);
   std::vector<Item> items_;
-  Types types_;  ///< types of `items_`
+  TypeSet types_;  ///< types of `items_`
   bool empty_ = true;
 };
 

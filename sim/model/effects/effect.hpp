@@ -6,7 +6,7 @@
 ///
 /// One file per effect, and one line in all.hpp. An effect is a plain struct:
 ///
-///   static constexpr About about     name, stage, target, and the excitation that shows it
+///   static constexpr About about     name, stage, kind of target, and the excitation that shows it
 ///   parameters, and `visit`          default values change nothing; v.shape: not estimated
 ///   one or more seams                the functions below; the simulator and the diagnosis call
 ///                                    them where they compute the quantity
@@ -14,9 +14,9 @@
 /// Seams that change constants, called once (parameters are `auto&`, because the structs of
 /// interfaces/robot are not included):
 ///   change_motor(motor)  change_actuator(actuator)  change_joint(joint)  change_body(body)
-///   change_robot(robot, on)                  acts_besides: the seams below act as well
+///   change_robot(robot, on)                  acts_per_step: the seams below also act
 /// Seams in the chain of an actuator, called in each step:
-///   voltage_V(V, s)                   voltage at the motor's terminals for the voltage that the ECU applies
+///   voltage_V(V, s)                   voltage at the motor for the voltage V that the ECU applies
 ///   driver_delay_s()                  delay until this voltage acts
 ///   delayed_voltage_V(V, s, memory)      the delayed voltage, its mean over a step
 ///   resistance_ohm(R, s, memory)      of the winding
@@ -36,7 +36,7 @@
 ///   read(value, s, memory)            the reading;   undo(reading, s, memory)  its inverse
 ///   averaged(s)                       weight, 0 … 1, with which `undo` returns the mean around the
 ///                                     sample instead of the value at its instant
-///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, a new value per call
+///   command_delay_s(u)  frame_delay_s(u)  loses_command(u)    u: uniform in 0 … 1, new per call
 namespace sim::effects {
 
 /// The stage of the model that an effect belongs to.
@@ -59,7 +59,7 @@ struct Bounds {
   double low, high;
 };
 
-/// State of an effect that is kept from step to step; zero at the start.
+/// State of an effect between steps; zero at the start.
 using Memory = std::array<double, 8>;
 
 /// State of one actuator at the current time, the input of its seams.

@@ -9,12 +9,12 @@
 namespace sim::effects {
 
 erp::MotorType& own_motor(erp::Robot& robot, erp::Actuator& actuator) {
-  const std::string of = "_of_" + actuator.name;
-  const bool shared =
+  const std::string suffix = "_of_" + actuator.name;
+  const bool is_shared =
       std::ranges::count(robot.actuators, actuator.motor, &erp::Actuator::motor) > 1;
-  if (shared || !actuator.motor.ends_with(of)) {
+  if (is_shared || !actuator.motor.ends_with(suffix)) {
     erp::MotorType type = robot.motor_of(actuator);
-    type.name = actuator.motor + of;
+    type.name = actuator.motor + suffix;
     while (std::ranges::count(robot.motor_types, type.name, &erp::MotorType::name) > 0)
       type.name += '_';
     actuator.motor = type.name;
@@ -56,7 +56,7 @@ struct Change {
     }
     if constexpr (requires { effect.change_robot(robot, on); })
       effect.change_robot(robot, on), changed = true;
-    if constexpr (requires { effect.acts_besides; }) return false;
+    if constexpr (requires { effect.acts_per_step; }) return false;
     return changed;
   }
   bool change(const auto& effect, erp::Actuator& actuator) {
@@ -68,11 +68,12 @@ struct Change {
   }
 };
 
-void refuse_on_rope(const erp::Robot& robot, const Placed& placed) {
+void reject_on_rope(const erp::Robot& robot, const Placed& placed) {
   const Stage stage = about(placed.effect).stage;
-  const bool of_line = stage == Stage::spindle || stage == Stage::tendon || stage == Stage::routing;
+  const bool is_line_effect =
+      stage == Stage::spindle || stage == Stage::tendon || stage == Stage::routing;
   for (const erp::Actuator& actuator : robot.actuators)
-    if (of_line && actuator.name == placed.on && actuator.rope)
+    if (is_line_effect && actuator.name == placed.on && actuator.rope)
       throw std::invalid_argument("effect \"" + std::string(about(placed.effect).type) +
                                   "\" on \"" + placed.on +
                                   "\": its tendon is a rope, whose model replaces this "
@@ -88,7 +89,7 @@ Equipped equip(const erp::Robot& nominal) {
     const auto placed = read_effects(robot);
     robot.effects.clear();  // a seam may have added effects
     for (const Placed& p : placed) {
-      refuse_on_rope(robot, p);
+      reject_on_rope(robot, p);
       if (about(p.effect).seat == Seat::body)
         for (erp::Skeleton& part : robot.skeletons)
           for (erp::Body& body : part.bodies)

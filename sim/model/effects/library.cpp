@@ -10,23 +10,25 @@ namespace sim::effects {
 namespace {
 
 template <std::size_t... k>
-std::vector<AnyEffect> one_of_each(std::index_sequence<k...>) {
+std::vector<AnyEffect> default_effects(std::index_sequence<k...>) {
   return {AnyEffect(std::in_place_index<k>)...};
 }
 
-/// Calls use(name, value, bounds, fitted) for each parameter.
-template <class Use>
+/// Calls function(name, value, bounds, fitted) for each parameter.
+template <class Function>
 struct EachParameter {
-  Use use;
+  Function function;
   void operator()(const char* name, double& value, Bounds bounds) {
-    use(name, value, bounds, true);
+    function(name, value, bounds, true);
   }
-  void shape(const char* name, double& value, Bounds bounds) { use(name, value, bounds, false); }
+  void shape(const char* name, double& value, Bounds bounds) {
+    function(name, value, bounds, false);
+  }
 };
 
-template <class Use>
-void each_parameter(auto& effect, Use use) {
-  EachParameter<Use> visitor{use};
+template <class Function>
+void each_parameter(auto& effect, Function function) {
+  EachParameter<Function> visitor{function};
   effect.visit(visitor);
 }
 
@@ -41,8 +43,8 @@ struct Attributes {
   }
 };
 
-void refuse(const erp::Effect& effect, const std::string& what, const std::string& remedy,
-            std::vector<xml::Error>& errors) {
+void add_error(const erp::Effect& effect, const std::string& what, const std::string& remedy,
+               std::vector<xml::Error>& errors) {
   errors.push_back(xml::error_in(erp::Effect::element, effect.place, what, remedy));
 }
 
@@ -56,14 +58,14 @@ std::optional<Placed> read(const erp::Robot& robot, const erp::Effect& source,
                            std::vector<xml::Error>& errors) {
   auto effect = neutral(source.type);
   if (!effect) {
-    refuse(source, "type=" + xml::quote(source.type) + " is not an effect",
-           xml::did_you_mean(source.type, types()), errors);
+    add_error(source, "type=" + xml::quote(source.type) + " is not an effect",
+              xml::did_you_mean(source.type, types()), errors);
     return {};
   }
   const Seat seat = about(*effect).seat;
   if (const auto names = places(robot, seat); !std::ranges::count(names, source.on))
-    refuse(source, "on=" + xml::quote(source.on) + " names no " + std::string(word(seat)),
-           xml::did_you_mean(source.on, names), errors);
+    add_error(source, "on=" + xml::quote(source.on) + " names no " + std::string(word(seat)),
+              xml::did_you_mean(source.on, names), errors);
   const xml::Element element{source.place, erp::Effect::element, source.parameters, {}, {}};
   const auto fill = [&](auto& e) {
     Attributes<std::decay_t<decltype(e)>> attributes{e};
@@ -76,7 +78,8 @@ std::optional<Placed> read(const erp::Robot& robot, const erp::Effect& source,
 }  // namespace
 
 const std::vector<AnyEffect>& library() {
-  static const auto all = one_of_each(std::make_index_sequence<std::variant_size_v<AnyEffect>>());
+  static const auto all =
+      default_effects(std::make_index_sequence<std::variant_size_v<AnyEffect>>());
   return all;
 }
 
@@ -94,20 +97,20 @@ std::optional<Sense> sense_of(const AnyEffect& effect) {
 }
 
 std::string_view word(Stage stage) {
-  constexpr std::array<std::string_view, 9> words{
+  constexpr std::array<std::string_view, 9> names{
       "bus", "motor", "gearbox", "spindle", "tendon", "routing", "joint", "skeleton", "sensor"};
-  return words[static_cast<std::size_t>(stage)];
+  return names[static_cast<std::size_t>(stage)];
 }
 
 std::string_view word(Seat seat) {
-  constexpr std::array<std::string_view, 4> words{"actuator", "joint", "body", "robot"};
-  return words[static_cast<std::size_t>(seat)];
+  constexpr std::array<std::string_view, 4> names{"actuator", "joint", "body", "robot"};
+  return names[static_cast<std::size_t>(seat)];
 }
 
 std::optional<AnyEffect> neutral(std::string_view type) {
-  const auto found = std::ranges::find_if(
+  const auto entry = std::ranges::find_if(
       library(), [&](const AnyEffect& effect) { return about(effect).type == type; });
-  return found == library().end() ? std::nullopt : std::optional(*found);
+  return entry == library().end() ? std::nullopt : std::optional(*entry);
 }
 
 std::vector<Parameter> parameters(AnyEffect& effect) {
@@ -160,10 +163,10 @@ std::vector<Placed> read_effects(const erp::Robot& robot) {
 
 erp::Effect written(const Placed& placed) {
   erp::Effect effect{{}, std::string(about(placed.effect).type), placed.on, {}};
-  AnyEffect given = placed.effect, plain = *neutral(effect.type);
-  const auto values = parameters(given), neutrals = parameters(plain);
+  AnyEffect changed = placed.effect, unchanged = *neutral(effect.type);
+  const auto values = parameters(changed), defaults = parameters(unchanged);
   for (std::size_t k = 0; k < values.size(); ++k)
-    if (*values[k].value != *neutrals[k].value)
+    if (*values[k].value != *defaults[k].value)
       effect.parameters.push_back({{}, values[k].name, xml::write_number(*values[k].value)});
   return effect;
 }

@@ -24,6 +24,7 @@ inline std::string name_of(const Placed& placed) {
 }
 /// The kind of sensor, for an effect on a sensor.
 std::optional<Sense> sense_of(const AnyEffect& effect);
+/// Names as in reports: "gearbox", "actuator".
 std::string_view word(Stage stage);
 std::string_view word(Seat seat);
 
@@ -41,7 +42,7 @@ struct Parameter {
 };
 std::vector<Parameter> parameters(AnyEffect& effect);
 
-/// Names of the possible targets of effects of that seat.
+/// Names of the robot's possible targets of effects of that kind of target.
 std::vector<std::string> places(const erp::Robot& robot, Seat seat);
 
 /// The effects that robot.xml lists. Throws xml::Errors for an unknown type, parameter or target,

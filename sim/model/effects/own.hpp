@@ -1,7 +1,7 @@
 #pragma once
 #include "interfaces/robot/robot.hpp"
 
-/// Makes a part of a robot independent of other parts, so that it can be changed separately.
+/// Makes a part of a robot independent of other parts. It can then be changed separately.
 namespace sim::effects {
 
 /// The motor type of an actuator, not shared with other actuators; added to the robot if necessary.

@@ -9,8 +9,9 @@ namespace {
 
 using erp::JointType;
 
-/// Eᵀ: rotates a vector from the frame of the trajectory to the frame of the joint, which deviates by u.
-Eigen::Matrix3d into_own(JointType type, const Vec3& u) {
+/// Eᵀ: rotates a vector from the frame of the trajectory to the frame of the joint, which deviates
+/// by u.
+Eigen::Matrix3d to_joint_frame(JointType type, const Vec3& u) {
   const double angle = u.norm();
   if (type != JointType::spherical || angle < 1e-12) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(-angle, u / angle).toRotationMatrix();
@@ -23,12 +24,13 @@ CatchUp::CatchUp(std::span<const JointReading> now, std::span<const JointMotion>
     : duration_s_(duration_s) {
   for (std::size_t j = 0; j < now.size(); ++j) {
     const JointType type = now[j].type;
-    starts_.push_back(way_between(type, desired[j].now.position, now[j].position));
-    const Vec3 u = vec(starts_.back()), none = Vec3::Zero();
-    const Vec3 apart =
-        vec(now[j].velocity_rad_per_s) - into_own(type, u) * vec(desired[j].now.velocity_rad_per_s);
-    const Vec3 rate = type == JointType::spherical ? RotationVector(u).rate(apart) : apart;
-    segments_.push_back(QuinticSegment::between(-u, duration_s * rate, none, none, none));
+    starts_.push_back(displacement(type, desired[j].now.position, now[j].position));
+    const Vec3 u = vec(starts_.back()), zero = Vec3::Zero();
+    const Vec3 relative_velocity = vec(now[j].velocity_rad_per_s) -
+                                   to_joint_frame(type, u) * vec(desired[j].now.velocity_rad_per_s);
+    const Vec3 rate = type == JointType::spherical ? RotationVector(u).rate(relative_velocity)
+                                                   : relative_velocity;
+    segments_.push_back(QuinticSegment::between(-u, duration_s * rate, zero, zero, zero));
   }
 }
 
@@ -38,16 +40,17 @@ void CatchUp::add(double time_s, std::span<JointMotion> desired) const {
     auto& [now, acceleration] = desired[j];
     auto p = segments_[j].at(time_s / duration_s_);
     p.u += vec(starts_[j]), p.rate /= duration_s_, p.rate_of_rate /= duration_s_ * duration_s_;
-    const bool ball = now.type == JointType::spherical;
+    const bool is_ball = now.type == JointType::spherical;
     const RotationVector turn(p.u);
-    const Vec3 own = ball ? turn.speed(p.rate) : p.rate;
-    const Eigen::Matrix3d into = into_own(now.type, p.u);
-    const Vec3 carried = into * vec(now.velocity_rad_per_s);
-    const Vec3 changes = ball ? turn.acceleration(p.rate, p.rate_of_rate) : p.rate_of_rate;
-    const Vec3 turned = ball ? own.cross(carried) : Vec3::Zero();
-    acceleration = numbers(into * vec(acceleration) - turned + changes);
-    now.velocity_rad_per_s = numbers(carried + own);
-    now.position = gone(now.type, now.position, numbers(p.u));
+    const Vec3 deviation_velocity = is_ball ? turn.speed(p.rate) : p.rate;
+    const Eigen::Matrix3d to_joint = to_joint_frame(now.type, p.u);
+    const Vec3 trajectory_velocity = to_joint * vec(now.velocity_rad_per_s);
+    const Vec3 deviation_acceleration =
+        is_ball ? turn.acceleration(p.rate, p.rate_of_rate) : p.rate_of_rate;
+    const Vec3 coriolis = is_ball ? deviation_velocity.cross(trajectory_velocity) : Vec3::Zero();
+    acceleration = numbers(to_joint * vec(acceleration) - coriolis + deviation_acceleration);
+    now.velocity_rad_per_s = numbers(trajectory_velocity + deviation_velocity);
+    now.position = displaced(now.type, now.position, numbers(p.u));
   }
 }
 

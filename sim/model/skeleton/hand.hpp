@@ -22,7 +22,8 @@ struct HandConfig {
   }
 };
 
-/// `<zone from_m="0.2 -0.3 -0.4" to_m="0.4 0 -0.1"/>`: a box in the world that contains the targets.
+/// `<zone from_m="0.2 -0.3 -0.4" to_m="0.4 0 -0.1"/>`: a box in the world that contains the
+/// targets.
 struct ZoneConfig {
   static constexpr auto element = "zone";
   static constexpr auto meaning = "Box in the world that contains the targets of the training.";
@@ -41,7 +42,7 @@ struct ZoneConfig {
     return at_m;
   }
   /// True if the point is in the box enlarged by the margin.
-  bool holds(const Vec3& at_m, double margin_m) const {
+  bool contains(const Vec3& at_m, double margin_m) const {
     return ((at_m - vec(from_m)).array() > -margin_m).all() &&
            ((vec(to_m) - at_m).array() > -margin_m).all();
   }

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::Quaterniond;
 using erp::JointType;
 
-Quaterniond turn_of(const std::array<double, 4>& q) {
+Quaterniond unit_quaternion(const std::array<double, 4>& q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
 }
 
@@ -38,15 +38,15 @@ QuinticSegment segment_of(JointType type, const Vec3& u, const End& from, End to
 
 Pose starting_pose(const erp::Robot& robot) {
   Pose pose;
-  for (const erp::Joint& joint : robot.joints()) pose.push_back(start_of(joint).position);
+  for (const erp::Joint& joint : robot.joints()) pose.push_back(initial_reading(joint).position);
   return pose;
 }
 
-std::array<double, 3> way_between(JointType type, const std::array<double, 4>& from,
-                                  const std::array<double, 4>& to) {
+std::array<double, 3> displacement(JointType type, const std::array<double, 4>& from,
+                                   const std::array<double, 4>& to) {
   if (type == JointType::revolute) return {to[0] - from[0]};
   if (type != JointType::spherical) return {};
-  Quaterniond turn = turn_of(from).conjugate() * turn_of(to);
+  Quaterniond turn = unit_quaternion(from).conjugate() * unit_quaternion(to);
   if (turn.w() < 0) turn.coeffs() *= -1;
   // u = 2 atan2(|v|, w) v / |v|
   const double sine = turn.vec().norm();
@@ -54,14 +54,15 @@ std::array<double, 3> way_between(JointType type, const std::array<double, 4>& f
   return {scale * turn.x(), scale * turn.y(), scale * turn.z()};
 }
 
-std::array<double, 4> gone(JointType type, const std::array<double, 4>& from,
-                           const std::array<double, 3>& way) {
-  if (type == JointType::revolute) return {from[0] + way[0]};
+std::array<double, 4> displaced(JointType type, const std::array<double, 4>& from,
+                                const std::array<double, 3>& offset) {
+  if (type == JointType::revolute) return {from[0] + offset[0]};
   if (type != JointType::spherical) return from;
-  const Eigen::Vector3d u(way[0], way[1], way[2]);
+  const Eigen::Vector3d u(offset[0], offset[1], offset[2]);
   const double angle = u.norm(), scale = angle < 1e-12 ? 0.5 : std::sin(angle / 2) / angle;
   const Eigen::Vector3d v = scale * u;
-  const Quaterniond q = turn_of(from) * Quaterniond(std::cos(angle / 2), v.x(), v.y(), v.z());
+  const Quaterniond q =
+      unit_quaternion(from) * Quaterniond(std::cos(angle / 2), v.x(), v.y(), v.z());
   return {q.w(), q.x(), q.y(), q.z()};
 }
 
@@ -78,14 +79,14 @@ void JointPath::check_times() const {
     if (!(poses_[k].time_s > poses_[k - 1].time_s))
       throw std::invalid_argument("row " + std::to_string(k + 1) + ": time_s " +
                                   std::to_string(poses_[k].time_s) +
-                                  " is not later than the row before");
+                                  " is not later than in the row before");
 }
 
 void JointPath::plan(Via via) {
   std::vector<double> times_s;
   for (const TimedPose& pose : poses_) times_s.push_back(pose.time_s);
-  const Eigen::MatrixXd u = turns();
-  const ViaMotions motions = least_jerk_through(times_s, u, rests(via));
+  const Eigen::MatrixXd u = segment_displacements();
+  const ViaMotions motions = minimum_jerk_through(times_s, u, rests(via));
   for (std::size_t k = 0; k + 1 < poses_.size(); ++k) {
     auto& segments = segments_.emplace_back();
     for (std::size_t j = 0; j < types_.size(); ++j) {
@@ -100,12 +101,12 @@ void JointPath::plan(Via via) {
 }
 
 /// u(1) of all segments: segments × three columns per joint.
-Eigen::MatrixXd JointPath::turns() const {
+Eigen::MatrixXd JointPath::segment_displacements() const {
   Eigen::MatrixXd u(poses_.size() - 1, 3 * types_.size());
   for (std::size_t k = 0; k + 1 < poses_.size(); ++k)
     for (std::size_t j = 0; j < types_.size(); ++j)
       u.block<1, 3>(Index(k), Index(3 * j)) =
-          vec(way_between(types_[j], poses_[k].pose[j], poses_[k + 1].pose[j])).transpose();
+          vec(displacement(types_[j], poses_[k].pose[j], poses_[k + 1].pose[j])).transpose();
   return u;
 }
 
@@ -128,24 +129,24 @@ void JointPath::at(double time_s, std::vector<JointMotion>& motions) const {
     const double T = poses_[k + 1].time_s - poses_[k].time_s;
     auto p = segments_[k][j].at((time_s - poses_[k].time_s) / T);
     p.rate /= T, p.rate_of_rate /= T * T;
-    const bool ball = types_[j] == JointType::spherical;
+    const bool is_ball = types_[j] == JointType::spherical;
     const RotationVector turn(p.u);
-    motion.now.velocity_rad_per_s = numbers(ball ? turn.speed(p.rate) : p.rate);
+    motion.now.velocity_rad_per_s = numbers(is_ball ? turn.speed(p.rate) : p.rate);
     motion.acceleration_rad_per_s2 =
-        numbers(ball ? turn.acceleration(p.rate, p.rate_of_rate) : p.rate_of_rate);
-    motion.now.position = gone(types_[j], poses_[k].pose[j], numbers(p.u));
+        numbers(is_ball ? turn.acceleration(p.rate, p.rate_of_rate) : p.rate_of_rate);
+    motion.now.position = displaced(types_[j], poses_[k].pose[j], numbers(p.u));
   }
 }
 
 std::optional<OutOfRange> leaves_range(const JointPath& path, std::span<const erp::Joint> joints) {
-  constexpr double every_s = 0.01, within_rad = 0.01;  // chosen
+  constexpr double check_period_s = 0.01, tolerance_rad = 0.01;  // chosen
   std::vector<JointMotion> at;
-  for (double t_s = path.begin_s(); t_s < path.end_s(); t_s += every_s) {
+  for (double t_s = path.begin_s(); t_s < path.end_s(); t_s += check_period_s) {
     path.at(t_s, at);
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const double q_rad = at[j].now.position[0];
       if (joints[j].type == JointType::revolute &&
-          (q_rad < joints[j].min_rad - within_rad || q_rad > joints[j].max_rad + within_rad))
+          (q_rad < joints[j].min_rad - tolerance_rad || q_rad > joints[j].max_rad + tolerance_rad))
         return OutOfRange{j, t_s, q_rad};
     }
   }

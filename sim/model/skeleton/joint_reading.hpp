@@ -17,8 +17,9 @@ struct JointReading {
       slide_m_per_s{};  ///< free only: velocity of the centre of mass; both in the parent's frame
 };
 
-/// Starting position of a joint: the initial angle of revolute joints, parallel frames for the others.
-inline JointReading start_of(const erp::Joint& joint) {
+/// Starting position of a joint: the initial angle of revolute joints, parallel frames for the
+/// others.
+inline JointReading initial_reading(const erp::Joint& joint) {
   const bool turns = joint.type == erp::JointType::spherical || joint.type == erp::JointType::free;
   return {joint.type, {turns ? 1.0 : joint.initial_rad}, {}, {}, {}};
 }

@@ -7,7 +7,7 @@
 /// Angular velocity and acceleration of a rotation R = exp [u]×, in the frame of the rotating body:
 ///
 ///   ω = J u̇,   J = 1 − a [u]× + b [u]×²,   a = (1 − cos θ)/θ²,  b = (θ − sin θ)/θ³,  θ = |u|
-///   α = J ü + rest,   rest = −ȧ u × u̇ + ḃ u × (u × u̇) + b u̇ × (u × u̇)
+///   α = J ü + β,   β = −ȧ u × u̇ + ḃ u × (u × u̇) + b u̇ × (u × u̇)
 ///
 /// Source: Solà 2017, Quaternion kinematics for the error-state Kalman filter, §4.3; α by
 /// differentiation. For |u| < 2π.
@@ -30,12 +30,12 @@ class RotationVector {
 
   Vec3 speed(const Vec3& rate) const { return jacobian() * rate; }
   Vec3 acceleration(const Vec3& rate, const Vec3& rate_of_rate) const {
-    return jacobian() * rate_of_rate + rest(rate);
+    return jacobian() * rate_of_rate + velocity_product(rate);
   }
   /// u̇ and ü of a body that rotates with ω and α.
   Vec3 rate(const Vec3& speed) const { return jacobian().inverse() * speed; }
   Vec3 rate_of_rate(const Vec3& rate, const Vec3& acceleration) const {
-    return jacobian().inverse() * (acceleration - rest(rate));
+    return jacobian().inverse() * (acceleration - velocity_product(rate));
   }
 
  private:
@@ -44,14 +44,14 @@ class RotationVector {
     cross << 0, -u_.z(), u_.y(), u_.z(), 0, -u_.x(), -u_.y(), u_.x(), 0;
     return Eigen::Matrix3d::Identity() - a_ * cross + b_ * cross * cross;
   }
-  Vec3 rest(const Vec3& rate) const {
+  Vec3 velocity_product(const Vec3& rate) const {
     const Vec3 turned = u_.cross(rate);
     const double along = u_.dot(rate);
     return along * (-da_ * turned + db_ * u_.cross(turned)) + b_ * rate.cross(turned);
   }
 
   Vec3 u_;
-  double a_, b_, da_, db_;  ///< da: (da/dθ)/θ, so that ȧ = da u·u̇
+  double a_, b_, da_, db_;  ///< da: (da/dθ)/θ; then ȧ = da u·u̇
 };
 
 }  // namespace sim

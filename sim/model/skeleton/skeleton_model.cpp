@@ -17,7 +17,7 @@ Eigen::Matrix3d tensor(const erp::Mass& mass) {
 }  // namespace
 
 SkeletonModel::SkeletonModel(const RobotTree& tree, const Vec3& gravity,
-                             std::span<const std::string> lock)
+                             std::span<const std::string> locked_joints)
     : tree_(tree),
       gravity_(gravity),
       link_of_(tree.bodies.size(), -1),
@@ -25,18 +25,18 @@ SkeletonModel::SkeletonModel(const RobotTree& tree, const Vec3& gravity,
       movers_(tree.bodies.size()),
       poses_(tree.bodies.size()),
       twists_(tree.bodies.size()) {
-  for (const std::string& name : lock)
+  for (const std::string& name : locked_joints)
     if (std::ranges::find(tree.joints, name, &erp::Joint::name) == tree.joints.end())
       throw std::invalid_argument("cannot lock joint \"" + name +
                                   "\": the robot has no joint of this name");
   axes_.resize(6, 0);
   for (std::size_t k = 0; k < tree.bodies.size(); ++k)
     if (const int joint = tree.bodies[k].joint; joint >= 0)
-      add_link(static_cast<int>(k), std::ranges::count(lock, tree.joints[joint].name) > 0);
+      add_link(static_cast<int>(k), std::ranges::count(locked_joints, tree.joints[joint].name) > 0);
   velocity_.setZero(coordinates());
-  still_.setZero(coordinates());
+  zero_velocity_.setZero(coordinates());
   std::vector<JointReading> start;
-  for (const erp::Joint& joint : tree.joints) start.push_back(start_of(joint));
+  for (const erp::Joint& joint : tree.joints) start.push_back(initial_reading(joint));
   place(start);
 }
 
@@ -65,7 +65,7 @@ void SkeletonModel::set_mass(int body, const erp::Mass& mass) {
     links_[static_cast<std::size_t>(link)].central_kg_m2 = tensor(mass);
 }
 
-void SkeletonModel::turn(Link& link, const JointReading& joint) const {
+void SkeletonModel::set_rotation(Link& link, const JointReading& joint) const {
   const auto& p = joint.position;
   if (link.dofs == 1) link.rotation = Eigen::AngleAxisd(p[0], link.axis).toRotationMatrix();
   if (link.dofs >= 3)
@@ -91,26 +91,26 @@ void SkeletonModel::place(Link& link) {
 }
 
 /// Spatial velocity of the link relative to its parent.
-Vec6 SkeletonModel::moved(const Link& link, const Eigen::VectorXd& v) const {
-  Vec6 own = Vec6::Zero();
-  for (int d = 0; d < link.dofs; ++d) own += axes_.col(link.first + d) * v[link.first + d];
-  return own;
+Vec6 SkeletonModel::joint_velocity(const Link& link, const Eigen::VectorXd& v) const {
+  Vec6 joint_motion = Vec6::Zero();
+  for (int d = 0; d < link.dofs; ++d) joint_motion += axes_.col(link.first + d) * v[link.first + d];
+  return joint_motion;
 }
 
-/// The translational part of it, along the root's axes.
-Vec3 SkeletonModel::slid(const Link& link, const Eigen::VectorXd& v) const {
+/// Translational part of the relative velocity of a free body, along the root's axes.
+Vec3 SkeletonModel::sliding_velocity(const Link& link, const Eigen::VectorXd& v) const {
   return axes_.block<3, 3>(3, link.first + 3) * v.segment<3>(link.first + 3);
 }
 
 void SkeletonModel::place(std::span<const JointReading> joints) {
   for (Link& link : links_) {
     const JointReading& joint = joints[link.joint];
-    turn(link, joint);
+    set_rotation(link, joint);
     place(link);
     for (int d = 0; d < std::min(link.dofs, 3); ++d)
       velocity_[link.first + d] = joint.velocity_rad_per_s[static_cast<std::size_t>(d)];
     if (link.dofs == 6) velocity_.segment<3>(link.first + 3) = vec(joint.slide_m_per_s);
-    link.velocity = moved(link, velocity_);
+    link.velocity = joint_velocity(link, velocity_);
     if (link.parent >= 0) link.velocity += links_[link.parent].velocity;
     const Vec3 angular = link.velocity.head<3>();
     twists_[link.body] = {angular,
@@ -123,19 +123,19 @@ void SkeletonModel::place(std::span<const JointReading> joints) {
 void SkeletonModel::newton_euler(const Eigen::VectorXd& v, const Eigen::VectorXd* a,
                                  Eigen::VectorXd& tau) {
   for (Link& link : links_) {
-    const Vec6 own = moved(link, v);
-    link.moving = own;
+    const Vec6 joint_motion = joint_velocity(link, v);
+    link.motion = joint_motion;
     link.acceleration = spatial(Vec3::Zero(), -gravity_);
     if (link.parent >= 0) {
-      link.moving += links_[link.parent].moving;
+      link.motion += links_[link.parent].motion;
       link.acceleration = links_[link.parent].acceleration;
     }
-    Vec6 turned = own;
-    if (link.dofs == 6) turned.tail<3>() -= slid(link, v);
-    link.acceleration += cross_motion(link.moving, turned);
-    if (a) link.acceleration += moved(link, *a);
+    Vec6 rotating_motion = joint_motion;
+    if (link.dofs == 6) rotating_motion.tail<3>() -= sliding_velocity(link, v);
+    link.acceleration += cross_motion(link.motion, rotating_motion);
+    if (a) link.acceleration += joint_velocity(link, *a);
     link.force =
-        link.inertia * link.acceleration + cross_force(link.moving, link.inertia * link.moving);
+        link.inertia * link.acceleration + cross_force(link.motion, link.inertia * link.motion);
   }
   tau.resize(coordinates());
   for (auto link = links_.rbegin(); link != links_.rend(); ++link) {

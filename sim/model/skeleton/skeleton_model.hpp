@@ -12,10 +12,11 @@
 ///
 ///   τ = H(q) a + C(q, v) + τ_G(q)
 ///
-/// v has one coordinate per revolute joint, three per spherical joint (angular velocity of the child, in
-/// the child's frame), six per free joint (the same, then the velocity of the centre of mass in the
-/// root's frame), and none per fixed or locked joint, in the order of RobotTree's bodies. a = dv/dt.
-/// Column S_d is the spatial velocity for a unit velocity of coordinate d, in the world frame.
+/// v has one coordinate per revolute joint, three per spherical joint (angular velocity of the
+/// child, in the child's frame), six per free joint (the same, then the velocity of the centre of
+/// mass in the root's frame), and none per fixed or locked joint, in the order of RobotTree's
+/// bodies. a = dv/dt. Column S_d is the spatial velocity for a unit velocity of coordinate d, in
+/// the world frame.
 ///
 ///   inverse   recursive Newton–Euler      f_i = I a_i + v_i ×* I v_i,  τ_d = S_dᵀ Σ f  (outwards)
 ///   H         composite rigid bodies      H_de = S_dᵀ I^c_e S_e,  d towards the root from e
@@ -27,12 +28,14 @@ namespace sim {
 
 class SkeletonModel {
  public:
-  /// `lock`: joints held at their initial angle. Throws std::invalid_argument for an unknown joint.
+  /// `locked_joints`: joints fixed at their initial angle. Throws std::invalid_argument for an
+  /// unknown joint.
   SkeletonModel(const RobotTree& tree, const Vec3& gravity_m_per_s2,
-                std::span<const std::string> lock = {});
+                std::span<const std::string> locked_joints = {});
 
   int coordinates() const { return static_cast<int>(axes_.cols()); }
-  /// Index in v of a joint's first coordinate; `joint`: index in RobotTree::joints. −1: no coordinate.
+  /// Index in v of a joint's first coordinate; `joint`: index in RobotTree::joints. −1: no
+  /// coordinate.
   int first_of(int joint) const { return first_of_[static_cast<std::size_t>(joint)]; }
   /// The coordinates that move a body, from the nearest joint to the root.
   std::span<const int> movers(int body) const { return movers_[static_cast<std::size_t>(body)]; }
@@ -54,7 +57,7 @@ class SkeletonModel {
   void bias(Eigen::VectorXd& tau) { newton_euler(velocity_, nullptr, tau); }
   void bias(const Eigen::VectorXd& v, Eigen::VectorXd& tau) { newton_euler(v, nullptr, tau); }
   /// τ_G: the torques that compensate gravity at rest.
-  void gravity_torques(Eigen::VectorXd& tau) { newton_euler(still_, nullptr, tau); }
+  void gravity_torques(Eigen::VectorXd& tau) { newton_euler(zero_velocity_, nullptr, tau); }
   /// H, symmetric, coordinates × coordinates.
   void inertia(Eigen::MatrixXd& h);
   /// The accelerations for given torques (forward dynamics).
@@ -72,13 +75,13 @@ class SkeletonModel {
     Eigen::Matrix3d central_kg_m2;                           ///< inertia about the centre of mass
     SpatialInertia inertia, composite;
     Vec6 velocity = Vec6::Zero();  ///< of the last `place`
-    Vec6 moving = Vec6::Zero(), acceleration = Vec6::Zero(), force = Vec6::Zero();
+    Vec6 motion = Vec6::Zero(), acceleration = Vec6::Zero(), force = Vec6::Zero();
   };
   void add_link(int body, bool locked);
-  void turn(Link& link, const JointReading& joint) const;
+  void set_rotation(Link& link, const JointReading& joint) const;
   void place(Link& link);
-  Vec6 moved(const Link& link, const Eigen::VectorXd& v) const;
-  Vec3 slid(const Link& link, const Eigen::VectorXd& v) const;
+  Vec6 joint_velocity(const Link& link, const Eigen::VectorXd& v) const;
+  Vec3 sliding_velocity(const Link& link, const Eigen::VectorXd& v) const;
   void newton_euler(const Eigen::VectorXd& v, const Eigen::VectorXd* a, Eigen::VectorXd& tau);
 
   RobotTree tree_;
@@ -89,7 +92,7 @@ class SkeletonModel {
   std::vector<std::vector<int>> movers_;
   std::vector<BodyPose> poses_;
   std::vector<BodyTwist> twists_;
-  Eigen::VectorXd velocity_, still_;
+  Eigen::VectorXd velocity_, zero_velocity_;
 };
 
 }  // namespace sim

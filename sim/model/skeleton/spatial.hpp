@@ -4,8 +4,8 @@
 #include "sim/model/skeleton/pose.hpp"
 
 /// Spatial vectors in the world's frame: angular part above, linear part below, both about the
-/// world's origin. In this form velocities add up along a limb, and forces and inertias add up
-/// towards its root.
+/// world's origin. In this form velocities are summed from the root outwards, and forces
+/// and inertias from the tips to the root.
 /// Source: Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2.
 namespace sim {
 
@@ -25,20 +25,20 @@ inline Vec6 wrench(const Vec3& at_m, const Vec3& force_N) {
   return spatial(at_m.cross(force_N), force_N);
 }
 
-/// v × m for motions.
+/// v × m: cross product with a motion vector m.
 inline Vec6 cross_motion(const Vec6& v, const Vec6& m) {
   const Vec3 w = v.head<3>(), l = v.tail<3>(), a = m.head<3>(), b = m.tail<3>();
   return spatial(w.cross(a), w.cross(b) + l.cross(a));
 }
 
-/// v ×* f for forces.
+/// v ×* f: cross product with a force vector f.
 inline Vec6 cross_force(const Vec6& v, const Vec6& f) {
   const Vec3 w = v.head<3>(), l = v.tail<3>(), n = f.head<3>(), p = f.tail<3>();
   return spatial(w.cross(n) + l.cross(p), w.cross(p));
 }
 
-/// Inertia of a rigid body, or of several bodies that move as one: mass, first moment and second moment
-/// about the world's origin.
+/// Inertia of a rigid body, or of several bodies that move as one: mass, first moment and second
+/// moment about the world's origin.
 struct SpatialInertia {
   double mass_kg = 0;
   Vec3 moment_kg_m = Vec3::Zero();                         ///< m c

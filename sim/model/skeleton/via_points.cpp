@@ -32,22 +32,22 @@ Eigen::Matrix<double, 5, 5> jerk_cost() {
   return jerk.transpose() * hilbert * jerk;
 }
 
-/// The normal equations in v and a of all points; those of points at rest are fixed at 0.
+/// The normal equations in v and a of all points. At points at rest, v and a are fixed at 0.
 struct NormalEquations {
   std::vector<Eigen::Triplet<double>> entries;
-  MatrixXd right;
+  MatrixXd right_side;
   const std::vector<bool>& rests;
 
-  bool held(Index row) const { return rests[static_cast<std::size_t>(row / 2)]; }
+  bool is_at_rest(Index row) const { return rests[static_cast<std::size_t>(row / 2)]; }
   void add_segment(Index k, double T, const Eigen::RowVectorXd& delta) {
     static const auto cost = jerk_cost();
     const Eigen::Vector4d scale(T, T * T, T, T * T);
     const double weight = std::pow(T, -5);
     for (Index i = 0; i < 4; ++i) {
-      if (held(2 * k + i)) continue;
-      right.row(2 * k + i) -= weight * scale[i] * cost(1 + i, 0) * delta;
+      if (is_at_rest(2 * k + i)) continue;
+      right_side.row(2 * k + i) -= weight * scale[i] * cost(1 + i, 0) * delta;
       for (Index j = 0; j < 4; ++j)
-        if (!held(2 * k + j))
+        if (!is_at_rest(2 * k + j))
           entries.emplace_back(2 * k + i, 2 * k + j,
                                weight * scale[i] * cost(1 + i, 1 + j) * scale[j]);
     }
@@ -75,18 +75,18 @@ QuinticSegment QuinticSegment::between(const Vec3& delta, const Vec3& v0, const 
 /// Evaluates the polynomial by Horner's method.
 QuinticSegment::Place QuinticSegment::at(double s) const {
   Place p{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  const auto deeper = [&](const Vec3& factor) {
+  const auto horner_step = [&](const Vec3& factor) {
     p.rate_of_rate = s * p.rate_of_rate + 2 * p.rate;
     p.rate = s * p.rate + p.u;
     p.u = s * p.u + factor;
   };
-  for (std::size_t n = 5; n-- > 0;) deeper(vec(c[n]));
-  deeper(Vec3::Zero());
+  for (std::size_t n = 5; n-- > 0;) horner_step(vec(c[n]));
+  horner_step(Vec3::Zero());
   return p;
 }
 
-ViaMotions least_jerk_through(const std::vector<double>& times_s, const MatrixXd& deltas,
-                              std::vector<bool> rests) {
+ViaMotions minimum_jerk_through(const std::vector<double>& times_s, const MatrixXd& deltas,
+                                std::vector<bool> rests) {
   const Index points = deltas.rows() + 1;
   rests.front() = rests.back() = true;
   NormalEquations equations{{}, MatrixXd::Zero(2 * points, deltas.cols()), rests};
@@ -95,14 +95,15 @@ ViaMotions least_jerk_through(const std::vector<double>& times_s, const MatrixXd
     equations.add_segment(k, times_s[at + 1] - times_s[at], deltas.row(k));
   }
   for (Index row = 0; row < 2 * points; ++row)
-    if (equations.held(row)) equations.entries.emplace_back(row, row, 1);
+    if (equations.is_at_rest(row)) equations.entries.emplace_back(row, row, 1);
   Eigen::SparseMatrix<double> matrix(2 * points, 2 * points);
   matrix.setFromTriplets(equations.entries.begin(), equations.entries.end());
-  const MatrixXd sought = Eigen::SimplicialLDLT<decltype(matrix)>(matrix).solve(equations.right);
+  const MatrixXd solution =
+      Eigen::SimplicialLDLT<decltype(matrix)>(matrix).solve(equations.right_side);
   ViaMotions motions{MatrixXd(points, deltas.cols()), MatrixXd(points, deltas.cols())};
   for (Index k = 0; k < points; ++k)
-    motions.velocity.row(k) = sought.row(2 * k),
-    motions.acceleration.row(k) = sought.row(2 * k + 1);
+    motions.velocity.row(k) = solution.row(2 * k),
+    motions.acceleration.row(k) = solution.row(2 * k + 1);
   return motions;
 }
 

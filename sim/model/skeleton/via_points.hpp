@@ -5,8 +5,9 @@
 
 #include "sim/model/skeleton/pose.hpp"
 
-/// Minimum-jerk trajectory through via points (Flash and Hogan 1985): of all trajectories through given
-/// points at given times, the one with minimum ∫ jerk² dt. Each segment is a fifth-degree polynomial,
+/// Minimum-jerk trajectory through via points (Flash and Hogan 1985): of all trajectories through
+/// given points at given times, the one with minimum ∫ jerk² dt. Each segment is a fifth-degree
+/// polynomial,
 ///
 ///   x(s) = c₁ s + … + c₅ s⁵,   s = (t − t_k)/T,   x(1) = Δ_k
 ///
@@ -35,9 +36,9 @@ struct ViaMotions {
   Eigen::MatrixXd velocity, acceleration;
 };
 
-/// `times_s`: increasing times of the points. `deltas`: Δ, segments × dimensions. `rests`: points with
-/// zero velocity and acceleration; always true for the first and the last.
-ViaMotions least_jerk_through(const std::vector<double>& times_s, const Eigen::MatrixXd& deltas,
-                              std::vector<bool> rests);
+/// `times_s`: increasing times of the points. `deltas`: Δ, segments × dimensions. `rests`: points
+/// with zero velocity and acceleration; always true for the first and the last.
+ViaMotions minimum_jerk_through(const std::vector<double>& times_s, const Eigen::MatrixXd& deltas,
+                                std::vector<bool> rests);
 
 }  // namespace sim

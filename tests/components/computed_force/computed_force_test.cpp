@@ -108,11 +108,12 @@ std::vector<sim::JointReading> random_posture(const erp::Robot& robot, std::mt19
   std::uniform_real_distribution<double> within(-1, 1);
   std::vector<sim::JointReading> joints;
   for (const erp::Joint& joint : robot.joints()) {
-    joints.push_back(sim::start_of(joint));
+    joints.push_back(sim::initial_reading(joint));
     const double reach = joint.type == erp::JointType::revolute ? 0.6 : 0.4;
-    joints.back().position = sim::gone(joint.type, joints.back().position,
-                                       std::array{reach * (1 + within(random)) / 2,
-                                                  reach * within(random), reach * within(random)});
+    joints.back().position =
+        sim::displaced(joint.type, joints.back().position,
+                       std::array{reach * (1 + within(random)) / 2, reach * within(random),
+                                  reach * within(random)});
   }
   return joints;
 }

@@ -20,11 +20,12 @@ namespace {
 constexpr double period_s = 0.01, degree = std::numbers::pi / 180;
 
 double apart(const sim::JointReading& a, const sim::JointReading& b) {
-  const auto way = sim::way_between(a.type, a.position, b.position);
+  const auto way = sim::displacement(a.type, a.position, b.position);
   return std::hypot(way[0], way[1], way[2]);
 }
 
-/// Result of tracking the arm through its figure: RMS error by joint over the images in which it was found.
+/// Result of tracking the arm through its figure: RMS error by joint over the images in which it
+/// was found.
 struct Tracked {
   std::vector<double> rms_rad;
   int images = 0, found = 0;
@@ -112,10 +113,10 @@ TEST_CASE("a robot that was hidden, or is not at its predicted pose, is found") 
   Studio studio;
   Capture capture = studio.capture();
   std::vector<sim::JointReading> joints;
-  for (const auto& joint : studio.robot.joints()) joints.push_back(sim::start_of(joint));
+  for (const auto& joint : studio.robot.joints()) joints.push_back(sim::initial_reading(joint));
   joints[1].position[0] = 1.4;
   joints[0].position =
-      sim::gone(joints[0].type, joints[0].position, std::array<double, 3>{0.3, -0.5, 0.4});
+      sim::displaced(joints[0].type, joints[0].position, std::array<double, 3>{0.3, -0.5, 0.4});
   const auto pair = studio.images(joints);
   const auto seen = capture.see(pair[0], pair[1], period_s);
   REQUIRE(seen);
@@ -132,7 +133,7 @@ TEST_CASE("a joint whose body is hidden is unknown, and is found again at anothe
   Studio studio;
   Capture capture = studio.capture();
   std::vector<sim::JointReading> joints;
-  for (const auto& joint : studio.robot.joints()) joints.push_back(sim::start_of(joint));
+  for (const auto& joint : studio.robot.joints()) joints.push_back(sim::initial_reading(joint));
   auto pair = studio.images(joints);
   REQUIRE(capture.see(pair[0], pair[1], period_s));
   const sim::cameras::Bone wall{{0.6, -2, -0.67}, {0.6, 2, -0.67}, 0.55};
@@ -151,8 +152,8 @@ TEST_CASE("a joint whose body is hidden is unknown, and is found again at anothe
 TEST_CASE("images survive writing and reading exactly, and a wrong size is refused") {
   test::Folder folder;
   Studio studio;
-  const auto pair = studio.images(std::vector{sim::start_of(studio.robot.joints()[0]),
-                                              sim::start_of(studio.robot.joints()[1])});
+  const auto pair = studio.images(std::vector{sim::initial_reading(studio.robot.joints()[0]),
+                                              sim::initial_reading(studio.robot.joints()[1])});
   const auto file = image_name(folder / "", "left", 3);
   write_image(file, pair[0]);
   CHECK(read_image(file, 640, 480)->pixels == pair[0].pixels);

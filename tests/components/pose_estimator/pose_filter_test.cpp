@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "sim/control/tension_share.hpp"
+#include "sim/control/tension_distribution.hpp"
 
 namespace {
 
@@ -19,9 +19,10 @@ const erp::Robot& arm() {
 class Truth {
  public:
   explicit Truth(unsigned seed)
-      : share_(sim::objective_terms(arm(), sim::TensionObjective::least_tension, 5), model_.coordinates()),
+      : distribution_(sim::objective_terms(arm(), sim::TensionObjective::least_tension, 5),
+                      model_.coordinates()),
         random_(seed) {
-    for (const auto& joint : model_.tree().joints) now_.push_back(sim::start_of(joint));
+    for (const auto& joint : model_.tree().joints) now_.push_back(sim::initial_reading(joint));
     speed_.setZero(model_.coordinates());
     disturb_start();
   }
@@ -33,7 +34,7 @@ class Truth {
     model_.skeleton().inertia(inertia);
     // A soft spring towards the start keeps the arm in range.
     VectorXd pull = -4 * offset_ - 2 * speed_;
-    const VectorXd f = share_.share(model_.jacobian(), bias + inertia * pull);
+    const VectorXd f = distribution_.distribute(model_.jacobian(), bias + inertia * pull);
     VectorXd torque = -bias - model_.jacobian().transpose() * f;
     for (std::size_t j = 0; j < now_.size(); ++j)
       for (int d = 0; d < sim::coordinates_of(now_[j].type); ++d) {
@@ -55,7 +56,7 @@ class Truth {
     VectorXd e(2 * speed_.size());
     for (std::size_t j = 0; j < now_.size(); ++j) {
       const auto& seen = filter.joints()[j];
-      const auto way = sim::way_between(now_[j].type, seen.position, now_[j].position);
+      const auto way = sim::displacement(now_[j].type, seen.position, now_[j].position);
       const int first = model_.skeleton().first_of(int(j));
       for (int d = 0; d < sim::coordinates_of(now_[j].type); ++d)
         e[first + d] = way[std::size_t(d)];
@@ -79,7 +80,7 @@ class Truth {
       const int first = model_.skeleton().first_of(int(j));
       for (int d = 0; d < sim::coordinates_of(now_[j].type); ++d)
         way[std::size_t(d)] = by[first + d];
-      now_[j].position = sim::gone(now_[j].type, now_[j].position, way);
+      now_[j].position = sim::displaced(now_[j].type, now_[j].position, way);
     }
   }
   void place() {
@@ -90,7 +91,7 @@ class Truth {
   }
 
   sim::Musculoskeletal model_{arm()};
-  sim::TensionShare share_;
+  sim::TensionDistribution distribution_;
   VectorXd speed_, offset_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_;
@@ -157,10 +158,10 @@ TEST_CASE("a joint measurement as uncertain as the start moves the estimate half
 TEST_CASE("inertial units give the bones' angular velocity and the direction of gravity") {
   sim::Musculoskeletal truth(arm());
   std::vector<sim::JointReading> now;
-  for (const auto& joint : truth.tree().joints) now.push_back(sim::start_of(joint));
-  now[0].position = sim::gone(now[0].type, now[0].position, {0.06, -0.05, 0.04});
+  for (const auto& joint : truth.tree().joints) now.push_back(sim::initial_reading(joint));
+  now[0].position = sim::displaced(now[0].type, now[0].position, {0.06, -0.05, 0.04});
   now[0].velocity_rad_per_s = {0.3, -0.5, 0.2};
-  now[1].position = sim::gone(now[1].type, now[1].position, {0.08});
+  now[1].position = sim::displaced(now[1].type, now[1].position, {0.08});
   now[1].velocity_rad_per_s = {-0.4};
   truth.place(now);
   pose::FilterOptions wide = options;

@@ -10,8 +10,8 @@ namespace {
 constexpr double period_s = 0.002;
 constexpr std::int64_t period_ns = 2'000'000;
 
-/// A player that guides the arm's elbow from 0.3 to 1.3 rad in one second, and an arm whose position the
-/// test sets.
+/// A player that guides the arm's elbow from 0.3 to 1.3 rad in one second, and an arm whose
+/// position the test sets.
 struct Fixture {
   test::Folder folder;
   erp::Robot robot = erp::read_robot(ERP_SOURCE_DIR "/configs/arm/robot.xml");
@@ -32,7 +32,7 @@ struct Fixture {
   void place_elbow(double elbow_rad, double elbow_rad_per_s = 0) {
     Eigen::VectorXd none = Eigen::VectorXd::Zero(4);
     std::vector<sim::JointReading> now;
-    for (const auto& joint : names.list()) now.push_back(sim::start_of(joint));
+    for (const auto& joint : names.list()) now.push_back(sim::initial_reading(joint));
     now[1].position[0] = elbow_rad, now[1].velocity_rad_per_s[0] = elbow_rad_per_s;
     names.write(now, none, sim::SkeletonModel(sim::RobotTree(robot), {0, 0, -9.81}), state.message);
     state.received = true;

@@ -14,7 +14,8 @@ struct Problem {
   VectorXd c, low, high;
 };
 
-/// A random problem with condition number up to 10^`decades`; a quarter of the bounds are equalities.
+/// A random problem with condition number up to 10^`decades`; a quarter of the bounds are
+/// equalities.
 Problem random_problem(std::mt19937& random, int n, double decades) {
   std::normal_distribution<double> normal;
   const auto draw = [&] { return normal(random); };
@@ -31,17 +32,17 @@ Problem random_problem(std::mt19937& random, int n, double decades) {
   return p;
 }
 
-/// Karush–Kuhn–Tucker conditions: x is within the bounds; the gradient is zero for free variables, ≥ 0 at
-/// lower and ≤ 0 at upper bounds.
-void check_best(const Problem& p, const VectorXd& x) {
-  const VectorXd slope = p.h * x - p.c;
-  const double small = 1e-7 * (p.h.cwiseAbs() * x.cwiseAbs() + p.c.cwiseAbs()).maxCoeff();
+/// Karush–Kuhn–Tucker conditions: x is within the bounds; the gradient is zero for free variables,
+/// ≥ 0 at lower and ≤ 0 at upper bounds.
+void check_optimality(const Problem& p, const VectorXd& x) {
+  const VectorXd gradient = p.h * x - p.c;
+  const double tolerance = 1e-7 * (p.h.cwiseAbs() * x.cwiseAbs() + p.c.cwiseAbs()).maxCoeff();
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     INFO("variable " << k << " at " << x[k] << " in " << p.low[k] << " … " << p.high[k]);
     REQUIRE(x[k] >= p.low[k]);
     REQUIRE(x[k] <= p.high[k]);
-    if (x[k] > p.low[k]) REQUIRE(slope[k] < small);
-    if (x[k] < p.high[k]) REQUIRE(slope[k] > -small);
+    if (x[k] > p.low[k]) REQUIRE(gradient[k] < tolerance);
+    if (x[k] < p.high[k]) REQUIRE(gradient[k] > -tolerance);
   }
 }
 
@@ -76,8 +77,8 @@ TEST_CASE("the result satisfies the KKT conditions for any size, from a cold or 
       const Problem p = random_problem(random, n, k % 4);
       if (k % 3 == 0) qp.start_cold();
       const VectorXd x = qp.solve(p.h, p.c, p.low, p.high);
-      CHECK(qp.settled());
-      check_best(p, x);
+      CHECK(qp.converged());
+      check_optimality(p, x);
     }
   }
 }

@@ -38,8 +38,8 @@ TEST_CASE(
       for (const auto& from : {pose, arm_at(turn + 0.2, elbow - 0.2)}) {
         const auto rest = equilibrium.find(shafts, from);
         CHECK(rest.unbalanced_Nm < 1e-6);
-        const auto off = sim::way_between(erp::JointType::spherical, pose[0], rest.pose[0]);
-        CHECK(std::hypot(off[0], off[1], off[2]) < 1e-5);
+        const auto deviation = sim::displacement(erp::JointType::spherical, pose[0], rest.pose[0]);
+        CHECK(std::hypot(deviation[0], deviation[1], deviation[2]) < 1e-5);
         CHECK(rest.pose[1][0] == Approx(elbow).margin(1e-5));
       }
     }
@@ -66,7 +66,7 @@ TEST_CASE("additional path length is equivalent to additional winding of the sha
   CHECK(rest.pose[1][0] == Approx(0.8).margin(1e-5));
 }
 
-TEST_CASE("a spring's energy is the work of its force") {
+TEST_CASE("the energy of a spring is the work of its force") {
   for (const sim::Spring spring :
        {sim::Spring{6000}, sim::Spring{6000, 4e7}, sim::Spring{6000, 4e7, 1e-5}}) {
     double sum = 0;

@@ -93,8 +93,8 @@ TEST_CASE("the tension rate of the model equals that of the tendon law") {
   const double shaft = 1.2, speed = 3, current = 2;
   const Eigen::Vector3d x(current, speed, law.tension_N(0.3, 0, shaft, speed));
   const Eigen::Vector3d rate = model.a * x;
-  const double later = law.tension_N(0.3, 0, shaft + h * speed, speed + h * rate.y());
-  CHECK(rate.z() == Approx((later - x.z()) / h).epsilon(1e-6));
+  const double later_N = law.tension_N(0.3, 0, shaft + h * speed, speed + h * rate.y());
+  CHECK(rate.z() == Approx((later_N - x.z()) / h).epsilon(1e-6));
 }
 
 TEST_CASE("Ackermann's formula places the discrete poles at the desired values") {
@@ -106,22 +106,23 @@ TEST_CASE("Ackermann's formula places the discrete poles at the desired values")
   options.force_poles_per_s = poles;
   const auto gains = sim::design_force(model, options);
   // Φ − Γ k from the differential equation, column by column, by fine Euler–Heun steps.
-  const auto next = [&](Eigen::Vector3d x, double v) {
-    const int fine = 200000;
-    const double h = 0.002 / fine;
-    for (int k = 0; k < fine; ++k) {
+  const auto after_period = [&](Eigen::Vector3d x, double v) {
+    const int fine_steps = 200000;
+    const double h = 0.002 / fine_steps;
+    for (int k = 0; k < fine_steps; ++k) {
       const Eigen::Vector3d rate = model.a * x + model.b * v;
       x += h * (rate + 0.5 * h * model.a * rate);
     }
     return x;
   };
   Eigen::Matrix3d closed;
-  for (int k = 0; k < 3; ++k) closed.col(k) = next(Eigen::Vector3d::Unit(k), -gains.feedback[k]);
-  const auto found = closed.eigenvalues();
+  for (int k = 0; k < 3; ++k)
+    closed.col(k) = after_period(Eigen::Vector3d::Unit(k), -gains.feedback[k]);
+  const auto discrete_poles = closed.eigenvalues();
   for (const auto& pole : poles) {
     double nearest = 1;
     for (int k = 0; k < 3; ++k)
-      nearest = std::min(nearest, std::abs(found[k] - std::exp(pole * 0.002)));
+      nearest = std::min(nearest, std::abs(discrete_poles[k] - std::exp(pole * 0.002)));
     CHECK(nearest < 1e-6);
   }
 }
@@ -148,8 +149,8 @@ TEST_CASE("poles that are unstable or not in conjugate pairs are rejected") {
 }
 
 TEST_CASE(
-    "a force step from 2 to 40 N is fast, without overshoot, with low noise at rest and within the "
-    "current limit") {
+    "a force step from 2 to 40 N takes less than 0.2 s, without overshoot, with less than 0.1 N of "
+    "noise at rest and within the current limit") {
   Bench bench;
   bench.hold_force(2, 0.5);
   double at_10 = -1, at_90 = -1, peak = 0, current = 0;

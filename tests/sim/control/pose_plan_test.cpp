@@ -20,13 +20,13 @@ TEST_CASE("lengths.csv of each robot is the output of erp model lengths for its 
   const bool torso = std::string(name).starts_with("ecce");
   const sim::PlanOptions options{
       .holding = {.rest_N = torso ? 20.0 : 10, .least_N = torso ? 8.0 : 5}};
-  const Table made = lengths_through(robot, poses, options).table;
-  const Table kept = recording::read_table(folder + "/lengths.csv");
-  REQUIRE(kept.columns.size() == made.columns.size());
-  REQUIRE(kept.rows() == made.rows());
-  for (std::size_t c = 0; c < made.columns.size(); ++c)
-    for (std::size_t row = 0; row < made.rows(); ++row)
-      REQUIRE(std::abs(kept.columns[c].values[row] - made.columns[c].values[row]) < 1e-6);
+  const Table computed = lengths_through(robot, poses, options).table;
+  const Table stored = recording::read_table(folder + "/lengths.csv");
+  REQUIRE(stored.columns.size() == computed.columns.size());
+  REQUIRE(stored.rows() == computed.rows());
+  for (std::size_t c = 0; c < computed.columns.size(); ++c)
+    for (std::size_t row = 0; row < computed.rows(); ++row)
+      REQUIRE(std::abs(stored.columns[c].values[row] - computed.columns[c].values[row]) < 1e-6);
 }
 
 TEST_CASE(

@@ -96,30 +96,30 @@ TEST_CASE(
     REQUIRE(dom.root());
     CHECK(dom.messages == "");
     const auto joints = dom.all<ColladaDOM150::domJoint>();
-    const auto own_joints = robot.joints();
-    REQUIRE(joints.size() == own_joints.size());
+    const auto expected_joints = robot.joints();
+    REQUIRE(joints.size() == expected_joints.size());
     for (std::size_t k = 0; k < joints.size(); ++k) {
-      const erp::Joint& own = own_joints[k];
-      CHECK(joints[k]->getName() == own.name);
-      if (own.type != erp::JointType::revolute) continue;
+      const erp::Joint& expected = expected_joints[k];
+      CHECK(joints[k]->getName() == expected.name);
+      if (expected.type != erp::JointType::revolute) continue;
       const auto& hinge = *joints[k]->getRevolute_array()[0];
-      CHECK(hinge.getLimits()->getMax()->getValue() * M_PI / 180 == Approx(own.max_rad));
-      for (std::size_t i = 0; i < 3; ++i) CHECK(hinge.getAxis()->getValue()[i] == own.axis[i]);
+      CHECK(hinge.getLimits()->getMax()->getValue() * M_PI / 180 == Approx(expected.max_rad));
+      for (std::size_t i = 0; i < 3; ++i) CHECK(hinge.getAxis()->getValue()[i] == expected.axis[i]);
     }
-    double mass_kg = 0, ours_kg = 0;
+    double mass_kg = 0, expected_kg = 0;
     for (auto* body : dom.all<ColladaDOM150::domRigid_body>())
       if (const auto mass = body->getTechnique_common()->getMass()) mass_kg += mass->getValue();
-    for (const erp::Body& body : robot.bodies()) ours_kg += mass_of(body).mass_kg;
-    CHECK(mass_kg == Approx(ours_kg).epsilon(1e-12));
+    for (const erp::Body& body : robot.bodies()) expected_kg += mass_of(body).mass_kg;
+    CHECK(mass_kg == Approx(expected_kg).epsilon(1e-12));
   }
 }
 
 TEST_CASE("a file that collada-dom has read and rewritten gives the same robot") {
   const erp::Robot robot = read("arm");
-  const File file(formats::to_collada(robot), ".dae"), again("", "_again.dae");
+  const File file(formats::to_collada(robot), ".dae"), rewritten("", "_again.dae");
   Dom dom(file.path);
-  REQUIRE(dom.write(file.path, again.path));
-  CHECK(erp::write_robot(formats::from_collada(again.path)) == erp::write_robot(robot));
+  REQUIRE(dom.write(file.path, rewritten.path));
+  CHECK(erp::write_robot(formats::from_collada(rewritten.path)) == erp::write_robot(robot));
 }
 
 TEST_CASE("a value that another program changed in the standard elements takes precedence") {
@@ -138,7 +138,7 @@ TEST_CASE("a value that another program changed in the standard elements takes p
                     Catch::Contains("body \"arm\" is not in the extra"));
 }
 
-TEST_CASE("the mass of the base is kept, and a changed gravity is imported") {
+TEST_CASE("the mass of the base is unchanged, and a changed gravity is imported") {
   erp::Robot robot = read("hinge_rig");
   erp::Body& base = robot.skeletons[0].bodies[0];
   base.density_kg_per_m3 = 1000;
@@ -156,10 +156,10 @@ TEST_CASE("without the extra element, the skeleton is imported") {
     const erp::Robot bare = through_file(without_extra(formats::to_collada(robot)));
     CHECK(bare.actuators.empty());
     REQUIRE(bare.joints().size() == robot.joints().size());
-    double was = 0, now = 0;
-    for (const erp::Body& body : robot.bodies()) was += mass_of(body).mass_kg;
-    for (const erp::Body& body : bare.bodies()) now += mass_of(body).mass_kg;
-    CHECK(now == Approx(was).epsilon(1e-12));
+    double expected_kg = 0, actual_kg = 0;
+    for (const erp::Body& body : robot.bodies()) expected_kg += mass_of(body).mass_kg;
+    for (const erp::Body& body : bare.bodies()) actual_kg += mass_of(body).mass_kg;
+    CHECK(actual_kg == Approx(expected_kg).epsilon(1e-12));
     CHECK(erp::check_robot(bare).empty());
   }
 }

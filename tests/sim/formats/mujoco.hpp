@@ -11,7 +11,7 @@
 #include "sim/formats/formats.hpp"
 
 /// A robot loaded into MuJoCo from the exported MJCF, as a reference implementation.
-namespace peer {
+namespace reference {
 
 class Mujoco {
  public:
@@ -42,4 +42,4 @@ class Mujoco {
   std::unique_ptr<mjData, Delete> data;
 };
 
-}  // namespace peer
+}  // namespace reference

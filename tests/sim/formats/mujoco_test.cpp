@@ -17,22 +17,23 @@ erp::Robot arm(bool with_friction) {
   return robot;
 }
 
-void put(const peer::Mujoco& mujoco, World& world, int joint, const JointReading& reading) {
+void set_joint_of_both(const reference::Mujoco& mujoco, World& world, int joint,
+                       const JointReading& reading) {
   world.set_joint(joint, reading);
   double* q = mujoco.position_of(world.joint_list()[joint].name);
   const int n = reading.type == erp::JointType::spherical ? 4 : 1;
   for (int i = 0; i < n; ++i) q[i] = reading.position[static_cast<std::size_t>(i)];
 }
 
-/// True if MuJoCo's tendon passes straight through its sphere. MuJoCo 2.2.2 occasionally does this for a
-/// tendon with a sidesite, with a jump of the length to the distance of the end points.
-bool penetrates(const sim::PathShape& shape, double their_length_m) {
+/// True if MuJoCo's tendon passes straight through its sphere. MuJoCo 2.2.2 occasionally does this
+/// for a tendon with a sidesite, with a jump of the length to the distance of the end points.
+bool penetrates(const sim::PathShape& shape, double mujoco_length_m) {
   if (shape.elements != 3 || !shape.touches[1]) return false;
   const Eigen::Vector3d a = shape.entry_m[0], b = shape.entry_m[2], along = b - a;
   const Eigen::Vector3d center = shape.pulls[1].at_m;
   const double t = along.dot(center - a) / along.squaredNorm();
   const double radius = (shape.entry_m[1] - center).norm();
-  return std::abs(along.norm() - their_length_m) < 1e-9 &&
+  return std::abs(along.norm() - mujoco_length_m) < 1e-9 &&
          (a + t * along - center).norm() < radius - 1e-6;
 }
 
@@ -40,7 +41,7 @@ bool penetrates(const sim::PathShape& shape, double their_length_m) {
 
 TEST_CASE("wrapped lengths on spheres agree with MuJoCo to 1e-9 m") {
   World world(arm(false));
-  const peer::Mujoco mujoco(world.robot());
+  const reference::Mujoco mujoco(world.robot());
   std::mt19937 random(3);
   std::uniform_real_distribution<double> angle(-0.7, 0.7), bend(0, 2.2);
   int compared = 0, penetrated = 0;
@@ -49,17 +50,18 @@ TEST_CASE("wrapped lengths on spheres agree with MuJoCo to 1e-9 m") {
     const Eigen::Quaterniond q = Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitX()) *
                                  Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitY()) *
                                  Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ());
-    put(mujoco, world, 0, {erp::JointType::spherical, {q.w(), q.x(), q.y(), q.z()}, {}});
-    put(mujoco, world, 1, {erp::JointType::revolute, {bend(random)}, {}});
+    set_joint_of_both(mujoco, world, 0,
+                      {erp::JointType::spherical, {q.w(), q.x(), q.y(), q.z()}, {}});
+    set_joint_of_both(mujoco, world, 1, {erp::JointType::revolute, {bend(random)}, {}});
     mj_forward(mujoco.model.get(), mujoco.data.get());
     for (std::size_t k = 0; k < world.actuators().size(); ++k) {
-      const double theirs_m = mujoco.length_m(world.robot().actuators[k].name);
-      if (++compared; penetrates(world.path(static_cast<int>(k)), theirs_m)) {
+      const double mujoco_m = mujoco.length_m(world.robot().actuators[k].name);
+      if (++compared; penetrates(world.path(static_cast<int>(k)), mujoco_m)) {
         ++penetrated;
         continue;
       }
       CAPTURE(trial, world.robot().actuators[k].name);
-      largest_m = std::max(largest_m, std::abs(world.actuators()[k].length_m - theirs_m));
+      largest_m = std::max(largest_m, std::abs(world.actuators()[k].length_m - mujoco_m));
       CHECK(largest_m < 1e-9);
     }
   }
@@ -77,10 +79,10 @@ TEST_CASE("lengths around an inclined cylinder agree with MuJoCo to 1e-9 m") {
   robot.actuators[0].tendon.path = {erp::Attach{{}, "base", {-0.05, 0.03, 0.2}}, cylinder,
                                     erp::Attach{{}, "forearm", {0.02, -0.04, -0.1}}};
   World world(robot);
-  const peer::Mujoco mujoco(world.robot());
+  const reference::Mujoco mujoco(world.robot());
   int wrapped = 0;
   for (double q = -1.2; q < 1.6; q += 0.01) {
-    put(mujoco, world, 0, {erp::JointType::revolute, {q}, {}});
+    set_joint_of_both(mujoco, world, 0, {erp::JointType::revolute, {q}, {}});
     mj_forward(mujoco.model.get(), mujoco.data.get());
     CAPTURE(q);
     CHECK(std::abs(world.actuators()[0].length_m - mujoco.length_m("flexor")) < 1e-9);
@@ -91,7 +93,7 @@ TEST_CASE("lengths around an inclined cylinder agree with MuJoCo to 1e-9 m") {
 
 TEST_CASE("with equal tensions the motion of the arm agrees with MuJoCo to 1e-3 rad over 1 s") {
   World world(arm(false));
-  const peer::Mujoco mujoco(world.robot());
+  const reference::Mujoco mujoco(world.robot());
   const double dt_s = 1e-4;
   mujoco.model->opt.timestep = dt_s;
   std::vector<double> tension_N;
@@ -103,11 +105,11 @@ TEST_CASE("with equal tensions the motion of the arm agrees with MuJoCo to 1e-3 
     world.step_pulled(tension_N, dt_s);
     mj_step(mujoco.model.get(), mujoco.data.get());
     const auto& ball = world.joints()[0].position;
-    const double* theirs = mujoco.position_of("shoulder");
-    double same = 0;
-    for (int k = 0; k < 4; ++k) same += ball[static_cast<std::size_t>(k)] * theirs[k];
+    const double* mujoco_values = mujoco.position_of("shoulder");
+    double dot_product = 0;
+    for (int k = 0; k < 4; ++k) dot_product += ball[static_cast<std::size_t>(k)] * mujoco_values[k];
     largest_rad =
-        std::max({largest_rad, 2 * std::acos(std::min(1.0, std::abs(same))),
+        std::max({largest_rad, 2 * std::acos(std::min(1.0, std::abs(dot_product))),
                   std::abs(world.joints()[1].position[0] - *mujoco.position_of("elbow"))});
     moved_rad = std::max(moved_rad, 2 * std::acos(std::min(1.0, std::abs(ball[0]))));
   }
@@ -149,7 +151,7 @@ erp::Robot floating() {
 
 TEST_CASE("the motion of a free body with a hinged body agrees with MuJoCo to 1e-3 m over 0.5 s") {
   World world(floating());
-  const peer::Mujoco mujoco(world.robot());
+  const reference::Mujoco mujoco(world.robot());
   const double dt_s = 2e-5;
   mujoco.model->opt.timestep = dt_s;
   const std::vector<double> tension_N{12, 3};
@@ -159,10 +161,12 @@ TEST_CASE("the motion of a free body with a hinged body agrees with MuJoCo to 1e
     world.step_pulled(tension_N, dt_s);
     mj_step(mujoco.model.get(), mujoco.data.get());
     for (const int body : {1, 2}) {
-      const double* theirs = mujoco.data->xpos + 3 * (body + 1);  // after the world and the base
+      const double* mujoco_values =
+          mujoco.data->xpos + 3 * (body + 1);  // after the world and the base
       const Eigen::Vector3d at = world.poses()[static_cast<std::size_t>(body)].position_m;
-      largest_m =
-          std::max(largest_m, (at - Eigen::Vector3d(theirs[0], theirs[1], theirs[2])).norm());
+      largest_m = std::max(
+          largest_m,
+          (at - Eigen::Vector3d(mujoco_values[0], mujoco_values[1], mujoco_values[2])).norm());
     }
     turned_rad = std::max(turned_rad, std::abs(world.joints()[1].position[0]));
   }

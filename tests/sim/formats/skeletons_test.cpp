@@ -14,37 +14,37 @@ struct Format {
   erp::Robot (*read)(const std::string&);
 };
 
-bool near(const xml::Vec3& a, const xml::Vec3& b) {
+bool nearly_equal(const xml::Vec3& a, const xml::Vec3& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 1e-12;
 }
 
 template <class Items>
-const auto& named(const Items& items, const std::string& name) {
+const auto& item_named(const Items& items, const std::string& name) {
   for (const auto& item : items)
     if (item.name == name) return item;
   throw std::out_of_range(name);
 }
 
-void check_same(const erp::Robot& was, const erp::Robot& now) {
-  const auto bodies = now.bodies();
-  const auto joints = now.joints();
-  CHECK(bodies.size() == was.bodies().size());
-  for (const erp::Body& body : was.bodies()) {
+void check_equal(const erp::Robot& expected, const erp::Robot& actual) {
+  const auto bodies = actual.bodies();
+  const auto joints = actual.joints();
+  CHECK(bodies.size() == expected.bodies().size());
+  for (const erp::Body& body : expected.bodies()) {
     CAPTURE(body.name);
-    const erp::Mass a = mass_of(body), b = mass_of(named(bodies, body.name));
+    const erp::Mass a = mass_of(body), b = mass_of(item_named(bodies, body.name));
     CHECK(a.mass_kg == b.mass_kg);
-    CHECK((a.mass_kg == 0 || near(a.com_m, b.com_m)));
+    CHECK((a.mass_kg == 0 || nearly_equal(a.com_m, b.com_m)));
     for (std::size_t k = 0; k < 6 && a.mass_kg > 0; ++k)
       CHECK(a.inertia_kg_m2[k] == Approx(b.inertia_kg_m2[k]).margin(1e-12));
   }
-  CHECK(joints.size() == was.joints().size());
-  for (const erp::Joint& joint : was.joints()) {
+  CHECK(joints.size() == expected.joints().size());
+  for (const erp::Joint& joint : expected.joints()) {
     CAPTURE(joint.name);
-    const erp::Joint& other = named(joints, joint.name);
+    const erp::Joint& other = item_named(joints, joint.name);
     CHECK(other.type == joint.type);
     CHECK(other.parent == joint.parent);
     CHECK(other.child == joint.child);
-    CHECK(near(other.at_m, joint.at_m));
+    CHECK(nearly_equal(other.at_m, joint.at_m));
     if (joint.type != erp::JointType::revolute) continue;
     CHECK(other.min_rad == joint.min_rad);
     CHECK(other.max_rad == joint.max_rad);
@@ -60,9 +60,9 @@ TEST_CASE("export and import of a skeleton returns the same skeleton") {
                                  Format{"sdf", formats::to_sdf, formats::from_sdf});
   for (const char* robot : {"hinge_rig", "arm", "seven_dof", "ecce4"}) {
     CAPTURE(format.name, robot);
-    const erp::Robot was = erp::read_robot(rigs::config(std::string(robot) + "/robot.xml"));
-    const File file(format.write(was));
-    check_same(was, format.read(file.path));
+    const erp::Robot expected = erp::read_robot(rigs::config(std::string(robot) + "/robot.xml"));
+    const File file(format.write(expected));
+    check_equal(expected, format.read(file.path));
   }
 }
 
@@ -74,10 +74,10 @@ TEST_CASE("rotated frames of URDF are converted to parallel frames") {
       <origin xyz="0 0 1" rpy="0 0 1.5707963267948966"/><axis xyz="1 0 0"/></joint></robot>)");
   const erp::Robot robot = formats::from_urdf(file.path);
   const erp::Body rod = robot.bodies().at(1);
-  CHECK(near(rod.com_m, {0, 0.1, 0}));
-  CHECK(near(rod.inertia_kg_m2, {1, 2, 2.5}));  // rotated twice by a quarter turn
-  CHECK(near(robot.joints().at(0).axis, {0, 1, 0}));
-  CHECK(near(robot.joints().at(0).at_m, {0, 0, 1}));
+  CHECK(nearly_equal(rod.com_m, {0, 0.1, 0}));
+  CHECK(nearly_equal(rod.inertia_kg_m2, {1, 2, 2.5}));  // rotated twice by a quarter turn
+  CHECK(nearly_equal(robot.joints().at(0).axis, {0, 1, 0}));
+  CHECK(nearly_equal(robot.joints().at(0).at_m, {0, 0, 1}));
 }
 
 TEST_CASE("an error in a URDF file is reported with its position") {

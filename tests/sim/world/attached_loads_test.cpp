@@ -18,9 +18,10 @@ erp::Robot loaded_twin() {
 }
 
 sim::AttachedLoad load(double at_s, double for_s = 1e9) {
-  sim::AttachedLoad g;
-  g.body = "forearm", g.at_m = {0.01, 0, -0.26}, g.mass_kg = 0.2, g.at_s = at_s, g.for_s = for_s;
-  return g;
+  sim::AttachedLoad attached;
+  attached.body = "forearm", attached.at_m = {0.01, 0, -0.26}, attached.mass_kg = 0.2,
+  attached.at_s = at_s, attached.for_s = for_s;
+  return attached;
 }
 
 void fall(sim::World& world, int steps) {
@@ -31,28 +32,28 @@ void fall(sim::World& world, int steps) {
 }  // namespace
 
 TEST_CASE("a robot with an attached load moves like one with the mass in robot.xml") {
-  sim::World taking(twin()), built(loaded_twin());
-  sim::AttachedLoads loads({load(0)}, taking);
-  REQUIRE(loads.update(taking).size() == 1);
-  fall(taking, 500), fall(built, 500);
+  sim::World attaching(twin()), built(loaded_twin());
+  sim::AttachedLoads loads({load(0)}, attaching);
+  REQUIRE(loads.update(attaching).size() == 1);
+  fall(attaching, 500), fall(built, 500);
   for (std::size_t j = 0; j < 2; ++j)
-    CHECK(taking.joints()[j].position[0] == Approx(built.joints()[j].position[0]).margin(1e-12));
+    CHECK(attaching.joints()[j].position[0] == Approx(built.joints()[j].position[0]).margin(1e-12));
 }
 
 TEST_CASE("before the load is attached and after it is detached the robot moves without it") {
-  sim::World bare(twin()), taking(twin());
-  sim::AttachedLoads loads({load(0.1, 0.1)}, taking);
-  CHECK(loads.update(taking).empty());
-  fall(taking, 101), fall(bare, 101);
-  CHECK(taking.joints()[1].position == bare.joints()[1].position);
-  CHECK(loads.update(taking).size() == 1);
-  fall(taking, 100), fall(bare, 100);
-  CHECK(std::abs(taking.joints()[1].position[0] - bare.joints()[1].position[0]) > 1e-3);
-  CHECK(loads.update(taking).size() == 1);
-  const double energy_J = taking.energy_J();
-  sim::World again(twin());
-  again.restore(taking.save());
-  CHECK(again.energy_J() == Approx(energy_J));
+  sim::World bare(twin()), attaching(twin());
+  sim::AttachedLoads loads({load(0.1, 0.1)}, attaching);
+  CHECK(loads.update(attaching).empty());
+  fall(attaching, 101), fall(bare, 101);
+  CHECK(attaching.joints()[1].position == bare.joints()[1].position);
+  CHECK(loads.update(attaching).size() == 1);
+  fall(attaching, 100), fall(bare, 100);
+  CHECK(std::abs(attaching.joints()[1].position[0] - bare.joints()[1].position[0]) > 1e-3);
+  CHECK(loads.update(attaching).size() == 1);
+  const double energy_J = attaching.energy_J();
+  sim::World restored(twin());
+  restored.restore(attaching.save());
+  CHECK(restored.energy_J() == Approx(energy_J));
 }
 
 TEST_CASE("attached loads are saved and restored, and removed by a reset") {
@@ -64,16 +65,17 @@ TEST_CASE("attached loads are saved and restored, and removed by a reset") {
   fall(world, 200), fall(other, 200);
   CHECK(other.joints()[1].position == world.joints()[1].position);
   world.reset();
-  sim::World fresh(twin());
-  fall(world, 100), fall(fresh, 100);
-  CHECK(fresh.joints()[1].position == world.joints()[1].position);
+  sim::World new_world(twin());
+  fall(world, 100), fall(new_world, 100);
+  CHECK(new_world.joints()[1].position == world.joints()[1].position);
 }
 
-TEST_CASE("an unknown body, or one that cannot hold a load, is refused") {
+TEST_CASE(
+    "an attached load on an unknown body, or on a body that cannot hold a load, is rejected") {
   sim::World world(twin());
-  sim::AttachedLoad g = load(0);
-  g.body = "tail";
-  CHECK_THROWS_WITH(sim::AttachedLoads({g}, world), Catch::Contains("tail"));
-  g.body = "base";
-  CHECK_THROWS_WITH(sim::AttachedLoads({g}, world), Catch::Contains("cannot hold a load"));
+  sim::AttachedLoad misplaced = load(0);
+  misplaced.body = "tail";
+  CHECK_THROWS_WITH(sim::AttachedLoads({misplaced}, world), Catch::Contains("tail"));
+  misplaced.body = "base";
+  CHECK_THROWS_WITH(sim::AttachedLoads({misplaced}, world), Catch::Contains("cannot hold a load"));
 }

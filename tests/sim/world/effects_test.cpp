@@ -14,7 +14,7 @@ using Counts = std::vector<std::int64_t>;
 
 erp::Robot hinge_rig() { return erp::read_robot(rigs::config("hinge_rig/robot.xml")); }
 
-erp::Robot with(const effects::AnyEffect& effect) {
+erp::Robot with_effect(const effects::AnyEffect& effect) {
   erp::Robot robot = hinge_rig();
   robot.effects = {effects::written({magnitudes::place_in_rig(effect), effect})};
   return robot;
@@ -27,25 +27,25 @@ Counts recording(const erp::Robot& robot) {
   Counts counts;
   for (int k = 0; k < 3000; ++k) {
     const double t = 0.002 * k, swing = 45 * std::sin(3 * t) + 8 * std::sin(17 * t);
-    const double both = k % 500 < 60 ? 0 : 12;
+    const double co_contraction = k % 500 < 60 ? 0 : 12;
     if (k % 500 < 150) limb.command(ECU_REQUEST_VOLTAGE, {k % 500 < 100 ? -9000.0 : 6000.0, 0});
     else
-      limb.command(ECU_REQUEST_FORCE,
-                   {1000 * std::fmax(0.0, both + swing + 10), 1000 * std::fmax(0.0, both - swing)});
+      limb.command(ECU_REQUEST_FORCE, {1000 * std::fmax(0.0, co_contraction + swing + 10),
+                                       1000 * std::fmax(0.0, co_contraction - swing)});
     limb.ecus.tick(limb.world);
     limb.ecus.fill(frame);
     for (const auto& c : erp::samples(frame.channels))
-      for (const std::int64_t said :
+      for (const std::int64_t reading :
            {std::int64_t(c.encoder_counts), std::int64_t(c.duty_counts),
             std::int64_t(c.current_counts), std::int64_t(c.tension_counts)})
-        counts.push_back(said);
+        counts.push_back(reading);
     for (const auto& a : erp::samples(frame.analogs)) counts.push_back(a.counts);
   }
   CHECK(limb.world.is_finite());
   return counts;
 }
 
-double share_changed(const Counts& a, const Counts& b) {
+double fraction_changed(const Counts& a, const Counts& b) {
   std::size_t changed = 0;
   for (std::size_t k = 0; k < a.size(); ++k) changed += a[k] != b[k];
   return static_cast<double>(changed) / static_cast<double>(a.size());
@@ -53,13 +53,15 @@ double share_changed(const Counts& a, const Counts& b) {
 
 }  // namespace
 
-TEST_CASE("every effect changes the rig's sensor readings; a neutral one changes no bit") {
-  const Counts plain = recording(hinge_rig());
+TEST_CASE(
+    "every effect changes the rig's sensor readings, and with default parameters it changes no "
+    "bit") {
+  const Counts unchanged = recording(hinge_rig());
   for (const auto& neutral : effects::library()) {
     const std::string type(effects::about(neutral).type);
     INFO(type);
-    CHECK(recording(with(neutral)) == plain);
-    CHECK(share_changed(recording(with(magnitudes::visible(type))), plain) > 0.05);
+    CHECK(recording(with_effect(neutral)) == unchanged);
+    CHECK(fraction_changed(recording(with_effect(magnitudes::visible(type))), unchanged) > 0.05);
   }
 }
 
@@ -70,25 +72,25 @@ TEST_CASE("a world with effects continues from a saved state bit by bit") {
     const auto effect = magnitudes::visible(type);
     robot.effects.push_back(effects::written({magnitudes::place_in_rig(effect), effect}));
   }
-  sim::World straight(robot), other(robot);
+  sim::World original(robot), other(robot);
   const auto drive = [](sim::World& world, int steps) {
     for (int k = 0; k < steps; ++k) {
       const double v = 4 * std::sin(20 * world.time_s());
       world.step(std::vector<double>{v, -v}, 0.001);
     }
   };
-  drive(straight, 700);
-  other.restore(straight.save());
-  drive(straight, 700), drive(other, 700);
+  drive(original, 700);
+  other.restore(original.save());
+  drive(original, 700), drive(other, 700);
   for (int k = 0; k < 2; ++k) {
-    CHECK(straight.actuators()[k].tension_N == other.actuators()[k].tension_N);
-    CHECK(straight.actuators()[k].shaft_rad == other.actuators()[k].shaft_rad);
+    CHECK(original.actuators()[k].tension_N == other.actuators()[k].tension_N);
+    CHECK(original.actuators()[k].shaft_rad == other.actuators()[k].shaft_rad);
   }
-  CHECK(straight.joints()[0].position[0] == other.joints()[0].position[0]);
+  CHECK(original.joints()[0].position[0] == other.joints()[0].position[0]);
 }
 
-TEST_CASE("effects on a tendon modelled as a rope are refused") {
-  erp::Robot robot = with(magnitudes::visible("tendon_creep"));
+TEST_CASE("effects on a tendon modelled as a rope are rejected") {
+  erp::Robot robot = with_effect(magnitudes::visible("tendon_creep"));
   robot.actuators[0].rope = erp::Rope{{}, 20, 0.01, 0.0005, 0, ""};
   CHECK_THROWS_WITH(sim::World(robot), Catch::Contains("is a rope"));
 }

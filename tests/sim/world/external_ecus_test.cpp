@@ -35,7 +35,7 @@ class Pins {
     std::array<std::uint8_t, WIRE_MESSAGE_MAX> bytes;
     REQUIRE(::send(fd_, bytes.data(), wire_pack_drive(bytes.data(), 0, duty.data()), 0) > 0);
   }
-  std::vector<board_readings> given() {
+  std::vector<board_readings> received() {
     std::vector<board_readings> all;
     std::array<std::uint8_t, 512> bytes;
     const ssize_t n = ::recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT);
@@ -70,13 +70,13 @@ struct Rig {
   }
   /// Number of steps that the world simulated out of the given number.
   int step(int times) {
-    int made = 0;
-    for (int k = 0; k < times; ++k) made += ecus.step(world);
-    return made;
+    int simulated = 0;
+    for (int k = 0; k < times; ++k) simulated += ecus.step(world);
+    return simulated;
   }
   std::vector<board_readings> request(Pins& pins) {
     pins.request(), receive();
-    return pins.given();
+    return pins.received();
   }
 
   erp::Robot robot;
@@ -88,23 +88,25 @@ int counts(const board_readings& readings) { return readings.channel[0].encoder_
 
 }  // namespace
 
-TEST_CASE("an early request receives the readings of the next period when they are available") {
+TEST_CASE(
+    "a request before the end of a period receives the next readings at the end of the period") {
   Rig rig;
   Pins pins;
   REQUIRE(rig.request(pins).size() == 1);  // the current readings
   CHECK(rig.request(pins).empty());
   rig.step(3);
-  CHECK(pins.given().empty());
+  CHECK(pins.received().empty());
   rig.step(1);
-  CHECK(pins.given().size() == 1);
+  CHECK(pins.received().size() == 1);
 }
 
-TEST_CASE("a late request receives the readings of every missed period, evenly spaced") {
+TEST_CASE(
+    "a request after missed periods receives the readings of every missed period, evenly spaced") {
   Rig rig;
   Pins pins;
   REQUIRE(rig.request(pins).size() == 1);
   pins.drive(1023, 0), rig.receive();
-  // It sends duties, otherwise the world would wait for it, but no request.
+  // The ECU sends duties, because otherwise the world would wait for it, but no request.
   const auto turn_for = [&](int steps) {
     for (int k = 0; k < steps; ++k) rig.step(1), pins.drive(1023, 0), rig.receive();
   };
@@ -112,36 +114,38 @@ TEST_CASE("a late request receives the readings of every missed period, evenly s
   const auto first = rig.request(pins);
   REQUIRE(first.size() == 1);
   turn_for(13);
-  const auto late = rig.request(pins);
-  REQUIRE(late.size() == 3);
+  const auto late_readings = rig.request(pins);
+  REQUIRE(late_readings.size() == 3);
   CHECK(rig.request(pins).empty());
   rig.step(3);  // the fourth reading is now due
-  const auto next = pins.given();
+  const auto next = pins.received();
   REQUIRE(next.size() == 1);
-  const std::array seen{counts(first[0]), counts(late[0]), counts(late[1]), counts(late[2]),
-                        counts(next[0])};
-  const int turned = seen[1] - seen[0];
+  const std::array encoder_counts{counts(first[0]), counts(late_readings[0]),
+                                  counts(late_readings[1]), counts(late_readings[2]),
+                                  counts(next[0])};
+  const int turned = encoder_counts[1] - encoder_counts[0];
   REQUIRE(turned > 20);
-  for (std::size_t k = 2; k < seen.size(); ++k)
-    CHECK(seen[k] - seen[k - 1] == Approx(turned).epsilon(0.05));
+  for (std::size_t k = 2; k < encoder_counts.size(); ++k)
+    CHECK(encoder_counts[k] - encoder_counts[k - 1] == Approx(turned).epsilon(0.05));
 }
 
-TEST_CASE("the world waits for a late ECU, not for a disconnected one") {
+TEST_CASE("the world waits for an ECU whose message is overdue, not for a disconnected ECU") {
   Rig rig;
   Pins pins;
   REQUIRE(rig.request(pins).size() == 1);
-  const int late = sim::ExternalEcus::late_steps, silent = sim::ExternalEcus::silent_steps;
-  CHECK(rig.step(silent - 1) == late);
+  const int overdue = sim::ExternalEcus::overdue_steps, silent = sim::ExternalEcus::silent_steps;
+  CHECK(rig.step(silent - 1) == overdue);
   CHECK(rig.step(10) == 10);
   CHECK(rig.ecus.alive() == 0);
 }
 
-TEST_CASE("while the world waits for one ECU, the others do not look silent to a gateway") {
+TEST_CASE(
+    "while the world waits for one ECU, a gateway does not report the other ECUs as disconnected") {
   using sim::ExternalEcus;
-  const int wait = ExternalEcus::silent_steps - ExternalEcus::late_steps;
-  const double usual_s =
-      2 * ExternalEcus::steps_a_tick * ExternalEcus::step_s;  // between two messages
-  CHECK(wait * ExternalEcus::step_s + usual_s < 1e-9 * double(erp::EcuWatch::silent_ns));
+  const int wait = ExternalEcus::silent_steps - ExternalEcus::overdue_steps;
+  const double message_period_s =
+      2 * ExternalEcus::steps_per_tick * ExternalEcus::step_s;  // between two messages
+  CHECK(wait * ExternalEcus::step_s + message_period_s < 1e-9 * double(erp::EcuWatch::silent_ns));
 }
 
 TEST_CASE("in lockstep the next readings are sent when all ECUs have requested them") {
@@ -149,14 +153,14 @@ TEST_CASE("in lockstep the next readings are sent when all ECUs have requested t
   Pins pins;
   pins.request(0);
   CHECK_FALSE(rig.receive());
-  const auto now = pins.given();
-  REQUIRE(now.size() == 1);
-  pins.request(now[0].turn);
+  const auto current = pins.received();
+  REQUIRE(current.size() == 1);
+  pins.request(current[0].turn);
   CHECK(rig.receive());
-  CHECK(pins.given().empty());
-  rig.step(sim::ExternalEcus::steps_a_tick);
+  CHECK(pins.received().empty());
+  rig.step(sim::ExternalEcus::steps_per_tick);
   rig.ecus.begin_turn();
-  const auto next = pins.given();
+  const auto next = pins.received();
   REQUIRE(next.size() == 1);
-  CHECK(next[0].turn == now[0].turn + 1);
+  CHECK(next[0].turn == current[0].turn + 1);
 }

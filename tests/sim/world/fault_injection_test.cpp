@@ -14,9 +14,9 @@ using sim::InjectedFault;
 
 constexpr double tick_s = 0.002, at_s = 1.25;  // in the middle of a stroke
 
-/// The rig with the sensors that its ECU needs to detect every fault: potentiometers, and force sensors
-/// with a live zero.
-erp::Robot watched_rig() {
+/// The rig with the sensors that its ECU needs to detect every fault: potentiometers, and force
+/// sensors with a live zero.
+erp::Robot rig_with_all_sensors() {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   robot.sensor_types[0].tension_noise_N = 0.1;
   robot.sensor_types[0].tension_zero_counts = 200;
@@ -40,10 +40,10 @@ struct Trip {
   double after_s = 0;
 };
 
-/// Moves the lines back and forth by 8 mm at 16 mm/s; returns the flexor's first fault within 0.5 s of the
-/// injection.
+/// Moves the lines back and forth by 8 mm at 16 mm/s; returns the flexor's first fault within 0.5 s
+/// of the injection.
 Trip trip_of(const InjectedFault& fault) {
-  const erp::Robot robot = watched_rig();
+  const erp::Robot robot = rig_with_all_sensors();
   Limb limb(robot);
   const sim::FaultInjection faults({fault}, robot);
   limb.ecus.inject(&faults);
@@ -60,7 +60,7 @@ Trip trip_of(const InjectedFault& fault) {
 
 }  // namespace
 
-TEST_CASE("every sensor fault trips its ECU in time, with the right cause") {
+TEST_CASE("every sensor fault trips its ECU with the matching cause within the stated time") {
   const struct {
     FaultKind kind;
     ecu_fault fault;
@@ -89,13 +89,13 @@ TEST_CASE("an injected fault begins and ends at its given times") {
   InjectedFault fault = on_flexor(FaultKind::tension_short);
   fault.for_s = 0.004;  // the third sample at the rail would trip
   CHECK(trip_of(fault).fault == ECU_FAULT_NONE);
-  const sim::FaultInjection faults({fault}, watched_rig());
+  const sim::FaultInjection faults({fault}, rig_with_all_sensors());
   CHECK(faults.beginning(at_s - tick_s, tick_s).empty());
   CHECK(faults.beginning(at_s, tick_s).size() == 1);
 }
 
 TEST_CASE("a snapped tendon has tension 0") {
-  const erp::Robot robot = watched_rig();
+  const erp::Robot robot = rig_with_all_sensors();
   Limb limb(robot);
   const sim::FaultInjection faults({on_flexor(FaultKind::tendon_snaps)}, robot);
   limb.ecus.inject(&faults);
@@ -110,12 +110,13 @@ TEST_CASE("a snapped tendon has tension 0") {
 TEST_CASE("a fault of an ECU program names its ECU and needs a separate ECU") {
   InjectedFault fault = on_flexor(FaultKind::busy);
   fault.for_s = 0.01;
-  const sim::FaultInjection faults({fault}, watched_rig());
+  const sim::FaultInjection faults({fault}, rig_with_all_sensors());
   CHECK(faults.needs_separate_ecus());
   const auto due = faults.program_faults(at_s, tick_s);
   REQUIRE(due.size() == 1);
   CHECK((due[0].kind == FaultKind::busy && due[0].ecu == 0 && due[0].periods == 5));
   CHECK(faults.program_faults(at_s + tick_s, tick_s).empty());
   fault.on = "biceps";
-  CHECK_THROWS_WITH(sim::FaultInjection({fault}, watched_rig()), Catch::Contains("biceps"));
+  CHECK_THROWS_WITH(sim::FaultInjection({fault}, rig_with_all_sensors()),
+                    Catch::Contains("biceps"));
 }

@@ -32,13 +32,13 @@ Vector3d com(const World& world) {
   return pose.position_m + pose.rotation * Vector3d(0.05, -0.02, 0.03);
 }
 
-Vector3d spin(const World& world) {
+Vector3d angular_momentum(const World& world) {
   const Vector3d w = world.poses()[1].rotation.transpose() * world.twists()[1].angular_rad_per_s;
   return world.poses()[1].rotation * w.cwiseProduct(Vector3d(2e-3, 3e-3, 4e-3));
 }
 
 /// A plate of 0.4 kg on eight tendons, two at each corner.
-erp::Robot hung() {
+erp::Robot suspended_plate() {
   erp::Robot robot = stone();
   robot.motor_types = {rigs::caliper()};
   robot.skeletons[0].bodies[1].com_m = {0, 0, 0};
@@ -59,17 +59,18 @@ erp::Robot hung() {
 
 }  // namespace
 
-TEST_CASE("the centre of mass of a thrown body follows a parabola and its spin is constant") {
+TEST_CASE(
+    "the centre of mass of a thrown body follows a parabola and its angular momentum is constant") {
   World world(stone());
   world.set_joint(0, thrown());
-  const Vector3d start = com(world), spun = spin(world);
+  const Vector3d start = com(world), initial_spin = angular_momentum(world);
   const double dt = 0.001;
   for (int i = 0; i < 1000; ++i) world.step({}, dt);
   const Vector3d expected =
       start + Vector3d(1, 0.5, 2) -
       Vector3d(0, 0, 9.81) * (0.5 + dt / 2);  // the parabola of Euler's method
   CHECK((com(world) - expected).norm() < 1e-9);
-  CHECK((spin(world) - spun).norm() < 2e-3 * spun.norm());
+  CHECK((angular_momentum(world) - initial_spin).norm() < 2e-3 * initial_spin.norm());
 }
 
 TEST_CASE("a freely rotating body conserves its energy") {
@@ -81,7 +82,7 @@ TEST_CASE("a freely rotating body conserves its energy") {
 }
 
 TEST_CASE("a restored free flight continues bit by bit") {
-  World world(hung()), other(hung());
+  World world(suspended_plate()), other(suspended_plate());
   world.set_joint(0, thrown());
   const std::vector<double> voltage(8, 0.5);
   for (int i = 0; i < 100; ++i) world.step(voltage, 0.001);
@@ -92,8 +93,8 @@ TEST_CASE("a restored free flight continues bit by bit") {
   CHECK(world.joints()[0].slide_m_per_s == other.joints()[0].slide_m_per_s);
 }
 
-TEST_CASE("a body held only by tendons stays in their equilibrium") {
-  erp::Robot robot = hung();
+TEST_CASE("a body held only by tendons stays in the equilibrium of the tendons") {
+  erp::Robot robot = suspended_plate();
   const sim::Holding holding = sim::hold_pose(robot, sim::starting_pose(robot));
   CHECK(holding.unbalanced_Nm < 1e-6);
   for (std::size_t k = 0; k < 8; ++k) robot.actuators[k].tendon.pretension_N = holding.tension_N[k];

@@ -31,8 +31,8 @@ TEST_CASE(
     while (imus.next(frame)) {
       for (const auto& sample : erp::samples(frame.imus)) {
         stamps[sample.name].push_back(frame.stamp_ns);
-        const double late_s = world.time_s() - 1e-9 * double(frame.stamp_ns);
-        REQUIRE(std::abs(late_s - (std::string("quick") == sample.name ? 0 : 0.004)) < 1e-8);
+        const double delay_s = world.time_s() - 1e-9 * double(frame.stamp_ns);
+        REQUIRE(std::abs(delay_s - (std::string("quick") == sample.name ? 0 : 0.004)) < 1e-8);
       }
     }
     for (int k = 0; k < 2; ++k) world.step(std::vector<double>(2, 0.0), 0.001);
@@ -47,7 +47,7 @@ TEST_CASE(
   CHECK(frame.imus._buffer[0].acceleration_m_per_s2[2] == Approx(9.81).epsilon(1e-3));
 }
 
-TEST_CASE("an inertial unit on an unknown body is refused") {
+TEST_CASE("an inertial unit on an unknown body is rejected") {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   robot.imus = {unit("lost", 100, 0)};
   robot.imus[0].body = "hand";

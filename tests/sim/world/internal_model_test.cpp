@@ -29,15 +29,15 @@ TEST_CASE("the internal model predicts the world exactly, with any number of thr
   const erp::Robot robot = erp::read_robot(rigs::config("arm/robot.xml"));
   sim::World world(robot);
   for (int k = 0; k < 50; ++k) world.step(std::vector<double>(robot.actuators.size(), 0.3), 0.001);
-  const sim::WorldState now = world.save();
+  const sim::WorldState initial = world.save();
   const auto candidates = candidates_for(robot, 7);
   for (const int threads : {1, 2, 5}) {
     sim::InternalModel model(robot, {}, threads);
     REQUIRE(model.threads() == threads);
     for (int round = 0; round < 3; ++round) {  // the worlds are used again
-      const auto ends = model.ahead(now, candidates, 40, 0.001);
+      const auto ends = model.ahead(initial, candidates, 40, 0.001);
       for (std::size_t c = 0; c < candidates.size(); ++c) {
-        world.restore(now);
+        world.restore(initial);
         for (int k = 0; k < 40; ++k) world.step(candidates[c], 0.001);
         REQUIRE(same(world.save(), ends[c]));
       }

@@ -14,8 +14,8 @@ namespace {
 double angle(const World& world) { return world.joints()[0].position[0]; }
 double speed(const World& world) { return world.joints()[0].velocity_rad_per_s[0]; }
 
-/// Runs until the speed changes sign; the angle there, between steps by interpolation.
-double next_turn(World& world, double dt) {
+/// Runs until the speed changes sign. Returns the angle after the first step with the new sign.
+double next_reversal(World& world, double dt) {
   double before = speed(world);
   while (true) {
     world.step({}, dt);
@@ -47,7 +47,7 @@ double elliptic(double amplitude) {
 
 }  // namespace
 
-TEST_CASE("a pendulum's period is the elliptic integral's") {
+TEST_CASE("the period of a pendulum is given by the elliptic integral") {
   const double amplitude = 1.2, dt = 1e-4;
   World world(pendulum(amplitude));
   double last_crossing = 0, first_crossing = 0, before = angle(world);
@@ -72,18 +72,19 @@ TEST_CASE("Coulomb friction reduces the amplitude by 2 τ_c / (m g l) each half 
   const double step = 2 * torque / (pendulum_mass_kg * 9.81 * pendulum_l_m);
   double last = 0.15;
   for (int k = 0; k < 6; ++k) {
-    const double turn = std::abs(next_turn(world, 1e-4));
-    CHECK(last - turn == Approx(step).epsilon(0.02));
-    last = turn;
+    const double reversal = std::abs(next_reversal(world, 1e-4));
+    CHECK(last - reversal == Approx(step).epsilon(0.02));
+    last = reversal;
   }
 }
 
 TEST_CASE("a joint sticks, without creeping, while the load is below its friction") {
-  const double holds = std::asin(0.1 / (pendulum_mass_kg * 9.81 * pendulum_l_m));
-  World below(pendulum(holds * 0.999, 0.01, 0.1)), above(pendulum(holds * 1.001, 0.01, 0.1));
+  const double limit_rad = std::asin(0.1 / (pendulum_mass_kg * 9.81 * pendulum_l_m));
+  World below(pendulum(limit_rad * 0.999, 0.01, 0.1)),
+      above(pendulum(limit_rad * 1.001, 0.01, 0.1));
   for (int k = 0; k < 5000; ++k) below.step({}, 1e-3), above.step({}, 1e-3);
-  CHECK(std::abs(angle(below) - holds * 0.999) < 1e-12);
-  CHECK(std::abs(angle(above) - holds * 1.001) > 1e-6);
+  CHECK(std::abs(angle(below) - limit_rad * 0.999) < 1e-12);
+  CHECK(std::abs(angle(above) - limit_rad * 1.001) > 1e-6);
 }
 
 TEST_CASE("with viscous friction speed decays as exp(−µ t / I), stable for any µ") {
@@ -131,11 +132,11 @@ TEST_CASE("friction of a ball joint acts against the angular velocity, with one 
 
 TEST_CASE("a ball joint sticks while the load is below its friction, in any direction") {
   // A load along x + z: each axis alone would hold 0.06, together they do not.
-  World held(ball(0, 0.09, {0, -9.81, 0}, {0.006, 0, 0.006}));
-  World falls(ball(0, 0.08, {0, -9.81, 0}, {0.006, 0, 0.006}));
-  for (int k = 0; k < 1000; ++k) held.step({}, 1e-3), falls.step({}, 1e-3);
-  CHECK(velocity(held).norm() < 1e-12);
-  CHECK(velocity(falls).norm() > 1e-3);
+  World sticking(ball(0, 0.09, {0, -9.81, 0}, {0.006, 0, 0.006}));
+  World falling(ball(0, 0.08, {0, -9.81, 0}, {0.006, 0, 0.006}));
+  for (int k = 0; k < 1000; ++k) sticking.step({}, 1e-3), falling.step({}, 1e-3);
+  CHECK(velocity(sticking).norm() < 1e-12);
+  CHECK(velocity(falling).norm() > 1e-3);
 }
 
 TEST_CASE("a hinge stops at its limits and leaves them freely") {
@@ -143,18 +144,18 @@ TEST_CASE("a hinge stops at its limits and leaves them freely") {
   limited.skeletons[0].joints[0].min_rad = -0.2;
   World world(limited);
   double lowest = 1, highest_after = -1;
-  bool touched = false;
+  bool has_touched = false;
   for (int k = 0; k < 5000; ++k) {
     world.step({}, 1e-3);
     lowest = std::min(lowest, angle(world));
-    touched |= angle(world) < -0.199;
-    if (touched) highest_after = std::max(highest_after, angle(world));
+    has_touched |= angle(world) < -0.199;
+    if (has_touched) highest_after = std::max(highest_after, angle(world));
   }
   CHECK(lowest == Approx(-0.2).margin(1e-6));
   CHECK(highest_after > 0.1);
 }
 
-TEST_CASE("a ball joint's whole rotation stays within its limit") {
+TEST_CASE("the rotation angle of a ball joint stays within its limit") {
   erp::Robot limited = ball();
   limited.skeletons[0].joints[0].max_rad = 0.7;
   World world(limited);
@@ -178,7 +179,7 @@ TEST_CASE("a locked joint keeps its initial angle") {
   CHECK_THROWS_AS(World(pendulum(0), {.lock = {"hinch"}}), std::invalid_argument);
 }
 
-TEST_CASE("a robot that is not a tree is refused") {
+TEST_CASE("a robot that is not a tree is rejected") {
   const auto hinge = [](const char* parent, const char* child) {
     return joint("j", erp::JointType::revolute, parent, child);
   };

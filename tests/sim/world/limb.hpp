@@ -5,7 +5,8 @@
 #include "sim/control/gain_design.hpp"
 #include "sim/world/virtual_ecus.hpp"
 
-/// A simulated robot commanded as by the plant: parameters, arming, set-points every tick.
+/// A simulated robot that is commanded like by the plant: parameters, arming, set-points every
+/// tick.
 class Limb {
  public:
   explicit Limb(const erp::Robot& robot, const sim::WorldOptions& world_options = {},

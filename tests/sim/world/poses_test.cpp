@@ -14,26 +14,27 @@ std::vector<double> lines_at(const recording::Table& plan, std::size_t actuators
   const auto& times = plan.find("time_s")->values;
   std::size_t row = 0;
   while (row + 2 < times.size() && times[row + 1] <= time_s) ++row;
-  const double share = std::clamp((time_s - times[row]) / (times[row + 1] - times[row]), 0.0, 1.0);
+  const double fraction =
+      std::clamp((time_s - times[row]) / (times[row + 1] - times[row]), 0.0, 1.0);
   std::vector<double> lines(actuators);
   for (std::size_t k = 0; k < actuators; ++k) {
     const auto& line = plan.columns[2 + 2 * k].values;
-    lines[k] = line[row] + share * (line[row + 1] - line[row]);
+    lines[k] = line[row] + fraction * (line[row + 1] - line[row]);
   }
   return lines;
 }
 
 /// Distance of the joints from a pose; free bodies are not planned.
-double off_rad(const Limb& limb, const sim::Pose& pose) {
-  double off = 0;
+double distance_rad(const Limb& limb, const sim::Pose& pose) {
+  double largest_rad = 0;
   for (std::size_t j = 0; j < pose.size(); ++j) {
     const sim::JointReading& now = limb.world.joints()[j];
     if (now.type == erp::JointType::free) continue;
     sim::JointReading desired = now;
     desired.position = pose[j];
-    off = std::max(off, apart_rad(now, desired));
+    largest_rad = std::max(largest_rad, angle_between_rad(now, desired));
   }
-  return off;
+  return largest_rad;
 }
 
 }  // namespace
@@ -46,15 +47,15 @@ TEST_CASE("every torso reaches its poses under length control and returns") {
   const auto plan = recording::read_table(folder + "/lengths.csv");
   const auto poses = sim::poses_of(recording::read_table(folder + "/poses.csv"), robot);
   Limb limb(robot);
-  double time_s = 0, farthest = 0;
+  double time_s = 0, largest_error_rad = 0;
   for (std::size_t p = 1; p < poses.size(); ++p) {
     for (; time_s < poses[p].time_s - 1e-9; time_s += 0.002)
       limb.follow_lines(lines_at(plan, robot.actuators.size(), time_s));
     if (poses[p].pose != poses[p - 1].pose) continue;
-    farthest = std::max(farthest, off_rad(limb, poses[p].pose));
+    largest_error_rad = std::max(largest_error_rad, distance_rad(limb, poses[p].pose));
     CAPTURE(poses[p].time_s);
-    REQUIRE(farthest < 0.1);
+    REQUIRE(largest_error_rad < 0.1);
   }
-  WARN(robot.name << ": at most " << farthest << " rad from a pose that it holds");
+  WARN(robot.name << ": at most " << largest_error_rad << " rad from a pose that it holds");
   CHECK(limb.all_running());
 }

@@ -18,7 +18,7 @@ std::vector<std::string> robot_files() {
 
 }  // namespace
 
-/// Held by its muscles alone: friction, which could hold any pose, is removed.
+/// Friction, which could hold any pose, is removed. Only the muscles then hold the pose.
 TEST_CASE("every robot holds its pose for a minute under length control, without drift") {
   for (const std::string& file : robot_files()) {
     CAPTURE(file);
@@ -27,17 +27,17 @@ TEST_CASE("every robot holds its pose for a minute under length control, without
       for (auto& joint : part.joints) joint.coulomb_Nm = 0;
     Limb limb(robot);
     const std::vector<double> lines(robot.actuators.size(), 0.0);
-    const auto stand = [&](double seconds) {
+    const auto largest_motion_rad = [&](double seconds) {
       const std::vector<sim::JointReading> from(limb.world.joints().begin(),
                                                 limb.world.joints().end());
-      double farthest = 0;
+      double largest_rad = 0;
       for (int k = 0; k < std::lround(500 * seconds); ++k) {
         limb.follow_lines(lines);
-        farthest = std::max(farthest, apart_rad(limb.world.joints(), from));
+        largest_rad = std::max(largest_rad, angle_between_rad(limb.world.joints(), from));
       }
-      return farthest;
+      return largest_rad;
     };
-    const double settling = stand(5), drift = stand(55);
+    const double settling = largest_motion_rad(5), drift = largest_motion_rad(55);
     WARN(robot.name << " settles by " << settling << " rad, then drifts by " << drift << " rad");
     CHECK(limb.all_running());
     CHECK(settling < 0.15);

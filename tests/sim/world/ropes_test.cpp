@@ -7,7 +7,7 @@
 
 namespace {
 
-/// The hinge rig, its flexor a rope over the same pulley.
+/// The hinge rig with a flexor that is a rope over the same pulley.
 erp::Robot rope_rig(int nodes = 120) {
   erp::Robot robot = erp::read_robot(rigs::config("hinge_rig/robot.xml"));
   auto& path = robot.actuators[0].tendon.path;
@@ -41,7 +41,7 @@ TEST_CASE("a rope moves the joint like a tendon without rope dynamics") {
   CHECK(path.rope(0) == nullptr);
 }
 
-/// The same, with two bodies that form a groove in the rope's path, and friction.
+/// The hinge rig with a rope, friction, and two bodies that form a groove in the rope's path.
 erp::Robot groove_rig() {
   erp::Robot robot = rope_rig();
   robot.actuators[0].rope->friction = 0.2;
@@ -64,7 +64,7 @@ TEST_CASE("a rope over two bodies starts with its pretension and rests in their 
   CHECK(sides.size() == 2);  // both bodies are pushed, in opposite directions
 }
 
-TEST_CASE("a rope with too few nodes for a body is refused with the required number") {
+TEST_CASE("a rope with too few nodes for a body is rejected with the required number") {
   erp::Robot robot = groove_rig();
   robot.actuators[0].rope->nodes = 5;
   CHECK_THROWS_WITH(sim::World(robot), Catch::Contains("flexor") && Catch::Contains("give nodes="));
@@ -79,17 +79,17 @@ TEST_CASE("a rope follows when set_joint moves its joint") {
 
 TEST_CASE("a world with a rope continues from a saved state bit by bit") {
   const erp::Robot robot = GENERATE(rope_rig(), groove_rig());
-  sim::World one(robot), other(robot);
+  sim::World original(robot), other(robot);
   const std::vector<double> voltage_V{1.0, 0.2};
-  for (int k = 0; k < 100; ++k) one.step(voltage_V, 0.001);
-  other.restore(one.save());
-  for (int k = 0; k < 100; ++k) one.step(voltage_V, 0.001), other.step(voltage_V, 0.001);
-  CHECK(one.joints()[0].position == other.joints()[0].position);
-  CHECK(one.actuators()[0].tension_N == other.actuators()[0].tension_N);
-  CHECK(one.rope(0)->state().nodes_m == other.rope(0)->state().nodes_m);
+  for (int k = 0; k < 100; ++k) original.step(voltage_V, 0.001);
+  other.restore(original.save());
+  for (int k = 0; k < 100; ++k) original.step(voltage_V, 0.001), other.step(voltage_V, 0.001);
+  CHECK(original.joints()[0].position == other.joints()[0].position);
+  CHECK(original.actuators()[0].tension_N == other.actuators()[0].tension_N);
+  CHECK(original.rope(0)->state().nodes_m == other.rope(0)->state().nodes_m);
   erp::Robot coarse = robot;
   coarse.actuators[0].rope->nodes = 60;
-  CHECK_THROWS_AS(sim::World(coarse).restore(one.save()), std::invalid_argument);
+  CHECK_THROWS_AS(sim::World(coarse).restore(original.save()), std::invalid_argument);
 }
 
 TEST_CASE("a rope too stiff for its load is unstable, and the unstable steps are counted") {

@@ -31,32 +31,34 @@ const std::vector<JointFriction> frictions{{0, 3, 0.1, 0.05}, {3, 1, 0.05, 0.03}
 
 VectorXd solve(const MatrixXd& h, const std::vector<OneSidedForce>& forces,
                const std::vector<JointFriction>& joints, const VectorXd& p,
-               std::vector<double>* found = nullptr) {
+               std::vector<double>* tensions_N = nullptr) {
   const auto n = static_cast<int>(p.size());
   StepSolver solver(n, static_cast<int>(forces.size()), joints);
   VectorXd v = VectorXd::Zero(n);
   solver.begin(h, forces, dt);
   REQUIRE(solver.solve(p, v));
-  if (found) found->assign(solver.forces_N().begin(), solver.forces_N().end());
+  if (tensions_N) tensions_N->assign(solver.forces_N().begin(), solver.forces_N().end());
   return v;
 }
 
 /// Error of the momentum balance at v, in N s, beyond the admissible friction.
 double unbalanced(const MatrixXd& h, const std::vector<OneSidedForce>& forces,
                   const std::vector<JointFriction>& joints, const VectorXd& p, const VectorXd& v) {
-  VectorXd missing = h * v - p;
+  VectorXd residual = h * v - p;
   for (const auto& force : forces)
     for (const auto& term : force.row)
-      missing[term.coordinate] +=
+      residual[term.coordinate] +=
           dt * term.slope * std::max(0.0, force.start_N + force.gain_N_s_per_m * force.along(v));
   for (const auto& j : joints) {
-    auto own = missing.segment(j.first, j.dofs);
+    auto joint_residual = residual.segment(j.first, j.dofs);
     const VectorXd speed = v.segment(j.first, j.dofs);
-    own += dt * j.viscous_Nm_s_per_rad * speed;
-    if (speed.norm() > 0) own += dt * j.coulomb_Nm * speed.normalized();
-    else own *= std::max(0.0, 1 - dt * j.coulomb_Nm / std::max(1e-300, own.norm()));
+    joint_residual += dt * j.viscous_Nm_s_per_rad * speed;
+    if (speed.norm() > 0) joint_residual += dt * j.coulomb_Nm * speed.normalized();
+    else
+      joint_residual *=
+          std::max(0.0, 1 - dt * j.coulomb_Nm / std::max(1e-300, joint_residual.norm()));
   }
-  return missing.lpNorm<Eigen::Infinity>();
+  return residual.lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace

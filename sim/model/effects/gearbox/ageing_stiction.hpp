@@ -10,8 +10,8 @@ namespace sim::effects {
 ///   τ_CG' = τ_CG + a z,   dz/dt = (1 − z)/T − |ω| z/θ_s          z(0) = 0
 ///
 /// Exact for a step at constant speed.
-/// Source: Rabinowicz, Proc. Phys. Soc. 71, 1958 (rest time); Dieterich, J. Geophys. Res. 84, 1979 (slip
-/// distance over which it is lost).
+/// Source: Rabinowicz, Proc. Phys. Soc. 71, 1958 (rest time); Dieterich, J. Geophys. Res. 84, 1979
+/// (slip distance after which it has decayed).
 struct GearboxAgeingStiction {
   static constexpr About about{"gearbox_ageing_stiction", Stage::gearbox, Seat::actuator,
                                "starts after rest periods of different lengths"};

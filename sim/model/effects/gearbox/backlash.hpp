@@ -17,8 +17,8 @@ namespace sim::effects {
 ///
 /// A shaft instead of a line also pushes: below −τ₀ it turns the spindle to the gear's other flank.
 /// Its angles are 0 in the middle of the backlash, θ_s = θ + g − b/2.
-/// Ignores the mass of the spindle. Source: Nordin, Gutman, Automatica 38, 2002 (backlash with a light
-/// load side).
+/// Ignores the mass of the spindle. Source: Nordin, Gutman, Automatica 38, 2002 (backlash with a
+/// light load side).
 struct GearboxBacklash {
   static constexpr About about{"gearbox_backlash", Stage::gearbox, Seat::actuator,
                                "reversals through the slack state"};
@@ -34,12 +34,13 @@ struct GearboxBacklash {
     double &gap_rad = memory[0], &last_rad = memory[1];
     gap_rad = std::clamp(gap_rad - (s.shaft_rad - last_rad), 0.0, width_rad);
     last_rad = s.shaft_rad;
-    const double held_m = spindle_friction_Nm / (s.radius_m * s.stiffness_N_per_m);
+    const double friction_stretch_m = spindle_friction_Nm / (s.radius_m * s.stiffness_N_per_m);
     const double middle_rad = s.pushes ? width_rad / 2 : 0;
     const double stretch_m = s.stretch_m - s.radius_m * middle_rad;
-    gap_rad = std::min(gap_rad, std::max(0.0, (held_m - stretch_m) / s.radius_m));
+    gap_rad = std::min(gap_rad, std::max(0.0, (friction_stretch_m - stretch_m) / s.radius_m));
     if (s.pushes)
-      gap_rad = std::max(gap_rad, std::min(width_rad, (-held_m - stretch_m) / s.radius_m));
+      gap_rad =
+          std::max(gap_rad, std::min(width_rad, (-friction_stretch_m - stretch_m) / s.radius_m));
     const bool crossing = gap_rad > 0 && gap_rad < width_rad;
     return {line.value + line.slope * (gap_rad - middle_rad), crossing ? 0 : line.slope};
   }

@@ -5,7 +5,8 @@
 
 namespace sim::effects {
 
-/// Cogging torque: the magnets attract the rotor's teeth with a torque that is periodic in its angle.
+/// Cogging torque: the magnets attract the rotor's teeth with a torque that is periodic in its
+/// angle.
 ///
 ///   τ = a sin n N θ + b cos n N θ          positive against winding up, on the motor's shaft
 ///
@@ -24,9 +25,13 @@ struct MotorCogging {
     v.shape("periods_per_turn", periods_per_turn, Bounds{1, 100});
   }
   double rotor_Nm(const ChainSample& s) const {
-    const double turns = periods_per_turn * s.gear_ratio;
-    const double phase = turns * s.shaft_rad, swept = turns * s.speed_rad_per_s * s.dt_s / 2;
-    const double mean = std::abs(swept) > 1e-6 ? std::sin(swept) / swept : 1;
+    constexpr double min_half_swept_rad = 1e-6;  // below: sin x / x is 1 to rounding
+    const double periods_per_shaft_rad = periods_per_turn * s.gear_ratio;
+    const double phase = periods_per_shaft_rad * s.shaft_rad,
+                 half_swept_rad = periods_per_shaft_rad * s.speed_rad_per_s * s.dt_s / 2;
+    const double mean = std::abs(half_swept_rad) > min_half_swept_rad
+                            ? std::sin(half_swept_rad) / half_swept_rad
+                            : 1;
     return mean * (sine_Nm * std::sin(phase) + cosine_Nm * std::cos(phase));
   }
 };

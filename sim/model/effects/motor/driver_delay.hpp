@@ -11,8 +11,10 @@ namespace sim::effects {
 ///
 ///   V'(t) = V(t − T)            applied as the mean over a step
 ///
-/// At most three voltage changes are pending, so the bound is three periods of a controller at 500 Hz.
-/// Ignores: with a faster controller a fourth change may occur earlier; the oldest then acts at once.
+/// At most three voltage changes are pending, so the bound is three periods of a controller at 500
+/// Hz.
+/// Ignores: with a faster controller a fourth change may occur earlier; the oldest then acts at
+/// once.
 /// Source: dead time and PWM update delay, Holtz, Proc. IEEE 82, 1994.
 struct MotorDriverDelay {
   static constexpr About about{"motor_driver_delay", Stage::motor, Seat::actuator,
@@ -24,19 +26,19 @@ struct MotorDriverDelay {
 
   double driver_delay_s() const { return delay_s; }
   double delayed_voltage_V(double applied_V, const ChainSample& s, Memory& memory) const {
-    Pending w(memory);
-    if (!w.started()) w.start(applied_V);
-    for (std::size_t n = 0; n < w.count(); ++n) w.age_s(n) += s.dt_s;
-    if (applied_V != w.newest_V()) w.add(applied_V, s.dt_s);
-    double mean_V = w.acting_V(), before_V = mean_V;
-    std::size_t done = 0;
-    for (std::size_t n = 0; n < w.count(); ++n) {
-      const double share = std::clamp((w.age_s(n) - delay_s) / s.dt_s, 0.0, 1.0);
-      if (share > 0) mean_V += share * (w.volts(n) - before_V);
-      before_V = w.volts(n);
-      done += share == 1;
+    Pending pending(memory);
+    if (!pending.started()) pending.start(applied_V);
+    for (std::size_t n = 0; n < pending.count(); ++n) pending.age_s(n) += s.dt_s;
+    if (applied_V != pending.newest_V()) pending.add(applied_V, s.dt_s);
+    double mean_V = pending.acting_V(), before_V = mean_V;
+    std::size_t applied_changes = 0;
+    for (std::size_t n = 0; n < pending.count(); ++n) {
+      const double fraction = std::clamp((pending.age_s(n) - delay_s) / s.dt_s, 0.0, 1.0);
+      if (fraction > 0) mean_V += fraction * (pending.volts(n) - before_V);
+      before_V = pending.volts(n);
+      applied_changes += fraction == 1;
     }
-    while (done-- > 0) w.apply_oldest();
+    while (applied_changes-- > 0) pending.apply_oldest();
     return mean_V;
   }
 
@@ -46,26 +48,26 @@ struct MotorDriverDelay {
    public:
     static constexpr std::size_t max_pending = 3;
 
-    explicit Pending(Memory& memory) : m_(memory) {}
-    bool started() const { return m_[1] > 0; }
-    void start(double volts) { m_[0] = volts, m_[1] = 1; }
-    std::size_t count() const { return static_cast<std::size_t>(m_[1]) - 1; }
-    double acting_V() const { return m_[0]; }
-    double& volts(std::size_t n) { return m_[2 + 2 * n]; }
-    double& age_s(std::size_t n) { return m_[3 + 2 * n]; }
-    double newest_V() { return count() > 0 ? volts(count() - 1) : m_[0]; }
+    explicit Pending(Memory& memory) : memory_(memory) {}
+    bool started() const { return memory_[1] > 0; }
+    void start(double volts) { memory_[0] = volts, memory_[1] = 1; }
+    std::size_t count() const { return static_cast<std::size_t>(memory_[1]) - 1; }
+    double acting_V() const { return memory_[0]; }
+    double& volts(std::size_t n) { return memory_[2 + 2 * n]; }
+    double& age_s(std::size_t n) { return memory_[3 + 2 * n]; }
+    double newest_V() { return count() > 0 ? volts(count() - 1) : memory_[0]; }
     void add(double volts_V, double age) {
       if (count() == max_pending) apply_oldest();
-      volts(count()) = volts_V, age_s(count()) = age, m_[1] += 1;
+      volts(count()) = volts_V, age_s(count()) = age, memory_[1] += 1;
     }
     /// Makes the oldest change the acting voltage.
     void apply_oldest() {
-      m_[0] = m_[2], m_[1] -= 1;
-      std::ranges::copy(std::span(m_).subspan(4, 2 * (max_pending - 1)), m_.begin() + 2);
+      memory_[0] = memory_[2], memory_[1] -= 1;
+      std::ranges::copy(std::span(memory_).subspan(4, 2 * (max_pending - 1)), memory_.begin() + 2);
     }
 
    private:
-    Memory& m_;  // acting voltage, 1 + count, then voltage and age of each change
+    Memory& memory_;  // acting voltage, 1 + count, then voltage and age of each change
   };
 };
 

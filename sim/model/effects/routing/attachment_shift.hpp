@@ -22,9 +22,9 @@ struct RoutingAttachmentShift {
     const auto shift = [this](auto& end) {
       if constexpr (requires { end.at_m; }) {
         auto& [x, y, z] = end.at_m;
-        const double far = std::hypot(x, y, z);
-        if (far == 0) return;
-        for (double* c : {&x, &y, &z}) *c *= 1 + outwards_m / far;
+        const double distance_from_origin_m = std::hypot(x, y, z);
+        if (distance_from_origin_m == 0) return;
+        for (double* c : {&x, &y, &z}) *c *= 1 + outwards_m / distance_from_origin_m;
       }
     };
     if (!actuator.tendon.path.empty()) std::visit(shift, actuator.tendon.path.back());

@@ -10,8 +10,8 @@ namespace sim::effects {
 ///
 ///   r_P' = (1 + a) r_P
 ///
-/// A guide is a neighbouring path point within 1.1 r_P of the centre, on the pulley's body or on a body
-/// whose joint is at that centre.
+/// A guide is a neighbouring path point within 1.1 r_P of the centre, on the pulley's body or on a
+/// body whose joint is at that centre.
 /// Source: paper, 4.1 (wrapping around spheres).
 struct RoutingPulleyRadius {
   static constexpr About about{"routing_pulley_radius", Stage::routing, Seat::actuator,
@@ -26,6 +26,8 @@ struct RoutingPulleyRadius {
   }
 
  private:
+  static constexpr double guide_radii = 1.1;  // chosen
+
   void widen(const auto& robot, auto& path) const {
     for (std::size_t k = 0; k < path.size(); ++k) {
       const auto widen_here = [&](auto& pulley) {
@@ -46,9 +48,9 @@ struct RoutingPulleyRadius {
           if (!turns_about(robot, pulley, guide.body)) return;
           center = {0, 0, 0};
         }
-        const double far = std::hypot(guide.at_m[0] - center[0], guide.at_m[1] - center[1],
-                                      guide.at_m[2] - center[2]);
-        if (far > 1.1 * pulley.radius_m) return;
+        const double distance_m = std::hypot(guide.at_m[0] - center[0], guide.at_m[1] - center[1],
+                                             guide.at_m[2] - center[2]);
+        if (distance_m > guide_radii * pulley.radius_m) return;
         for (std::size_t i = 0; i < 3; ++i)
           guide.at_m[i] = center[i] + (1 + relative) * (guide.at_m[i] - center[i]);
       }

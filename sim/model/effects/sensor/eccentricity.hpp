@@ -28,24 +28,25 @@ struct SensorEccentricity {
   }
   double read(double value, const SensorSample& s, Memory&) const {
     const double n = s.turns_per_turn;
-    return value + (ahead_rad(n * value) - ahead_rad(0)) / n;
+    return value + (disc_lead_rad(n * value) - disc_lead_rad(0)) / n;
   }
   double undo(double reading, const SensorSample& s, Memory&) const {
     const double n = s.turns_per_turn;
-    return reading - (behind_rad(n * reading + ahead_rad(0)) - ahead_rad(0)) / n;
+    return reading - (axis_lag_rad(n * reading + disc_lead_rad(0)) - disc_lead_rad(0)) / n;
   }
 
  private:
   std::complex<double> centre() const { return {sine_rad, cosine_rad}; }
   /// Angle of the disc minus angle of the axis, for this angle of the axis.
-  double ahead_rad(double angle) const {
+  double disc_lead_rad(double angle) const {
     return -std::arg(1.0 - centre() * std::polar(1.0, angle));
   }
   /// The same for this angle of the disc, from the intersection of its ray with the head's circle.
-  double behind_rad(double disc) const {
-    const auto off = centre() * std::polar(1.0, disc);
-    const double along = std::sqrt(1 - off.imag() * off.imag()) - off.real();
-    return std::arg(off + along);
+  double axis_lag_rad(double disc) const {
+    const auto centre_in_disc = centre() * std::polar(1.0, disc);
+    const double ray_length =
+        std::sqrt(1 - centre_in_disc.imag() * centre_in_disc.imag()) - centre_in_disc.real();
+    return std::arg(centre_in_disc + ray_length);
   }
 };
 

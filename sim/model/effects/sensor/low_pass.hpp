@@ -22,16 +22,16 @@ struct SensorLowPass {
   void visit(auto& v) { v("time_constant_s", time_constant_s, Bounds{0, 0.2}); }
   /// Exact for a value that changes linearly between two readings.
   double read(double value, const SensorSample& s, Memory& memory) const {
-    double &reading = memory[0], &last = memory[1], &began = memory[2];
-    if (began == 0) reading = last = value, began = 1;
+    double &reading = memory[0], &previous = memory[1], &initialized = memory[2];
+    if (initialized == 0) reading = previous = value, initialized = 1;
     if (time_constant_s > 0 && s.dt_s > 0) {
-      const double left = std::exp(-s.dt_s / time_constant_s);
-      const double behind_s = time_constant_s * (1 - left) / s.dt_s;
-      reading = left * reading + value - left * last - behind_s * (value - last);
+      const double decay = std::exp(-s.dt_s / time_constant_s);
+      const double lag_fraction = time_constant_s * (1 - decay) / s.dt_s;
+      reading = decay * reading + value - decay * previous - lag_fraction * (value - previous);
     } else {
       reading = value;
     }
-    last = value;
+    previous = value;
     return reading;
   }
   double undo(double reading, const SensorSample& s, Memory&) const {

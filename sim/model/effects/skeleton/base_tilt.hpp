@@ -32,8 +32,8 @@ struct BaseTilt {
  private:
   /// Rotates the plane vector (a, b) by an angle from a to b.
   static void turn(double& a, double& b, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle), old = a;
-    a = c * old - s * b, b = s * old + c * b;
+    const double c = std::cos(angle), s = std::sin(angle), old_a = a;
+    a = c * old_a - s * b, b = s * old_a + c * b;
   }
 };
 

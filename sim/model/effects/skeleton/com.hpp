@@ -19,9 +19,9 @@ struct SkeletonCom {
   void visit(auto& v) { v("outwards_m", outwards_m, Bounds{-0.3, 0.3}); }
   void change_body(auto& body) const {
     auto& [x, y, z] = body.com_m;
-    const double far = std::hypot(x, y, z);
-    if (far == 0) return;
-    for (double* c : {&x, &y, &z}) *c *= 1 + outwards_m / far;
+    const double com_distance_m = std::hypot(x, y, z);
+    if (com_distance_m == 0) return;
+    for (double* c : {&x, &y, &z}) *c *= 1 + outwards_m / com_distance_m;
   }
 };
 

@@ -23,20 +23,20 @@ struct SkeletonPayload {
   }
   void change_body(auto& body) const {
     auto& c = body.com_m;
-    const double far = std::hypot(c[0], c[1], c[2]);
-    if (far == 0 || body.mass_kg + mass_kg == 0) return;
-    const double reduced = body.mass_kg * mass_kg / (body.mass_kg + mass_kg);
-    const double share = mass_kg / (body.mass_kg + mass_kg);
-    double s[3];  // from the old centre of mass to the payload
-    for (std::size_t i = 0; i < 3; ++i) s[i] = c[i] * (distance_m / far - 1);
-    const double square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+    const double com_distance_m = std::hypot(c[0], c[1], c[2]);
+    if (com_distance_m == 0 || body.mass_kg + mass_kg == 0) return;
+    const double reduced_mass_kg = body.mass_kg * mass_kg / (body.mass_kg + mass_kg);
+    const double mass_fraction = mass_kg / (body.mass_kg + mass_kg);
+    double s[3];  // m, from the old centre of mass to the payload
+    for (std::size_t i = 0; i < 3; ++i) s[i] = c[i] * (distance_m / com_distance_m - 1);
+    const double distance2_m2 = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
     for (std::size_t i = 0; i < 3; ++i) {
-      body.inertia_kg_m2[i] += reduced * (square - s[i] * s[i]);
-      c[i] += share * s[i];
+      body.inertia_kg_m2[i] += reduced_mass_kg * (distance2_m2 - s[i] * s[i]);
+      c[i] += mass_fraction * s[i];
     }
-    body.products_kg_m2[0] -= reduced * s[0] * s[1];
-    body.products_kg_m2[1] -= reduced * s[0] * s[2];
-    body.products_kg_m2[2] -= reduced * s[1] * s[2];
+    body.products_kg_m2[0] -= reduced_mass_kg * s[0] * s[1];
+    body.products_kg_m2[1] -= reduced_mass_kg * s[0] * s[2];
+    body.products_kg_m2[2] -= reduced_mass_kg * s[1] * s[2];
     body.mass_kg += mass_kg;
   }
 };

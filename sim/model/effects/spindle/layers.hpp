@@ -19,10 +19,13 @@ struct SpindleLayers {
 
   void visit(auto& v) { v("growth_m_per_rad", growth_m_per_rad, Bounds{-0.001, 0.001}); }
   Sloped wound(const ChainSample& s, Sloped line, Memory&) const {
-    const double least = -0.8 * s.radius_m, grown = growth_m_per_rad * s.shaft_rad;
-    if (grown >= least) return {line.value + grown * s.shaft_rad / 2, line.slope + grown};
-    const double edge_rad = least / growth_m_per_rad;
-    return {line.value + least * (s.shaft_rad - edge_rad / 2), line.slope + least};
+    constexpr double max_shrinkage = 0.8;  // chosen
+    const double min_growth_m = -max_shrinkage * s.radius_m,
+                 growth_m = growth_m_per_rad * s.shaft_rad;
+    if (growth_m >= min_growth_m)
+      return {line.value + growth_m * s.shaft_rad / 2, line.slope + growth_m};
+    const double edge_rad = min_growth_m / growth_m_per_rad;
+    return {line.value + min_growth_m * (s.shaft_rad - edge_rad / 2), line.slope + min_growth_m};
   }
 };
 

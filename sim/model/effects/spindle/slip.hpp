@@ -5,8 +5,8 @@
 
 namespace sim::effects {
 
-/// The line creeps on the spindle as it is wound and unwound under load, which permanently changes its
-/// free length.
+/// The line creeps on the spindle as it is wound and unwound under load, which permanently changes
+/// its free length.
 ///
 ///   dl = s F |dw|,   w the line length on the spindle;   L_K' = L_K + l
 ///
@@ -19,11 +19,11 @@ struct SpindleSlip {
 
   void visit(auto& v) { v("per_N", per_N, Bounds{0, 0.001}); }
   Sloped wound(const ChainSample& s, Sloped line, Memory& memory) const {
-    double &lost_m = memory[0], &last_m = memory[1], &began = memory[2];
-    if (began == 0) last_m = line.value, began = 1;
-    lost_m += per_N * s.tension_N * std::abs(line.value - last_m);
-    last_m = line.value;
-    return {line.value - lost_m, line.slope};
+    double &slipped_m = memory[0], &previous_m = memory[1], &initialized = memory[2];
+    if (initialized == 0) previous_m = line.value, initialized = 1;
+    slipped_m += per_N * s.tension_N * std::abs(line.value - previous_m);
+    previous_m = line.value;
+    return {line.value - slipped_m, line.slope};
   }
 };
 

@@ -23,11 +23,11 @@ struct TendonCreep {
     v("time_constant_s", time_constant_s, Bounds{0.1, 60});
   }
   Sloped pull(const ChainSample& s, Memory& memory) const {
-    double &flowed_m = memory[0], &began = memory[1];
+    double &creep_m = memory[0], &initialized = memory[1];
     const double x_m = taut_stretch_m(s);
-    if (began == 0) flowed_m = x_m, began = 1;
-    flowed_m += (x_m - flowed_m) * -std::expm1(-s.dt_s / time_constant_s);
-    return {stiffness_N_per_m * (x_m - flowed_m), stiffness_N_per_m};
+    if (initialized == 0) creep_m = x_m, initialized = 1;
+    creep_m += (x_m - creep_m) * -std::expm1(-s.dt_s / time_constant_s);
+    return {stiffness_N_per_m * (x_m - creep_m), stiffness_N_per_m};
   }
 };
 

@@ -23,14 +23,15 @@ struct TendonHysteresis {
     v("width_m", width_m, Bounds{2e-5, 0.01});
   }
   Sloped pull(const ChainSample& s, Memory& memory) const {
-    double &z = memory[0], &last_m = memory[1], &began = memory[2];
+    double &z = memory[0], &previous_m = memory[1], &initialized = memory[2];
     const double x_m = taut_stretch_m(s);
-    if (began == 0) last_m = x_m, began = 1;
-    double remaining = (x_m - last_m) / width_m;
-    last_m = x_m;
+    if (initialized == 0) previous_m = x_m, initialized = 1;
+    double remaining = (x_m - previous_m) / width_m;
+    previous_m = x_m;
     if (z * remaining < 0) {  // unloading until z = 0
-      const double relaxed = std::copysign(std::fmin(std::abs(remaining), std::abs(z)), remaining);
-      z += relaxed, remaining -= relaxed;
+      const double unloading =
+          std::copysign(std::fmin(std::abs(remaining), std::abs(z)), remaining);
+      z += unloading, remaining -= unloading;
     }
     if (remaining != 0) {
       const double direction = std::copysign(1.0, remaining);

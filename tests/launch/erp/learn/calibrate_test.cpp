@@ -28,7 +28,7 @@ struct Fixture {
     fs::create_directories(path);
     const auto arm = arm_poses::arm();
     std::ofstream csv(path / "still.csv");
-    recording::write_csv(arm_poses::recorded(arm, arm_poses::held(arm, 8)), csv);
+    recording::write_csv(arm_poses::recorded(arm, arm_poses::held_poses(arm, 8)), csv);
   }
   ~Fixture() { fs::remove_all(path); }
 

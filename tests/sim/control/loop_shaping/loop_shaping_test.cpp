@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-MatrixXd one(double value) { return MatrixXd::Constant(1, 1, value); }
+MatrixXd scalar(double value) { return MatrixXd::Constant(1, 1, value); }
 
 MatrixXd random_matrix(std::mt19937& random, int rows, int columns) {
   std::normal_distribution<double> normal;
@@ -32,7 +32,7 @@ TEST_CASE("the Riccati equation of one state has the closed-form solution") {
   // 2 a x − g x² + q = 0, the root at which a − g x < 0
   for (const double a : {-3.0, 0.0, 2.0}) {
     const double g = 0.5, q = 4;
-    CHECK(riccati(one(a), one(g), one(q))(0, 0) ==
+    CHECK(riccati(scalar(a), scalar(g), scalar(q))(0, 0) ==
           Approx((a + std::sqrt(a * a + g * q)) / g).epsilon(1e-12));
   }
 }
@@ -50,7 +50,7 @@ TEST_CASE("solutions of random Riccati equations stabilise and have zero residua
 }
 
 TEST_CASE("an uncontrollable unstable mode is rejected with std::domain_error") {
-  CHECK_THROWS_AS(riccati(one(1), one(0), one(1)), std::domain_error);
+  CHECK_THROWS_AS(riccati(scalar(1), scalar(0), scalar(1)), std::domain_error);
 }
 
 TEST_CASE("the largest margin of a double integrator is 1/sqrt(4 + 2 sqrt 2)") {
@@ -73,14 +73,14 @@ TEST_CASE(
   const StateSpace lag = in_series(first_order(0, 5, 5), first_order(1, 2, 3));
   const double period_s = 0.002, w = 4;
   Sampled sampled(lag, period_s);
-  double worst = 0;
+  double largest_error = 0;
   for (int k = 0; k < 5000; ++k) {
     const double y = sampled.step(Eigen::VectorXd::Constant(1, std::sin(w * k * period_s)))[0];
     const auto g = response(lag, w)(0, 0);
     const double expected = std::abs(g) * std::sin(w * k * period_s + std::arg(g));
-    if (k > 3000) worst = std::max(worst, std::abs(y - expected));
+    if (k > 3000) largest_error = std::max(largest_error, std::abs(y - expected));
   }
-  CHECK(worst < 1e-4);
+  CHECK(largest_error < 1e-4);
 }
 
 TEST_CASE("joint loops of robots have the designed crossover and a margin") {

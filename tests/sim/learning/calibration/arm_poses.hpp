@@ -13,7 +13,7 @@ namespace arm_poses {
 inline erp::Robot arm() { return erp::read_robot(rigs::config("arm/robot.xml")); }
 
 /// Poses that the robot holds, computed by statics.
-inline std::vector<sim::calibration::StillPose> held(const erp::Robot& robot, int count) {
+inline std::vector<sim::calibration::StillPose> held_poses(const erp::Robot& robot, int count) {
   std::vector<sim::calibration::StillPose> poses;
   sim::PoseHolder holder(robot);
   for (int k = 0; k < count; ++k) {

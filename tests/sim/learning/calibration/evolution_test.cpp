@@ -16,10 +16,10 @@ double bowl(const Eigen::VectorXd& x) {
   return std::sqrt(sum);
 }
 
-double after(Evolution& evolution, int generations) {
+double error_after(Evolution& evolution, int generations) {
   for (int g = 0; g < generations; ++g) {
     auto all = evolution.offspring();
-    for (auto& one : all) one.error = bowl(one.x);
+    for (auto& individual : all) individual.error = bowl(individual.x);
     evolution.select(std::move(all));
   }
   return evolution.parents().front().error;
@@ -32,25 +32,26 @@ TEST_CASE("an evolution strategy minimises a badly scaled quadratic to 1 %") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Evolution evolution(first, {.seed = seed});
     const double before = bowl(first);
-    CHECK(after(evolution, 250) < 0.01 * before);
+    CHECK(error_after(evolution, 250) < 0.01 * before);
   }
 }
 
-TEST_CASE("the same parents and seed give the same generations, another seed others") {
+TEST_CASE(
+    "equal parents and seeds give equal generations, and another seed gives other generations") {
   const Eigen::VectorXd first = Eigen::VectorXd::Zero(4);
-  Evolution whole(first, {.seed = 3}), other(first, {.seed = 4});
-  after(whole, 10);
-  Evolution resumed(whole.parents(), whole.generation(), {.seed = 3});
-  after(whole, 10), after(resumed, 10), after(other, 20);
-  CHECK(whole.parents().front().x == resumed.parents().front().x);
-  CHECK(whole.parents().front().x != other.parents().front().x);
+  Evolution uninterrupted(first, {.seed = 3}), other(first, {.seed = 4});
+  error_after(uninterrupted, 10);
+  Evolution resumed(uninterrupted.parents(), uninterrupted.generation(), {.seed = 3});
+  error_after(uninterrupted, 10), error_after(resumed, 10), error_after(other, 20);
+  CHECK(uninterrupted.parents().front().x == resumed.parents().front().x);
+  CHECK(uninterrupted.parents().front().x != other.parents().front().x);
 }
 
 TEST_CASE("offspring stay within the bounds, and parents do not survive their generation") {
   Evolution evolution(Eigen::VectorXd::Constant(3, 0.9), {.first_sigma = 5, .bound = 1});
   auto all = evolution.offspring();
   REQUIRE(all.size() == 36);
-  for (const auto& one : all) CHECK(one.x.cwiseAbs().maxCoeff() <= 1);
+  for (const auto& individual : all) CHECK(individual.x.cwiseAbs().maxCoeff() <= 1);
   for (std::size_t k = 0; k < all.size(); ++k) all[k].error = 100 + double(k);
   evolution.select(all);
   REQUIRE(evolution.parents().size() == 6);

@@ -31,7 +31,7 @@ VectorXd drawn(std::mt19937& random, double spread) {
 }
 
 /// Experiences near the smallest scales for each place, as a training collects them.
-Base gathered(int count, double spread) {
+Base base_of_samples(int count, double spread) {
   std::mt19937 random(3);
   Base base(4, {});
   for (int k = 0; k < count; ++k) {
@@ -58,21 +58,21 @@ TEST_CASE("agonists are wound up by their scale, antagonists paid out, until the
   CHECK(patterns.end_s() == Approx(2.2));
   const MatrixXd drives = (MatrixXd(2, 1) << 1, -0.5).finished();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  bool braked = false;
+  bool has_braked = false;
   for (double t = 0.0005; t < 3; t += 0.001) {
     const VectorXd v = voltages_V(patterns, drives, VectorXd::Constant(1, 2), t);
-    sum += 0.001 * v, braked |= v[1] > 0;
+    sum += 0.001 * v, has_braked |= v[1] > 0;
   }
   CHECK(sum[0] == Approx(2).epsilon(1e-4));
   CHECK(sum[1] == Approx(-1).epsilon(1e-4));
-  CHECK(braked);  // by its braking burst
+  CHECK(has_braked);  // by the burst with a negative share
   CHECK(voltages_V(patterns, drives, VectorXd::Constant(1, 2), 2.3).norm() == 0);
   CHECK_THROWS_WITH(Patterns({bursts[0]}), Catch::Contains("antagonists"));
   CHECK_THROWS_WITH(matrix_of({{.name = "elbow", .shares = {1}}}, 2),
                     Catch::Contains("\"elbow\" has 1 shares; the robot has 2 muscles"));
 }
 
-TEST_CASE("for a linear hand the influence and the inverse model are found") {
+TEST_CASE("for a linear hand the fitted influence and inverse model are correct") {
   const MatrixXd h = MatrixXd::Random(3, 4);
   std::mt19937 random(1);
   Base base(4, {});
@@ -90,17 +90,17 @@ TEST_CASE("for a linear hand the influence and the inverse model are found") {
 
 TEST_CASE("1500 experiences give less than half the error of 20 at new targets") {
   std::mt19937 random(9);
-  double few = 0, many = 0;
-  const Base small = gathered(20, 1.5), large = gathered(1500, 1.5);
+  double error_of_20 = 0, error_of_1500 = 0;
+  const Base small = base_of_samples(20, 1.5), large = base_of_samples(1500, 1.5);
   for (int k = 0; k < 50; ++k) {
     VectorXd s = drawn(random, 0.8);
     s[3] = 0.5 * s[1];
     const Vector3d target = hand_of(s);
-    few += (hand_of(small.inverse(0, target)) - target).norm() / 50;
-    many += (hand_of(large.inverse(0, target)) - target).norm() / 50;
+    error_of_20 += (hand_of(small.inverse(0, target)) - target).norm() / 50;
+    error_of_1500 += (hand_of(large.inverse(0, target)) - target).norm() / 50;
   }
-  CHECK(many < 0.001);
-  CHECK(many < 0.5 * few);
+  CHECK(error_of_1500 < 0.001);
+  CHECK(error_of_1500 < 0.5 * error_of_20);
 }
 
 TEST_CASE("the weighted inverse inverts the influence and uses only free drives") {
@@ -113,27 +113,28 @@ TEST_CASE("the weighted inverse inverts the influence and uses only free drives"
 }
 
 TEST_CASE(
-    "linear and fuzzy feedback move the hand to the target, and a wrong rules file is refused") {
-  const Base base = gathered(400, 1);
+    "linear and fuzzy feedback move the hand to the target, and an invalid rules file is "
+    "rejected") {
+  const Base base = base_of_samples(400, 1);
   const std::string rules = rigs::config("seven_dof/feedback.fll");
   const auto linear = linear_feedback(base, 0, hand_of(VectorXd::Zero(4)), 2);
   const auto fuzzy = fuzzy_feedback(base, 0, rules);
   for (const Feedback* feedback : {linear.get(), fuzzy.get()}) {
     const VectorXd v = feedback->drives_V({0.004, 0, 0}, {0, 0, 0});
-    const Vector3d moved = base.influence(0, hand_of(VectorXd::Zero(4))) * v;
-    CHECK(moved.x() > 0);
-    CHECK(moved.normalized().x() > 0.9);
+    const Vector3d motion = base.influence(0, hand_of(VectorXd::Zero(4))) * v;
+    CHECK(motion.x() > 0);
+    CHECK(motion.normalized().x() > 0.9);
     CHECK((v + feedback->drives_V({-0.004, 0, 0}, {0, 0, 0})).norm() < 1e-9);
     CHECK(feedback->drives_V({0, 0, 0}, {0, 0, 0}).norm() < 1e-12);
   }
   CHECK(fuzzy->drives_V({0.01, 0, 0}, {-0.1, 0, 0}).norm() <
-        0.2 *
-            fuzzy->drives_V({0.01, 0, 0}, {0, 0, 0}).norm());  // the hand approaches: less voltage
+        0.2 * fuzzy->drives_V({0.01, 0, 0}, {0, 0, 0})
+                  .norm());  // less voltage while the hand approaches
   CHECK_THROWS_WITH(fuzzy_feedback(base, 0, "none.fll"), Catch::Contains("none.fll"));
-  const auto wrong = std::filesystem::temp_directory_path() / "erp_wrong.fll";
-  std::ofstream(wrong) << "Engine: feedback\nInputVariable: elsewhere\n  range: 0 1\n";
-  CHECK_THROWS_WITH(fuzzy_feedback(base, 0, wrong.string()), Catch::Contains("off_m"));
-  std::filesystem::remove(wrong);
+  const auto invalid_file = std::filesystem::temp_directory_path() / "erp_wrong.fll";
+  std::ofstream(invalid_file) << "Engine: feedback\nInputVariable: elsewhere\n  range: 0 1\n";
+  CHECK_THROWS_WITH(fuzzy_feedback(base, 0, invalid_file.string()), Catch::Contains("off_m"));
+  std::filesystem::remove(invalid_file);
 }
 
 TEST_CASE("a reach moves to its start, plays its pattern, and corrects only with a known hand") {
@@ -144,24 +145,24 @@ TEST_CASE("a reach moves to its start, plays its pattern, and corrects only with
     VectorXd drives_V(const Vector3d& off, const Vector3d&) const override { return matrix * off; }
     MatrixXd matrix;
   };
-  const bool unknown = GENERATE(false, true);
+  const bool is_unknown = GENERATE(false, true);
   Reach reach =
       reach_with(file, 0, {0.1, 0, 0}, VectorXd::Constant(1, 1.5), std::make_shared<Gain>(gain));
   VectorXd line = Eigen::Vector2d(0, 0);
-  double wound = 0;
+  double wound_Vs = 0;
   for (double t = 5; t < 16; t += 0.002) {
-    const Vector3d hand(0.06 * wound, 0, 0);  // the pattern alone reaches 0.09
-    const auto seen = unknown ? std::nullopt : std::optional<Vector3d>(hand);
-    const MuscleCommand command = reach.step(t, line, seen);
+    const Vector3d hand(0.06 * wound_Vs, 0, 0);  // the pattern alone reaches 0.09
+    const auto measured = is_unknown ? std::nullopt : std::optional<Vector3d>(hand);
+    const MuscleCommand command = reach.step(t, line, measured);
     if (command.lengths) line = command.by_muscle;
-    else wound += 0.002 * command.by_muscle[0];
+    else wound_Vs += 0.002 * command.by_muscle[0];
     if (t < 6.999) CHECK(command.lengths);
   }
   CHECK((line - Eigen::Vector2d(0.01, -0.02)).norm() < 1e-9);
   CHECK(reach.done());
-  CHECK(reach.settled_m().has_value() == !unknown);
-  CHECK(wound == Approx(unknown ? 1.5 : 0.1 / 0.06).epsilon(0.002));
-  if (unknown) return;
+  CHECK(reach.settled_m().has_value() == !is_unknown);
+  CHECK(wound_Vs == Approx(is_unknown ? 1.5 : 0.1 / 0.06).epsilon(0.002));
+  if (is_unknown) return;
   CHECK(reach.began_m()->x() == Approx(0).margin(1e-6));
   CHECK(reach.settled_m()->x() == Approx(0.09).epsilon(0.001));
   CHECK(reach.corrected_m()->x() == Approx(0.1).epsilon(0.001));
@@ -170,28 +171,30 @@ TEST_CASE("a reach moves to its start, plays its pattern, and corrects only with
 
 TEST_CASE("a pattern is scaled down to the limit of its voltage") {
   const BaseFile file = two_muscles();
-  const VectorXd one = VectorXd::Constant(1, 1), ten = VectorXd::Constant(1, 10);
-  CHECK(peak_V(file, ten) == Approx(10 * peak_V(file, one)));
-  CHECK(within_voltage(file, one) == one);
-  CHECK(peak_V(file, within_voltage(file, ten)) == Approx(file.pattern_V));
+  const VectorXd small_scale = VectorXd::Constant(1, 1), large_scale = VectorXd::Constant(1, 10);
+  CHECK(peak_V(file, large_scale) == Approx(10 * peak_V(file, small_scale)));
+  CHECK(within_voltage(file, small_scale) == small_scale);
+  CHECK(peak_V(file, within_voltage(file, large_scale)) == Approx(file.pattern_V));
 }
 
-TEST_CASE("a base survives writing and reading, and one that does not fit the robot is refused") {
+TEST_CASE(
+    "a base is unchanged by writing and reading, and a base that does not fit the robot is "
+    "rejected") {
   BaseFile file = two_muscles();
   file.hand.body = "hand";
   file.experiences.all = {{{}, 0, {1.25}, {0.1, 0.2, 0.3}}};
-  const auto again = xml::parse<BaseFile>(xml::write(file), "base.xml");
-  CHECK_NOTHROW(check(again, 2));
-  CHECK(base_of(again).all().front().scales_Vs[0] == 1.25);
-  CHECK(rows_of(base_of(again)).front().end_m == file.experiences.all.front().end_m);
-  CHECK_THROWS_WITH(check(again, 3), Catch::Contains("2 shares; the robot has 3 muscles"));
-  BaseFile wrong = again;
-  wrong.experiences.all.front().start = 1;
-  CHECK_THROWS_WITH(check(wrong, 2), Catch::Contains("start 1, but there are 1"));
-  wrong = again, wrong.experiences.all.front().scales_Vs = {1, 2};
-  CHECK_THROWS_WITH(check(wrong, 2), Catch::Contains("2 numbers, but there are 1 drives"));
-  wrong = again, wrong.starts.all.clear();
-  CHECK_THROWS_WITH(check(wrong, 2), Catch::Contains("<start>"));
+  const auto read_file = xml::parse<BaseFile>(xml::write(file), "base.xml");
+  CHECK_NOTHROW(check(read_file, 2));
+  CHECK(base_of(read_file).all().front().scales_Vs[0] == 1.25);
+  CHECK(rows_of(base_of(read_file)).front().end_m == file.experiences.all.front().end_m);
+  CHECK_THROWS_WITH(check(read_file, 3), Catch::Contains("2 shares; the robot has 3 muscles"));
+  BaseFile invalid_file = read_file;
+  invalid_file.experiences.all.front().start = 1;
+  CHECK_THROWS_WITH(check(invalid_file, 2), Catch::Contains("start 1, but there are 1"));
+  invalid_file = read_file, invalid_file.experiences.all.front().scales_Vs = {1, 2};
+  CHECK_THROWS_WITH(check(invalid_file, 2), Catch::Contains("2 numbers, but there are 1 drives"));
+  invalid_file = read_file, invalid_file.starts.all.clear();
+  CHECK_THROWS_WITH(check(invalid_file, 2), Catch::Contains("<start>"));
 }
 
 TEST_CASE("there is one drive per degree of freedom, and voltage 0 holds a shaft under tension") {
@@ -207,9 +210,9 @@ TEST_CASE("there is one drive per degree of freedom, and voltage 0 holds a shaft
   REQUIRE(arm.size() == 4);
   CHECK(arm[0].name == "shoulder.x");
   const Motors motors(robot);
-  const EcuReference held = motors.ecu_reference(0, {false, VectorXd::Zero(14)}, 100);
-  CHECK(held.mode == erp::Mode::voltage);
-  CHECK(held.reference > 0.1);
-  CHECK(held.reference < 0.35);
+  const EcuReference command = motors.ecu_reference(0, {false, VectorXd::Zero(14)}, 100);
+  CHECK(command.mode == erp::Mode::voltage);
+  CHECK(command.reference > 0.1);
+  CHECK(command.reference < 0.35);
   CHECK(motors.ecu_reference(0, {true, VectorXd::Constant(14, -0.01)}, 100).reference == -0.01);
 }

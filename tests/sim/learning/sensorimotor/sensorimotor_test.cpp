@@ -17,14 +17,14 @@ const MatrixXd linear =
     (MatrixXd(2, 4) << 0.01, 0.01, -0.01, -0.01, -0.01, 0.01, 0.01, -0.01).finished();
 
 /// Runs a session on a robot without inertia, observed each 10 ms.
-void play(Session& session, const MatrixXd& moves, double shift = 0) {
+void play(Session& session, const MatrixXd& motion_per_N, double shift = 0) {
   for (double t = 0; !session.done(); t += 0.01) {
-    const VectorXd seen = moves * session.motors_N(t) + Vector2d::Constant(shift);
-    session.see(t, seen);
+    const VectorXd senses = motion_per_N * session.motors_N(t) + Vector2d::Constant(shift);
+    session.see(t, senses);
   }
 }
 
-Session twitched(std::uint64_t seed = 1) {
+Session session_with_twitches(std::uint64_t seed = 1) {
   SessionOptions options{.trials = 0, .seed = seed};
   Session session(options, LearnedMap(2, 4), {});
   play(session, linear);
@@ -34,7 +34,7 @@ Session twitched(std::uint64_t seed = 1) {
 }  // namespace
 
 TEST_CASE("twitches give the direction of each muscle and the force per sense") {
-  const LearnedMap learned = twitched().learned();
+  const LearnedMap learned = session_with_twitches().learned();
   const MatrixXd q = learned.q();
   for (Eigen::Index s = 0; s < 2; ++s) {
     CHECK(q.row(s).norm() == Approx(1));
@@ -48,12 +48,13 @@ TEST_CASE("twitches give the direction of each muscle and the force per sense") 
   const VectorXd right = learned.motors_N(Vector2d(1, 1), Vector2d(0.1, 0));
   CHECK(right[0] > 0);
   CHECK(right[2] == 0);  // a muscle cannot push
-  CHECK(twitched(2).learned().hebb() != learned.hebb());
+  CHECK(session_with_twitches(2).learned().hebb() != learned.hebb());
 }
 
-TEST_CASE("a goal is reached within 30 trials, and the first trial does not move") {
+TEST_CASE("a goal is reached within 30 trials, and in the first trial the robot does not move") {
   SessionOptions options{.twitches = 0, .trials = 30};
-  Session session(options, twitched().learned(), {{Vector2d(0.2, -0.1), Vector2d(0, 0), {}}});
+  Session session(options, session_with_twitches().learned(),
+                  {{Vector2d(0.2, -0.1), Vector2d(0, 0), {}}});
   play(session, linear, 0.05);
   const Goal& goal = session.goals().front();
   REQUIRE(goal.errors.size() == 30);
@@ -62,19 +63,23 @@ TEST_CASE("a goal is reached within 30 trials, and the first trial does not move
   CHECK(session.limited() == 0);
 }
 
-TEST_CASE("trials above the force limit are scaled down and counted, unseen trials are repeated") {
+TEST_CASE(
+    "trials above the force limit are scaled down and counted, and trials without a visible marker "
+    "are repeated") {
   SessionOptions options{.twitches = 0, .trials = 30, .most_N = 5};
-  Session weak(options, twitched().learned(), {{Vector2d(0.5, 0), Vector2d(0, 0), {}}});
-  double most_N = 0;
-  for (double t = 0; !weak.done(); t += 0.01) {
-    weak.see(t, linear * weak.motors_N(t));
-    most_N = std::max(most_N, weak.motors_N(t).maxCoeff());
+  Session limited_session(options, session_with_twitches().learned(),
+                          {{Vector2d(0.5, 0), Vector2d(0, 0), {}}});
+  double largest_N = 0;
+  for (double t = 0; !limited_session.done(); t += 0.01) {
+    limited_session.see(t, linear * limited_session.motors_N(t));
+    largest_N = std::max(largest_N, limited_session.motors_N(t).maxCoeff());
   }
-  CHECK(most_N == Approx(5));
-  CHECK(weak.limited() > 10);
+  CHECK(largest_N == Approx(5));
+  CHECK(limited_session.limited() > 10);
 
   options.trials = 1;
-  Session unseen(options, twitched().learned(), {{Vector2d(0.1, 0), Vector2d(0, 0), {}}});
+  Session unseen(options, session_with_twitches().learned(),
+                 {{Vector2d(0.1, 0), Vector2d(0, 0), {}}});
   for (double t = 0; t < 10; t += 0.01) unseen.motors_N(t);
   CHECK_FALSE(unseen.done());
   CHECK(unseen.unseen() == 6);
@@ -88,20 +93,20 @@ TEST_CASE("a camera below the pendulum sees its end at the projected position") 
   REQUIRE(eye.senses() == 2);
   sim::SkeletonModel model(sim::RobotTree(robot), sim::Vec3::Zero());
   std::vector<sim::JointReading> joints;
-  for (const erp::Joint& joint : robot.joints()) joints.push_back(sim::start_of(joint));
-  const auto seen = [&](double tilt_x, double tilt_y) {
+  for (const erp::Joint& joint : robot.joints()) joints.push_back(sim::initial_reading(joint));
+  const auto senses = [&](double tilt_x, double tilt_y) {
     joints[0].position[0] = tilt_x, joints[1].position[0] = tilt_y;
     model.place(joints);
     return eye.see(model.poses()).value();
   };
-  CHECK(seen(0, 0).norm() < 1e-12);
-  const double a = 0.2, far = 0.9 - 0.4 * std::cos(a), off = 0.4 * std::sin(a) / far;
-  CHECK((seen(0, -a) - Vector2d(off, 0)).norm() < 1e-12);
-  CHECK((seen(a, 0) - Vector2d(0, off)).norm() < 1e-12);
+  CHECK(senses(0, 0).norm() < 1e-12);
+  const double a = 0.2, distance = 0.9 - 0.4 * std::cos(a), expected = 0.4 * std::sin(a) / distance;
+  CHECK((senses(0, -a) - Vector2d(expected, 0)).norm() < 1e-12);
+  CHECK((senses(a, 0) - Vector2d(0, expected)).norm() < 1e-12);
 }
 
-TEST_CASE("a learned map survives writing and reading exactly, and is refused for another robot") {
-  Session session({.twitches = 0, .trials = 2}, twitched().learned(),
+TEST_CASE("a learned map is unchanged by writing and reading, and is rejected for another robot") {
+  Session session({.twitches = 0, .trials = 2}, session_with_twitches().learned(),
                   {{Vector2d(0.1, 0.1), Vector2d(0, 0), {}}});
   play(session, linear);
   const auto text = xml::write(file_of(session.learned(), session.goals()));
@@ -112,7 +117,7 @@ TEST_CASE("a learned map survives writing and reading exactly, and is refused fo
   CHECK_THROWS_WITH(learned_map_of(file, 4, 4), Catch::Contains("2 senses, not 4"));
 }
 
-TEST_CASE("goals of a grid are equally spaced, and a wrong number of senses is refused") {
+TEST_CASE("goals of a grid are equally spaced, and a wrong number of senses is rejected") {
   const auto grid = xml::parse<Experiment>(
       "<sensorimotor view=\"v\"><grid columns=\"3\" rows=\"2\" half_width=\"0.3\" "
       "half_height=\"0.1\"/></sensorimotor>",

@@ -25,12 +25,12 @@ SensorimotorTraining training() {
 TEST_CASE(
     "the pendulum's Q has the signs of the paper's figure 9b, and errors fall below 60 % in 5 "
     "trials") {
-  const auto one = training_runs::run_in_three_ways("sensorimotor", training);
-  CHECK(one.rounds() == 6);
-  const Eigen::MatrixXd q = one.learned().q();
+  const auto trained = training_runs::run_in_three_ways("sensorimotor", training);
+  CHECK(trained.rounds() == 6);
+  const Eigen::MatrixXd q = trained.learned().q();
   const Eigen::MatrixXd signs = (Eigen::MatrixXd(2, 4) << 1, 1, -1, -1, -1, 1, 1, -1).finished();
   CHECK(q.cwiseProduct(signs).minCoeff() > 0.1);
-  for (const auto& goal : one.goals()) {
+  for (const auto& goal : trained.goals()) {
     CHECK(goal.errors.front() == Approx(0.2 * std::sqrt(2)).epsilon(0.02));
     CHECK(goal.errors.back() < 0.6 * goal.errors.front());
   }

@@ -30,17 +30,17 @@ SynergyTraining training() {
 }  // namespace
 
 TEST_CASE("from three rough plans an arm learns to strike targets of a zone") {
-  const auto one = training_runs::run_in_three_ways("synergy", training);
-  const auto metrics = one.metrics();
+  const auto trained = training_runs::run_in_three_ways("synergy", training);
+  const auto metrics = trained.metrics();
   REQUIRE(metrics.at(1).name == "returned_percent");
   CHECK(metrics.at(1).value == 100);
-  CHECK(one.bank().plans().size() > 20);
-  const auto rough = training();
-  CHECK(rough.bank().plans().size() == 3);
+  CHECK(trained.bank().plans().size() > 20);
+  const auto untrained = training();
+  CHECK(untrained.bank().plans().size() == 3);
   double before_m = 0, after_m = 0;
   for (std::size_t k = 0; k < 12; ++k) {
-    before_m += rough.test(rough.bank(), 5, k).outcome.nearest_m / 12;
-    const auto test = one.test(one.bank(), 5, k);
+    before_m += untrained.test(untrained.bank(), 5, k).outcome.nearest_m / 12;
+    const auto test = trained.test(trained.bank(), 5, k);
     after_m += test.outcome.nearest_m / 12;
     CHECK(test.relative_jerk > 1);
     CHECK(test.returned);
@@ -49,10 +49,11 @@ TEST_CASE("from three rough plans an arm learns to strike targets of a zone") {
   CHECK(after_m < before_m - 0.001);  // the initial blends already come close
 }
 
-TEST_CASE("a checkpoint with other muscles is refused") {
-  auto one = training();
-  auto saved = xml::parse<sim::synergy::BankFile>(one.state(), "state.xml");
+TEST_CASE("a checkpoint with other muscles is rejected") {
+  auto trained = training();
+  auto saved = xml::parse<sim::synergy::BankFile>(trained.state(), "state.xml");
   saved.muscles.all.pop_back();
   for (auto& plan : saved.plans.all) plan.weights_m.pop_back();
-  CHECK_THROWS_WITH(one.restore(xml::write(saved), "state.xml"), Catch::Contains("other muscles"));
+  CHECK_THROWS_WITH(trained.restore(xml::write(saved), "state.xml"),
+                    Catch::Contains("other muscles"));
 }

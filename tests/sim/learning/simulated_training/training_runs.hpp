@@ -13,26 +13,27 @@ inline std::string folder(const std::string& name) {
   return path.string();
 }
 
-/// Trains to the end on one thread, on two threads, and interrupted after two rounds and resumed. The
-/// final state must be identical in all cases. `make` returns the same initial training each time.
+/// Trains to the end on one thread, on two threads, and interrupted after two rounds and resumed.
+/// The final state must be identical in all cases. `make` returns the same initial training each
+/// time.
 template <class Make>
 auto run_in_three_ways(const std::string& name, Make make) {
-  constexpr int enough = 1000;
-  auto one = make(), two = make(), killed = make(), after = make();
-  sim::training_loop::run(one, {.folder = folder(name + "_one"), .rounds = enough});
-  sim::training_loop::run(two, {.folder = folder(name + "_two"), .rounds = enough},
+  constexpr int max_rounds = 1000;
+  auto one_thread = make(), two_threads = make(), interrupted = make(), resumed = make();
+  sim::training_loop::run(one_thread, {.folder = folder(name + "_one"), .rounds = max_rounds});
+  sim::training_loop::run(two_threads, {.folder = folder(name + "_two"), .rounds = max_rounds},
                           sim::Threads(2));
-  CHECK(two.state() == one.state());
-  const auto there = folder(name + "_killed");
-  sim::training_loop::run(killed,
-                          {.folder = there, .rounds = enough, .on_round = [](const auto& training) {
-                             return training.rounds() < 2;
-                           }});
-  CHECK(killed.rounds() == 2);
-  sim::training_loop::run(after, {.folder = there, .rounds = enough, .resume = true});
-  CHECK(after.state() == one.state());
-  for (const char* way : {"_one", "_two", "_killed"}) folder(name + way);
-  return one;
+  CHECK(two_threads.state() == one_thread.state());
+  const auto folder_path = folder(name + "_killed");
+  sim::training_loop::run(interrupted,
+                          {.folder = folder_path,
+                           .rounds = max_rounds,
+                           .on_round = [](const auto& training) { return training.rounds() < 2; }});
+  CHECK(interrupted.rounds() == 2);
+  sim::training_loop::run(resumed, {.folder = folder_path, .rounds = max_rounds, .resume = true});
+  CHECK(resumed.state() == one_thread.state());
+  for (const char* suffix : {"_one", "_two", "_killed"}) folder(name + suffix);
+  return one_thread;
 }
 
 }  // namespace training_runs

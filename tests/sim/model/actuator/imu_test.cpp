@@ -57,12 +57,13 @@ TEST_CASE("an IMU in free fall reads zero, and out of range it saturates") {
 TEST_CASE("noise has the standard deviation of the XML and is reproducible from the seed") {
   erp::Imu imu = unit();
   imu.acceleration_noise_m_per_s2 = 0.05, imu.turning_noise_rad_per_s = 0.01;
-  ImuSensor one(imu, Vec3::Zero(), 7), again(imu, Vec3::Zero(), 7);
+  ImuSensor sensor(imu, Vec3::Zero(), 7), second_sensor(imu, Vec3::Zero(), 7);
   double squares = 0;
   constexpr int samples = 20000;
   for (int k = 0; k < samples; ++k) {
-    const ImuReading reading = one.sample(0.01 * k, {}, {});
-    REQUIRE(reading.acceleration_m_per_s2 == again.sample(0.01 * k, {}, {}).acceleration_m_per_s2);
+    const ImuReading reading = sensor.sample(0.01 * k, {}, {});
+    REQUIRE(reading.acceleration_m_per_s2 ==
+            second_sensor.sample(0.01 * k, {}, {}).acceleration_m_per_s2);
     squares += reading.acceleration_m_per_s2.squaredNorm() / 3;
   }
   CHECK(std::sqrt(squares / samples) == Approx(0.05).epsilon(0.02));

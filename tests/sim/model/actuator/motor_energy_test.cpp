@@ -45,7 +45,8 @@ TEST_CASE("the energy balance of the motor closes without gain in all four quadr
   struct Quadrant {
     double speed, v, f;
   };
-  // winding driven, winding braked, unwinding driven, unwinding braked by the motor; then slack, short.
+  // winding driven, winding braked, unwinding driven, unwinding braked by the motor; then slack,
+  // short.
   const auto q = GENERATE(Quadrant{2, 8, 60}, Quadrant{6, -2, 60}, Quadrant{-2, -9, 60},
                           Quadrant{-6, 2, 90}, Quadrant{3, -6, 0}, Quadrant{-4, 0, 150});
   CAPTURE(q.speed, q.v, q.f);
@@ -61,21 +62,22 @@ TEST_CASE("the energy balance of the motor closes without gain in all four quadr
     };
     electrical += simpson(&Powers::electrical), copper += simpson(&Powers::copper);
     friction += simpson(&Powers::friction), line += simpson(&Powers::line);
-    const double kept_by_gear = simpson(&Powers::gear);
-    REQUIRE(kept_by_gear >= 0);
-    gear += kept_by_gear;
+    const double lost_in_gear = simpson(&Powers::gear);
+    REQUIRE(lost_in_gear >= 0);
+    gear += lost_in_gear;
     x = end;
   }
   const double residual_J =
       electrical - copper - friction - gear - line - stored_J(m, x) + stored_before;
-  const double turned_over = std::abs(electrical) + copper + friction + gear + std::abs(line);
-  CHECK(std::abs(residual_J) < 1e-6 * turned_over);
+  const double converted_J = std::abs(electrical) + copper + friction + gear + std::abs(line);
+  CHECK(std::abs(residual_J) < 1e-6 * converted_J);
 }
 
 TEST_CASE("a load that drives the motor delivers the fraction η of its power") {
   erp::MotorType m = rigs::without_friction(caliper());
   const Motor motor(m, spindle_radius_m);
-  // Short circuit, unwinding at constant speed: K_T i N / η = r F, electrical power R i² = η r F |ω|.
+  // Short circuit, unwinding at constant speed: K_T i N / η = r F, electrical power R i² = η r F
+  // |ω|.
   const MotorState x = step(motor, {}, 0.0, 100.0, 1.0);
   REQUIRE(x.speed_rad_per_s < 0);
   const double delivered = spindle_radius_m * 100 * -x.speed_rad_per_s;

@@ -59,7 +59,9 @@ TEST_CASE("one long step of a driving motor equals the numerical integration of 
               1e-10);
 }
 
-TEST_CASE("a motor with a large inductance oscillates and is solved exactly as well") {
+TEST_CASE(
+    "one long step of an oscillating motor with a large inductance equals the numerical "
+    "integration") {
   erp::MotorType slow = caliper();
   slow.inductance_H = 0.05;
   const Motor motor(slow, spindle_radius_m);
@@ -75,8 +77,8 @@ TEST_CASE("the unloaded motor turns at the published speed and holds the publish
   CHECK(v_per_k == Approx(8.15).epsilon(1e-3));
   const double holding_A = spindle_radius_m * 40 / (0.59 * 128 * 11.5e-3);
   CHECK(holding_A == Approx(0.207).epsilon(2e-3));
-  const MotorState held = step(motor, {}, 0.516 * holding_A, 40.0, 1.0);
-  CHECK(held.speed_rad_per_s == Approx(0).margin(1e-9));
+  const MotorState loaded = step(motor, {}, 0.516 * holding_A, 40.0, 1.0);
+  CHECK(loaded.speed_rad_per_s == Approx(0).margin(1e-9));
 }
 
 TEST_CASE("the steady speed under friction and load is the root of eq. 3") {
@@ -145,9 +147,9 @@ TEST_CASE("subdivision of a step does not change stops, breakaways and reversals
   };
   for (const Case& c : cases) {
     CAPTURE(c.v, c.f, c.start.speed_rad_per_s);
-    const MotorState whole = step(motor, c.start, c.v, c.f, 0.05);
-    check_equal(whole, in_pieces(motor, c.start, c.v, c.f, 0.05, 50), 1e-11);
-    check_equal(whole, in_pieces(motor, c.start, c.v, c.f, 0.05, 4999), 1e-9);
+    const MotorState one_step = step(motor, c.start, c.v, c.f, 0.05);
+    check_equal(one_step, in_pieces(motor, c.start, c.v, c.f, 0.05, 50), 1e-11);
+    check_equal(one_step, in_pieces(motor, c.start, c.v, c.f, 0.05, 4999), 1e-9);
   }
 }
 
@@ -182,11 +184,11 @@ TEST_CASE("a torque on the rotor is balanced by the current τ/K_T at any gear e
   };
   for (const int direction : {1, -1})
     CHECK(edge_A(rotor_Nm, direction) - edge_A(0, direction) == Approx(current_A));
-  const MotorState turns{edge_A(0, 1) + 1, 2, 0};
+  const MotorState turning{edge_A(0, 1) + 1, 2, 0};
   const auto after_s = [&](double extra_A, double torque_Nm) {
-    const double volts = type.resistance_ohm * (turns.current_A + extra_A) +
+    const double volts = type.resistance_ohm * (turning.current_A + extra_A) +
                          type.back_emf_V_s_per_rad * type.gear_ratio * 2;
-    return step(motor, {turns.current_A + extra_A, 2, 0}, volts,
+    return step(motor, {turning.current_A + extra_A, 2, 0}, volts,
                 {.tension_N = 20, .rotor_Nm = torque_Nm}, 0.002)
         .speed_rad_per_s;
   };

@@ -61,7 +61,8 @@ std::vector<BodyPose> poses(const Coordinates& q) {
 
 }  // namespace
 
-TEST_CASE("a quarter turn over a pulley: moment arm r, length linear in the angle") {
+TEST_CASE(
+    "over a quarter turn around a pulley the length is linear in the angle with moment arm r") {
   const Routing routing(
       tendon({attach("base", {-0.2, 0, 0.025}), pulley("base", {0, 0, 0}, 0.025, {0, 0, 1}),
               attach("upper", {0.2, 0, 0.025})}),
@@ -172,10 +173,10 @@ TEST_CASE("a line around a cylinder is straight on the unrolled surface") {
   const Routing routing(
       tendon({attach("base", {0.1, 0, 0}), cylinder, attach("base", {-0.1, 0, rise})}), bodies);
   const PathShape shape = routing.solve(std::vector<BodyPose>(3));
-  const double reach = std::sqrt(0.1 * 0.1 - r * r);
-  const double across = 2 * reach + r * (std::numbers::pi - 2 * std::acos(r / 0.1));
+  const double span_m = std::sqrt(0.1 * 0.1 - r * r);
+  const double unrolled_m = 2 * span_m + r * (std::numbers::pi - 2 * std::acos(r / 0.1));
   REQUIRE(shape.touches[1]);
-  CHECK(std::abs(shape.length_m - std::hypot(across, rise)) < 1e-15);
+  CHECK(std::abs(shape.length_m - std::hypot(unrolled_m, rise)) < 1e-15);
   CHECK(shape.entry_m[1].y() > 0);  // right-handed about z
   const Vec3 in = (shape.entry_m[1] - shape.exit_m[0]).normalized();
   const Vec3 out = (shape.entry_m[2] - shape.exit_m[1]).normalized();
@@ -183,7 +184,7 @@ TEST_CASE("a line around a cylinder is straight on the unrolled surface") {
   CHECK(out.z() == Approx(in.z()));
 }
 
-TEST_CASE("robots are checked for as many path elements as a routing holds") {
+TEST_CASE("robot.xml may have as many path elements as a routing") {
   CHECK(sim::max_path_elements == erp::robot_check::max_path_elements);
 }
 

@@ -29,7 +29,7 @@ TEST_CASE("between two samples the reading is constant") {
   for (int k = 0; k <= 30; ++k) REQUIRE(values[std::size_t(k)] == k / 10 * 10);
 }
 
-TEST_CASE("a reading has the age of the latency, and at first it is the first sample") {
+TEST_CASE("a reading is delayed by the latency, and before that it is the first sample") {
   const auto values = readings(0, 0.007);
   for (int k = 0; k <= 30; ++k) REQUIRE(values[std::size_t(k)] == std::max(0, k - 7));
 }

@@ -49,21 +49,21 @@ TEST_CASE("outside its range a converter saturates") {
 }
 
 TEST_CASE("the noise has the specified standard deviation and is reproducible from the seed") {
-  ActuatorSensors one(rigs::caliper(), ecu_12bit(0.015, 0.05), 42);
-  ActuatorSensors same(rigs::caliper(), ecu_12bit(0.015, 0.05), 42);
-  ActuatorSensors other(rigs::caliper(), ecu_12bit(0.015, 0.05), 43);
+  ActuatorSensors sensors(rigs::caliper(), ecu_12bit(0.015, 0.05), 42);
+  ActuatorSensors equal_seed(rigs::caliper(), ecu_12bit(0.015, 0.05), 42);
+  ActuatorSensors other_seed(rigs::caliper(), ecu_12bit(0.015, 0.05), 43);
   double sum = 0, squares = 0;
   int differ = 0;
   const int samples = 20000;
   for (int k = 0; k < samples; ++k) {
-    const auto counts = one.read(0, 1.0, 50), again = same.read(0, 1.0, 50);
-    REQUIRE(counts.current == again.current);
-    REQUIRE(counts.tension == again.tension);
-    differ += counts.current != other.read(0, 1.0, 50).current;
-    const double error = counts.current * one.scale().current_A_per_count - 1.0;
+    const auto counts = sensors.read(0, 1.0, 50), repeated = equal_seed.read(0, 1.0, 50);
+    REQUIRE(counts.current == repeated.current);
+    REQUIRE(counts.tension == repeated.tension);
+    differ += counts.current != other_seed.read(0, 1.0, 50).current;
+    const double error = counts.current * sensors.scale().current_A_per_count - 1.0;
     sum += error, squares += error * error;
   }
-  const double quantum = one.scale().current_A_per_count;
+  const double quantum = sensors.scale().current_A_per_count;
   CHECK(std::sqrt(squares / samples) ==
         Approx(std::hypot(0.015, quantum / std::sqrt(12.0))).epsilon(0.02));
   CHECK(std::abs(sum / samples) < 4 * 0.015 / std::sqrt(samples));

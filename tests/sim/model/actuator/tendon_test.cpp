@@ -16,8 +16,8 @@ TendonLaw law(double pretension_N = 0) {
   return TendonLaw::at_rest(tendon, {{}, rigs::spindle_radius_m}, 0.3);
 }
 
-/// A mass hanging on the tendon, with the shaft held: m ẍ = m g − F, x downwards.
-struct HungMass {
+/// A mass hanging on the tendon, with a fixed shaft: m ẍ = m g − F, x downwards.
+struct HangingMass {
   double mass_kg, x_m = 0, v_m_per_s = 0;
   void run(const TendonLaw& tendon, double t_s, double dt_s = 1e-5) {
     for (double t = 0; t < t_s; t += dt_s) {
@@ -47,13 +47,13 @@ TEST_CASE("a slack tendon has zero tension") {
 }
 
 TEST_CASE("a hanging mass is at rest at the stretch m g / κ") {
-  HungMass mass{2.0};
+  HangingMass mass{2.0};
   mass.run(law(), 8.0);
   CHECK(mass.x_m == Approx(2.0 * 9.81 / 6000).epsilon(1e-6));
 }
 
 TEST_CASE("a hanging mass oscillates at √(κ/m − (D/2m)²) and decays at D/2m") {
-  HungMass mass{2.0};
+  HangingMass mass{2.0};
   mass.run(law(), 8.0);
   const double rest = mass.x_m, dt = 1e-5;
   mass.x_m += 1e-3;
@@ -61,10 +61,11 @@ TEST_CASE("a hanging mass oscillates at √(κ/m − (D/2m)²) and decays at D/2
   int crossings = 0;
   for (int k = 0; crossings < 21; ++k) {
     mass.run(law(), 0.5 * dt, dt);
-    const double now = mass.x_m - rest;
-    if (previous > 0 && now <= 0) last = dt * (k + previous / (previous - now)), ++crossings;
+    const double offset_m = mass.x_m - rest;
+    if (previous > 0 && offset_m <= 0)
+      last = dt * (k + previous / (previous - offset_m)), ++crossings;
     if (crossings == 1 && first == 0) first = last;
-    previous = now;
+    previous = offset_m;
   }
   const double omega = std::sqrt(6000 / 2.0 - 25.0);
   CHECK(2 * std::numbers::pi * 20 / (last - first) == Approx(omega).epsilon(1e-4));

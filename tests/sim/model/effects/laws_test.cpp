@@ -17,11 +17,12 @@ ChainSample at(double shaft_rad, double tension_N = 0) {
   return s;
 }
 
-Sloped plain_line(const ChainSample& s) { return {s.radius_m * s.shaft_rad, s.radius_m}; }
+Sloped nominal_line(const ChainSample& s) { return {s.radius_m * s.shaft_rad, s.radius_m}; }
 
 }  // namespace
 
-TEST_CASE("backlash is crossed while the line is slack and closed by a load") {
+TEST_CASE(
+    "the spindle crosses the backlash while the line is slack, and a load holds it on the flank") {
   GearboxBacklash play;
   play.width_rad = 0.1, play.spindle_friction_Nm = 0.003;
   Memory memory{};
@@ -29,7 +30,7 @@ TEST_CASE("backlash is crossed while the line is slack and closed by a load") {
   const auto stretched = [&](double shaft_rad, double nominal_m) {
     ChainSample s = at(shaft_rad, 0);
     s.stretch_m = nominal_m, s.stiffness_N_per_m = stiffness;
-    return play.wound(s, plain_line(s), memory).value;
+    return play.wound(s, nominal_line(s), memory).value;
   };
   const auto wound = [&](double shaft_rad, double tension_N) {
     return stretched(shaft_rad, tension_N > 0 ? tension_N / stiffness : slack_m);
@@ -52,11 +53,11 @@ TEST_CASE("with layers the wound length is the integral of the radius") {
   double sum = 0;
   for (int k = 0; k < 1000; ++k) sum += 0.01 * (0.005 + 1e-4 * (0.01 * k + 0.005));
   const ChainSample s = at(10);
-  const Sloped line = layers.wound(s, plain_line(s), memory);
+  const Sloped line = layers.wound(s, nominal_line(s), memory);
   CHECK(line.value == Approx(sum));
   CHECK(line.slope == Approx(0.006));
   layers.growth_m_per_rad = -1e-3;  // the radius is limited to a fifth
-  CHECK(layers.wound(s, plain_line(s), memory).slope == Approx(0.001));
+  CHECK(layers.wound(s, nominal_line(s), memory).slope == Approx(0.001));
 }
 
 TEST_CASE(
@@ -64,12 +65,12 @@ TEST_CASE(
   SpindleSlip slip;
   slip.per_N = 1e-4;
   Memory memory{};
-  double lost = 0;
+  double slipped_m = 0;
   for (const double shaft : {2.0, 3.0, 2.0, 3.0}) {
     const ChainSample s = at(shaft, 50);
-    lost = plain_line(s).value - slip.wound(s, plain_line(s), memory).value;
+    slipped_m = nominal_line(s).value - slip.wound(s, nominal_line(s), memory).value;
   }
-  CHECK(lost == Approx(3 * 0.005 * 50 * 1e-4));
+  CHECK(slipped_m == Approx(3 * 0.005 * 50 * 1e-4));
 }
 
 TEST_CASE("creep decays by 1/e in its time constant") {
@@ -87,12 +88,12 @@ TEST_CASE("creep decays by 1/e in its time constant") {
 TEST_CASE(
     "after slack, creep and hysteresis continue from zero stretch for a line, but not for a "
     "shaft") {
-  const auto pull_N = [](auto law, double together_m, bool pushes) {
+  const auto pull_N = [](auto law, double compressed_m, bool pushes) {
     Memory memory{};
     ChainSample s = at(0);
     s.pushes = pushes, s.stretch_m = 0.002;
     law.pull(s, memory);
-    for (int k = 0; k < 500; ++k) s.stretch_m = -together_m, law.pull(s, memory);
+    for (int k = 0; k < 500; ++k) s.stretch_m = -compressed_m, law.pull(s, memory);
     s.stretch_m = 0.0003;
     return law.pull(s, memory).value;
   };
@@ -120,10 +121,10 @@ TEST_CASE(
     }
     return work;
   };
-  const double fine = loop_J(20000);
-  CHECK(fine > 0.9 * 2 * 3 * 0.006 * 0.8);  // close to ± F_h on both branches of the loop
-  CHECK(fine < 2 * 3 * 0.006);
-  CHECK(loop_J(500) == Approx(fine).epsilon(0.05));
+  const double fine_J = loop_J(20000);
+  CHECK(fine_J > 0.9 * 2 * 3 * 0.006 * 0.8);  // close to ± F_h on both branches of the loop
+  CHECK(fine_J < 2 * 3 * 0.006);
+  CHECK(loop_J(500) == Approx(fine_J).epsilon(0.05));
 }
 
 TEST_CASE(
@@ -158,12 +159,12 @@ TEST_CASE("the compliance of the kite line decreases with the wound length") {
 }
 
 TEST_CASE("thermal resistance reaches the steady-state rise with the time constant") {
-  MotorThermalResistance warm{10, 5};
+  MotorThermalResistance winding{10, 5};
   Memory memory{};
   ChainSample s = at(0);
   s.current_A = 2, s.current_square_A2 = 4;
   double ohm = 0;
-  for (int k = 0; k < 100000; ++k) ohm = warm.resistance_ohm(0.5, s, memory);
+  for (int k = 0; k < 100000; ++k) ohm = winding.resistance_ohm(0.5, s, memory);
   const double rise_K = 10 * ohm * 4;  // R_th i² R
   CHECK(ohm == Approx(0.5 * (1 + 0.00393 * rise_K)));
 }
@@ -194,15 +195,15 @@ TEST_CASE(
   const std::vector<double> commanded_V{1, 1, 5, 5, 2, 2, 2, 7};
   CHECK(applied_V(0, commanded_V) == commanded_V);
   CHECK(applied_V(0.001, commanded_V) == std::vector<double>{1, 1, 1, 5, 5, 2, 2, 2});
-  const auto late = applied_V(0.00125, commanded_V);
-  CHECK(late[3] == Approx(0.25 * 1 + 0.75 * 5));
-  CHECK(late[5] == Approx(0.25 * 5 + 0.75 * 2));
-  CHECK(late[7] == Approx(2));
+  const auto delayed = applied_V(0.00125, commanded_V);
+  CHECK(delayed[3] == Approx(0.25 * 1 + 0.75 * 5));
+  CHECK(delayed[5] == Approx(0.25 * 5 + 0.75 * 2));
+  CHECK(delayed[7] == Approx(2));
 }
 
 TEST_CASE("with three pending voltage changes, a fourth change applies the oldest") {
-  const auto late = applied_V(1, {1, 2, 3, 4, 5});
-  CHECK(late == std::vector<double>{1, 1, 1, 1, 2});
+  const auto delayed = applied_V(1, {1, 2, 3, 4, 5});
+  CHECK(delayed == std::vector<double>{1, 1, 1, 1, 2});
 }
 
 TEST_CASE("stiction grows to its extra friction at rest and decreases over the slip distance") {
@@ -240,8 +241,8 @@ TEST_CASE("cogging is averaged over the rotation in a step") {
   const MotorCogging teeth{1e-3, 0};
   ChainSample s;
   s.gear_ratio = 100, s.dt_s = 0.002, s.shaft_rad = 0.0013;
-  const double still = teeth.rotor_Nm(s);
-  CHECK(still == Approx(1e-3 * std::sin(1200 * 0.0013)));
+  const double at_rest_Nm = teeth.rotor_Nm(s);
+  CHECK(at_rest_Nm == Approx(1e-3 * std::sin(1200 * 0.0013)));
   s.speed_rad_per_s = 2.617993878;  // 1200 · ω · dt = 2π: one full period
   CHECK(std::abs(teeth.rotor_Nm(s)) < 1e-9);
 }

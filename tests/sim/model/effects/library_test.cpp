@@ -53,7 +53,7 @@ TEST_CASE("default values are within the bounds, and each effect has a fitted pa
 }
 
 TEST_CASE("an effect with default parameters does not change the robot") {
-  const std::string plain = erp::write_robot(hinge_rig());
+  const std::string unchanged = erp::write_robot(hinge_rig());
   for (const auto& effect : effects::library()) {
     erp::Robot robot = hinge_rig();
     robot.effects = {effects::written({magnitudes::place_in_rig(effect), effect})};
@@ -62,7 +62,7 @@ TEST_CASE("an effect with default parameters does not change the robot") {
     for (auto& actuator : equipped.actuators) actuator.motor = robot.actuators[0].motor;
     equipped.motor_types = {equipped.motor_types.back()};
     equipped.motor_types[0].name = robot.actuators[0].motor;
-    CHECK(erp::write_robot(equipped) == plain);
+    CHECK(erp::write_robot(equipped) == unchanged);
   }
 }
 
@@ -73,11 +73,12 @@ TEST_CASE("written effects are read with the same parameters") {
     erp::Robot robot = hinge_rig();
     robot.effects = {effects::written({magnitudes::place_in_rig(effect), effect})};
     const erp::Robot read = xml::parse<erp::Robot>(erp::write_robot(robot), "rig.xml");
-    auto back = effects::read_effects(read);
-    REQUIRE(back.size() == 1);
-    auto given = effect;
-    const auto expected = effects::parameters(given), found = effects::parameters(back[0].effect);
-    for (std::size_t k = 0; k < expected.size(); ++k) CHECK(*found[k].value == *expected[k].value);
+    auto read_effects = effects::read_effects(read);
+    REQUIRE(read_effects.size() == 1);
+    auto changed_effect = effect;
+    const auto expected = effects::parameters(changed_effect),
+               actual = effects::parameters(read_effects[0].effect);
+    for (std::size_t k = 0; k < expected.size(); ++k) CHECK(*actual[k].value == *expected[k].value);
   }
 }
 

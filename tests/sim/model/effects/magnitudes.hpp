@@ -5,7 +5,7 @@
 
 #include "sim/model/effects/library.hpp"
 
-/// Parameters of each effect that visibly change hinge_rig's recordings.
+/// Parameters with which each effect visibly changes the recordings of hinge_rig.
 namespace magnitudes {
 
 inline const std::map<std::string, std::map<std::string, double>>& all() {

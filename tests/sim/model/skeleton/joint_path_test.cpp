@@ -46,19 +46,19 @@ sim::JointPath with_a_stop() {
           sim::Via::through};
 }
 
-/// Compares velocity and acceleration at a time with difference quotients; call where(t, motions).
+/// Compares velocity and acceleration at a time with difference quotients; calls where(t, motions).
 void check_derivatives(const auto& where, double t) {
   std::vector<sim::JointMotion> before, at, after;
   constexpr double h = 1e-5;
   where(t - h, before), where(t, at), where(t + h, after);
   for (std::size_t j = 0; j < at.size(); ++j) {
-    const Vec3 turned =
-        vec(sim::way_between(at[j].now.type, before[j].now.position, after[j].now.position)) /
+    const Vec3 velocity =
+        vec(sim::displacement(at[j].now.type, before[j].now.position, after[j].now.position)) /
         (2 * h);
-    CHECK((turned - vec(at[j].now.velocity_rad_per_s)).norm() < 1e-7);
-    const Vec3 faster =
+    CHECK((velocity - vec(at[j].now.velocity_rad_per_s)).norm() < 1e-7);
+    const Vec3 acceleration =
         (vec(after[j].now.velocity_rad_per_s) - vec(before[j].now.velocity_rad_per_s)) / (2 * h);
-    CHECK((faster - vec(at[j].acceleration_rad_per_s2)).norm() < 1e-5);
+    CHECK((acceleration - vec(at[j].acceleration_rad_per_s2)).norm() < 1e-5);
   }
 }
 
@@ -100,25 +100,25 @@ TEST_CASE("velocity and acceleration are the derivatives of the position, ball j
 TEST_CASE(
     "CatchUp moves a robot from another position and velocity to the trajectory without a jump") {
   const auto path = three_poses(sim::Via::through);
-  const auto elsewhere = pose(0.6, {0, 2, 1}, 0.9);
+  const auto start = pose(0.6, {0, 2, 1}, 0.9);
   std::vector<sim::JointReading> now{
-      {erp::JointType::spherical, elsewhere[0], {0.4, -0.9, 0.7}, {}, {}},
-      {erp::JointType::revolute, elsewhere[1], {-1.1}, {}, {}}};
+      {erp::JointType::spherical, start[0], {0.4, -0.9, 0.7}, {}, {}},
+      {erp::JointType::revolute, start[1], {-1.1}, {}, {}}};
   std::vector<sim::JointMotion> guided, desired;
-  constexpr double begin_s = 1.7, takes_s = 0.8;
+  constexpr double begin_s = 1.7, duration_s = 0.8;
   path.at(begin_s, guided);
-  const sim::CatchUp catch_up(now, guided, takes_s);
+  const sim::CatchUp catch_up(now, guided, duration_s);
   const auto at = [&](double time_s, auto& motions) {
     path.at(time_s, motions), catch_up.add(time_s - begin_s, motions);
   };
   at(begin_s, guided);
   for (std::size_t j = 0; j < 2; ++j) {
-    CHECK(vec(sim::way_between(now[j].type, guided[j].now.position, now[j].position)).norm() <
+    CHECK(vec(sim::displacement(now[j].type, guided[j].now.position, now[j].position)).norm() <
           1e-9);
     CHECK((vec(guided[j].now.velocity_rad_per_s) - vec(now[j].velocity_rad_per_s)).norm() < 1e-9);
   }
-  for (double t = begin_s + 0.05; t < begin_s + takes_s; t += 0.1) check_derivatives(at, t);
-  at(begin_s + takes_s - 1e-9, guided), path.at(begin_s + takes_s - 1e-9, desired);
+  for (double t = begin_s + 0.05; t < begin_s + duration_s; t += 0.1) check_derivatives(at, t);
+  at(begin_s + duration_s - 1e-9, guided), path.at(begin_s + duration_s - 1e-9, desired);
   CHECK(turn(guided[0]).angularDistance(turn(desired[0])) < 1e-8);
   CHECK((vec(guided[0].acceleration_rad_per_s2) - vec(desired[0].acceleration_rad_per_s2)).norm() <
         1e-5);
@@ -127,25 +127,26 @@ TEST_CASE(
 
 TEST_CASE("with Via::through, velocity and acceleration are continuous in the poses") {
   const auto path = three_poses(sim::Via::through);
-  std::vector<sim::JointMotion> before, after, there;
+  std::vector<sim::JointMotion> before, after, at_pose;
   constexpr double h = 1e-7;
-  path.at(3 - h, before), path.at(3 + h, after), path.at(3, there);
-  CHECK(turn(there[0]).angularDistance(
-            Quaterniond(Eigen::AngleAxisd(1.2, Vec3(1, 2, -1).normalized()))) < 1e-9);
-  CHECK(there[1].now.position[0] == Approx(1.5));
+  path.at(3 - h, before), path.at(3 + h, after), path.at(3, at_pose);
+  CHECK(turn(at_pose[0])
+            .angularDistance(Quaterniond(Eigen::AngleAxisd(1.2, Vec3(1, 2, -1).normalized()))) <
+        1e-9);
+  CHECK(at_pose[1].now.position[0] == Approx(1.5));
   for (std::size_t j = 0; j < 2; ++j) {
-    const Vec3 faster =
+    const Vec3 velocity_change =
         vec(after[j].now.velocity_rad_per_s) - vec(before[j].now.velocity_rad_per_s);
-    const Vec3 more =
+    const Vec3 acceleration_change =
         vec(after[j].acceleration_rad_per_s2) - vec(before[j].acceleration_rad_per_s2);
-    CHECK(faster.norm() < 1e-4);
-    CHECK(more.norm() < 1e-3);
-    CHECK(vec(there[j].now.velocity_rad_per_s).norm() > 0.3);
+    CHECK(velocity_change.norm() < 1e-4);
+    CHECK(acceleration_change.norm() < 1e-3);
+    CHECK(vec(at_pose[j].now.velocity_rad_per_s).norm() > 0.3);
   }
   for (const double end : {1.0, 4.0}) {
-    path.at(end, there);
-    CHECK(vec(there[0].now.velocity_rad_per_s).norm() < 1e-9);
-    CHECK(there[1].now.velocity_rad_per_s[0] == Approx(0).margin(1e-9));
+    path.at(end, at_pose);
+    CHECK(vec(at_pose[0].now.velocity_rad_per_s).norm() < 1e-9);
+    CHECK(at_pose[1].now.velocity_rad_per_s[0] == Approx(0).margin(1e-9));
   }
 }
 
@@ -165,27 +166,28 @@ TEST_CASE("the trajectory through a point has minimum jerk") {
   std::vector<sim::JointMotion> at;
   path.at(1, at);
   CHECK(at[1].now.velocity_rad_per_s[0] == Approx(0).margin(1e-9));
-  const double least = elbow_jerk(path);
+  const double least_jerk = elbow_jerk(path);
   // An additional pose that is not on the trajectory must increase the jerk.
   path.at(0.5, at);
-  for (const double off : {-0.02, 0.02}) {
+  for (const double offset_rad : {-0.02, 0.02}) {
     const sim::JointPath other(
-        joints(), {{0, p(0)}, {0.5, p(at[1].now.position[0] + off)}, {1, p(1)}, {2, p(0)}},
+        joints(), {{0, p(0)}, {0.5, p(at[1].now.position[0] + offset_rad)}, {1, p(1)}, {2, p(0)}},
         sim::Via::through);
-    CHECK(elbow_jerk(other) > 1.0001 * least);
+    CHECK(elbow_jerk(other) > 1.0001 * least_jerk);
   }
-  const sim::JointPath same(joints(),
-                            {{0, p(0)}, {0.5, p(at[1].now.position[0])}, {1, p(1)}, {2, p(0)}},
-                            sim::Via::through);
-  CHECK(elbow_jerk(same) == Approx(least).epsilon(0.01));
+  const sim::JointPath equal(joints(),
+                             {{0, p(0)}, {0.5, p(at[1].now.position[0])}, {1, p(1)}, {2, p(0)}},
+                             sim::Via::through);
+  CHECK(elbow_jerk(equal) == Approx(least_jerk).epsilon(0.01));
 }
 
 TEST_CASE("a ball joint rotates by the smaller angle") {
-  const auto far = pose(3.0, Vec3::UnitZ(), 0)[0], back = pose(-3.0, Vec3::UnitZ(), 0)[0];
-  const Vec3 way = vec(sim::way_between(erp::JointType::spherical, far, back));
-  CHECK(way.z() == Approx(2 * std::numbers::pi - 6));
-  const auto there = sim::gone(erp::JointType::spherical, far, {way.x(), way.y(), way.z()});
-  CHECK(vec(sim::way_between(erp::JointType::spherical, there, back)).norm() < 1e-12);
+  const auto from = pose(3.0, Vec3::UnitZ(), 0)[0], to = pose(-3.0, Vec3::UnitZ(), 0)[0];
+  const Vec3 rotation = vec(sim::displacement(erp::JointType::spherical, from, to));
+  CHECK(rotation.z() == Approx(2 * std::numbers::pi - 6));
+  const auto displaced_position =
+      sim::displaced(erp::JointType::spherical, from, {rotation.x(), rotation.y(), rotation.z()});
+  CHECK(vec(sim::displacement(erp::JointType::spherical, displaced_position, to)).norm() < 1e-12);
 }
 
 TEST_CASE("times that do not increase are rejected with the row") {

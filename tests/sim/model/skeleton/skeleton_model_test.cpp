@@ -82,7 +82,8 @@ TEST_CASE("the torques of a force have the same power as the force") {
   }
 }
 
-TEST_CASE("a pendulum at rest needs the torque m g l sin q, and a locked joint has no coordinate") {
+TEST_CASE(
+    "a pendulum at rest requires the torque m g l sin q, and a locked joint has no coordinate") {
   const RobotTree tree(rigs::pendulum(0.5));
   SkeletonModel model(tree, Vec3(0, 0, -9.81));
   Eigen::VectorXd tau;
@@ -94,6 +95,6 @@ TEST_CASE("a pendulum at rest needs the torque m g l sin q, and a locked joint h
   SkeletonModel locked(tree, Vec3(0, 0, -9.81), lock);
   CHECK(locked.coordinates() == 0);
   CHECK((locked.poses()[1].rotation - model.poses()[1].rotation).norm() < 1e-15);
-  const std::vector<std::string> nobody{"knee"};
-  CHECK_THROWS_WITH(SkeletonModel(tree, down, nobody), Catch::Contains("knee"));
+  const std::vector<std::string> unknown_joint{"knee"};
+  CHECK_THROWS_WITH(SkeletonModel(tree, down, unknown_joint), Catch::Contains("knee"));
 }

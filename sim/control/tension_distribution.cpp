@@ -1,4 +1,4 @@
-#include "sim/control/tension_share.hpp"
+#include "sim/control/tension_distribution.hpp"
 
 #include <stdexcept>
 
@@ -10,7 +10,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 /// ρ, for moment arms of centimetres and Σ g f² with g = 1; chosen: relative torque error of 1e-5.
-constexpr double stiffness = 1e9;
+constexpr double torque_weight = 1e9;
 
 /// g up to a common factor.
 double weight_of(const erp::Robot& robot, const erp::Actuator& actuator,
@@ -53,35 +53,35 @@ ObjectiveTerms objective_terms(const erp::Robot& robot, TensionObjective objecti
   return terms;
 }
 
-TensionShare::TensionShare(const ObjectiveTerms& terms, int coordinates)
+TensionDistribution::TensionDistribution(const ObjectiveTerms& terms, int coordinates)
     : terms_(terms),
       low_(terms.low_N),
       high_(terms.high_N),
       c_(terms.low_N),
       tension_(terms.low_N),
-      missing_(Vector::Zero(coordinates)),
+      residual_(Vector::Zero(coordinates)),
       h_(terms.low_N.size(), terms.low_N.size()),
       qp_(terms.low_N.size()) {
   terms_.weight /= terms_.weight.mean();
 }
 
 /// H = G + ρ L Lᵀ,   c = G f° − ρ L τ
-const Vector& TensionShare::share(const Matrix& l, const Vector& torque) {
-  h_.noalias() = stiffness * l * l.transpose();
+const Vector& TensionDistribution::distribute(const Matrix& l, const Vector& torque) {
+  h_.noalias() = torque_weight * l * l.transpose();
   h_.diagonal() += terms_.weight;
-  c_.noalias() = -stiffness * l * torque;
+  c_.noalias() = -torque_weight * l * torque;
   c_ += terms_.weight.cwiseProduct(terms_.preferred_N);
   tension_ = qp_.solve(h_, c_, low_, high_);
-  missing_ = torque;
-  missing_.noalias() += l.transpose() * tension_;
+  residual_ = torque;
+  residual_.noalias() += l.transpose() * tension_;
   if (terms_.previous_is_preferred) terms_.preferred_N = tension_;
   return tension_;
 }
 
-void TensionShare::fix(int actuator, double tension_N) {
-  const bool bound = tension_N >= 0;
-  low_[actuator] = bound ? tension_N : terms_.low_N[actuator];
-  high_[actuator] = bound ? tension_N : terms_.high_N[actuator];
+void TensionDistribution::fix(int actuator, double tension_N) {
+  const bool is_fixed = tension_N >= 0;
+  low_[actuator] = is_fixed ? tension_N : terms_.low_N[actuator];
+  high_[actuator] = is_fixed ? tension_N : terms_.high_N[actuator];
 }
 
 }  // namespace sim
