@@ -34,10 +34,10 @@ std::array<double, 3> angles(int dof, const Position& at) {
 }
 
 std::string curve(const recording::JointTrack& track, std::size_t axis) {
-  const std::size_t stride = 1 + track.at.size() / most_points;
+  const std::size_t stride = 1 + track.positions.size() / most_points;
   std::string points;
   std::size_t k = 0;
-  for (const auto& [sequence, position] : track.at)
+  for (const auto& [sequence, position] : track.positions)
     if (k++ % stride == 0)
       points += fmt::format("{:.4f} {:.5f}\n", period_s * static_cast<double>(sequence),
                             degrees * angles(track.dof, position)[axis]);
@@ -88,7 +88,7 @@ std::vector<JointError> joint_errors(const recording::JointTracks& actual,
     const auto other = desired.find(joint);
     if (other == desired.end()) continue;
     JointError e{joint};
-    for (const auto& [sequence, position] : track.at) {
+    for (const auto& [sequence, position] : track.positions) {
       const auto same_frame = other->second.at.find(sequence);
       const double time_s = period_s * static_cast<double>(sequence);
       if (same_frame == other->second.at.end() || time_s < from_s) continue;
