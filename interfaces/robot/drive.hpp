@@ -111,15 +111,16 @@ struct Drive {
     v.list(load);
     v.list(sensors);
   }
+  /// The sensor of this type; null if the drive has none.
   template <class Sensor>
   const Sensor* find() const {
     for (const auto& sensor : sensors)
-      if (const auto* found = std::get_if<Sensor>(&sensor)) return found;
+      if (const auto* typed = std::get_if<Sensor>(&sensor)) return typed;
     return nullptr;
   }
 };
 
-/// Whether the load has its own sensor, so that motor and load are separate stages and not one mass.
+/// Whether the load has its own sensor. Motor and load are then separate stages, not one mass.
 inline bool has_load_sensor(const Drive& drive) { return !drive.sensors.empty(); }
 
 }  // namespace erp

@@ -6,8 +6,8 @@
 
 namespace erp {
 
-/// `<effect type="gearbox_backlash" on="flexor" width_rad="0.01"/>`. sim/model/effects defines and checks
-/// types, targets and parameters.
+/// `<effect type="gearbox_backlash" on="flexor" width_rad="0.01"/>`. sim/model/effects defines the types
+/// and checks targets and parameters.
 struct Effect {
   static constexpr auto element = "effect";
   static constexpr auto meaning =

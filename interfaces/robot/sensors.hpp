@@ -8,8 +8,8 @@
 #include "interfaces/robot/source.hpp"
 #include "interfaces/xml/fields.hpp"
 
-/// The sensors of robot.xml. Bits and range define the quantisation step; noise is rms, before
-/// quantisation.
+/// The sensors of robot.xml. Bits and range define the quantization step; noise is the rms before
+/// quantization.
 namespace erp {
 
 using xml::Vec3;
@@ -190,10 +190,10 @@ struct Imu {
 /// Name of a joint sensor on the bus: its joint and its component, such as "shoulder_x".
 std::string sample_name(const JointSensor& sensor);
 
-/// An analog input of an ECU that is in use.
+/// An analog input in use.
 struct AnalogInput {
   int ecu, input;
-  std::string reader;  ///< its sensor, for errors: sensor of joint "elbow"
+  std::string reader;  ///< its sensor, for error messages: sensor of joint "elbow"
 };
 
 }  // namespace erp

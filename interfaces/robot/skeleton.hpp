@@ -12,7 +12,7 @@
 /// Bodies and joints of robot.xml.
 namespace erp {
 
-/// Its mass is given or computed from solids and weights: see mass_of.
+/// Its mass is given, or computed from solids and weights: see mass_of.
 struct Body {
   static constexpr auto element = "body";
   static constexpr auto meaning =

@@ -9,28 +9,28 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Attributes with which an editor finds the XSD; allowed in every element and ignored.
+/// Attributes that tell an editor where the XSD is; allowed in every element and ignored.
 bool belongs_to_editors(const std::string& name) {
   return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
 }
 
 }  // namespace
 
-const Attribute* Reader::written(const std::string& name) const {
+const Attribute* Reader::exact_attribute(const std::string& name) const {
   for (const Attribute& a : element_.attributes)
     if (a.name == name) return &a;
   return nullptr;
 }
 
-const Attribute* Reader::attribute(const std::string& name) {
-  if (const Attribute* found = written(name)) return found;
-  for (const auto& [former, now] : former_names_) {
-    if (now != name) continue;
-    const Attribute* found = written(former);
-    if (!found) continue;
-    warn_renamed(found->place, former, now);
+const Attribute* Reader::find_attribute(const std::string& name) {
+  if (const Attribute* attribute = exact_attribute(name)) return attribute;
+  for (const auto& [former, current] : former_names_) {
+    if (current != name) continue;
+    const Attribute* attribute = exact_attribute(former);
+    if (!attribute) continue;
+    warn_renamed(attribute->place, former, current);
     known_attributes_.push_back(former);
-    return found;
+    return attribute;
   }
   return nullptr;
 }
@@ -54,8 +54,8 @@ void Reader::rest(std::vector<Attribute>& values) {
     }
 }
 
-/// Reports an unknown name, and removes its nearest known name from the missing ones, so that a
-/// misspelt name gives one error.
+/// Reports an unknown name. Removes the nearest known name from the missing ones: a misspelt name then
+/// gives one error, not two.
 void Reader::refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
                             const std::vector<std::string>& known,
                             std::vector<std::string>& missing) {

@@ -24,14 +24,14 @@ struct SchemaParts {
   };
   std::vector<Attribute> attributes;
   std::vector<Child> children;
-  bool others = false;  ///< attributes with other names are allowed
+  bool allows_others = false;  ///< attributes with other names are allowed
 };
 
-/// `<xs:complexType>` of an element. XSD 1.0 allows unordered children (xs:all) only up to one of
-/// each, so a struct has either single children or lists; throws std::logic_error for both.
+/// `<xs:complexType>` of an element. In XSD 1.0, unordered children (xs:all) occur at most once each:
+/// a struct has either single children or lists. Throws std::logic_error for a struct with both.
 std::string complex_type(const SchemaParts& parts);
 
-/// The whole document around the type of the root element, one tag per line, indented.
+/// The XSD document with the type of the root element, one tag per line, indented.
 std::string schema_document(const std::string& root_name, const std::string& root_type);
 
 /// Derives the XSD type of a struct from its `visit`.
@@ -64,13 +64,13 @@ class Schema : public CurrentNamesOnly {
     (add<Kinds>(SchemaParts::Child::any_number), ...);
   }
 
-  void rest(const std::vector<Attribute>&) { parts_.others = true; }
+  void rest(const std::vector<Attribute>&) { parts_.allows_others = true; }
 
   template <class T>
   static std::string type_of() {
-    T fresh{};
+    T item{};
     Schema schema;
-    fresh.visit(schema);
+    item.visit(schema);
     return complex_type(schema.parts_);
   }
 

@@ -10,32 +10,33 @@ Refusal out_of_range(const char* kind, const Range& range) {
   return {"is out of range", std::string("give ") + kind + range_words(range)};
 }
 
-/// from_chars takes no leading plus sign.
+/// std::from_chars does not accept a leading plus sign.
 std::string_view without_plus(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   return text;
 }
 
-/// Without an exponent for values of moderate size; XSD integers have no exponent.
+/// The fewest digits that read back bit-equal. Values of moderate size have no exponent, because XSD
+/// integers allow none.
 template <class Float>
 std::string shortest(Float value) {
   const Float size = std::abs(value);
-  const bool plain = size == 0 || (size >= Float(1e-4) && size < Float(1e20));
-  char text[40];
-  const auto format = plain ? std::chars_format::fixed : std::chars_format::scientific;
+  const bool is_moderate = size == 0 || (size >= Float(1e-4) && size < Float(1e20));
+  char text[40];  // longer than any number in these formats
+  const auto format = is_moderate ? std::chars_format::fixed : std::chars_format::scientific;
   return {text, std::to_chars(text, text + sizeof text, value, format).ptr};
 }
 
 }  // namespace
 
 std::string range_words(const Range& range) {
-  const bool below = std::isfinite(range.min), above = std::isfinite(range.max);
-  if (below && above && !range.open_min && !range.open_max)
+  const bool has_min = std::isfinite(range.min), has_max = std::isfinite(range.max);
+  if (has_min && has_max && !range.open_min && !range.open_max)
     return " from " + write_number(range.min) + " to " + write_number(range.max);
   std::string words;
-  if (below) words += (range.open_min ? " > " : " >= ") + write_number(range.min);
-  if (below && above) words += " and";
-  if (above) words += (range.open_max ? " < " : " <= ") + write_number(range.max);
+  if (has_min) words += (range.open_min ? " > " : " >= ") + write_number(range.min);
+  if (has_min && has_max) words += " and";
+  if (has_max) words += (range.open_max ? " < " : " <= ") + write_number(range.max);
   return words;
 }
 

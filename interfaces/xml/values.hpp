@@ -14,16 +14,16 @@
 /// To support another type, specialise Codec with the same four functions.
 namespace xml {
 
-/// Why a text is not a valid value; follows `name="text" ` in an error.
+/// Reason why a text is not a valid value; follows `name="text" ` in an error message.
 struct Refusal {
   std::string what, remedy;
 };
-using Refused = std::optional<Refusal>;
+using Refused = std::optional<Refusal>;  ///< empty: the text is valid
 
-/// ` > 0`, ` from 0 to 127`, or nothing.
+/// The range as text: ` > 0`, ` from 0 to 127`; empty without limits.
 std::string range_words(const Range& range);
 
-/// A finite number in decimal notation, surrounded by nothing but white space.
+/// Reads a finite number in decimal notation; white space around it is allowed.
 Refused read_number(std::string_view text, double& value, const Range& range);
 Refused read_integer(std::string_view text, long long& value, Range range);
 Refused read_flag(std::string_view text, bool& value);
@@ -43,9 +43,9 @@ template <std::floating_point T>
 struct Codec<T> {
   static Refused read(std::string_view text, T& value, const Range& range) {
     double number = 0;
-    Refused refused = read_number(text, number, range);
-    if (!refused) value = static_cast<T>(number);
-    return refused;
+    Refused refusal = read_number(text, number, range);
+    if (!refusal) value = static_cast<T>(number);
+    return refusal;
   }
   static std::string write(T value) { return write_number(value); }
   static std::string words(const Range& range) { return "number" + range_words(range); }
@@ -54,20 +54,22 @@ struct Codec<T> {
 
 template <class T>
 requires(std::integral<T> && !std::same_as<T, bool>) struct Codec<T> {
-  static Range within(Range range) {
+  static Range limited_to_type(Range range) {
     range.min = std::max(range.min, static_cast<double>(std::numeric_limits<T>::min()));
     range.max = std::min(range.max, static_cast<double>(std::numeric_limits<T>::max()));
     return range;
   }
   static Refused read(std::string_view text, T& value, const Range& range) {
     long long number = 0;
-    Refused refused = read_integer(text, number, within(range));
-    if (!refused) value = static_cast<T>(number);
-    return refused;
+    Refused refusal = read_integer(text, number, limited_to_type(range));
+    if (!refusal) value = static_cast<T>(number);
+    return refusal;
   }
   static std::string write(T value) { return std::to_string(value); }
   static std::string words(const Range& range) { return "integer" + range_words(range); }
-  static std::string xsd(const Range& range) { return xsd_restriction("integer", within(range)); }
+  static std::string xsd(const Range& range) {
+    return xsd_restriction("integer", limited_to_type(range));
+  }
 };
 
 template <>
@@ -91,7 +93,7 @@ struct Codec<std::string> {
   static std::string xsd(const Range&) { return xsd_restriction("xs:string", any); }
 };
 
-/// Words separated by white space: std::array of a fixed number, std::vector of any.
+/// Values separated by white space: std::array of a fixed number, std::vector of any number.
 template <class List, std::size_t length>
 struct ListCodec {
   using Item = typename List::value_type;
@@ -103,7 +105,7 @@ struct ListCodec {
     List read_items{};
     if constexpr (length == 0) read_items.resize(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (auto refused = Codec<Item>::read(parts[i], read_items[i], range)) return refused;
+      if (auto refusal = Codec<Item>::read(parts[i], read_items[i], range)) return refusal;
     value = read_items;
     return {};
   }
@@ -127,9 +129,9 @@ template <class T>
 struct Codec<std::optional<T>> {
   static Refused read(std::string_view text, std::optional<T>& value, const Range& range) {
     T inner{};
-    Refused refused = Codec<T>::read(text, inner, range);
-    if (!refused) value = inner;
-    return refused;
+    Refused refusal = Codec<T>::read(text, inner, range);
+    if (!refusal) value = inner;
+    return refusal;
   }
   static std::string write(const std::optional<T>& value) {
     return value ? Codec<T>::write(*value) : "";
@@ -150,9 +152,10 @@ struct Codec<Enum> {
   static Refused read(std::string_view text, Enum& value, const Range&) {
     for (const auto& [word, named] : Names<Enum>::list)
       if (text == word) return value = named, Refused{};
-    const std::string near = nearest(text, all_words());
-    return Refusal{"is not one of " + joined(all_words()),
-                   near.empty() ? "choose one of them" : "did you mean " + quote(near) + "?"};
+    const std::string nearest_word = nearest(text, all_words());
+    return Refusal{
+        "is not one of " + joined(all_words()),
+        nearest_word.empty() ? "choose one of them" : "did you mean " + quote(nearest_word) + "?"};
   }
   static std::string write(Enum value) {
     for (const auto& [word, named] : Names<Enum>::list)
