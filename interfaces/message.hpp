@@ -12,7 +12,8 @@
 /// Messages on the bus: the generated C structs with value semantics and their own storage.
 namespace erp {
 
-/// Capacity of a bounded IDL sequence. `topics.hpp` repeats the bounds of `interfaces/idl/sizes.idl`.
+/// Capacity of a bounded IDL sequence. `topics.hpp` repeats the bounds of
+/// `interfaces/idl/sizes.idl`.
 template <class Element>
 inline constexpr std::size_t capacity_of = 64;
 
@@ -60,8 +61,8 @@ template <auto Member>
 using element_of = std::remove_pointer_t<decltype(sequence_of<Member>::_buffer)>;
 }  // namespace detail
 
-/// A generated C struct together with the storage of its sequences: copyable, without heap allocation.
-/// A copy contains only the used elements.
+/// A generated C struct together with the storage of its sequences: copyable, without heap
+/// allocation. A copy contains only the used elements.
 template <class WireStruct, auto... Members>
 struct Message : WireStruct {
   using Wire = WireStruct;

@@ -6,8 +6,8 @@
 
 namespace sim {
 
-/// Calls work(k) for each k < count on `threads` threads, including the calling one. After all calls
-/// have ended, rethrows the exception of the smallest k that failed.
+/// Calls work(k) for each k < count on `threads` threads, including the calling one. After all
+/// calls have ended, rethrows the exception of the smallest k that failed.
 template <class Work>
 void in_parallel(std::size_t count, int threads, Work work) {
   std::atomic<std::size_t> next = 0;

@@ -16,8 +16,8 @@ class Pool {
  public:
   using Numbers = std::vector<double>;
   virtual ~Pool() = default;
-  /// Returns work(k) for each k < count, in the order of k. If a part throws, rethrows its exception
-  /// after all parts have ended.
+  /// Returns work(k) for each k < count, in the order of k. If a part throws, rethrows its
+  /// exception after all parts have ended.
   virtual std::vector<Numbers> map(std::size_t count,
                                    const std::function<Numbers(std::size_t)>& work) const = 0;
   /// Whether this process writes files and prints.
@@ -41,8 +41,8 @@ std::vector<Pool::Numbers> map(const Pool* pool, int threads, std::size_t count,
                                const std::function<Pool::Numbers(std::size_t)>& work);
 
 /// Under `mpirun`: a pool of all its processes, with `threads` threads each; otherwise a pool of
-/// threads. Create at most one per process. Throws std::invalid_argument under mpirun if this program
-/// was built without MPI.
+/// threads. Create at most one per process. Throws std::invalid_argument under mpirun if this
+/// program was built without MPI.
 std::unique_ptr<Pool> make_pool(int threads);
 
 }  // namespace sim

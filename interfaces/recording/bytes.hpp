@@ -37,8 +37,8 @@ inline void put(Bytes& out, std::string_view characters) {
 /// Reads forward through the bytes of a file, with bounds checks.
 class ByteReader {
  public:
-  /// `in_chunk`: the bytes are the decompressed records of a chunk. `origin`: position of the bytes in
-  /// the file, or of their chunk. `bytes` and `path` must outlive the reader.
+  /// `in_chunk`: the bytes are the decompressed records of a chunk. `origin`: position of the bytes
+  /// in the file, or of their chunk. `bytes` and `path` must outlive the reader.
   ByteReader(ByteView bytes, std::string_view path, std::uint64_t origin, bool in_chunk = false)
       : bytes_(bytes), path_(path), origin_(origin), in_chunk_(in_chunk) {}
 
@@ -53,8 +53,8 @@ class ByteReader {
   std::string characters(const char* what) {
     return std::string(text(take(integer<std::uint32_t>(what), what)));
   }
-  /// Removes and returns the next `size` bytes. `what` names them in the error. Throws RecordingError
-  /// when fewer bytes remain.
+  /// Removes and returns the next `size` bytes. `what` names them in the error. Throws
+  /// RecordingError when fewer bytes remain.
   ByteView take(std::uint64_t size, const char* what) {
     if (size > bytes_.size() - position_)
       fail(std::string(what) + " needs " + std::to_string(size) + " bytes, its record has " +

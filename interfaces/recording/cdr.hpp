@@ -36,8 +36,8 @@ struct Value {
 
 /// Decodes a message, including its 4-byte encapsulation. Throws RecordingError (field, byte, what)
 /// when the message does not match the type. Never reads beyond the message. A wrong length in the
-/// message cannot cause a large allocation. The result points into `type`: `type` must outlive it and
-/// must have passed `check`.
+/// message cannot cause a large allocation. The result points into `type`: `type` must outlive it
+/// and must have passed `check`.
 Members decode_cdr(const TypeDescription& type, ByteView message);
 
 /// The fields at the beginning of every message of this project.
@@ -46,11 +46,12 @@ struct Header {
   std::optional<std::int64_t> stamp_ns;
   std::optional<std::uint64_t> sequence;
 };
-/// Decodes the fields up to `stamp_ns` and `sequence`; stops at the first sequence, array or structure.
+/// Decodes the fields up to `stamp_ns` and `sequence`; stops at the first sequence, array or
+/// structure.
 Header header_of(const TypeDescription& type, ByteView message);
 
-/// The value as text: a number with the fewest digits that read back equal, text unchanged, arrays and
-/// structures as JSON.
+/// The value as text: a number with the fewest digits that read back equal, text unchanged, arrays
+/// and structures as JSON.
 std::string to_text(const Value& value);
 std::string to_json(const Members& members);
 

@@ -9,8 +9,8 @@
 
 namespace recording {
 
-/// Columns of several owners (actuators, joints or ECU channels), addressed by owner and signal. Rows
-/// that were not set are NaN.
+/// Columns of several owners (actuators, joints or ECU channels), addressed by owner and signal.
+/// Rows that were not set are NaN.
 class ColumnGroup {
  public:
   void set(const std::string& owner, const char* signal, std::size_t row, double value) {

@@ -6,8 +6,8 @@
 
 namespace recording {
 
-/// A file for appending. A failed append is undone: the file never ends with part of it. Every error
-/// throws RecordingError with path and system error.
+/// A file for appending. A failed append is undone: the file never ends with part of it. Every
+/// error throws RecordingError with path and system error.
 class OutputFile {
  public:
   /// `replace`: overwrites an existing file; without it an existing file is an error.

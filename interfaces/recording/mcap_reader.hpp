@@ -34,8 +34,8 @@ class McapReader {
   }
   const std::string& path() const { return file_.path(); }
 
-  /// Calls `callback` for every message, sorted by log time; equal times keep the order of the file.
-  /// Chunks that overlap in time stay in memory, up to 256 MB.
+  /// Calls `callback` for every message, sorted by log time; equal times keep the order of the
+  /// file. Chunks that overlap in time stay in memory, up to 256 MB.
   void for_each(const std::function<void(const Message&)>& callback) const;
 
  protected:
@@ -55,9 +55,9 @@ struct Recovered {
   std::vector<std::string> problems;  ///< unreadable parts, with their places
 };
 
-/// Copies everything readable in `in` to the new, complete file `out`. Omits each chunk with a wrong
-/// checksum: a gap is better than a wrong number.
-/// Throws RecordingError when `in` is not an MCAP file, or `out` exists or cannot be written.
+/// Copies everything readable in `in` to the new, complete file `out`. Omits each chunk with a
+/// wrong checksum: a gap is better than a wrong number. Throws RecordingError when `in` is not an
+/// MCAP file, or `out` exists or cannot be written.
 Recovered recover(const std::string& in, const std::string& out);
 
 }  // namespace recording

@@ -8,8 +8,8 @@
 
 #include "interfaces/recording/bytes.hpp"
 
-/// Records of MCAP 0, as specified at mcap.dev: u8 record type (`Op`), u64 length of the body, body.
-/// Times are nanoseconds since 1970, or nanoseconds of simulated time.
+/// Records of MCAP 0, as specified at mcap.dev: u8 record type (`Op`), u64 length of the body,
+/// body. Times are nanoseconds since 1970, or nanoseconds of simulated time.
 namespace recording {
 
 inline constexpr std::array<std::uint8_t, 8> magic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
@@ -108,7 +108,8 @@ ChunkHead get_chunk(ByteReader& in, ByteView& records);
 Attachment get_attachment(ByteReader& in);  ///< checks its CRC
 Metadata get_metadata(ByteReader& in);
 
-/// CRC-32 of zlib, which MCAP uses for all checksums. `initial_crc`: checksum of the preceding bytes.
+/// CRC-32 of zlib, which MCAP uses for all checksums. `initial_crc`: checksum of the preceding
+/// bytes.
 std::uint32_t crc32_of(ByteView bytes, std::uint32_t initial_crc = 0);
 
 }  // namespace recording

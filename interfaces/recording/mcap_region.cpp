@@ -7,8 +7,8 @@
 namespace recording {
 namespace {
 
-/// Stores the positions of the messages in `region.records`. At an incomplete record it stops if the
-/// region is truncated, and throws otherwise.
+/// Stores the positions of the messages in `region.records`. At an incomplete record it stops if
+/// the region is truncated, and throws otherwise.
 void index_messages(LoadedRegion& region, std::string_view path, bool truncated) {
   ByteReader in(region.records, path, region.origin, true);
   try {

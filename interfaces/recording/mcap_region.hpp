@@ -39,9 +39,9 @@ RecordHead get_record_head(ByteReader& in);
 /// The decompressed records of a chunk with the body `in`; verifies size and checksum.
 Bytes unpack(ByteReader in);
 
-/// Position of the first valid record at or after `from`; the end of the file if there is none. Only
-/// schemas, channels, attachments and chunks count. The lengths inside a valid record add up to its
-/// own length.
+/// Position of the first valid record at or after `from`; the end of the file if there is none.
+/// Only schemas, channels, attachments and chunks count. The lengths inside a valid record add up
+/// to its own length.
 std::uint64_t next_valid_record(const InputFile& file, std::uint64_t from);
 
 }  // namespace recording

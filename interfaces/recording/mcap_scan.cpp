@@ -10,7 +10,8 @@ constexpr std::uint64_t max_message_region_bytes = 1u << 20;
 
 class Scanner {
  public:
-  /// `earlier`: result of an earlier pass; its schemas and channels replace those in damaged records.
+  /// `earlier`: result of an earlier pass; its schemas and channels replace those in damaged
+  /// records.
   Scanner(const InputFile& file, bool tolerant, Contents earlier = {})
       : file_(file), tolerant_(tolerant) {
     contents_.schemas = std::move(earlier.schemas);

@@ -18,9 +18,9 @@ struct McapOptions {
 };
 
 /// Writes an MCAP file: chunks with indexes, attachments, a summary. The current chunk is in memory
-/// until it is closed; `flush` writes it to the disk.
-/// Every method throws RecordingError (path, system error) when writing fails; the file then ends with
-/// its last complete record and accepts no further data.
+/// until it is closed; `flush` writes it to the disk. Every method throws RecordingError (path,
+/// system error) when writing fails; the file then ends with its last complete record and accepts
+/// no further data.
 class McapWriter {
  public:
   explicit McapWriter(std::string path, McapOptions options = {});

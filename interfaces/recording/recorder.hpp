@@ -33,8 +33,8 @@ struct TopicCount {
   std::uint64_t messages = 0, missing = 0, restarts = 0, writers = 0;
 };
 
-/// The logger without the bus. Writes one MCAP channel per topic and writer: the file then shows every
-/// gap in the sequence numbers of a writer. Reads no clock and starts no thread.
+/// The logger without the bus. Writes one MCAP channel per topic and writer: the file then shows
+/// every gap in the sequence numbers of a writer. Reads no clock and starts no thread.
 class Recorder {
  public:
   /// Writes `attachments` to the disk before the first message. This and every other method throw
@@ -45,8 +45,8 @@ class Recorder {
   std::size_t add_topic(const std::string& topic, const MessageType& type);
   void write(std::size_t topic, const Sample& sample);
 
-  /// Writes all data to the disk if some of it is older than `flush_period_ns`. Call it at least ten
-  /// times per second with a monotonic clock: a killed process then loses at most 0.6 s.
+  /// Writes all data to the disk if some of it is older than `flush_period_ns`. Call it at least
+  /// ten times per second with a monotonic clock: a killed process then loses at most 0.6 s.
   void tick(std::int64_t monotonic_ns);
   void flush();
   void close();

@@ -42,8 +42,8 @@ struct Target {
   std::uint64_t answers, log_time_ns;
 };
 
-/// A set-point of one ECU channel in its counts. The plant sent it, or the ECU reports that it followed
-/// it.
+/// A set-point of one ECU channel in its counts. The plant sent it, or the ECU reports that it
+/// followed it.
 struct SetPoint {
   std::string channel;
   double request, counts;
@@ -165,8 +165,8 @@ class Builder {
     });
   }
 
-  /// Joins each target to the row that it answers. If a sequence occurs twice (the plant restarted),
-  /// joins it to the row nearest in log time.
+  /// Joins each target to the row that it answers. If a sequence occurs twice (the plant
+  /// restarted), joins it to the row nearest in log time.
   void join_targets() {
     std::multimap<std::uint64_t, std::size_t> by_sequence;
     for (std::size_t i = 0; i < rows_.size(); ++i) by_sequence.emplace(rows_[i].sequence, i);
@@ -188,9 +188,9 @@ class Builder {
     }
   }
 
-  /// An ECU can follow a set-point at the earliest in the frame after the one that it answers. A sent
-  /// set-point is written to that row and to all rows until the next one is sent. A followed set-point
-  /// is written to the row of the frame that reports it.
+  /// An ECU can follow a set-point at the earliest in the frame after the one that it answers. A
+  /// sent set-point is written to that row and to all rows until the next one is sent. A followed
+  /// set-point is written to the row of the frame that reports it.
   void join_set_points() {
     const auto order = row_order();
     std::map<std::uint64_t, std::size_t> row_of;

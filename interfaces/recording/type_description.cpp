@@ -70,8 +70,8 @@ void check_field(const TypeDescription& type, const Structure& structure, const 
     throw std::invalid_argument(place + " has an unknown type");
 }
 
-/// Sets `least_bytes` of structure `i` and of all structures in it. `ancestors`: the structures that
-/// contain it.
+/// Sets `least_bytes` of structure `i` and of all structures in it. `ancestors`: the structures
+/// that contain it.
 void set_least_bytes(TypeDescription& type, std::size_t i, std::vector<std::size_t>& ancestors) {
   Structure& structure = type.structures[i];
   if (std::ranges::find(ancestors, i) != ancestors.end())

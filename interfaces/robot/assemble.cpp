@@ -55,8 +55,8 @@ std::vector<std::string> names_in(const Robot& part) {
   return names;
 }
 
-/// Reads files depth first. `open_files_`: the files from the root to the one being read. A file that
-/// occurs there twice includes itself.
+/// Reads files depth first. `open_files_`: the files from the root to the one being read. A file
+/// that occurs there twice includes itself.
 class Assembler {
  public:
   Robot read(const std::string& file) {

@@ -8,9 +8,9 @@
 
 namespace erp {
 
-/// Checks that an XSD cannot express: references, the joint tree, the ECUs, the tendons. Returns all
-/// errors. `read_robot` throws them. Call this for robots that do not come from a file (imported,
-/// fitted).
+/// Checks that an XSD cannot express: references, the joint tree, the ECUs, the tendons. Returns
+/// all errors. `read_robot` throws them. Call this for robots that do not come from a file
+/// (imported, fitted).
 std::vector<xml::Error> check_robot(const Robot& robot);
 
 namespace robot_check {

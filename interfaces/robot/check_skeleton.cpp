@@ -11,7 +11,8 @@ namespace {
 using xml::quote;
 using xml::write_number;
 
-/// The joint that moves each body, by the name of the body; the first one if several joints move it.
+/// The joint that moves each body, by the name of the body; the first one if several joints move
+/// it.
 using MovedBy = std::map<std::string, const Joint*>;
 
 MovedBy check_one_joint_per_body(const std::vector<Joint>& joints, Findings& findings) {

@@ -41,8 +41,8 @@ void check_ends(const Actuator& actuator, Findings& findings) {
                  "begin and end it with an <attach>");
 }
 
-/// A point inside a pulley has no tangent to it. Checks only points and pulleys on the same body; the
-/// simulator reports a point that enters a pulley on another body.
+/// A point inside a pulley has no tangent to it. Checks only points and pulleys on the same body;
+/// the simulator reports a point that enters a pulley on another body.
 void check_inside(const Attach& point, const Pulley& pulley, Findings& findings) {
   const double distance_m = distance_from_pulley_m(point.at_m, pulley);
   if (point.body != pulley.body || distance_m >= pulley.radius_m) return;
@@ -82,8 +82,8 @@ void check_pulleys(const Actuator& actuator, Findings& findings) {
   }
 }
 
-/// Collisions with the solids determine the path of a rope: it has no points between its ends and no
-/// counted turns.
+/// Collisions with the solids determine the path of a rope: it has no points between its ends and
+/// no counted turns.
 void check_rope(const Actuator& actuator, Findings& findings) {
   if (!actuator.rope) return;
   const auto& path = actuator.tendon.path;

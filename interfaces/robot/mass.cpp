@@ -50,8 +50,8 @@ Mass mass_of_part(const Capsule& c, double density) {
 
 Mass mass_of_part(const Weight& w, double) { return {w.mass_kg, w.at_m, {}}; }
 
-/// Steiner: changes the inertia about the centre of mass to that about a point at distance `d`; with
-/// `sign` −1 in the other direction.
+/// Steiner: changes the inertia about the centre of mass to that about a point at distance `d`;
+/// with `sign` −1 in the other direction.
 void shift(Mass& mass, const Vec3& d, double sign) {
   const double m = sign * mass.mass_kg;
   auto& i = mass.inertia_kg_m2;

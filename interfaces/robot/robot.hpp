@@ -17,7 +17,7 @@ namespace erp {
 
 struct Pretension {
   static constexpr auto element = "pretension";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Pretension of one tendon, instead of that in its <tendon>, since pretensions must balance "
       "the whole robot; of several for one actuator, the last applies. `erp model balance` "
       "computes them.";
@@ -31,10 +31,11 @@ struct Pretension {
   }
 };
 
-/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. sim/gap lists and checks the constants.
+/// `<tolerance of="resistance_ohm" on="flexor" relative="0.1"/>`. sim/gap lists and checks the
+/// constants.
 struct Tolerance {
   static constexpr auto element = "tolerance";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Standard deviation of a constant of the built robot from its value in robot.xml, for the "
       "diagnosis and `erp gap calibrate`; simulation and control ignore it. Of several for one "
       "constant, the last applies.";
@@ -61,7 +62,7 @@ struct Tolerance {
 
 struct Include {
   static constexpr auto element = "include";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Another robot.xml, whose elements are added to this robot. The name of that robot is "
       "ignored.";
   xml::Place place;
@@ -76,7 +77,7 @@ struct Include {
 
 struct Mirror {
   static constexpr auto element = "mirror";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Another robot.xml, reflected at its plane y = 0 and added to this robot, such as a left arm "
       "as a right one. Equal joint angles are mirror images.";
   xml::Place place;
@@ -97,7 +98,7 @@ struct Mirror {
 /// A robot. `read_robot` applies includes, mirrors and pretensions; their lists are then empty.
 struct Robot {
   static constexpr auto element = "robot";
-  static constexpr auto meaning =
+  static constexpr auto description =
       "Robot with tendons or drives, or a part of one that another file includes.";
   xml::Place place;
   std::string name;
@@ -144,8 +145,8 @@ struct Robot {
   /// The CAN buses in the order of the file; if there are none, one bus with every ECU.
   std::vector<BusPlan> buses() const;
   Vec3 gravity_m_per_s2() const;  ///< zero if no part defines it
-  /// The types of an actuator. Throw std::out_of_range if the robot does not contain them; read_robot
-  /// refuses such a robot.
+  /// The types of an actuator. Throw std::out_of_range if the robot does not contain them;
+  /// read_robot refuses such a robot.
   const MotorType& motor_of(const Actuator& actuator) const;
   const SensorType& sensors_of(const Actuator& actuator) const;
 };

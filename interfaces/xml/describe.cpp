@@ -37,7 +37,7 @@ std::string to_table(const std::vector<Description>& descriptions) {
   for (const Description& d : descriptions) {
     std::string line = padded(d.name, name_width) + "  " + padded(d.type, type_width) + "  " +
                        padded(unit(d), unit_width) + "  " + padded(presence(d), presence_width) +
-                       "  " + d.meaning;
+                       "  " + d.description;
     line.erase(line.find_last_not_of(' ') + 1);
     table += line + "\n";
   }

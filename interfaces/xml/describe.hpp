@@ -9,22 +9,24 @@
 
 namespace xml {
 
-/// One line of `--help` and of `erp help`: an attribute (its unit is part of the name) or an element.
+/// One line of `--help` and of `erp help`: an attribute (its unit is part of the name) or an
+/// element.
 struct Description {
   std::string name, type, default_text;
   bool required = false;
-  std::string meaning = "";
+  std::string description = "";
   bool is_element = false;
 };
 
-/// The meaning of an element: `static constexpr auto meaning` of its struct; empty without one.
+/// The description of an element: `static constexpr auto description` of its struct; empty without
+/// one.
 template <class T>
-std::string meaning_of_element() {
-  if constexpr (requires { T::meaning; }) return T::meaning;
+std::string description_of_element() {
+  if constexpr (requires { T::description; }) return T::description;
   else return "";
 }
 
-/// One parameter per line, columns aligned: name, type with range, unit, default, meaning.
+/// One parameter per line, columns aligned: name, type with range, unit, default, description.
 std::string to_table(const std::vector<Description>& descriptions);
 
 /// Describes a struct by its `visit`; attributes of children are indented below their element.
@@ -36,12 +38,12 @@ class Describer : public CurrentNamesOnly {
   template <class T>
   void operator()(const char* name, const T& value, const Field& field = {}) {
     descriptions_.push_back({indent_ + name, Codec<T>::words(field.range), Codec<T>::write(value),
-                             false, field.meaning});
+                             false, field.description});
   }
   template <class T>
   void required(const char* name, const T&, const Field& field = {}) {
     descriptions_.push_back(
-        {indent_ + name, Codec<T>::words(field.range), "", true, field.meaning});
+        {indent_ + name, Codec<T>::words(field.range), "", true, field.description});
   }
   void rest(const std::vector<Attribute>&) {
     descriptions_.push_back({indent_ + "…", "further attributes, depending on the type", "", false,
@@ -73,7 +75,7 @@ class Describer : public CurrentNamesOnly {
   template <class T>
   void add_element(const char* count) {
     descriptions_.push_back(
-        {indent_ + "<" + T::element + ">", count, "", false, meaning_of_element<T>(), true});
+        {indent_ + "<" + T::element + ">", count, "", false, description_of_element<T>(), true});
   }
   template <class T>
   void list(std::vector<T>&& empty) {

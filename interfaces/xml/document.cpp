@@ -20,9 +20,9 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   throw Errors({{place, what, remedy}});
 }
 
-/// tinyxml2 reports lines, but no columns. It parses in place: names and texts point into one buffer,
-/// its copy of the text. A declaration before the text marks the beginning of that buffer: a pointer
-/// then gives an offset in the original text, and the offset gives line and column.
+/// tinyxml2 reports lines, but no columns. It parses in place: names and texts point into one
+/// buffer, its copy of the text. A declaration before the text marks the beginning of that buffer:
+/// a pointer then gives an offset in the original text, and the offset gives line and column.
 class Tree {
  public:
   Tree(std::string_view text, const std::string& file) : text_(text), file_(file) {

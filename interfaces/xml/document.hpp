@@ -29,8 +29,9 @@ std::vector<Error> wrong_root(const Element& root, const std::string& expected);
 /// Resolves a file name relative to the folder of `from_file`, the file that contains it.
 std::string resolved(const std::string& file, const std::string& from_file);
 
-/// The first violation of XML 1.0 in a text, with its place; empty if there is none. Covers elements,
-/// attributes, entities and comments. tinyxml2 accepts some violations and reports no columns.
+/// The first violation of XML 1.0 in a text, with its place; empty if there is none. Covers
+/// elements, attributes, entities and comments. tinyxml2 accepts some violations and reports no
+/// columns.
 std::vector<Error> malformed(std::string_view text, const std::string& file);
 
 /// Line and column (both from 1, columns in characters) of a byte in a text.

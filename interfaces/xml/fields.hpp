@@ -44,20 +44,20 @@ inline constexpr Range any{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity(), true, false};
 inline constexpr Range at_least_zero{0.0, std::numeric_limits<double>::infinity(), false, false};
 
-/// Valid range and description of an attribute. The description is one sentence for the schema and the
-/// reference: quantity, sign, frame, source of the default. Name, unit, type and default are shown
-/// beside it.
+/// Valid range and description of an attribute. The description is one sentence for the schema and
+/// the reference: quantity, sign, frame, source of the default. Name, unit, type and default are
+/// shown beside it.
 struct Field {
   Range range{};
-  const char* meaning = "";
+  const char* description = "";
   constexpr Field() = default;
   constexpr Field(const Range& valid) : range(valid) {}
-  constexpr Field(const char* text) : meaning(text) {}
-  constexpr Field(const Range& valid, const char* text) : range(valid), meaning(text) {}
+  constexpr Field(const char* text) : description(text) {}
+  constexpr Field(const Range& valid, const char* text) : range(valid), description(text) {}
 };
 
-/// Names of the values of an enum in XML: a specialization has `static constexpr auto list`, pairs of
-/// name and value.
+/// Names of the values of an enum in XML: a specialization has `static constexpr auto list`, pairs
+/// of name and value.
 template <class Enum>
 struct Names;
 

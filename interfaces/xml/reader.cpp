@@ -54,8 +54,8 @@ void Reader::rest(std::vector<Attribute>& values) {
     }
 }
 
-/// Reports an unknown name. Removes the nearest known name from the missing ones: a misspelt name then
-/// gives one error, not two.
+/// Reports an unknown name. Removes the nearest known name from the missing ones: a misspelt name
+/// then gives one error, not two.
 void Reader::refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
                             const std::vector<std::string>& known,
                             std::vector<std::string>& missing) {

@@ -78,7 +78,8 @@ class Reader {
   struct FormerName {
     std::string former, current;
   };
-  /// The attribute with this name, or with its former name (prints a warning); null if there is none.
+  /// The attribute with this name, or with its former name (prints a warning); null if there is
+  /// none.
   const Attribute* find_attribute(const std::string& name);
   const Attribute* exact_attribute(const std::string& name) const;
   void refuse_second(const Element& child, const Element& first);

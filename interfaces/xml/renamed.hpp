@@ -6,8 +6,8 @@
 /// Former names of elements, attributes, keys and options, which are still read.
 namespace xml {
 
-/// Prints `warning: place: "former" is deprecated; write "current"` on stderr, once per process, file
-/// and name.
+/// Prints `warning: place: "former" is deprecated; write "current"` on stderr, once per process,
+/// file and name.
 void warn_renamed(const Place& place, const std::string& former, const std::string& current);
 
 /// Whether `name` is `T::element` or its former name, `T::former_element`.

@@ -8,24 +8,25 @@ namespace {
 
 using Child = SchemaParts::Child;
 
-/// `<xs:annotation>` with the meaning; empty without one.
-std::string annotation(const std::string& meaning) {
-  if (meaning.empty()) return "";
+/// `<xs:annotation>` with the description; empty without one.
+std::string annotation(const std::string& description) {
+  if (description.empty()) return "";
   std::string text;
-  for (const char c : meaning) text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (const char c : description)
+    text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
   return "<xs:annotation><xs:documentation>" + text + "</xs:documentation></xs:annotation>";
 }
 
 std::string attribute_text(const SchemaParts::Attribute& attribute) {
   return "<xs:attribute name=\"" + attribute.name + "\"" +
-         (attribute.required ? " use=\"required\">" : ">") + annotation(attribute.meaning) +
+         (attribute.required ? " use=\"required\">" : ">") + annotation(attribute.description) +
          attribute.type + "</xs:attribute>";
 }
 
 std::string child_text(const Child& child) {
   return "<xs:element name=\"" + child.name + "\"" +
-         (child.count == Child::optional ? " minOccurs=\"0\">" : ">") + annotation(child.meaning) +
-         child.type + "</xs:element>";
+         (child.count == Child::optional ? " minOccurs=\"0\">" : ">") +
+         annotation(child.description) + child.type + "</xs:element>";
 }
 
 /// The base types. They restrict numbers to the notation of the reader, without infinities.

@@ -15,20 +15,21 @@ struct SchemaParts {
   struct Attribute {
     std::string name, type;  ///< type: an `<xs:simpleType>`
     bool required = false;
-    std::string meaning = "";
+    std::string description = "";
   };
   struct Child {
     std::string name, type;  ///< type: an `<xs:complexType>`
     enum Count { one, optional, any_number } count = one;
-    std::string meaning = "";
+    std::string description = "";
   };
   std::vector<Attribute> attributes;
   std::vector<Child> children;
   bool allows_others = false;  ///< attributes with other names are allowed
 };
 
-/// `<xs:complexType>` of an element. In XSD 1.0, unordered children (xs:all) occur at most once each:
-/// a struct has either single children or lists. Throws std::logic_error for a struct with both.
+/// `<xs:complexType>` of an element. In XSD 1.0, unordered children (xs:all) occur at most once
+/// each: a struct has either single children or lists. Throws std::logic_error for a struct with
+/// both.
 std::string complex_type(const SchemaParts& parts);
 
 /// The XSD document with the type of the root element, one tag per line, indented.
@@ -39,13 +40,13 @@ class Schema : public CurrentNamesOnly {
  public:
   template <class T>
   void operator()(const char* name, const T&, const Field& field = {}) {
-    parts_.attributes.push_back({name, Codec<T>::xsd(field.range), false, field.meaning});
+    parts_.attributes.push_back({name, Codec<T>::xsd(field.range), false, field.description});
   }
   template <class T>
   void required(const char* name, const T&, const Field& field = {}) {
     const bool text = std::is_same_v<T, std::string>;
     parts_.attributes.push_back(
-        {name, text ? xsd_filled_text() : Codec<T>::xsd(field.range), true, field.meaning});
+        {name, text ? xsd_filled_text() : Codec<T>::xsd(field.range), true, field.description});
   }
   template <class T>
   void child(T&) {
@@ -77,7 +78,7 @@ class Schema : public CurrentNamesOnly {
  private:
   template <class T>
   void add(SchemaParts::Child::Count count) {
-    parts_.children.push_back({T::element, type_of<T>(), count, meaning_of_element<T>()});
+    parts_.children.push_back({T::element, type_of<T>(), count, description_of_element<T>()});
   }
   SchemaParts parts_;
 };

@@ -9,8 +9,8 @@
 
 namespace xml {
 
-/// Sets one attribute by its path: `gain`; `spindle.radius_m` in a single child; `flexor.gain` in the
-/// list item with the name flexor. Call `finish` after `visit`.
+/// Sets one attribute by its path: `gain`; `spindle.radius_m` in a single child; `flexor.gain` in
+/// the list item with the name flexor. Call `finish` after `visit`.
 class Setter {
  public:
   Setter(std::string_view path, std::string_view text) : text_(text) {
@@ -65,8 +65,8 @@ class Setter {
           value);
   }
 
-  /// Throws Errors when no attribute has the path or the text is not valid. `path`: the full path, for
-  /// the error message.
+  /// Throws Errors when no attribute has the path or the text is not valid. `path`: the full path,
+  /// for the error message.
   void finish(std::string_view path) const;
 
  private:

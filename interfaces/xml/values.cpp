@@ -16,8 +16,8 @@ std::string_view without_plus(std::string_view text) {
   return text;
 }
 
-/// The fewest digits that read back bit-equal. Values of moderate size have no exponent, because XSD
-/// integers allow none.
+/// The fewest digits that read back bit-equal. Values of moderate size have no exponent, because
+/// XSD integers allow none.
 template <class Float>
 std::string shortest(Float value) {
   const Float size = std::abs(value);

@@ -67,7 +67,8 @@ class Writer : public CurrentNamesOnly {
     for (const Attribute& a : values) attributes_.emplace_back(a.name, a.value);
   }
 
-  /// `value` as the element `<name>`. Does not change `value`; it is not const because `visit` is not.
+  /// `value` as the element `<name>`. Does not change `value`; it is not const because `visit` is
+  /// not.
   template <class T>
   static std::string text_of(T& value, const std::string& name, std::size_t depth) {
     Writer writer(depth, attributes_of_default<T>());

@@ -9,8 +9,8 @@
 /// README.md.
 namespace xml {
 
-/// Fills `value` from a file whose root element is `<root_name>`; attributes absent from the file keep
-/// their defaults. Throws Errors with all errors of the file.
+/// Fills `value` from a file whose root element is `<root_name>`; attributes absent from the file
+/// keep their defaults. Throws Errors with all errors of the file.
 template <class T>
 void read_into(T& value, const Element& root, const std::string& root_name) {
   if constexpr (requires { T::former_element; }) {
@@ -45,8 +45,8 @@ T parse(std::string_view text, const std::string& label) {
   return value;
 }
 
-/// The struct as the text of a file, which reads back bit-equal. Omits optional attributes that equal
-/// their default. The struct must be copyable, because `visit` is not const.
+/// The struct as the text of a file, which reads back bit-equal. Omits optional attributes that
+/// equal their default. The struct must be copyable, because `visit` is not const.
 template <class T>
 std::string write(const T& value, const std::string& root_name) {
   T copy = value;
@@ -77,8 +77,8 @@ std::string describe() {
   return to_table(descriptions);
 }
 
-/// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the same checks as in
-/// a file. Throws Errors and changes nothing when the path is unknown or the text is refused.
+/// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the same checks as
+/// in a file. Throws Errors and changes nothing when the path is unknown or the text is refused.
 template <class T>
 void set(T& params, const std::string& path, const std::string& text) {
   Setter setter(path, text);

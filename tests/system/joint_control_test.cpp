@@ -1,5 +1,5 @@
-// Joint control in lockstep: the arm by computed force (Fig. 8 of the paper), the hinge rig by puller_follower
-// (Fig. 7a), and every joint controller over the CAN gateway.
+// Joint control in lockstep: the arm by computed force (Fig. 8 of the paper), the hinge rig by
+// puller_follower (Fig. 7a), and every joint controller over the CAN gateway.
 #include <fstream>
 
 #include "interfaces/robot/robot.hpp"

@@ -75,7 +75,7 @@ std::string wrapped(const std::vector<std::string>& names) {
 
 void print_reference(const std::string& name, const DescribeComponent& describe,
                      std::ostream& out) {
-  const char* columns = "Columns: name, type with range, unit, default, meaning.\n\n";
+  const char* columns = "Columns: name, type with range, unit, default, description.\n\n";
   if (const Describe* format = find(name)) {
     out << "<" << name << ">: attributes, and elements in <>, indented below their element.\n"
         << columns << (*format)();

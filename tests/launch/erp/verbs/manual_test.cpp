@@ -43,7 +43,9 @@ std::string offers(const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("erp help lists formats and components, and explains a component with its meanings") {
+TEST_CASE(
+    "erp help lists formats and components, and explains a component with the description of each "
+    "parameter") {
   const auto list = run("erp help");
   CHECK(list.exit_code == 0);
   CHECK_THAT(list.output, Contains("graph robot") && Contains("gap_monitor"));

@@ -4,9 +4,10 @@
 
 #include "interfaces/xml/describe.hpp"
 
-/// Elements and attributes that a struct lists without a meaning, as "element attribute". `root`: name of its element.
+/// Elements and attributes that a struct lists without a description, as "element attribute".
+/// `root`: name of its element.
 template <class T>
-std::vector<std::string> without_meaning(const std::string& root) {
+std::vector<std::string> without_description(const std::string& root) {
   std::vector<xml::Description> all;
   T fresh{};
   xml::Describer describer(all);
@@ -15,7 +16,7 @@ std::vector<std::string> without_meaning(const std::string& root) {
   std::string element = root;
   for (const auto& d : all) {
     if (d.is_element) element = d.name;
-    if (d.meaning.empty()) names.push_back(element + " " + d.name);
+    if (d.description.empty()) names.push_back(element + " " + d.name);
   }
   return names;
 }
