@@ -39,7 +39,7 @@ struct Fixture {
                                .choice = rigs::config("arm/calibration.xml"),
                                .out = file("off.xml"),
                                .poses = poses(),
-                               .off_deg = {{"shoulder", 20}, {"elbow", 15}},
+                               .pose_errors_deg = {{"shoulder", 20}, {"elbow", 15}},
                                .seed = 2},
                               out);
   }
@@ -47,7 +47,7 @@ struct Fixture {
     return {.robot = file("off.xml"),
             .choice = rigs::config("arm/calibration.xml"),
             .poses = poses(),
-            .how = {},
+            .fit = {},
             .training = {.folder = file(folder), .rounds = rounds}};
   }
 };
@@ -60,7 +60,7 @@ TEST_CASE(
   fixture.perturb();
   CHECK_THAT(fixture.out.str(), Catch::Contains("perturbed"));
   auto options = fixture.options("found", 40);
-  options.how.strategy = sim::calibration::Strategy::newton;
+  options.fit.strategy = sim::calibration::Strategy::newton;
   REQUIRE(launch::calibrate_run(options, fixture.out, fixture.remarks) == 0);
   CHECK_THAT(fixture.out.str(),
              Catch::Contains("identified") && Catch::Contains("shoulder, checked"));
@@ -121,7 +121,7 @@ TEST_CASE("an unknown joint and a recording without rest are refused by name") {
                                                .choice = rigs::config("arm/calibration.xml"),
                                                .out = fixture.file("off.xml"),
                                                .poses = fixture.poses(),
-                                               .off_deg = {{"knee", 20}}},
+                                               .pose_errors_deg = {{"knee", 20}}},
                                               fixture.out),
                     Catch::Contains("no joint \"knee\""));
   auto moving = recording::read_table(fixture.file("still.csv"));
