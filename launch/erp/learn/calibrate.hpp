@@ -11,7 +11,7 @@
 /// code; all throw xml::Errors, RecordingError and std::invalid_argument for bad input.
 namespace launch {
 
-/// Prints the motion to record, as a trajectory for the component `reference`: each pose that the
+/// Prints the motion to record, as a trajectory for the component `target`: each pose that the
 /// trajectory `lengths` holds, and the mean line lengths of consecutive poses. Holds each of them
 /// for `hold_s`.
 struct TourOptions {

@@ -118,7 +118,7 @@ void print(const std::vector<TestedBank>& results, std::ostream& out) {
       "zone, "
       "jerk {:.1f} times the minimum\n",
       median(speeds), median(stayed), median(jerks));
-  constexpr double explained_variance = 0.9;  // of the plans, by the synergies
+  constexpr double explained_variance = 0.9;  // fraction of the weights' sum of squares; chosen
   for (const TestedBank& result : results)
     out << fmt::format(
         "{:>4.0f} % of the bank, {:>3} plans, {:>2} synergies (90 %): struck{:>6.1f} %, "

@@ -15,7 +15,7 @@ namespace launch {
 namespace {
 
 constexpr double period_s = 0.002, degrees = 180 / std::numbers::pi;
-constexpr std::size_t most_points = 2000;  // per curve
+constexpr std::size_t max_points_per_curve = 2000;  // more than a screen has columns; chosen
 
 using Position = std::array<double, 4>;
 
@@ -23,18 +23,19 @@ erp::JointType type_of(int dof) {
   return dof == 3 ? erp::JointType::spherical : erp::JointType::revolute;
 }
 
-/// The rotation vector u of q₁ ⊖ q₀.
+/// The rotation vector, in rad, that turns `from` into `to`; of a revolute joint the difference of
+/// angles in [0].
 std::array<double, 3> difference(int dof, const Position& from, const Position& to) {
   return sim::way_between(type_of(dof), from, to);
 }
 
-/// The joint angle, or the rotation vector of a ball joint from its zero pose.
-std::array<double, 3> angles(int dof, const Position& at) {
-  return difference(dof, dof == 3 ? Position{1, 0, 0, 0} : Position{}, at);
+/// The joint angle in [0], or the rotation vector of a spherical joint from its zero pose, in rad.
+std::array<double, 3> angles(int dof, const Position& position) {
+  return difference(dof, dof == 3 ? Position{1, 0, 0, 0} : Position{}, position);
 }
 
 std::string curve(const recording::JointTrack& track, std::size_t axis) {
-  const std::size_t stride = 1 + track.positions.size() / most_points;
+  const std::size_t stride = 1 + track.positions.size() / max_points_per_curve;
   std::string points;
   std::size_t k = 0;
   for (const auto& [sequence, position] : track.positions)
@@ -49,12 +50,12 @@ PlotScript script(const recording::JointTracks& actual, const recording::JointTr
   PlotScript plot;
   std::string data, panels;
   for (const auto& [joint, track] : actual) {
-    const auto other = desired.find(joint);
-    if (other == desired.end()) continue;
+    const auto desired_track = desired.find(joint);
+    if (desired_track == desired.end()) continue;
     for (std::size_t axis = 0; axis < (track.dof == 3 ? 3U : 1U); ++axis) {
       const int n = plot.panels++;
       data += fmt::format("$actual{} << E\n{}E\n$desired{} << E\n{}E\n", n, curve(track, axis), n,
-                          curve(other->second, axis));
+                          curve(desired_track->second, axis));
       panels += fmt::format(
           "set ylabel '{}{}  [°]'\n"
           "plot $actual{} with lines lc rgb '#0072B2' lw 2 title '{}', $desired{} with lines dt 2 "
@@ -85,13 +86,13 @@ std::vector<JointError> joint_errors(const recording::JointTracks& actual,
                                      const recording::JointTracks& desired, double from_s) {
   std::vector<JointError> errors;
   for (const auto& [joint, track] : actual) {
-    const auto other = desired.find(joint);
-    if (other == desired.end()) continue;
+    const auto desired_track = desired.find(joint);
+    if (desired_track == desired.end()) continue;
     JointError e{joint};
     for (const auto& [sequence, position] : track.positions) {
-      const auto same_frame = other->second.at.find(sequence);
+      const auto same_frame = desired_track->second.positions.find(sequence);
       const double time_s = period_s * static_cast<double>(sequence);
-      if (same_frame == other->second.at.end() || time_s < from_s) continue;
+      if (same_frame == desired_track->second.positions.end() || time_s < from_s) continue;
       const auto u = difference(track.dof, position, same_frame->second);
       const double error_rad = std::hypot(u[0], u[1], u[2]);
       e.rms_rad += error_rad * error_rad;
