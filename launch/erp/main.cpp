@@ -11,7 +11,7 @@ namespace launch {
 
 // Defined in a file that revision.cmake writes.
 const char* version();   ///< version of the project, "0.2.0"
-const char* revision();  ///< git revision, with "-dirty" if there are uncommitted changes; or "unknown"
+const char* revision();  ///< git revision, with "-dirty" after uncommitted changes; or "unknown"
 
 namespace {
 

@@ -28,12 +28,12 @@ TEST_CASE("a type written as ros2msg text is parsed to the same type") {
         "string<=32 robot\nint64 stamp_ns  # [ns]\nerp/Sample[<=64] samples\nfloat64[4] q\n"
         "string<=8[] names\nbool ok\nint8 v\nint8 v2  # V\nint8 odd_name  # _Odd__Name_\n" +
             std::string(80, '=') + "\nMSG: erp/Sample\nfloat32 tension_n  # tension_N [N]\n");
-  const TypeDescription back = parse_ros2msg("erp/msg/Frame", text);
-  CHECK(ros2msg_text(back) == text);
+  const TypeDescription parsed = parse_ros2msg("erp/msg/Frame", text);
+  CHECK(ros2msg_text(parsed) == text);
   for (std::size_t s = 0; s < 2; ++s)
     for (std::size_t i = 0; i < type.structures[s].fields.size(); ++i) {
-      CHECK(back.structures[s].fields[i].name == type.structures[s].fields[i].name);
-      CHECK(back.structures[s].fields[i].unit == type.structures[s].fields[i].unit);
+      CHECK(parsed.structures[s].fields[i].name == type.structures[s].fields[i].name);
+      CHECK(parsed.structures[s].fields[i].unit == type.structures[s].fields[i].unit);
     }
   CHECK(parse_ros2msg("erp/msg/Frame", text).name() == "erp/msg/Frame");
 }

@@ -33,7 +33,7 @@ TEST_CASE("64 actuators are accepted and 65 are refused") {
   CHECK_THAT(errors_of(robot), Catch::Contains("65 actuators; the bus allows at most 64"));
 }
 
-TEST_CASE("a loop of joints is reported once, without the chain attached to it") {
+TEST_CASE("a loop of joints is reported once, without the joints that are attached to it") {
   erp::Robot robot = rig();
   auto& skeleton = robot.skeletons[0];
   for (const char* name : {"a", "b", "c", "d"}) {
@@ -72,8 +72,7 @@ TEST_CASE("two sensors on one input or on one joint are refused") {
                                    Catch::Contains("a second sensor on joint \"elbow\""));
 }
 
-TEST_CASE(
-    "a point inside its neighbouring pulley is refused, on its surface or in another accepted") {
+TEST_CASE("a point inside its neighbouring pulley is refused; a point on its surface is accepted") {
   erp::Robot robot = rig();
   auto& path = robot.actuators[0].tendon.path;
   std::get<erp::Attach>(path[1]).at_m = {-0.025, 0, 0};

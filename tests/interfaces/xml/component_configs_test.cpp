@@ -105,7 +105,7 @@ TEST_CASE(
     CHECK(kind.without_description(root) == std::vector<std::string>{});
 }
 
-TEST_CASE("the list above has every component that is installed") {
+TEST_CASE("the list above contains every installed component") {
   std::istringstream components(ERP_COMPONENTS);
   int count = 0;
   for (std::string name; components >> name; ++count) {

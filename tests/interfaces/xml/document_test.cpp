@@ -10,7 +10,7 @@ using example::refusal;
 
 namespace {
 
-std::string at(const xml::Place& place) {
+std::string place_text(const xml::Place& place) {
   return std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
@@ -24,34 +24,34 @@ std::string malformed(const std::string& text) {
 
 TEST_CASE("every element and attribute has its line and column") {
   const auto root = parsed("<a>\n  <b x=\"1\"\n     y=\"2\"/><c/>\n</a>");
-  CHECK(at(root.place) == "1:1");
+  CHECK(place_text(root.place) == "1:1");
   const auto& b = root.children.at(0);
-  CHECK(at(b.place) == "2:3");
-  CHECK(at(b.attributes.at(0).place) == "2:6");
-  CHECK(at(b.attributes.at(1).place) == "3:6");
-  CHECK(at(root.children.at(1).place) == "3:13");
+  CHECK(place_text(b.place) == "2:3");
+  CHECK(place_text(b.attributes.at(0).place) == "2:6");
+  CHECK(place_text(b.attributes.at(1).place) == "3:6");
+  CHECK(place_text(root.children.at(1).place) == "3:13");
 }
 
-TEST_CASE("places are correct with CRLF, in text and in values that the parser rewrites") {
+TEST_CASE("places are correct with CRLF, in text and in values that the parser shortens") {
   const auto root =
       parsed("<a>\r\n words\r\n more <b x=\"&lt;&amp;\r\n&gt;\" y=\"2\"/>\r\n <c/></a>");
   const auto& b = root.children.at(0);
-  CHECK(at(root.stray_text.at(0).first) == "2:2");
-  CHECK(at(b.place) == "3:7");
+  CHECK(place_text(root.stray_text.at(0).first) == "2:2");
+  CHECK(place_text(b.place) == "3:7");
   CHECK(b.attributes.at(0).value == "<&\n>");
-  CHECK(at(b.attributes.at(1).place) == "4:7");
-  CHECK(at(root.children.at(1).place) == "5:2");
+  CHECK(place_text(b.attributes.at(1).place) == "4:7");
+  CHECK(place_text(root.children.at(1).place) == "5:2");
 }
 
-TEST_CASE("places count characters, not bytes, and skip a byte order mark") {
-  CHECK(at(parsed("\xEF\xBB\xBF<a><b/></a>").children.at(0).place) == "1:4");
-  CHECK(at(parsed("<a n=\"größe\"><b/></a>").children.at(0).place) == "1:14");
+TEST_CASE("columns count characters, not bytes, and do not include a byte order mark") {
+  CHECK(place_text(parsed("\xEF\xBB\xBF<a><b/></a>").children.at(0).place) == "1:4");
+  CHECK(place_text(parsed("<a n=\"größe\"><b/></a>").children.at(0).place) == "1:14");
 }
 
 TEST_CASE("places are correct after a declaration and comments before the root") {
   const auto root = parsed("<?xml version=\"1.0\"?>\n<!-- a\nb -->\n <a><!-- c --><b/></a>");
-  CHECK(at(root.place) == "4:2");
-  CHECK(at(root.children.at(0).place) == "4:15");
+  CHECK(place_text(root.place) == "4:2");
+  CHECK(place_text(root.children.at(0).place) == "4:15");
 }
 
 TEST_CASE("text that is not well-formed XML is refused with the place of the violation") {

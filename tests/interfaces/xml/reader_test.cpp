@@ -56,7 +56,7 @@ TEST_CASE("integers with a fraction or out of range are refused") {
   CHECK_THAT(step("99999999999999999999"), Contains("is out of range"));
 }
 
-TEST_CASE("an unknown name is refused with the nearest known one, which is not reported missing") {
+TEST_CASE("an unknown name is refused with the nearest known name, which is not reported missing") {
   CHECK(refusal_of_params("<tracker gain='1'/>") ==
         "f.xml:1:10: <tracker>: unknown attribute \"gain\"; did you mean \"gain_per_s\"?");
   CHECK(refusal_of<Cart>("<cart><wheal/></cart>") ==
@@ -91,7 +91,7 @@ TEST_CASE("a list of several kinds keeps its order") {
   CHECK(std::get<example::Bell>(row.things[2]).tone == "d");
 }
 
-TEST_CASE("attributes with which an editor finds the XSD are allowed") {
+TEST_CASE("attributes that tell an editor where the XSD is are allowed") {
   CHECK(refusal_of<Row>("<row xmlns:xsi='http://www.w3.org/2001/XMLSchema-instance' "
                         "xsi:noNamespaceSchemaLocation='row.xsd'/>")
             .empty());
