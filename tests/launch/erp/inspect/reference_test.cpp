@@ -18,7 +18,7 @@ TEST_CASE("every element and attribute of a graph has a description") {
 
 namespace {
 
-/// No component has a program here, except `brake`.
+/// Only the component `brake` has a program.
 std::optional<std::string> describe(const std::string& type) {
   if (type != "brake") return std::nullopt;
   return "force_N  number  N  default 3  Force of the brake.\n";

@@ -27,8 +27,8 @@ TEST_CASE("the device time continues after a restart of the device") {
 }
 
 TEST_CASE(
-    "in lockstep the real-time factor gives the remaining time, and real time does not end the "
-    "run") {
+    "in lockstep the remaining time follows from the real-time factor, and real time does not end "
+    "the run") {
   launch::RunTime time(10, true);
   time.start(0);
   time.running();
