@@ -7,13 +7,13 @@
 /// Types with which a struct lists its XML attributes and children: see `interfaces/xml/README.md`.
 ///
 ///   void visit(auto& v) {
-///     v.required("mass_kg", mass_kg, {xml::positive, "Mass of the body."});    // required attribute
-///     v("com_m", com_m, "Centre of mass in the frame of the body.");           // attribute with a default
-///     v.child(spindle);                                // exactly one child element
-///     v.optional_child(cover);                         // std::optional: one or none
-///     v.list(bodies);                                  // std::vector: any number of children
-///     v.list(path);                                    // std::vector of std::variant: several kinds
-///     v.rest(parameters);                              // all other attributes, unchecked
+///     v.required("mass_kg", mass_kg, {xml::positive, "Mass of the body."});  // required attribute
+///     v("com_m", com_m, "Centre of mass in the frame of the body.");  // attribute with a default
+///     v.child(spindle);                         // exactly one child element
+///     v.optional_child(cover);                  // std::optional: one or none
+///     v.list(bodies);                           // std::vector: any number of children
+///     v.list(path);                             // std::vector of std::variant: several types
+///     v.rest(parameters);                       // all other attributes, unchecked
 ///   }
 namespace xml {
 

@@ -7,8 +7,8 @@
 /// `erp gap blind`: makes cases with hidden effects, diagnoses them without the truth, and scores
 /// the diagnoses.
 ///
-///   DIR/robot.xml, DIR/cases.json    input of the diagnosis: the robot, the recordings of each case, and the
-///   DIR/<case>/1.csv …               SHA-256 hash of the truth file
+///   DIR/robot.xml, DIR/cases.json    input of the diagnosis: the robot, the recordings of each
+///   DIR/<case>/1.csv …               case, and the SHA-256 hash of the truth file
 ///   DIR/<case>/diagnosis.json        result of the diagnosis
 ///   TRUTH                            the hidden effects, in a separate file
 namespace launch::gap {
