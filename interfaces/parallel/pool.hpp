@@ -8,8 +8,8 @@
 /// Distributes the parts of a computation over threads, or over processes on several machines.
 ///
 /// Under `mpirun` each process runs the same program on the same input. The processes divide the
-/// parts of each `map`, and all receive all of its numbers, so that their states stay equal. Only
-/// the first process writes files and prints.
+/// parts of each `map`. Each process receives all numbers of the result: the states of the
+/// processes stay equal. Only the first process writes files and prints.
 namespace sim {
 
 class Pool {

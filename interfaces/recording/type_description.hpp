@@ -58,7 +58,7 @@ std::size_t size_of(Kind kind);       ///< bytes of a primitive; 0 for string an
 std::string ros_name(std::string_view idl_name);
 
 /// A valid ROS 2 field name: lower case, no underscore at the start or end, no double underscore.
-/// "tension_N" → "tension_n". Foxglove refuses a schema with other names.
+/// "tension_N" → "tension_n". Foxglove rejects a schema with other names.
 std::string ros_field_name(std::string_view name);
 
 /// The type as `ros2msg` text: its fields, then `===` and `MSG: package/Type` for every structure that

@@ -14,8 +14,8 @@ Robot assemble_robot(const std::string& file);
 /// Reflects a part at y = 0 and renames its elements, according to `<mirror>`.
 ///
 /// With M = diag(1, −1, 1), points and directions become p → M p. Rotation axes are pseudo-vectors:
-/// a → −M a. Then M R(a, q) M = R(−M a, q), so equal angles give mirror images. Moments of inertia
-/// do not change.
+/// a → −M a. Then M R(a, q) M = R(−M a, q): equal angles give mirror images. Moments of inertia do
+/// not change.
 Robot mirrored(Robot part, const Mirror& mirror);
 
 }  // namespace erp

@@ -23,8 +23,8 @@ Mass mass_of_part(const Box& b, double density) {
   return {m, b.at_m, {m / 12 * (y + z), m / 12 * (x + z), m / 12 * (x + y), 0, 0, 0}};
 }
 
-/// A cylinder (length l, mass m_c) and two half spheres (together m_s), whose centres of mass lie
-/// 3/8 r beyond its ends. Moments of inertia about the centre:
+/// A cylinder (length l, mass m_c) and two half spheres (total mass m_s). The centre of mass of a
+/// half sphere lies 3/8 r beyond the end of the cylinder. Moments of inertia about the centre:
 ///   axial       m_c r²/2 + m_s 2r²/5
 ///   transverse  m_c (l²/12 + r²/4) + m_s (2r²/5 + l²/4 + 3 l r/8)
 Mass mass_of_part(const Capsule& c, double density) {

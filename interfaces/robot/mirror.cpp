@@ -5,7 +5,7 @@
 namespace erp {
 namespace {
 
-// p → M p, M = diag(1, −1, 1). Zero keeps its sign, so files do not contain "-0".
+// p → M p, M = diag(1, −1, 1). Zero keeps its sign: files do not contain "-0".
 double negated(double x) { return x == 0.0 ? 0.0 : -x; }
 Vec3 reflected(const Vec3& p) { return {p[0], negated(p[1]), p[2]}; }
 // a → −M a

@@ -146,7 +146,7 @@ struct Robot {
   std::vector<BusPlan> buses() const;
   Vec3 gravity_m_per_s2() const;  ///< zero if no part defines it
   /// The types of an actuator. Throw std::out_of_range if the robot does not contain them;
-  /// read_robot refuses such a robot.
+  /// read_robot rejects such a robot.
   const MotorType& motor_of(const Actuator& actuator) const;
   const SensorType& sensors_of(const Actuator& actuator) const;
 };

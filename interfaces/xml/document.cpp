@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-[[noreturn]] void refuse(const Place& place, const std::string& what, const std::string& remedy) {
+[[noreturn]] void throw_error(const Place& place, const std::string& what,
+                              const std::string& remedy) {
   throw Errors({{place, what, remedy}});
 }
 
@@ -29,14 +30,14 @@ class Tree {
     const std::string declared_text = std::string(declaration) + std::string(text);
     document_.Parse(declared_text.data(), declared_text.size());
     if (document_.Error())
-      refuse(place_of_line(document_.ErrorLineNum()), "XML is not well-formed",
-             document_.ErrorName());
+      throw_error(place_of_line(document_.ErrorLineNum()), "XML is not well-formed",
+                  document_.ErrorName());
     begin_ = document_.FirstChild()->Value() - std::strlen("<?") + declaration.size();
   }
 
   Element root() const {
     const tinyxml2::XMLElement* root = document_.RootElement();
-    if (!root) refuse({file_, 1, 1}, "contains no element", "write the root element");
+    if (!root) throw_error({file_, 1, 1}, "contains no element", "write the root element");
     return element(*root);
   }
 
@@ -77,15 +78,15 @@ std::string contents(const std::string& file) {
   const Place whole_file{file, 0, 0};
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
-    refuse(whole_file, "no such file", "check the path, or create the file");
+    throw_error(whole_file, "no such file", "check the path, or create the file");
   if (std::filesystem::is_directory(file, ignored))
-    refuse(whole_file, "is a folder", "give the XML file in it");
+    throw_error(whole_file, "is a folder", "give the XML file in it");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf()).good()) {
     if (in && in.peek() == std::ifstream::traits_type::eof()) return "";
-    refuse(whole_file, std::string("cannot be read: ") + std::strerror(errno),
-           "check its permissions");
+    throw_error(whole_file, std::string("cannot be read: ") + std::strerror(errno),
+                "check its permissions");
   }
   return text.str();
 }
@@ -94,7 +95,7 @@ std::string contents(const std::string& file) {
 
 Element parse_document(std::string_view text, const std::string& file) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  if (trimmed(text).empty()) refuse({file, 1, 1}, "is empty", "write the root element");
+  if (trimmed(text).empty()) throw_error({file, 1, 1}, "is empty", "write the root element");
   throw_if_any(malformed(text, file));
   return Tree(text, file).root();
 }

@@ -28,7 +28,7 @@ class Reader {
     const Attribute* attribute = find_attribute(name);
     if (!attribute) return void(missing_attributes_.push_back(name));
     if (std::is_same_v<T, std::string> && trimmed(attribute->value).empty())
-      return refuse(*attribute, {"is empty", "give a text"});
+      return add_value_error(*attribute, {"is empty", "give a text"});
     read(*attribute, value, field.range);
   }
 
@@ -82,10 +82,11 @@ class Reader {
   /// none.
   const Attribute* find_attribute(const std::string& name);
   const Attribute* exact_attribute(const std::string& name) const;
-  void refuse_second(const Element& child, const Element& first);
-  void refuse(const Attribute& attribute, const Refusal& refusal);
-  void refuse_unknown(const std::string& kind, const Place& place, const std::string& name,
-                      const std::vector<std::string>& known, std::vector<std::string>& missing);
+  void add_second_element_error(const Element& child, const Element& first);
+  void add_value_error(const Attribute& attribute, const ValueError& error);
+  void add_unknown_name_error(const std::string& kind, const Place& place, const std::string& name,
+                              const std::vector<std::string>& known,
+                              std::vector<std::string>& missing);
 
   /// Whether `child` has the element name of T. Warns if it has the former name.
   template <class T>
@@ -102,15 +103,15 @@ class Reader {
     const Element* first = nullptr;
     for (const Element& child : element_.children) {
       if (!is_a<T>(child)) continue;
-      if (first) refuse_second(child, *first);
+      if (first) add_second_element_error(child, *first);
       else first = &child;
     }
     return first;
   }
   template <class T>
   void read(const Attribute& attribute, T& value, const Range& range) {
-    if (const Refused refused = Codec<T>::read(attribute.value, value, range))
-      refuse(attribute, *refused);
+    if (const std::optional<ValueError> error = Codec<T>::read(attribute.value, value, range))
+      add_value_error(attribute, *error);
   }
   template <class Kind, class Variant>
   void append_if_named(std::vector<Variant>& values, const Element& child) {

@@ -4,9 +4,9 @@
 
 namespace xml {
 
-Refused Setter::result() const {
-  if (is_found_) return refusal_;
-  return Refusal{"unknown parameter " + quote(name_), did_you_mean(name_, valid_names_)};
+std::optional<ValueError> Setter::result() const {
+  if (is_found_) return error_;
+  return ValueError{"unknown parameter " + quote(name_), did_you_mean(name_, valid_names_)};
 }
 
 void Setter::former(const char* former_name, const char* name) {
@@ -16,10 +16,10 @@ void Setter::former(const char* former_name, const char* name) {
 }
 
 void Setter::finish(std::string_view path) const {
-  if (const Refused refusal = result())
+  if (const std::optional<ValueError> error = result())
     throw Errors({{{"--set " + std::string(path) + "=" + std::string(text_), 0, 0},
-                   refusal->what,
-                   refusal->remedy}});
+                   error->what,
+                   error->remedy}});
 }
 
 }  // namespace xml

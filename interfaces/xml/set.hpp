@@ -24,7 +24,7 @@ class Setter {
     valid_names_.push_back(name);
     if (!inner_path_.empty() || name_ != name) return;
     is_found_ = true;
-    refusal_ = Codec<T>::read(text_, value, field.range);
+    error_ = Codec<T>::read(text_, value, field.range);
   }
   template <class T>
   void required(const char* name, T& value, const Field& field = {}) {
@@ -77,14 +77,14 @@ class Setter {
     Setter inner(inner_path_, text_);
     value.visit(inner);
     is_found_ = true;
-    refusal_ = inner.result();
+    error_ = inner.result();
   }
-  Refused result() const;
+  std::optional<ValueError> result() const;
 
   std::string_view name_, inner_path_, text_;
   std::vector<std::string> valid_names_;
   bool is_found_ = false;
-  Refused refusal_;
+  std::optional<ValueError> error_;
 };
 
 }  // namespace xml

@@ -6,7 +6,7 @@
 namespace xml {
 namespace {
 
-Refusal out_of_range(const char* kind, const Range& range) {
+ValueError out_of_range(const char* kind, const Range& range) {
   return {"is out of range", std::string("give ") + kind + range_words(range)};
 }
 
@@ -40,33 +40,33 @@ std::string range_words(const Range& range) {
   return words;
 }
 
-Refused read_number(std::string_view text, double& value, const Range& range) {
+std::optional<ValueError> read_number(std::string_view text, double& value, const Range& range) {
   text = without_plus(trimmed(text));
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (fault == std::errc::result_out_of_range)
-    return Refusal{"does not fit a double", "give a number" + range_words(range)};
+    return ValueError{"does not fit a double", "give a number" + range_words(range)};
   if (fault != std::errc{} || end != text.data() + text.size())
-    return Refusal{"is not a number", "give a number" + range_words(range)};
+    return ValueError{"is not a number", "give a number" + range_words(range)};
   if (!std::isfinite(value))
-    return Refusal{"is not a finite number", "give a number" + range_words(range)};
+    return ValueError{"is not a finite number", "give a number" + range_words(range)};
   if (!range.contains(value)) return out_of_range("a number", range);
   return {};
 }
 
-Refused read_integer(std::string_view text, long long& value, Range range) {
+std::optional<ValueError> read_integer(std::string_view text, long long& value, Range range) {
   text = without_plus(trimmed(text));
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (fault == std::errc::result_out_of_range) return out_of_range("an integer", range);
   if (fault != std::errc{} || end != text.data() + text.size())
-    return Refusal{"is not an integer", "give an integer" + range_words(range)};
+    return ValueError{"is not an integer", "give an integer" + range_words(range)};
   if (!range.contains(static_cast<double>(value))) return out_of_range("an integer", range);
   return {};
 }
 
-Refused read_flag(std::string_view text, bool& value) {
+std::optional<ValueError> read_flag(std::string_view text, bool& value) {
   text = trimmed(text);
   if (text != "true" && text != "false")
-    return Refusal{"is neither true nor false", "write true or false"};
+    return ValueError{"is neither true nor false", "write true or false"};
   value = text == "true";
   return {};
 }

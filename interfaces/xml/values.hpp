@@ -14,19 +14,19 @@
 /// To support another type, specialise Codec with the same four functions.
 namespace xml {
 
-/// Reason why a text is not a valid value; follows `name="text" ` in an error message.
-struct Refusal {
+/// Reason why a text is not a valid value; follows `name="text" ` in an error message. A function
+/// that returns std::optional<ValueError> returns no error for a valid text.
+struct ValueError {
   std::string what, remedy;
 };
-using Refused = std::optional<Refusal>;  ///< empty: the text is valid
 
 /// The range as text: ` > 0`, ` from 0 to 127`; empty without limits.
 std::string range_words(const Range& range);
 
 /// Reads a finite number in decimal notation; white space around it is allowed.
-Refused read_number(std::string_view text, double& value, const Range& range);
-Refused read_integer(std::string_view text, long long& value, Range range);
-Refused read_flag(std::string_view text, bool& value);
+std::optional<ValueError> read_number(std::string_view text, double& value, const Range& range);
+std::optional<ValueError> read_integer(std::string_view text, long long& value, Range range);
+std::optional<ValueError> read_flag(std::string_view text, bool& value);
 std::string write_number(double value);  ///< the shortest text that reads back to the same bits
 std::string write_number(float value);
 
@@ -41,11 +41,11 @@ struct Codec;
 
 template <std::floating_point T>
 struct Codec<T> {
-  static Refused read(std::string_view text, T& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, T& value, const Range& range) {
     double number = 0;
-    Refused refusal = read_number(text, number, range);
-    if (!refusal) value = static_cast<T>(number);
-    return refusal;
+    std::optional<ValueError> error = read_number(text, number, range);
+    if (!error) value = static_cast<T>(number);
+    return error;
   }
   static std::string write(T value) { return write_number(value); }
   static std::string words(const Range& range) { return "number" + range_words(range); }
@@ -59,11 +59,11 @@ requires(std::integral<T> && !std::same_as<T, bool>) struct Codec<T> {
     range.max = std::min(range.max, static_cast<double>(std::numeric_limits<T>::max()));
     return range;
   }
-  static Refused read(std::string_view text, T& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, T& value, const Range& range) {
     long long number = 0;
-    Refused refusal = read_integer(text, number, limited_to_type(range));
-    if (!refusal) value = static_cast<T>(number);
-    return refusal;
+    std::optional<ValueError> error = read_integer(text, number, limited_to_type(range));
+    if (!error) value = static_cast<T>(number);
+    return error;
   }
   static std::string write(T value) { return std::to_string(value); }
   static std::string words(const Range& range) { return "integer" + range_words(range); }
@@ -74,7 +74,7 @@ requires(std::integral<T> && !std::same_as<T, bool>) struct Codec<T> {
 
 template <>
 struct Codec<bool> {
-  static Refused read(std::string_view text, bool& value, const Range&) {
+  static std::optional<ValueError> read(std::string_view text, bool& value, const Range&) {
     return read_flag(text, value);
   }
   static std::string write(bool value) { return value ? "true" : "false"; }
@@ -84,7 +84,7 @@ struct Codec<bool> {
 
 template <>
 struct Codec<std::string> {
-  static Refused read(std::string_view text, std::string& value, const Range&) {
+  static std::optional<ValueError> read(std::string_view text, std::string& value, const Range&) {
     value = text;
     return {};
   }
@@ -97,15 +97,15 @@ struct Codec<std::string> {
 template <class List, std::size_t length>
 struct ListCodec {
   using Item = typename List::value_type;
-  static Refused read(std::string_view text, List& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, List& value, const Range& range) {
     const auto parts = split(text);
     if (length > 0 && parts.size() != length)
-      return Refusal{"has " + std::to_string(parts.size()) + " values",
-                     "give " + std::to_string(length) + " separated by spaces"};
+      return ValueError{"has " + std::to_string(parts.size()) + " values",
+                        "give " + std::to_string(length) + " separated by spaces"};
     List read_items{};
     if constexpr (length == 0) read_items.resize(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (auto refusal = Codec<Item>::read(parts[i], read_items[i], range)) return refusal;
+      if (auto error = Codec<Item>::read(parts[i], read_items[i], range)) return error;
     value = read_items;
     return {};
   }
@@ -127,11 +127,12 @@ struct Codec<std::vector<T>> : ListCodec<std::vector<T>, 0> {};
 
 template <class T>
 struct Codec<std::optional<T>> {
-  static Refused read(std::string_view text, std::optional<T>& value, const Range& range) {
+  static std::optional<ValueError> read(std::string_view text, std::optional<T>& value,
+                                        const Range& range) {
     T inner{};
-    Refused refusal = Codec<T>::read(text, inner, range);
-    if (!refusal) value = inner;
-    return refusal;
+    std::optional<ValueError> error = Codec<T>::read(text, inner, range);
+    if (!error) value = inner;
+    return error;
   }
   static std::string write(const std::optional<T>& value) {
     return value ? Codec<T>::write(*value) : "";
@@ -149,11 +150,11 @@ struct Codec<Enum> {
     for (const auto& [word, value] : Names<Enum>::list) words.push_back(word);
     return words;
   }
-  static Refused read(std::string_view text, Enum& value, const Range&) {
+  static std::optional<ValueError> read(std::string_view text, Enum& value, const Range&) {
     for (const auto& [word, named] : Names<Enum>::list)
-      if (text == word) return value = named, Refused{};
+      if (text == word) return value = named, std::optional<ValueError>{};
     const std::string nearest_word = nearest(text, all_words());
-    return Refusal{
+    return ValueError{
         "is not one of " + joined(all_words()),
         nearest_word.empty() ? "choose one of them" : "did you mean " + quote(nearest_word) + "?"};
   }

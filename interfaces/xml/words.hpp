@@ -16,8 +16,8 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
 /// `did you mean "x"?`, or the list of all known names when none is near.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
-/// The text in quotation marks. A long text is truncated, and so is a text of several lines after
-/// the first line.
+/// The text in quotation marks. A long text is truncated. A text of several lines is truncated
+/// after its first line.
 std::string quote(std::string_view text);
 std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 std::string_view trimmed(std::string_view text);

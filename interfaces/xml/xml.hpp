@@ -9,7 +9,7 @@
 /// README.md.
 namespace xml {
 
-/// Fills `value` from a file whose root element is `<root_name>`; attributes absent from the file
+/// Fills `value` from a file with the root element `<root_name>`. Attributes that the file lacks
 /// keep their defaults. Throws Errors with all errors of the file.
 template <class T>
 void read_into(T& value, const Element& root, const std::string& root_name) {
@@ -78,7 +78,7 @@ std::string describe() {
 }
 
 /// Sets one value by its path (`gain`, `spindle.radius_m`, `flexor.gain`), with the same checks as
-/// in a file. Throws Errors and changes nothing when the path is unknown or the text is refused.
+/// in a file. Throws Errors and changes nothing when the path is unknown or the text is rejected.
 template <class T>
 void set(T& params, const std::string& path, const std::string& text) {
   Setter setter(path, text);

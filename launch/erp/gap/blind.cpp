@@ -68,7 +68,7 @@ Json truth_of(const std::string& name, const sim::blind::Case& blind) {
 struct Recorded {
   sim::blind::Case blind;
   std::vector<std::string> csv;
-  int not_finite = 0;  ///< discarded draws whose motion was not finite
+  int not_finite = 0;  ///< draws that were discarded because their motion was not finite
 };
 
 /// Draws a case and records it. Repeats the draw if the motion is not finite.

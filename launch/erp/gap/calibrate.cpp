@@ -34,7 +34,7 @@ void print_row(const estimation::AsBuilt& built, std::size_t k, std::ostream& ou
                      remark);
 }
 
-/// Prints the stages whose residual exceeds the noise although all constants are estimated.
+/// Prints the stages with a residual above the noise after the estimation of all constants.
 void print_unexplained(const std::vector<std::string>& names, const estimation::AsBuilt& built,
                        std::ostream& out) {
   for (std::size_t s = 0; s < names.size(); ++s)

@@ -146,13 +146,13 @@ int diagnose(const DiagnoseOptions& options, std::ostream& out, std::ostream& re
                                               .threads = options.threads,
                                               .pool = pool.get(),
                                               .seed = options.seed};
-  diagnose_options.progress = [&](const std::string& what, double share) {
-    if (pool->first()) progress->show(what, share);
+  diagnose_options.progress = [&](const std::string& step, double fraction) {
+    if (pool->first()) progress->show(step, fraction);
   };
   diagnosis::Diagnosis d = diagnosis::diagnose(robot, read.episodes, diagnose_options);
   if (!pool->first()) return 0;
   const auto free_run = free_run_of(d, read.episodes, robot, options,
-                                    [&](double share) { progress->show("free run", share); });
+                                    [&](double fraction) { progress->show("free run", fraction); });
   erp::Robot found = d.as_built ? *d.as_built : erp::read_robot(options.robot);
   for (const auto& n : d.as_built ? std::vector<diagnosis::IdentifiedEffect>{} : d.answer)
     found.effects.push_back(sim::effects::written(n.placed));

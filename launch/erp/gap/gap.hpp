@@ -74,8 +74,8 @@ struct IndistinguishableOptions {
   std::vector<std::string> without = {};     ///< signals to ignore: "tension", "current", "joint"
   double seconds = 20;                       ///< length of each simulated recording
   double share = 0.1;                        ///< largest share of the hidden effect that may remain
-  int max_effects = 1;                       ///< largest number of effects whose sum replaces one
-  std::vector<std::string> withhold = {};    ///< effect types to exclude
+  int max_effects = 1;                     ///< largest number of effects that together replace one
+  std::vector<std::string> withhold = {};  ///< effect types to exclude
   int threads = 2;
 };
 

@@ -39,9 +39,9 @@ std::string zero_offset_warning(const std::vector<sim::diagnosis::IdentifiedEffe
 std::string free_run_warning(const sim::diagnosis::Diagnosis& diagnosis,
                              const sim::diagnosis::Closed& free_run);
 
-/// All warnings about an answer: free run, a stage whose residual the answer raises above its noise
-/// floor, a wrong encoder zero, and a scaled time column or a delayed column that would cause the
-/// same residuals.
+/// All warnings about an answer: its free run, a residual that it raises above the noise floor, a
+/// wrong encoder zero, and a scaled time column or a delayed column that would cause the same
+/// residuals.
 std::vector<std::string> answer_warnings(const sim::diagnosis::Diagnosis& diagnosis,
                                          const sim::diagnosis::Closed& free_run,
                                          const erp::Robot& robot);

@@ -28,7 +28,7 @@ struct Bar {
 /// bar.
 std::string bars(const std::string& title, const std::vector<Bar>& bars, double max_value);
 
-/// A table of cells whose shade shows their value, from 0 (white) to 1 (dark).
+/// A table of cells. The shade of a cell shows its value, from 0 (white) to 1 (dark).
 std::string matrix(const std::string& title, const std::vector<std::string>& rows,
                    const std::vector<std::string>& columns,
                    const std::vector<std::vector<double>>& cells);

@@ -49,14 +49,15 @@ std::optional<double> closed_by_truth(const std::string& folder,
     if (const auto name = d["held_out"][k].get<std::string>(); held_out_from_s.contains(name))
       episodes[k].judge_from(held_out_from_s[name].get<double>());
   const diagnosis::Evaluator evaluator(robot, std::move(episodes));
-  std::vector<std::size_t> all(files.size());
-  for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-  const auto rms = [](const diagnosis::ScoreBlock& b) {
-    return std::sqrt(b.square / static_cast<double>(std::max<std::size_t>(1, b.windows)));
+  std::vector<std::size_t> all_episodes(files.size());
+  for (std::size_t k = 0; k < all_episodes.size(); ++k) all_episodes[k] = k;
+  const auto rms = [](const diagnosis::ScoreBlock& block) {
+    return std::sqrt(block.square / static_cast<double>(std::max<std::size_t>(1, block.windows)));
   };
-  const double before = rms(sum(evaluator.blocks(evaluator.bare(), all)));
-  const double after = rms(sum(evaluator.blocks(evaluator.with(hidden, all), all)));
-  return before > 1 ? (before - after) / (before - 1) : 0;
+  const double error_before = rms(sum(evaluator.blocks(evaluator.bare(), all_episodes)));
+  const double error_after =
+      rms(sum(evaluator.blocks(evaluator.with(hidden, all_episodes), all_episodes)));
+  return error_before > 1 ? (error_before - error_after) / (error_before - 1) : 0;
 }
 
 }  // namespace launch::gap

@@ -36,20 +36,20 @@ bool DiscoveryListener::watch(std::int64_t duration_ns, const std::function<bool
 }
 
 bool DiscoveryListener::settle() {
-  std::size_t known = 0;
+  std::size_t previous_count = 0;
   std::int64_t last_change_ns = node::monotonic_ns();
   const std::int64_t required_quiet_ns = node::discovery_ns() + settle_margin_ns;
   return watch(timeout_ns, [&] {
     const std::size_t count = endpoints().size();
-    if (count != known) known = count, last_change_ns = node::monotonic_ns();
+    if (count != previous_count) previous_count = count, last_change_ns = node::monotonic_ns();
     return node::monotonic_ns() - last_change_ns >= required_quiet_ns;
   });
 }
 
 std::vector<node::Endpoint> DiscoveryListener::endpoints() {
-  auto all = discovery_.endpoints();
-  std::erase_if(all, [this](const node::Endpoint& e) { return e.component == name_; });
-  return all;
+  auto others = discovery_.endpoints();
+  std::erase_if(others, [this](const node::Endpoint& e) { return e.component == name_; });
+  return others;
 }
 
 node::Descriptor DiscoveryListener::find_type(const std::string& topic) {
@@ -61,12 +61,12 @@ node::Descriptor DiscoveryListener::find_type(const std::string& topic) {
   if (topics.contains(topic))
     throw NoSuchTopic("the type of \"" + topic + "\" could not be read from its writers; " +
                       "Cyclone DDS 0.10 cannot rebuild types whose key is a bounded string");
-  const std::vector<std::string> known(topics.begin(), topics.end());
+  const std::vector<std::string> previous_count(topics.begin(), topics.end());
   throw NoSuchTopic(
       "topic \"" + topic + "\" has no writer and no reader; " +
-      (known.empty()
+      (previous_count.empty()
            ? "the bus is empty; start a graph, or set ERP_DOMAIN to the domain of its launcher"
-           : xml::did_you_mean(topic, known)));
+           : xml::did_you_mean(topic, previous_count)));
 }
 
 }  // namespace launch

@@ -36,7 +36,7 @@ class DiscoveryListener {
   node::Descriptor find_type(const std::string& topic);
 
  private:
-  Signals signals_;  // before participant_, whose threads inherit the signal mask
+  Signals signals_;  // before participant_: its threads inherit the signal mask
   std::string name_;
   node::Wake wake_;
   node::Entity participant_;

@@ -63,7 +63,7 @@ std::string wrapped(const std::vector<std::string>& names) {
   return text;
 }
 
-[[noreturn]] void refuse(const std::string& name) {
+[[noreturn]] void throw_unknown_name(const std::string& name) {
   auto valid_names = component_names();
   for (const auto& names : {names_of(main_formats), names_of(named_files)})
     valid_names.insert(valid_names.end(), names.begin(), names.end());
@@ -82,7 +82,7 @@ void print_reference(const std::string& name, const DescribeComponent& describe,
     return;
   }
   const auto table = describe(name);
-  if (!table) refuse(name);
+  if (!table) throw_unknown_name(name);
   const std::string type = std::filesystem::path(name).filename().string();
   out << type << ": parameters of a component, as attributes of <" << type
       << "> in its config or by --set " << type << ".PARAMETER=VALUE of erp launch.\n"

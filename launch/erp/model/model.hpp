@@ -21,9 +21,9 @@ ModelProperties properties_of(const erp::Robot& robot);
 /// Prints one line per property, or one JSON object. Throws xml::Errors. Returns the exit code.
 int model_info(const std::string& robot_file, bool json, std::ostream& out);
 
-/// Prints the effects whose type contains `part`: the part of the robot that they act on, the
+/// Prints the effects with `part` in their type: the part of the robot that they act on, the
 /// excitation that reveals them, and their parameters with bounds. Throws std::invalid_argument if
-/// there is none. Returns the exit code.
+/// there is no such effect. Returns the exit code.
 int model_effects(const std::string& part, std::ostream& out);
 
 /// Prints the pretensions that hold the starting pose against gravity, as a part to include in

@@ -61,8 +61,8 @@ PlotScript script(const recording::JointTracks& actual, const recording::JointTr
           "plot $actual{} with lines lc rgb '#0072B2' lw 2 title '{}', $desired{} with lines dt 2 "
           "lw 2 "
           "lc rgb '#D55E00' title '{}'\n",
-          joint, track.dof == 3 ? std::string(" ") + "xyz"[axis] : "", n, options.of, n,
-          options.against);
+          joint, track.dof == 3 ? std::string(" ") + "xyz"[axis] : "", n, options.source, n,
+          options.reference_source);
     }
   }
   plot.commands = data + "set grid\nset key outside right\nset multiplot layout " +
@@ -73,8 +73,8 @@ PlotScript script(const recording::JointTracks& actual, const recording::JointTr
 
 void print(const std::vector<JointError>& errors, const LogJointsOptions& options,
            std::ostream& out) {
-  out << fmt::format("{} against {}\n{:<24} {:>8} {:>12} {:>12} {:>10}\n", options.of,
-                     options.against, "joint", "frames", "RMS error", "largest", "at");
+  out << fmt::format("{} against {}\n{:<24} {:>8} {:>12} {:>12} {:>10}\n", options.source,
+                     options.reference_source, "joint", "frames", "RMS error", "largest", "at");
   for (const JointError& e : errors)
     out << fmt::format("{:<24} {:>8} {:>11.3f}° {:>11.3f}° {:>8.2f} s\n", e.joint, e.frames,
                        degrees * e.rms_rad, degrees * e.largest_rad, e.largest_at_s);
@@ -108,8 +108,8 @@ std::vector<JointError> joint_errors(const recording::JointTracks& actual,
 int log_joints(const std::string& path, const LogJointsOptions& options, std::ostream& out) {
   return guarded([&] {
     const recording::McapReader reader(path);
-    const auto actual = recording::joint_tracks(reader, options.of);
-    const auto desired = recording::joint_tracks(reader, options.against);
+    const auto actual = recording::joint_tracks(reader, options.source);
+    const auto desired = recording::joint_tracks(reader, options.reference_source);
     print(joint_errors(actual, desired, options.from_s), options, out);
     if (!options.out.empty()) draw(script(actual, desired, options), options.out);
     return flush_or_throw(out);

@@ -20,7 +20,7 @@ std::vector<JointError> joint_errors(const recording::JointTracks& actual,
                                      const recording::JointTracks& desired, double from_s);
 
 struct LogJointsOptions {
-  std::string of = "sim", against = "joint_target";
+  std::string source = "sim", reference_source = "joint_target";
   double from_s = 0;
   std::string out;  ///< picture file; empty: none
 };

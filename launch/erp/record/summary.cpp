@@ -108,22 +108,25 @@ std::optional<double> crossing_time_s(const TrackedActuator& tracked, std::size_
 }
 
 StepResponse response_of(const TrackedActuator& tracked, std::size_t step) {
-  StepResponse r{tracked.actuator,
-                 tracked.mode,
-                 tracked.target[step - 1],
-                 tracked.target[step],
-                 tracked.time_s[step],
-                 {},
-                 0,
-                 0};
-  const double height = r.to - r.from;
-  const auto at_10_percent_s = crossing_time_s(tracked, step, r.from + 0.1 * height, height > 0);
-  const auto at_90_percent_s = crossing_time_s(tracked, step, r.from + 0.9 * height, height > 0);
-  if (at_10_percent_s && at_90_percent_s) r.rise_s = *at_90_percent_s - *at_10_percent_s;
+  StepResponse response{tracked.actuator,
+                        tracked.mode,
+                        tracked.target[step - 1],
+                        tracked.target[step],
+                        tracked.time_s[step],
+                        {},
+                        0,
+                        0};
+  const double height = response.step_target - response.previous_target;
+  const auto at_10_percent_s =
+      crossing_time_s(tracked, step, response.previous_target + 0.1 * height, height > 0);
+  const auto at_90_percent_s =
+      crossing_time_s(tracked, step, response.previous_target + 0.9 * height, height > 0);
+  if (at_10_percent_s && at_90_percent_s) response.rise_s = *at_90_percent_s - *at_10_percent_s;
   for (std::size_t i = step; i < tracked.measured.size(); ++i)
-    r.overshoot = std::max(r.overshoot, (tracked.measured[i] - r.to) * (height > 0 ? 1 : -1));
-  r.steady_rms = rms_error(tracked, step + (tracked.target.size() - step) / 2);
-  return r;
+    response.overshoot = std::max(
+        response.overshoot, (tracked.measured[i] - response.step_target) * (height > 0 ? 1 : -1));
+  response.steady_rms = rms_error(tracked, step + (tracked.target.size() - step) / 2);
+  return response;
 }
 
 /// The value with its unit; lengths in mm.
@@ -166,8 +169,8 @@ void print_steps(const std::vector<StepResponse>& steps, std::ostream& out) {
   for (const auto& s : steps)
     out << fmt::format(
         "{} steps {} -> {} at {:.3f} s: rise (10-90 %) {}, overshoot {}, steady RMS {}\n",
-        s.actuator, value_text(s.from, s.mode), value_text(s.to, s.mode), s.at_s,
-        s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "not reached",
+        s.actuator, value_text(s.previous_target, s.mode), value_text(s.step_target, s.mode),
+        s.at_s, s.rise_s ? fmt::format("{:.0f} ms", 1000 * *s.rise_s) : "not reached",
         value_text(s.overshoot, s.mode), value_text(s.steady_rms, s.mode));
 }
 

@@ -23,7 +23,7 @@ struct Tracking {
 struct StepResponse {
   std::string actuator;
   erp::Mode mode = erp::Mode::off;
-  double from = 0, to = 0, at_s = 0;
+  double previous_target = 0, step_target = 0, at_s = 0;
   std::optional<double> rise_s;  ///< absent: 90 % was not reached
   double overshoot = 0, steady_rms = 0;
 };

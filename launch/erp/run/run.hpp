@@ -62,7 +62,7 @@ class Run {
   Plan plan_;
   std::string folder_;
   std::ofstream log_;
-  Signals signals_;  // before the bus, whose threads inherit the signal mask
+  Signals signals_;  // before bus_: its threads inherit the signal mask
   BusLink bus_;
   Supervisor supervisor_;
   RunTime time_;

@@ -182,7 +182,7 @@ void Supervisor::activate_next(std::int64_t now_ns) {
 }
 
 void Supervisor::stop_next(std::int64_t now_ns) {
-  bool is_waiting = false;  // for the finalization of a member that was asked to stop
+  bool is_waiting = false;  // a member has received its stop request and is not finalized
   bool all_ended = true;
   for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
     if (!is_alive(*member)) continue;

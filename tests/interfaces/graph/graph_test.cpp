@@ -56,7 +56,7 @@ TEST_CASE("a component's type may be a path; the root element of its config is t
 }
 
 TEST_CASE("a missing replay file is accepted while another device is selected") {
-  CHECK(read("<graph name='g' robot='../robot.xml' device='sim' replay='gone.mcap'/>").device ==
+  CHECK(read("<graph name='g' robot='../robot.xml' device='sim' replay='missing.mcap'/>").device ==
         erp::Device::sim);
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("a string of length 0 without terminating zero is decoded as an empty 
   CHECK(decoded("string s\n", cdr.bytes) == R"({"s":""})");
 }
 
-TEST_CASE("a message that does not match its type is refused with the field and the byte") {
+TEST_CASE("a message that does not match its type is rejected with the field and the byte") {
   test::CdrWriter cdr;
   std::string schema, what;
   SECTION("a truncated message") {
@@ -110,7 +110,7 @@ TEST_CASE("a message that does not match its type is refused with the field and 
   CHECK_THROWS_WITH(decoded(schema, cdr.bytes), Catch::Contains(what));
 }
 
-TEST_CASE("random bytes are either decoded or refused with RecordingError") {
+TEST_CASE("random bytes are either decoded or rejected with RecordingError") {
   const TypeDescription type = type_of(
       "string name\nIn[] list\nuint8[] raw\nfloat64[3] xyz\n===\nMSG: p/In\nstring<=8 s\nbool[] "
       "b\n");

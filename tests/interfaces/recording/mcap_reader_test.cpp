@@ -115,7 +115,7 @@ TEST_CASE("an overflow of the 32-bit sequence number is not counted as a gap") {
   CHECK(statistics.restarts == 0);
 }
 
-TEST_CASE("a missing file, an empty file, a folder and another format are refused with the name") {
+TEST_CASE("a missing file, an empty file, a folder and another format are rejected with the name") {
   const test::Folder folder;
   test::write_file(folder / "text", "time_s,flexor.mode\n");
   test::write_file(folder / "empty", "");
@@ -126,7 +126,7 @@ TEST_CASE("a missing file, an empty file, a folder and another format are refuse
   CHECK_THROWS_WITH(McapReader(folder / "."), Catch::Contains("is not a file"));
 }
 
-TEST_CASE("damage is refused with its byte position and the remedy") {
+TEST_CASE("damage is rejected with its byte position and the remedy") {
   const test::Folder folder;
   const std::string path = folder / "a.mcap";
   EncodedFile file;

@@ -150,7 +150,7 @@ TEST_CASE("a full disk is reported with the file name and the system error") {
                     Catch::Contains("/dev/full: cannot write: No space left on device"));
 }
 
-TEST_CASE("a partial write is undone; later writes are refused and earlier data is kept") {
+TEST_CASE("a partial write is undone; later writes are rejected and earlier data is kept") {
   const test::Folder folder;
   rlimit original_limit{};
   getrlimit(RLIMIT_FSIZE, &original_limit);
@@ -182,14 +182,14 @@ TEST_CASE("an existing recording is overwritten only with the option replace") {
   CHECK_NOTHROW(McapWriter(folder / "a.mcap", {.replace = true}));
 }
 
-TEST_CASE("a channel or schema that was not added is refused") {
+TEST_CASE("a channel or schema that was not added is rejected") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   CHECK_THROWS_AS(writer.add_channel("t", "cdr", 1), std::invalid_argument);
   CHECK_THROWS_AS(writer.write(1, 0, 0, 0, {}), std::invalid_argument);
 }
 
-TEST_CASE("a write to a closed recording is refused") {
+TEST_CASE("a write to a closed recording is rejected") {
   const test::Folder folder;
   McapWriter writer(folder / "a.mcap");
   const auto channel = writer.add_channel("t", "cdr", 0);

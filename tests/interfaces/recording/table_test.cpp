@@ -143,7 +143,8 @@ TEST_CASE("a target is in the row that it answers; a command is not a target") {
 }
 
 TEST_CASE(
-    "a recording of two robots is refused without the name of one; so is one without frames") {
+    "a recording of two robots is rejected without the name of a robot; a recording without frames "
+    "is rejected") {
   const test::Folder folder;
   {
     test::RigFile file(folder / "a.mcap");
@@ -216,30 +217,32 @@ TEST_CASE(
   CHECK(table.owners("tension_N") == std::vector<std::string>{"flexor"});
 }
 
-TEST_CASE("an error in a CSV is refused with file, line, column, value and remedy") {
-  const auto refused = [](const std::string& text, const std::string& what) {
+TEST_CASE("an error in a CSV is rejected with file, line, column, value and remedy") {
+  const auto check_rejected = [](const std::string& text, const std::string& message) {
     CHECK_THROWS_WITH(parse_csv("t.csv", text),
-                      Catch::StartsWith("t.csv:") && Catch::Contains(what));
+                      Catch::StartsWith("t.csv:") && Catch::Contains(message));
   };
-  refused("", ":1:1: there is no column time_s");
-  refused("time_s;m.mode\n", "separate them by commas");
-  refused("time_ms,m.tension_N\n", ":1:1: unknown column \"time_ms\"; name it time_s, in seconds");
-  refused("time_s,m.tension\n",
-          ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");
-  refused("time_s,m.force_N\n",
-          ":1:8: unknown column \"m.force_N\"; valid names: m.mode, m.reference");
-  refused("time_s,tension_N\n", ":1:8: unknown column \"tension_N\"; name it <actuator or joint>.");
-  refused("time_s,m.mode,m.mode\n", ":1:15: column \"m.mode\" occurs twice");
-  refused("time_s,m.mode\n0,fast\n", ":2:3: unknown mode \"fast\"; use off, voltage");
-  refused("time_s,m.tension_N\n0,1\n1,1x\n", ":3:3: \"1x\" is not a number");
-  refused("time_s,m.tension_N\n0,1,5\n", ":2:5: the row has 3 cells, the header 2");
-  refused("time_s,m.tension_N\n0\n", ":2:1: the row has 1 cells");
-  refused("time_s,m.tension_N\n0,1e999\n", "beyond what a double holds");
-  refused("time_s,m.tension_N\n1,0\n0.5,0\n",
-          ":3:1: time_s steps back to 0.5; two recordings in one");
-  refused("time_s,m.tension_N\n,0\n", ":2:1: time_s is empty");
-  refused("m.tension_N,time_s\n0,1\n0,0\n", ":3:3: time_s steps back");
-  refused("time_s,\"m.mode\n0,1\n", "a quoted cell is not closed");
+  check_rejected("", ":1:1: there is no column time_s");
+  check_rejected("time_s;m.mode\n", "separate them by commas");
+  check_rejected("time_ms,m.tension_N\n",
+                 ":1:1: unknown column \"time_ms\"; name it time_s, in seconds");
+  check_rejected("time_s,m.tension\n",
+                 ":1:8: unknown column \"m.tension\"; did you mean \"m.tension_N\"?");
+  check_rejected("time_s,m.force_N\n",
+                 ":1:8: unknown column \"m.force_N\"; valid names: m.mode, m.reference");
+  check_rejected("time_s,tension_N\n",
+                 ":1:8: unknown column \"tension_N\"; name it <actuator or joint>.");
+  check_rejected("time_s,m.mode,m.mode\n", ":1:15: column \"m.mode\" occurs twice");
+  check_rejected("time_s,m.mode\n0,fast\n", ":2:3: unknown mode \"fast\"; use off, voltage");
+  check_rejected("time_s,m.tension_N\n0,1\n1,1x\n", ":3:3: \"1x\" is not a number");
+  check_rejected("time_s,m.tension_N\n0,1,5\n", ":2:5: the row has 3 cells, the header 2");
+  check_rejected("time_s,m.tension_N\n0\n", ":2:1: the row has 1 cells");
+  check_rejected("time_s,m.tension_N\n0,1e999\n", "beyond what a double holds");
+  check_rejected("time_s,m.tension_N\n1,0\n0.5,0\n",
+                 ":3:1: time_s steps back to 0.5; two recordings in one");
+  check_rejected("time_s,m.tension_N\n,0\n", ":2:1: time_s is empty");
+  check_rejected("m.tension_N,time_s\n0,1\n0,0\n", ":3:3: time_s steps back");
+  check_rejected("time_s,\"m.mode\n0,1\n", "a quoted cell is not closed");
 }
 
 TEST_CASE("CSV and MCAP are distinguished by their first bytes") {

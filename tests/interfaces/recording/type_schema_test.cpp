@@ -157,7 +157,7 @@ TEST_CASE("enums, bitmasks, typedefs, inheritance and nested arrays are decoded"
       R"("words":["ab","cdefg"],"text":"free","pair":[0,1]})");
 }
 
-TEST_CASE("a type that a ROS 2 message cannot represent is refused with type, member and reason") {
+TEST_CASE("a type that a ROS 2 message cannot represent is rejected with type, member and reason") {
   CHECK_THROWS_WITH(node::describe(unusual_HasUnion_desc),
                     Catch::Contains("unusual::HasUnion.which is a union"));
   CHECK_THROWS_WITH(node::describe(unusual_HasOptional_desc),

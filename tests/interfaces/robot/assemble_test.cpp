@@ -175,7 +175,7 @@ TEST_CASE("an assembled robot written to one file is read back equal") {
   CHECK(erp::write_robot(erp::read_robot(files.path("flat.xml"))) == erp::write_robot(robot));
 }
 
-TEST_CASE("a circular include is refused with its place") {
+TEST_CASE("a circular include is rejected with its place") {
   const Files files;
   files.put("a.xml", "<robot name='a'><include file='b.xml'/></robot>");
   files.put("b.xml", "<robot name='b'>\n<mirror file='a.xml' from='l' to='r'/></robot>");

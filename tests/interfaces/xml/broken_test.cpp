@@ -57,7 +57,7 @@ void read_tracker(const std::string& file) {
 }
 
 /// Checks that the file has exactly one error, with the expected place and message.
-void check_refused(const Read& read, const std::string& file, const Expected& expected) {
+void check_rejected(const Read& read, const std::string& file, const Expected& expected) {
   INFO(file);
   try {
     read(file);
@@ -76,7 +76,7 @@ void check_kind(const std::string& kind, const std::string& schema, const Read& 
   const auto valid = valid_by_schema(schema, files);
   for (const std::string& file : files) {
     const Expected expected = expected_of(file);
-    check_refused(read, file, expected);
+    check_rejected(read, file, expected);
     INFO(file);
     CHECK(valid.contains(file) == expected.semantic);
   }
@@ -89,18 +89,18 @@ std::string schema_file(const std::string& kind) {
 }  // namespace
 
 TEST_CASE(
-    "every broken robot is refused with the place of its error; the XSD refuses structural "
+    "every broken robot is rejected with the place of its error; the XSD rejects structural "
     "errors") {
   check_kind("robot", schema_file("robot"), [](const auto& file) { erp::read_robot(file); });
 }
 
 TEST_CASE(
-    "every broken graph is refused with the place of its error; the XSD refuses structural "
+    "every broken graph is rejected with the place of its error; the XSD rejects structural "
     "errors") {
   check_kind("graph", schema_file("graph"), [](const auto& file) { erp::read_graph(file); });
 }
 
-TEST_CASE("every broken component config is refused with the place of its error, and by its XSD") {
+TEST_CASE("every broken component config is rejected with the place of its error, and by its XSD") {
   const std::string schema = temporary("tracker.xsd", xml::schema<example::Params>("tracker"));
   check_kind("component", schema, read_tracker);
   fs::remove(schema);

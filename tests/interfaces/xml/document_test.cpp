@@ -54,7 +54,7 @@ TEST_CASE("places are correct after a declaration and comments before the root")
   CHECK(place_text(root.children.at(0).place) == "4:15");
 }
 
-TEST_CASE("text that is not well-formed XML is refused with the place of the violation") {
+TEST_CASE("text that is not well-formed XML is rejected with the place of the violation") {
   CHECK(malformed("<a>\n <b></a>") == "f.xml:2:5: </a> where <b> is open; write </b> first");
   CHECK_THAT(malformed("<a>\n<b>"), Catch::StartsWith("f.xml:2:1: <b> is never closed"));
   CHECK_THAT(malformed("<a x='1' x='2'/>"), Catch::StartsWith("f.xml:1:10: <a>: x is given twice"));
@@ -74,27 +74,27 @@ TEST_CASE("text that is not well-formed XML is refused with the place of the vio
   CHECK_THAT(malformed("no XML"), Catch::StartsWith("f.xml:1:1: text outside the root element"));
 }
 
-TEST_CASE("text that is not UTF-8 and control characters are refused") {
+TEST_CASE("text that is not UTF-8 and control characters are rejected") {
   CHECK_THAT(malformed("<a>\n\xFF</a>"), Catch::StartsWith("f.xml:2:1: is not UTF-8 text"));
   CHECK_THAT(malformed("<a>\xC3</a>"), Catch::Contains("is not UTF-8 text"));
   CHECK_THAT(malformed(std::string("<a/>\0<b/>", 9)),
              Catch::StartsWith("f.xml:1:5: has a control character, code 0"));
 }
 
-TEST_CASE("an empty text and a text without an element are refused") {
+TEST_CASE("an empty text and a text without an element are rejected") {
   CHECK(malformed("") == "f.xml:1:1: is empty; write the root element");
   CHECK_THAT(malformed(" \n"), Catch::Contains("is empty"));
   CHECK(malformed("<!-- nothing -->") == "f.xml:1:1: contains no element; write the root element");
 }
 
-TEST_CASE("nesting of 100000 elements is refused without exhausting the stack") {
+TEST_CASE("nesting of 100000 elements is rejected without exhausting the stack") {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "<a>";
   for (int i = 0; i < 100000; ++i) text += "</a>";
   CHECK_THAT(malformed(text), Catch::Contains("DEPTH"));
 }
 
-TEST_CASE("a missing file, a folder and an empty file are refused with different messages") {
+TEST_CASE("a missing file, a folder and an empty file are rejected with different messages") {
   const auto folder = std::filesystem::temp_directory_path();
   const auto empty = folder / "erp_empty_document_test.xml";
   std::ofstream(empty).close();

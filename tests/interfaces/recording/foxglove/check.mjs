@@ -16,7 +16,7 @@ const readable = (bytes) => ({
   read: async (offset, length) => bytes.subarray(Number(offset), Number(offset + length)),
 });
 
-/** Converts integers beyond 2^53 to text and typed arrays to arrays, so that both sides are comparable. */
+/** Converts integers beyond 2^53 to text and typed arrays to arrays. Makes both sides comparable. */
 const plain = (value) => JSON.parse(JSON.stringify(value, (_, x) =>
   typeof x === "bigint" ? (Number.isSafeInteger(Number(x)) ? Number(x) : String(x))
   : ArrayBuffer.isView(x) ? Array.from(x) : x));
