@@ -13,12 +13,12 @@ namespace {
 
 namespace diagnosis = sim::diagnosis;
 
-std::string text_of(const diagnosis::IdentifiedEffect& n) {
-  std::string text = fmt::format("{} on {}", n.type, n.on);
-  for (std::size_t k = 0; k < n.names.size(); ++k)
-    text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", n.names[k], n.values[k],
-                        n.intervals[k].low, n.intervals[k].high);
-  return text + fixed_parameters(n);
+std::string text_of(const diagnosis::IdentifiedEffect& effect) {
+  std::string text = fmt::format("{} on {}", effect.type, effect.on);
+  for (std::size_t k = 0; k < effect.names.size(); ++k)
+    text += fmt::format("  {} = {:.4g} ({:.4g} to {:.4g})", effect.names[k], effect.values[k],
+                        effect.intervals[k].low, effect.intervals[k].high);
+  return text + fixed_parameters(effect);
 }
 
 /// Prints the stages with a share of the gap. Stages with equal shares form a group: the sensors do
@@ -64,24 +64,26 @@ void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
                                                                           : "partial     ";
   if (explained_within_tolerance(d))
     out << "cause       several constants together, each within its tolerance\n";
-  for (const auto& n : d.answer) {
-    out << label << text_of(n) << "\n";
+  for (const auto& effect : d.answer) {
+    out << label << text_of(effect) << "\n";
     constexpr std::size_t max_alternatives = 4;
-    for (std::size_t k = 0; k < std::min(max_alternatives, n.alternatives.size()); ++k)
-      out << "equivalent  " << text_of(n.alternatives[k]) << "\n";
-    if (n.alternatives.size() > max_alternatives)
+    for (std::size_t k = 0; k < std::min(max_alternatives, effect.alternatives.size()); ++k)
+      out << "equivalent  " << text_of(effect.alternatives[k]) << "\n";
+    if (effect.alternatives.size() > max_alternatives)
       out << fmt::format("equivalent  {} more, listed in diagnosis.json\n",
-                         n.alternatives.size() - max_alternatives);
+                         effect.alternatives.size() - max_alternatives);
   }
-  for (const auto& u : d.unexplained) {
+  for (const auto& stage_gap : d.unexplained) {
     out << fmt::format("unexplained {} of {}: residual {:.3g} times its noise",
-                       sim::effects::word(u.stage), u.on, std::sqrt(1 + u.excess));
+                       sim::effects::word(stage_gap.stage), stage_gap.on,
+                       std::sqrt(1 + stage_gap.excess));
     constexpr double min_reported = 0.1;  // fraction of the residual; chosen
-    if (u.shape && u.shape->constant > min_reported)
-      out << fmt::format("; {:.0f} % of it is constant", 100 * u.shape->constant);
-    if (u.shape && u.shape->explained - u.shape->constant > min_reported)
+    if (stage_gap.shape && stage_gap.shape->constant > min_reported)
+      out << fmt::format("; {:.0f} % of it is constant", 100 * stage_gap.shape->constant);
+    if (stage_gap.shape && stage_gap.shape->explained - stage_gap.shape->constant > min_reported)
       out << fmt::format("; {:.0f} % of it depends on the {}",
-                         100 * (u.shape->explained - u.shape->constant), u.shape->variable);
+                         100 * (stage_gap.shape->explained - stage_gap.shape->constant),
+                         stage_gap.shape->variable);
     out << "\n";
   }
   print_constants(d, out);
@@ -97,8 +99,8 @@ void print_causes(const diagnosis::Diagnosis& d, std::ostream& out) {
 }
 
 /// Whether a motion can reveal the effect. Effects of the bus change no residual.
-bool can_be_excited(const diagnosis::IdentifiedEffect& n) {
-  return sim::effects::about(n.placed.effect).stage != sim::effects::Stage::bus;
+bool can_be_excited(const diagnosis::IdentifiedEffect& effect) {
+  return sim::effects::about(effect.placed.effect).stage != sim::effects::Stage::bus;
 }
 
 }  // namespace
@@ -123,7 +125,7 @@ void print_answer(const diagnosis::Diagnosis& d, const sim::closed_loop::FreeRun
 void print_next(const diagnosis::Diagnosis& d, const erp::Robot& robot,
                 const DiagnoseOptions& options, std::ostream& out) {
   const bool is_unique =
-      std::ranges::all_of(d.answer, [](const auto& n) { return n.alternatives.empty(); });
+      std::ranges::all_of(d.answer, [](const auto& effect) { return effect.alternatives.empty(); });
   const bool is_explained = d.verdict == diagnosis::Verdict::no_gap ||
                             (d.verdict == diagnosis::Verdict::supported && is_unique);
   const bool has_excitable_effect = std::ranges::any_of(d.ranked, can_be_excited);

@@ -12,8 +12,8 @@ namespace residuals = sim::residuals;
 namespace closed_loop = sim::closed_loop;
 using diagnosis::IdentifiedEffect;
 
-/// The held-out recordings. Of a recording that serves training and validation, only the validation
-/// part.
+/// The held-out recordings. A recording for both training and validation is reduced to its
+/// validation part.
 std::vector<residuals::Episode> held_out_of(const diagnosis::Diagnosis& d,
                                             const std::vector<residuals::Episode>& episodes) {
   std::vector<residuals::Episode> held_out;
@@ -48,8 +48,8 @@ class FreeRuns {
 
   closed_loop::FreeRun of(const std::vector<IdentifiedEffect>& answer) const {
     erp::Robot corrected = robot_;
-    for (const IdentifiedEffect& n : answer)
-      corrected.effects.push_back(sim::effects::written(n.placed));
+    for (const IdentifiedEffect& effect : answer)
+      corrected.effects.push_back(sim::effects::written(effect.placed));
     return of(corrected);
   }
   closed_loop::FreeRun of(const erp::Robot& corrected) const {

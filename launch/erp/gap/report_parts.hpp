@@ -9,7 +9,7 @@ namespace launch::gap::page {
 
 std::string name_of(const sim::diagnosis::IdentifiedEffect& effect);  ///< "coulomb on m.gear"
 
-// location
+// localization
 std::string chains(const sim::diagnosis::Diagnosis& diagnosis);
 std::string worst_windows(const sim::diagnosis::Diagnosis& diagnosis);
 // identification

@@ -40,7 +40,7 @@ void score_null(const Json& truth, const Json& d, Score& score);
 /// Counts the intervals that contain the true number, for the constants that the recordings
 /// determine.
 void count_numbers(const Json& truth, const Json& d, Rate& rate);
-/// Scores robots without a hidden effect whose constants deviate.
+/// Scores robots that have deviating constants and no hidden effect.
 void score_tolerance(const Json& truth, const Json& d,
                      const std::vector<std::string>& constant_effects, Score& score);
 

@@ -14,7 +14,8 @@
 namespace launch {
 namespace {
 
-constexpr double period_s = 0.002, degrees = 180 / std::numbers::pi;
+constexpr double period_s = 0.002;  // between two frames: the control cycle of the ECUs
+constexpr double degrees = 180 / std::numbers::pi;
 constexpr std::size_t max_points_per_curve = 2000;  // more than a screen has columns; chosen
 
 using Position = std::array<double, 4>;

@@ -13,7 +13,9 @@ namespace launch::gap {
 using namespace sim::diagnosis;
 using xml::escaped;
 
-std::string page::name_of(const IdentifiedEffect& n) { return n.type + " on " + n.on; }
+std::string page::name_of(const IdentifiedEffect& effect) {
+  return effect.type + " on " + effect.on;
+}
 
 std::string page::ranking(const Diagnosis& d) {
   if (d.ranked.empty()) return "";
@@ -24,13 +26,13 @@ std::string page::ranking(const Diagnosis& d) {
   for (const StageGap& gap : d.stages)
     columns.push_back(fmt::format("{} {}", sim::effects::word(gap.stage), gap.on));
   for (std::size_t k = 0; k < d.ranked.size() && k < max_effects; ++k) {
-    const IdentifiedEffect& n = d.ranked[k];
-    bars.push_back({name_of(n), fmt::format("{:.1f} %", 100 * n.gain), n.gain, n.gain_interval.low,
-                    n.gain_interval.high, n.supported});
+    const IdentifiedEffect& effect = d.ranked[k];
+    bars.push_back({name_of(effect), fmt::format("{:.1f} %", 100 * effect.gain), effect.gain,
+                    effect.gain_interval.low, effect.gain_interval.high, effect.supported});
     constexpr std::size_t max_columns = 24;  // width of the page
-    if (n.signature.empty() || columns.size() > max_columns) continue;
-    rows.push_back(name_of(n)), cells.push_back(n.signature);
-    cells.back().push_back(std::abs(n.likeness));
+    if (effect.signature.empty() || columns.size() > max_columns) continue;
+    rows.push_back(name_of(effect)), cells.push_back(effect.signature);
+    cells.back().push_back(std::abs(effect.likeness));
   }
   columns.push_back("similarity to the first");
   std::string html =
