@@ -186,20 +186,24 @@ void Scanner::take_chunk(ByteReader in, Region region) {
 }
 
 void Scanner::check_footer(ByteReader in, std::uint64_t length) {
-  const ByteReader place = in;
-  const auto start = in.integer<std::uint64_t>("the summary's place");
+  const ByteReader footer_start = in;
+  const auto summary_start = in.integer<std::uint64_t>("the summary's place");
   in.integer<std::uint64_t>("the summary offsets' place");
   const auto crc = in.integer<std::uint32_t>("the summary's checksum");
+  constexpr std::uint64_t positions_bytes = 2 * sizeof(std::uint64_t);  // before the checksum
+  const std::uint64_t checksum_position = position_ + record_head_bytes + positions_bytes;
   const std::uint64_t end = position_ + record_head_bytes + length;
-  if (start > position_) place.fail("the summary starts after the footer, according to the footer");
-  if (start != 0 && crc != 0 &&
-      crc != crc32_of(file_.read(start, position_ + record_head_bytes + 16 - start)))
-    place.fail("the summary's checksum does not match");
+  if (summary_start > position_)
+    footer_start.fail("the summary starts after the footer, according to the footer");
+  if (summary_start != 0 && crc != 0 &&
+      crc != crc32_of(file_.read(summary_start, checksum_position - summary_start)))
+    footer_start.fail("the summary's checksum does not match");
   const Bytes last = file_.read(end, std::min<std::uint64_t>(file_.size() - end, magic.size() + 1));
   const auto expected = std::as_bytes(std::span(magic));
   if (last.size() < magic.size() && std::ranges::equal(last, expected.first(last.size())))
     return set_truncation("the file ends inside its last 8 bytes", end);
-  if (!std::ranges::equal(last, expected)) place.fail("the file does not end with MCAP's 8 bytes");
+  if (!std::ranges::equal(last, expected))
+    footer_start.fail("the file does not end with MCAP's 8 bytes");
   contents_.complete = true;
 }
 
